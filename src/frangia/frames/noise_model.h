@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+
+namespace frangia {
+
+/// Camera noise: variance of one pixel that reads `counts`, in counts squared.
+///
+/// var = floor + slope * counts, with floor = (read noise / gain)^2 + 1/12 of quantisation and
+/// slope = 1 / gain of the shot noise, gain in electrons per count.
+struct NoiseModel {
+  double floor_counts2 = 1.0 / 12.0;
+  double slope_counts = 0.0;
+
+  [[nodiscard]] static NoiseModel from_camera(double gain_e_per_count, double read_e) {
+    const double read_counts = read_e / gain_e_per_count;
+    return {read_counts * read_counts + 1.0 / 12.0, 1.0 / gain_e_per_count};
+  }
+  [[nodiscard]] double variance(double counts) const {
+    return floor_counts2 + slope_counts * std::max(counts, 0.0);
+  }
+};
+
+}  // namespace frangia

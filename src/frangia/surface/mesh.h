@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace frangia {
+
+/// Triangles, counter-clockwise seen from outside, in the object frame.
+struct Mesh {
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  std::vector<Eigen::Vector3f> vertices_mm;
+  std::vector<Triangle> triangles;
+  std::vector<Eigen::Vector3f> normals;  ///< unit, one a vertex, or empty
+  std::vector<float> sigma_mm;           ///< standard deviation along the normal, one a vertex, or empty
+
+  [[nodiscard]] bool empty() const { return triangles.empty(); }
+};
+
+/// Vertex normals as the mean of the triangles around, each weighted by its angle there.
+///
+/// missing  a vertex without a triangle of positive area keeps a zero normal
+[[nodiscard]] std::vector<Eigen::Vector3f> vertex_normals(const Mesh& mesh);
+
+}  // namespace frangia

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "frangia/views/view.h"
+
+namespace frangia {
+
+/// Views kept in an unnamed temporary file, so that memory holds one of them at a time.
+///
+/// errors   Error(File) when the temporary folder is full
+class ViewStore {
+ public:
+  ViewStore();
+  ViewStore(const ViewStore&) = delete;
+  ViewStore& operator=(const ViewStore&) = delete;
+  ViewStore(ViewStore&& other) noexcept;
+  ViewStore& operator=(ViewStore&& other) noexcept;
+  ~ViewStore();
+
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  void add(const View& view);
+  /// Replaces view `index`; the grid must have the size it had.
+  void replace(std::size_t index, const View& view);
+  [[nodiscard]] View load(std::size_t index) const;
+  /// The pose alone, without reading the grid.
+  [[nodiscard]] const Eigen::Isometry3d& rig_from_object(std::size_t index) const {
+    return entries_[index].rig_from_object;
+  }
+  void set_rig_from_object(std::size_t index, const Eigen::Isometry3d& pose) {
+    entries_[index].rig_from_object = pose;
+  }
+
+ private:
+  struct Entry {
+    Eigen::Isometry3d rig_from_object;
+    int width = 0;
+    int height = 0;
+    std::int64_t offset = 0;
+  };
+  void write(const Entry& entry, const View& view);
+
+  std::vector<Entry> entries_;
+  std::FILE* file_ = nullptr;
+  std::int64_t end_ = 0;
+};
+
+}  // namespace frangia
