@@ -1,0 +1,72 @@
+#include <exception>
+#include <memory>
+#include <new>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include "frangia/core/error.h"
+
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+enum ExitCode { kUsage = 2, kBadInput = 3, kDevice = 4, kNumeric = 5, kInterrupted = 130 };
+
+int exit_code_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::Input:
+    case ErrorKind::File: return kBadInput;
+    case ErrorKind::Device: return kDevice;
+    case ErrorKind::Numeric: return kNumeric;
+    case ErrorKind::Cancelled: return kInterrupted;
+  }
+  return kNumeric;
+}
+
+int complain(Terminal& terminal, const std::string& sentence, int code) {
+  terminal.finish();
+  fmt::print(stderr, "frangia: {}\n", sentence);
+  return code;
+}
+
+int run_program(int argc, char** argv) {
+  Terminal terminal;
+  CLI::App program("frangia: a 360-degree fringe projection 3D scanner", "frangia");
+  program.require_subcommand(1);
+  program.set_version_flag("--version", FRANGIA_VERSION);
+  program.set_help_all_flag("--help-all", "the help of every verb");
+  program.add_flag("--json", terminal.json, "results as JSON on standard output, no progress");
+  program.add_flag("--quiet", terminal.quiet, "warnings and errors only");
+  std::unique_ptr<tbb::global_control> threads;
+  program
+      .add_option_function<std::size_t>(
+          "--threads",
+          [&](std::size_t count) {
+            threads = std::make_unique<tbb::global_control>(
+                tbb::global_control::max_allowed_parallelism, count);
+          },
+          "cores to use; the result has the same bytes for any number")
+      ->check(CLI::Range(1, 1024));
+  program.fallthrough();
+  add_simulate_verb(program, terminal);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : static_cast<int>(kUsage);
+  } catch (const Error& error) {
+    return complain(terminal, error.what(), exit_code_of(error.kind()));
+  } catch (const std::bad_alloc&) {
+    return complain(terminal, "the machine's memory does not hold this; try a larger voxel", kNumeric);
+  } catch (const std::exception& error) {
+    return complain(terminal, error.what(), kNumeric);
+  }
+  terminal.finish();
+  return 0;
+}
+
+}  // namespace
+}  // namespace frangia
+
+int main(int argc, char** argv) { return frangia::run_program(argc, argv); }

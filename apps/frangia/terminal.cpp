@@ -1,0 +1,95 @@
+#include "terminal.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <stop_token>
+
+#include <fmt/format.h>
+
+namespace frangia {
+namespace {
+
+/// Ctrl-C asks nicely once; the second one ends the program at once.
+std::stop_source& interrupt() {
+  static std::stop_source source;
+  return source;
+}
+
+extern "C" void on_interrupt(int /*signal*/) {
+  interrupt().request_stop();
+  std::signal(SIGINT, SIG_DFL);
+}
+
+bool on_a_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+
+}  // namespace
+
+Run Terminal::run() {
+  static_cast<void>(interrupt());  // made before a signal can ask for it
+  std::signal(SIGINT, on_interrupt);
+  Run run;
+  run.stop = interrupt().get_token();
+  run.progress = [this](double done) { draw(done); };
+  run.on_stage = [this](const std::string& name) { begin_stage(name); };
+  run.on_warning = [this](const std::string& sentence) {
+    warnings_.push_back(sentence);
+    say("warning: " + sentence);
+  };
+  run.on_note = [this](const std::string& sentence) {
+    if (!quiet && !json) say(sentence);
+  };
+  return run;
+}
+
+std::vector<std::pair<std::string, double>> Terminal::stage_seconds() {
+  begin_stage({});
+  return seconds_;
+}
+
+void Terminal::begin_stage(const std::string& name) {
+  const auto now = Clock::now();
+  if (!stage_.empty()) {
+    const auto found = std::find_if(
+        seconds_.begin(), seconds_.end(), [&](const auto& entry) { return entry.first == stage_; });
+    const double spent = std::chrono::duration<double>(now - stage_begin_).count();
+    if (found == seconds_.end()) {
+      seconds_.emplace_back(stage_, spent);
+    } else {
+      found->second += spent;
+    }
+  }
+  stage_ = name;
+  stage_begin_ = now;
+}
+
+void Terminal::draw(double done) {
+  if (quiet || json || !on_a_terminal()) return;
+  const auto now = Clock::now();
+  if (now - last_drawn_ < std::chrono::milliseconds(50) && done < 1.0) return;
+  last_drawn_ = now;
+  constexpr int kWidth = 32;
+  const auto full = static_cast<std::size_t>(std::clamp(done, 0.0, 1.0) * kWidth);
+  fmt::print(stderr,
+             "\r\x1b[K{:<12} [{}{}] {:3.0f} %",
+             stage_,
+             std::string(full, '='),
+             std::string(kWidth - full, ' '),
+             100.0 * done);
+  static_cast<void>(std::fflush(stderr));
+  line_open_ = true;
+}
+
+void Terminal::say(const std::string& text) {
+  finish();
+  fmt::print(stderr, "{}\n", text);
+}
+
+void Terminal::finish() {
+  if (line_open_) fmt::print(stderr, "\r\x1b[K");
+  line_open_ = false;
+}
+
+}  // namespace frangia

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "terminal.h"
+
+namespace frangia {
+
+/// Each adds one verb to the program, in the file of its name. The work is done in the verb's
+/// callback; an Error thrown there becomes a sentence and an exit code in main.
+void add_simulate_verb(CLI::App& program, Terminal& terminal);
+
+}  // namespace frangia
