@@ -17,10 +17,14 @@ enum ExitCode { kUsage = 2, kBadInput = 3, kDevice = 4, kNumeric = 5, kInterrupt
 int exit_code_of(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::Input:
-    case ErrorKind::File: return kBadInput;
-    case ErrorKind::Device: return kDevice;
-    case ErrorKind::Numeric: return kNumeric;
-    case ErrorKind::Cancelled: return kInterrupted;
+    case ErrorKind::File:
+      return kBadInput;
+    case ErrorKind::Device:
+      return kDevice;
+    case ErrorKind::Numeric:
+      return kNumeric;
+    case ErrorKind::Cancelled:
+      return kInterrupted;
   }
   return kNumeric;
 }
@@ -58,7 +62,8 @@ int run_program(int argc, char** argv) {
   } catch (const Error& error) {
     return complain(terminal, error.what(), exit_code_of(error.kind()));
   } catch (const std::bad_alloc&) {
-    return complain(terminal, "the machine's memory does not hold this; try a larger voxel", kNumeric);
+    return complain(
+        terminal, "the machine's memory does not hold this; try a larger voxel", kNumeric);
   } catch (const std::exception& error) {
     return complain(terminal, error.what(), kNumeric);
   }
@@ -69,4 +74,6 @@ int run_program(int argc, char** argv) {
 }  // namespace
 }  // namespace frangia
 
-int main(int argc, char** argv) { return frangia::run_program(argc, argv); }
+int main(int argc, char** argv) {
+  return frangia::run_program(argc, argv);
+}

@@ -1,13 +1,12 @@
 #include "terminal.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <stop_token>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace frangia {
 namespace {
@@ -23,7 +22,9 @@ extern "C" void on_interrupt(int /*signal*/) {
   std::signal(SIGINT, SIG_DFL);
 }
 
-bool on_a_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+bool on_a_terminal() {
+  return ::isatty(STDERR_FILENO) != 0;
+}
 
 }  // namespace
 

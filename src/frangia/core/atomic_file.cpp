@@ -1,12 +1,11 @@
 #include "frangia/core/atomic_file.h"
 
-#include <unistd.h>
-
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "frangia/core/error.h"
 

@@ -13,10 +13,10 @@ namespace frangia {
 /// All functions are called from the thread that started the task.
 struct Run {
   std::stop_token stop;
-  std::function<void(double)> progress;               ///< called with 0..1
-  std::function<void(const std::string&)> on_stage;   ///< a stage begins: "phase", "surface", ...
-  std::function<void(const std::string&)> on_warning; ///< a sentence: goes on, but tell the user
-  std::function<void(const std::string&)> on_note;    ///< a sentence: what was chosen and why
+  std::function<void(double)> progress;                ///< called with 0..1
+  std::function<void(const std::string&)> on_stage;    ///< a stage begins: "phase", "surface", ...
+  std::function<void(const std::string&)> on_warning;  ///< a sentence: goes on, but tell the user
+  std::function<void(const std::string&)> on_note;     ///< a sentence: what was chosen and why
 
   /// Call between units of work. Throws Error(Cancelled) once a stop was asked for.
   void check() const {

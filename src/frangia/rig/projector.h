@@ -19,8 +19,8 @@ using PinholeModel = Lens;
 
 struct Projector {
   std::variant<AngularModel, PinholeModel> model;
-  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();     ///< in the rig frame
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();    ///< projector_from_rig
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();   ///< in the rig frame
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< projector_from_rig
 
   [[nodiscard]] bool is_angular() const { return std::holds_alternative<AngularModel>(model); }
   /// A point of the rig frame in the projector's own.

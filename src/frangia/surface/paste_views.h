@@ -8,8 +8,10 @@
 namespace frangia {
 
 struct PasteOptions {
-  double voxel_mm = 0.0;  ///< edge of a voxel; 0 chooses it from the data's own sampling, and notes it
-  double min_z_mm = 0.0;  ///< nothing below this height of the object frame, when `clip_below` is set
+  double voxel_mm =
+      0.0;  ///< edge of a voxel; 0 chooses it from the data's own sampling, and notes it
+  double min_z_mm =
+      0.0;  ///< nothing below this height of the object frame, when `clip_below` is set
   bool clip_below = false;
 };
 

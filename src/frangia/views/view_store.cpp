@@ -1,10 +1,10 @@
 #include "frangia/views/view_store.h"
 
-#include <unistd.h>
-
 #include <cstring>
 #include <string>
 #include <utility>
+
+#include <unistd.h>
 
 #include "frangia/core/error.h"
 
@@ -26,7 +26,9 @@ std::FILE* open_unnamed() {
   return ::fdopen(descriptor, "w+b");
 }
 
-std::size_t bytes_of(const Image<float>& image) { return image.pixels().size() * sizeof(float); }
+std::size_t bytes_of(const Image<float>& image) {
+  return image.pixels().size() * sizeof(float);
+}
 
 void write_all(std::FILE* file, const Image<float>& image, std::int64_t offset) {
   const auto* data = reinterpret_cast<const char*>(image.pixels().data());  // NOLINT
@@ -88,8 +90,9 @@ void ViewStore::add(const View& view) {
 
 void ViewStore::replace(std::size_t index, const View& view) {
   Entry& entry = entries_.at(index);
-  require(view.range.depth_mm.width() == entry.width && view.range.depth_mm.height() == entry.height,
-          "ViewStore::replace: the grid has another size");
+  require(
+      view.range.depth_mm.width() == entry.width && view.range.depth_mm.height() == entry.height,
+      "ViewStore::replace: the grid has another size");
   entry.rig_from_object = view.rig_from_object;
   write(entry, view);
 }

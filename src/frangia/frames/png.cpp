@@ -1,0 +1,133 @@
+#include "frangia/frames/png.h"
+
+#include <cstddef>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spng.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::uint32_t kMaxSide = 65535;
+
+struct FreeContext {
+  void operator()(spng_ctx* context) const { spng_ctx_free(context); }
+};
+using Context = std::unique_ptr<spng_ctx, FreeContext>;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), what));
+}
+
+std::vector<char> bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) fail(path, "is missing or cannot be read; put the frame there");
+  std::vector<char> bytes(static_cast<std::size_t>(file.tellg()));
+  file.seekg(0);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file) fail(path, "cannot be read; check the disk");
+  return bytes;
+}
+
+template <typename T>
+Image<T> decode(spng_ctx* context,
+                const spng_ihdr& header,
+                int format,
+                const std::filesystem::path& path) {
+  std::size_t size = 0;
+  if (spng_decoded_image_size(context, format, &size) != 0) fail(path, "has a broken header");
+  Image<T> image(static_cast<int>(header.width), static_cast<int>(header.height));
+  if (size != image.pixels().size_bytes()) fail(path, "has a broken header");
+  const int error = spng_decode_image(context, image.pixels().data(), size, format, 0);
+  if (error != 0) {
+    fail(path,
+         fmt::format("is truncated or damaged ({}); copy or capture it again",
+                     spng_strerror(error)));
+  }
+  return image;
+}
+
+void encode(const std::filesystem::path& path,
+            const spng_ihdr& header,
+            const void* pixels,
+            std::size_t size) {
+  const Context context(spng_ctx_new(SPNG_CTX_ENCODER));
+  spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
+  // A scan is hundreds of frames: a third of the default's time for a tenth more bytes.
+  spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 2);
+  spng_ihdr copy = header;
+  spng_set_ihdr(context.get(), &copy);
+  int error = spng_encode_image(context.get(), pixels, size, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE);
+  std::size_t length = 0;
+  void* encoded = error == 0 ? spng_get_png_buffer(context.get(), &length, &error) : nullptr;
+  // libspng hands its buffer over to be freed.
+  const std::unique_ptr<void, void (*)(void*)> owner(encoded, std::free);  // NOLINT
+  if (encoded == nullptr) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be encoded: {}", path.string(), spng_strerror(error)));
+  }
+  AtomicFile file(path);
+  file.stream().write(static_cast<const char*>(encoded), static_cast<std::streamsize>(length));
+  file.commit();
+}
+
+template <typename T>
+spng_ihdr header_of(const Image<T>& image, int bit_depth, int color_type) {
+  return {.width = static_cast<std::uint32_t>(image.width()),
+          .height = static_cast<std::uint32_t>(image.height()),
+          .bit_depth = static_cast<std::uint8_t>(bit_depth),
+          .color_type = static_cast<std::uint8_t>(color_type),
+          .compression_method = 0,
+          .filter_method = 0,
+          .interlace_method = 0};
+}
+
+}  // namespace
+
+Frame read_png(const std::filesystem::path& path) {
+  const std::vector<char> bytes = bytes_of(path);
+  const Context context(spng_ctx_new(0));
+  spng_set_image_limits(context.get(), kMaxSide, kMaxSide);
+  if (spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != 0) {
+    fail(path, "cannot be read");
+  }
+  spng_ihdr header{};
+  if (const int error = spng_get_ihdr(context.get(), &header); error != 0) {
+    fail(path, fmt::format("is not a PNG image ({}); frames are grey PNGs", spng_strerror(error)));
+  }
+  if (header.color_type != SPNG_COLOR_TYPE_GRAYSCALE) {
+    fail(path, "is a colour PNG; frames are grey: convert it from the camera's raw data");
+  }
+  if (header.bit_depth == 16) {
+    return decode<std::uint16_t>(context.get(), header, SPNG_FMT_PNG, path);
+  }
+  return decode<std::uint8_t>(context.get(), header, SPNG_FMT_G8, path);
+}
+
+void write_png(const std::filesystem::path& path, const Frame& frame) {
+  std::visit(
+      [&](const auto& image) {
+        const int depth = 8 * static_cast<int>(sizeof(image.pixels()[0]));
+        encode(path,
+               header_of(image, depth, SPNG_COLOR_TYPE_GRAYSCALE),
+               image.pixels().data(),
+               image.pixels().size_bytes());
+      },
+      frame);
+}
+
+void write_png(const std::filesystem::path& path, const Image<Rgb>& picture) {
+  encode(path,
+         header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
+         picture.pixels().data(),
+         picture.pixels().size_bytes());
+}
+
+}  // namespace frangia

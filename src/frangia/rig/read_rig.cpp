@@ -1,0 +1,203 @@
+#include "frangia/rig/read_rig.h"
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/atomic_file.h"
+#include "frangia/rig/toml_reader.h"
+
+namespace frangia {
+namespace {
+
+/// How far a rotation or a direction may be from exact: files carry nine digits, people type four.
+constexpr double kUnitTolerance = 2e-3;
+constexpr int kMaxSide = 65535;
+
+Eigen::Vector2d vector2(TomlReader& reader, std::string_view key) {
+  const auto values = reader.numbers(key, 2);
+  return {values[0], values[1]};
+}
+
+Eigen::Vector3d vector3(TomlReader& reader, std::string_view key) {
+  const auto values = reader.numbers(key, 3);
+  return {values[0], values[1], values[2]};
+}
+
+Eigen::Vector3d direction(TomlReader& reader, std::string_view key) {
+  const Eigen::Vector3d value = vector3(reader, key);
+  if (std::abs(value.norm() - 1.0) > kUnitTolerance) {
+    reader.fail(key, fmt::format("has length {:.6g}; it must be a unit vector", value.norm()));
+  }
+  return value.normalized();
+}
+
+Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
+  const auto rows = reader.rows(key, 3, 3);
+  Eigen::Matrix3d matrix;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      matrix(row, column) = rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+    }
+  }
+  const double departure = (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm();
+  if (departure > kUnitTolerance || matrix.determinant() < 0.0) {
+    reader.fail(key,
+                "is not a rotation: its rows must be the projector's x, y and z axes, of unit "
+                "length, perpendicular and right-handed");
+  }
+  // The nearest exact rotation.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+Lens read_lens(TomlReader& reader) {
+  Lens lens;
+  const auto size = reader.numbers("size_px", 2);
+  for (const double side : size) {
+    if (side < 1.0 || side > kMaxSide || side != std::floor(side)) {
+      reader.fail("size_px", "must be two whole numbers, width and height, from 1 to 65535");
+    }
+  }
+  lens.width_px = static_cast<int>(size[0]);
+  lens.height_px = static_cast<int>(size[1]);
+  lens.focal_px = vector2(reader, "focal_px");
+  if (lens.focal_px.minCoeff() <= 0.0) reader.fail("focal_px", "must be two numbers above 0");
+  lens.principal_point_px = vector2(reader, "principal_point_px");
+  if (reader.has("distortion")) {
+    const auto values = reader.numbers("distortion", 5);
+    std::copy(values.begin(), values.end(), lens.distortion.begin());
+  }
+  return lens;
+}
+
+Camera read_camera(TomlReader reader, const Run& run) {
+  Camera camera;
+  camera.lens = read_lens(reader);
+  camera.white_level = reader.has("white_level") ? reader.integer("white_level", 1, 65535) : 255;
+  if (reader.has("noise")) {
+    TomlReader noise = reader.table("noise");
+    const double gain = noise.positive("gain_e_per_count");
+    const double read = noise.number("read_e");
+    if (read < 0.0) noise.fail("read_e", fmt::format("is {}; it must be 0 or above", read));
+    camera.noise = NoiseModel::from_camera(gain, read);
+    noise.warn_of_the_rest(run);
+  }
+  reader.warn_of_the_rest(run);
+  return camera;
+}
+
+Projector read_projector(TomlReader reader, const Run& run) {
+  Projector projector;
+  projector.position_mm = vector3(reader, "position_mm");
+  projector.rotation = rotation(reader, "rotation");
+  const std::string model = reader.text("model");
+  if (model == "angular") {
+    const auto field = reader.numbers("field_deg", 2);
+    if (!(field[0] < field[1]) || field[0] <= -90.0 || field[1] >= 90.0) {
+      reader.fail("field_deg", "must be two rising angles between -90 and 90");
+    }
+    projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1])};
+  } else if (model == "pinhole") {
+    projector.model = read_lens(reader);
+  } else {
+    reader.fail("model", fmt::format("is \"{}\"; it must be \"angular\" or \"pinhole\"", model));
+  }
+  if (projector.position_mm.norm() == 0.0) {
+    reader.fail("position_mm",
+                "is the camera's own centre; without a baseline nothing is measured");
+  }
+  reader.warn_of_the_rest(run);
+  return projector;
+}
+
+std::string toml_of(const Lens& lens) {
+  return fmt::format(
+      "size_px = [{}, {}]\nfocal_px = [{}, {}]\nprincipal_point_px = [{}, {}]\n"
+      "distortion = [{}]\n",
+      lens.width_px,
+      lens.height_px,
+      lens.focal_px.x(),
+      lens.focal_px.y(),
+      lens.principal_point_px.x(),
+      lens.principal_point_px.y(),
+      fmt::join(lens.distortion, ", "));
+}
+
+std::string toml_of(const Eigen::Vector3d& v) {
+  return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z());
+}
+
+std::string toml_of(const Projector& projector) {
+  const Eigen::Matrix3d& r = projector.rotation;
+  std::string text =
+      fmt::format("\n[projector]\nmodel = \"{}\"\nposition_mm = {}\nrotation = [{}, {}, {}]\n",
+                  projector.is_angular() ? "angular" : "pinhole",
+                  toml_of(projector.position_mm),
+                  toml_of(Eigen::Vector3d(r.row(0))),
+                  toml_of(Eigen::Vector3d(r.row(1))),
+                  toml_of(Eigen::Vector3d(r.row(2))));
+  if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
+    text += fmt::format("field_deg = [{}, {}]\n",
+                        deg_from_rad(angular->field_min_rad),
+                        deg_from_rad(angular->field_max_rad));
+  } else {
+    text += toml_of(std::get<PinholeModel>(projector.model));
+  }
+  return text;
+}
+
+}  // namespace
+
+Rig read_rig(const std::filesystem::path& path, const Run& run) {
+  const toml::table table = parse_toml(path, "frangia-rig");
+  TomlReader reader(path, "", table);
+  for (const auto* known : {"format", "version", "devices"})
+    reader.ignore(known);
+  Rig rig;
+  rig.camera = read_camera(reader.table("camera"), run);
+  rig.projector = read_projector(reader.table("projector"), run);
+  if (reader.has("line")) {
+    TomlReader line = reader.table("line");
+    rig.line = LightPlane{direction(line, "normal"), line.number("offset_mm")};
+    line.warn_of_the_rest(run);
+  }
+  if (reader.has("turntable")) {
+    TomlReader turntable = reader.table("turntable");
+    rig.turntable = Turntable{vector3(turntable, "point_mm"), direction(turntable, "axis")};
+    turntable.warn_of_the_rest(run);
+  }
+  reader.warn_of_the_rest(run);
+  return rig;
+}
+
+void write_rig(const std::filesystem::path& path, const Rig& rig) {
+  std::string text = "format = \"frangia-rig\"\nversion = 1\n\n[camera]\n";
+  text += toml_of(rig.camera.lens);
+  text += fmt::format("white_level = {}\n", rig.camera.white_level);
+  if (rig.camera.noise) {
+    const double gain = 1.0 / rig.camera.noise->slope_counts;
+    const double read2 = std::max(0.0, rig.camera.noise->floor_counts2 - 1.0 / 12.0);
+    text += fmt::format(
+        "\n[camera.noise]\ngain_e_per_count = {}\nread_e = {}\n", gain, gain * std::sqrt(read2));
+  }
+  text += toml_of(rig.projector);
+  if (rig.line) {
+    text += fmt::format(
+        "\n[line]\nnormal = {}\noffset_mm = {}\n", toml_of(rig.line->normal), rig.line->offset_mm);
+  }
+  if (rig.turntable) {
+    text += fmt::format("\n[turntable]\npoint_mm = {}\naxis = {}\n",
+                        toml_of(rig.turntable->point_mm),
+                        toml_of(rig.turntable->axis));
+  }
+  AtomicFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+}  // namespace frangia

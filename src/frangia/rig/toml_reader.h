@@ -1,0 +1,157 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/run.h"
+
+namespace frangia {
+
+/// One table of a TOML file, read with sentences that name the file and the key.
+/// For sources only: it brings toml++ along.
+class TomlReader {
+ public:
+  TomlReader(std::filesystem::path file, std::string place, const toml::table& table)
+      : file_(std::move(file)), place_(std::move(place)), table_(&table) {}
+
+  [[noreturn]] void fail(std::string_view key, std::string_view what) const {
+    throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), name(key), what));
+  }
+  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+
+  [[nodiscard]] double number(std::string_view key) { return finite(key, node(key)); }
+  [[nodiscard]] double number_or(std::string_view key, double otherwise) {
+    return has(key) ? number(key) : otherwise;
+  }
+  [[nodiscard]] double positive(std::string_view key) {
+    const double value = number(key);
+    if (value <= 0.0) fail(key, fmt::format("is {}; it must be above 0", value));
+    return value;
+  }
+  [[nodiscard]] int integer(std::string_view key, int least, int most) {
+    const auto value = node(key).value_exact<std::int64_t>();
+    if (!value) fail(key, "must be a whole number");
+    if (*value < least || *value > most) {
+      fail(key, fmt::format("is {}; it must lie between {} and {}", *value, least, most));
+    }
+    return static_cast<int>(*value);
+  }
+  [[nodiscard]] std::string text(std::string_view key) {
+    const auto value = node(key).value_exact<std::string>();
+    if (!value) fail(key, "must be a text in quotes");
+    return *value;
+  }
+  /// A list of numbers; of `count` numbers, unless that is 0.
+  [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count = 0) {
+    const toml::array* list = node(key).as_array();
+    if (list == nullptr || (count != 0 && list->size() != count)) {
+      fail(key,
+           count == 0 ? "must be a list of numbers"
+                      : fmt::format("must be a list of {} numbers", count));
+    }
+    std::vector<double> values;
+    for (const auto& item : *list)
+      values.push_back(finite(key, item));
+    return values;
+  }
+  /// A list of `count` lists of `length` numbers each.
+  [[nodiscard]] std::vector<std::vector<double>> rows(std::string_view key,
+                                                      std::size_t count,
+                                                      std::size_t length) {
+    const std::string wanted = fmt::format("must be {} lists of {} numbers", count, length);
+    const toml::array* list = node(key).as_array();
+    if (list == nullptr || list->size() != count) fail(key, wanted);
+    std::vector<std::vector<double>> values;
+    for (const auto& item : *list) {
+      const toml::array* row = item.as_array();
+      if (row == nullptr || row->size() != length) fail(key, wanted);
+      values.emplace_back();
+      for (const auto& number : *row)
+        values.back().push_back(finite(key, number));
+    }
+    return values;
+  }
+  [[nodiscard]] TomlReader table(std::string_view key) {
+    const toml::table* inner = node(key).as_table();
+    if (inner == nullptr) fail(key, fmt::format("must be a table, [{}]", key));
+    return {file_, place_.empty() ? std::string(key) : fmt::format("{}.{}", place_, key), *inner};
+  }
+  /// The tables of [[key]]; empty when there are none.
+  [[nodiscard]] std::vector<TomlReader> tables(std::string_view key) {
+    std::vector<TomlReader> readers;
+    if (!has(key)) return readers;
+    const toml::array* list = node(key).as_array();
+    if (list == nullptr) fail(key, fmt::format("must be written as [[{}]]", key));
+    for (const auto& item : *list) {
+      const toml::table* inner = item.as_table();
+      if (inner == nullptr) fail(key, fmt::format("must be written as [[{}]]", key));
+      readers.emplace_back(file_, fmt::format("{}[{}]", key, readers.size()), *inner);
+    }
+    return readers;
+  }
+  /// A key of the format that this version does not use: no warning for it.
+  void ignore(std::string_view key) { used_.insert(std::string(key)); }
+
+  /// Warns of each key that nothing has asked for.
+  void warn_of_the_rest(const Run& run) const {
+    for (const auto& [key, value] : *table_) {
+      if (used_.count(std::string(key.str())) == 0) {
+        run.warn(fmt::format("{}: {} is not known and ignored", file_.string(), name(key.str())));
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::string name(std::string_view key) const {
+    return place_.empty() ? std::string(key) : fmt::format("{}.{}", place_, key);
+  }
+  [[nodiscard]] const toml::node& node(std::string_view key) {
+    used_.insert(std::string(key));
+    const toml::node* found = table_->get(key);
+    if (found == nullptr) fail(key, "is missing");
+    return *found;
+  }
+  [[nodiscard]] double finite(std::string_view key, const toml::node& item) const {
+    const auto value = item.value<double>();
+    if (!value || item.is_boolean()) fail(key, "must be a number");
+    if (!std::isfinite(*value)) fail(key, fmt::format("is {}; it must be a finite number", *value));
+    return *value;
+  }
+
+  std::filesystem::path file_;
+  std::string place_;
+  const toml::table* table_;
+  std::set<std::string> used_;
+};
+
+/// Parses a file whose `format` key must be `format`, in version 1.
+[[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
+                                            const std::string& format) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw Error(ErrorKind::Input, fmt::format("{}: there is no such file", file.string()));
+  }
+  toml::table table;
+  try {
+    table = toml::parse_file(file.string());
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: line {}: {}",
+                            file.string(),
+                            error.source().begin.line,
+                            std::string(error.description())));
+  }
+  TomlReader reader(file, "", table);
+  if (reader.text("format") != format) reader.fail("format", fmt::format("must be \"{}\"", format));
+  static_cast<void>(reader.integer("version", 1, 1));
+  return table;
+}
+
+}  // namespace frangia
