@@ -20,7 +20,8 @@ void write_stl(const std::filesystem::path& path, const Mesh& mesh) {
     const Eigen::Vector3f& a = mesh.vertices_mm[triangle[0]];
     const Eigen::Vector3f& b = mesh.vertices_mm[triangle[1]];
     const Eigen::Vector3f& c = mesh.vertices_mm[triangle[2]];
-    for (const float coordinate : (b - a).cross(c - a).stableNormalized().eval())
+    const Eigen::Vector3f normal = (b - a).cross(c - a).stableNormalized();
+    for (const float coordinate : normal)
       file.binary(coordinate);
     for (const std::uint32_t corner : triangle)
       for (const float coordinate : mesh.vertices_mm[corner])
