@@ -12,18 +12,6 @@
 namespace frangia {
 namespace {
 
-void check(std::span<const WrappedPhase> levels, const Projector& projector) {
-  require(!levels.empty(), "unwrap_in_time: no phase given");
-  require(is_absolute(levels.front().pattern, projector),
-          "unwrap_in_time: the first level must hold one fringe or less over the field");
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    require(levels[i].pattern.fringes_per_unit() > levels[i - 1].pattern.fringes_per_unit(),
-            "unwrap_in_time: levels must go from coarse to fine");
-    require(same_size(levels[i].phase_rad, levels[0].phase_rad),
-            "unwrap_in_time: levels differ in size");
-  }
-}
-
 AbsolutePhase from_single_fringe(const WrappedPhase& level, const Projector& projector) {
   AbsolutePhase out{level.pattern, level.phase_rad, level.sigma_rad, level.fate};
   const double centre = phase_range(level.pattern, projector).centre_rad();
@@ -104,20 +92,32 @@ double wrong_order_chance(double sigma_rad) {
   return std::erfc(kPi / (sigma_rad * std::numbers::sqrt2));
 }
 
+AbsolutePhase lift_in_time(AbsolutePhase absolute,
+                           std::span<const WrappedPhase> finer,
+                           const TimeUnwrapOptions& options) {
+  const double max_sigma = sigma_of_chance(options.max_wrong_order);
+  for (const WrappedPhase& level : finer) {
+    require(level.pattern.fringes_per_unit() > absolute.pattern.fringes_per_unit(),
+            "lift_in_time: the phases must go from coarse to fine");
+    require(same_size(level.phase_rad, absolute.phase_rad),
+            "lift_in_time: the phases differ in size");
+    if (options.smooth_radius_px > 0) absolute = smooth(absolute, options.smooth_radius_px);
+    AbsolutePhase lifted{level.pattern, level.phase_rad, level.sigma_rad, level.fate};
+    parallel_rows(lifted.phase_rad.height(),
+                  [&](int y) { lift_row(absolute, max_sigma, y, lifted); });
+    absolute = std::move(lifted);
+  }
+  return absolute;
+}
+
 AbsolutePhase unwrap_in_time(std::span<const WrappedPhase> coarse_to_fine,
                              const Projector& projector,
                              const TimeUnwrapOptions& options) {
-  check(coarse_to_fine, projector);
-  const double max_sigma = sigma_of_chance(options.max_wrong_order);
-  AbsolutePhase absolute = from_single_fringe(coarse_to_fine.front(), projector);
-  for (const WrappedPhase& level : coarse_to_fine.subspan(1)) {
-    if (options.smooth_radius_px > 0) absolute = smooth(absolute, options.smooth_radius_px);
-    AbsolutePhase finer{level.pattern, level.phase_rad, level.sigma_rad, level.fate};
-    parallel_rows(finer.phase_rad.height(),
-                  [&](int y) { lift_row(absolute, max_sigma, y, finer); });
-    absolute = std::move(finer);
-  }
-  return absolute;
+  require(!coarse_to_fine.empty(), "unwrap_in_time: no phase given");
+  require(is_absolute(coarse_to_fine.front().pattern, projector),
+          "unwrap_in_time: the first level must hold one fringe or less over the field");
+  return lift_in_time(
+      from_single_fringe(coarse_to_fine.front(), projector), coarse_to_fine.subspan(1), options);
 }
 
 }  // namespace frangia

@@ -29,4 +29,12 @@ struct TimeUnwrapOptions {
                                            const Projector& projector,
                                            const TimeUnwrapOptions& options = {});
 
+/// The same from an absolute phase that is already there, such as one that the plane of light
+/// fixed.
+///
+/// shape    `coarse` and every level w x h; the levels finer than `coarse` and each other
+[[nodiscard]] AbsolutePhase lift_in_time(AbsolutePhase coarse,
+                                         std::span<const WrappedPhase> finer,
+                                         const TimeUnwrapOptions& options = {});
+
 }  // namespace frangia
