@@ -107,8 +107,8 @@ TEST(UnwrapInTime, DoubtsTheEndsOfTheFieldWhereNoiseSlipsOverToTheOtherEnd) {
   for (int y = 0; y < noisy.height; ++y) {
     EXPECT_EQ(phase.fate(0, y), PixelFate::Doubtful);
     for (int x = 0; x < noisy.width; ++x) {
-      if (phase.fate(x, y) == PixelFate::Measured)
-        EXPECT_NEAR(phase.phase_rad(x, y), kTurn * x / 640.0, kPi);
+      if (phase.fate(x, y) != PixelFate::Measured) continue;
+      EXPECT_NEAR(phase.phase_rad(x, y), kTurn * x / 640.0, kPi);
     }
   }
 }
