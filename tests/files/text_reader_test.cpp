@@ -1,8 +1,12 @@
 #include "frangia/files/text_reader.h"
 
+#include <array>
+#include <bit>
+#include <charconv>
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include "files/sample_meshes.h"
 
@@ -16,6 +20,17 @@ TEST(TextReader, ReadsNumbersAsPeopleAndProgramsWriteThem) {
   EXPECT_TRUE(std::isinf(real_of("1e60").value()));
   EXPECT_TRUE(std::isnan(real_of("nan").value()));
   EXPECT_EQ(integer_of("+7"), 7);
+}
+
+TEST(TextReader, ReadsEveryFloatBackFromItsShortestDigits) {
+  EXPECT_TRUE(rc::check([](std::uint32_t bits) {
+    const auto number = std::bit_cast<float>(bits);
+    std::array<char, 32> text{};
+    const auto* end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+    const std::optional<float> back =
+        real_of({text.data(), static_cast<std::size_t>(end - text.data())});
+    RC_ASSERT(back && (*back == number || std::isnan(number)));
+  }));
 }
 
 TEST(TextReader, RefusesWordsThatOnlyBeginAsNumbers) {
