@@ -22,6 +22,10 @@ struct Pattern {
   double period_px = 0.0;           ///< pinhole projector; 0 for an angular one
   std::vector<double> shifts_rad;   ///< sigma_i of the paper's equation (1), one a frame
 
+  /// Fringes per degree, or per projector pixel.
+  [[nodiscard]] double fringes_per_unit() const {
+    return fringes_per_degree > 0.0 ? fringes_per_degree : 1.0 / period_px;
+  }
   [[nodiscard]] int frame_count() const {
     return kind == PatternKind::Line ? 1 : static_cast<int>(shifts_rad.size());
   }

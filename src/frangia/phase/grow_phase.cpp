@@ -1,0 +1,109 @@
+#include "frangia/phase/grow_phase.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/core/missing.h"
+
+namespace frangia {
+namespace {
+
+/// Levels of quality: enough to keep the order of growth, few enough to stay in the cache.
+constexpr std::size_t kLevels = 256;
+
+/// Pixels waiting to be reached, best quality first.
+class Frontier {
+ public:
+  void push(std::size_t level, std::uint32_t pixel) {
+    buckets_[level].push_back(pixel);
+    best_ = std::max(best_, level);
+  }
+  /// False when nothing waits.
+  bool pop(std::uint32_t& pixel) {
+    while (buckets_[best_].empty()) {
+      if (best_ == 0) return false;
+      --best_;
+    }
+    pixel = buckets_[best_].back();
+    buckets_[best_].pop_back();
+    return true;
+  }
+
+ private:
+  std::array<std::vector<std::uint32_t>, kLevels> buckets_;
+  std::size_t best_ = 0;
+};
+
+/// The pixel of largest modulation in each region.
+std::vector<std::uint32_t> best_pixels(const WrappedPhase& phase, const Regions& regions) {
+  constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> best(static_cast<std::size_t>(regions.count), kNone);
+  const auto modulation = phase.modulation_counts.pixels();
+  const auto labels = regions.label.pixels();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < 0) continue;
+    std::uint32_t& leader = best[static_cast<std::size_t>(labels[i])];
+    if (leader == kNone || modulation[i] > modulation[leader])
+      leader = static_cast<std::uint32_t>(i);
+  }
+  return best;
+}
+
+}  // namespace
+
+RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions) {
+  const int width = phase.phase_rad.width();
+  const int height = phase.phase_rad.height();
+  const auto row = static_cast<std::size_t>(width);
+  RelativePhase out{.pattern = phase.pattern,
+                    .phase_rad = Image<float>(width, height, kMissing),
+                    .sigma_rad = phase.sigma_rad,
+                    .region = regions.label,
+                    .region_count = regions.count,
+                    .fate = phase.fate};
+  const auto wrapped = phase.phase_rad.pixels();
+  const auto modulation = phase.modulation_counts.pixels();
+  const auto labels = regions.label.pixels();
+  const auto unwrapped = out.phase_rad.pixels();
+  const auto right = regions.smooth_right.pixels();
+  const auto below = regions.smooth_below.pixels();
+  const float top = *std::max_element(modulation.begin(), modulation.end());
+  const float scale = top > 0.0F ? (kLevels - 1) / top : 0.0F;
+
+  Frontier frontier;
+  const auto reach = [&](std::size_t from, std::size_t to) {
+    if (labels[to] != labels[from] || !std::isnan(unwrapped[to])) return;
+    const float jump = wrapped[to] - wrapped[from];
+    const float short_way = jump - 6.28318531F * std::round(jump / 6.28318531F);
+    // Written on arrival, so that the one who pushes with the largest product is the one followed.
+    unwrapped[to] = unwrapped[from] + short_way;
+    const float product = std::sqrt(std::max(0.0F, modulation[from] * modulation[to]));
+    frontier.push(static_cast<std::size_t>(product * scale), static_cast<std::uint32_t>(to));
+  };
+  for (const std::uint32_t seed : best_pixels(phase, regions)) {
+    unwrapped[seed] = wrapped[seed];
+    std::uint32_t pixel = seed;
+    do {
+      const std::size_t i = pixel;
+      const std::size_t x = i % row;
+      const std::size_t y = i / row;
+      if (x > 0 && right[i - 1] != 0) reach(i, i - 1);
+      if (x + 1 < row && right[i] != 0) reach(i, i + 1);
+      if (y > 0 && below[i - row] != 0) reach(i, i - row);
+      if (y + 1 < static_cast<std::size_t>(height) && below[i] != 0) reach(i, i + row);
+    } while (frontier.pop(pixel));
+  }
+  // An unwrapped phase is its wrapped one and whole turns: no rounding piles up along the path.
+  for (std::size_t i = 0; i < unwrapped.size(); ++i) {
+    if (std::isnan(unwrapped[i])) continue;
+    const double orders =
+        std::round((static_cast<double>(unwrapped[i]) - wrapped[i]) / 6.283185307179586);
+    unwrapped[i] = static_cast<float>(wrapped[i] + 6.283185307179586 * orders);
+  }
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "frangia/phase/phase_map.h"
+#include "frangia/phase/split_regions.h"
+
+namespace frangia {
+
+/// Unwraps each region by growth from its best pixel to the neighbour with the largest product of
+/// modulations. The fringe of the best pixel is called 0.
+///
+/// source   the paper's reference [35], Takeda & Abe 1996
+[[nodiscard]] RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions);
+
+}  // namespace frangia

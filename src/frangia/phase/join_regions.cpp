@@ -1,0 +1,166 @@
+#include "frangia/phase/join_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace frangia {
+namespace {
+
+constexpr double kTurnRad = 6.283185307179586;
+
+/// What the border between two regions says: how often each whole number of fringes is asked for.
+struct Border {
+  int length = 0;
+  std::map<int, int> votes;
+};
+using Borders = std::map<std::pair<int, int>, Border>;
+
+/// Regions merged so far, each with the fringes that it lies above its root.
+class Forest {
+ public:
+  explicit Forest(int count)
+      : parent_(static_cast<std::size_t>(count)), fringes_(static_cast<std::size_t>(count), 0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  [[nodiscard]] int count() const { return static_cast<int>(parent_.size()); }
+  /// The root of `region`, and the fringes to add to `region` to be level with it.
+  [[nodiscard]] std::pair<int, int> root(int region) const {
+    int fringes = 0;
+    while (parent_[static_cast<std::size_t>(region)] != region) {
+      fringes += fringes_[static_cast<std::size_t>(region)];
+      region = parent_[static_cast<std::size_t>(region)];
+    }
+    return {region, fringes};
+  }
+  /// Hangs root `child` below root `parent`, `fringes` to be added to it.
+  void hang(int child, int parent, int fringes) {
+    parent_[static_cast<std::size_t>(child)] = parent;
+    fringes_[static_cast<std::size_t>(child)] = fringes;
+  }
+
+ private:
+  std::vector<int> parent_;
+  std::vector<int> fringes_;
+};
+
+struct Side {
+  int x;
+  int y;
+};
+
+void look_across(const RelativePhase& phase,
+                 const Forest& forest,
+                 Side a,
+                 Side b,
+                 bool smooth,
+                 Borders& borders) {
+  const int label_a = phase.region(a.x, a.y);
+  const int label_b = phase.region(b.x, b.y);
+  if (label_a < 0 || label_b < 0 || label_a == label_b) return;
+  auto [root_a, fringes_a] = forest.root(label_a);
+  auto [root_b, fringes_b] = forest.root(label_b);
+  if (root_a == root_b) return;
+  const double jump = phase.phase_rad(a.x, a.y) - phase.phase_rad(b.x, b.y);
+  int asked = static_cast<int>(std::lround(jump / kTurnRad)) + fringes_a - fringes_b;
+  if (root_a > root_b) {
+    std::swap(root_a, root_b);
+    asked = -asked;
+  }
+  Border& border = borders[{root_a, root_b}];
+  ++border.length;
+  if (smooth) ++border.votes[asked];
+}
+
+Borders all_borders(const RelativePhase& phase, const Regions& regions, const Forest& forest) {
+  Borders borders;
+  for (int y = 0; y < phase.region.height(); ++y) {
+    for (int x = 0; x < phase.region.width(); ++x) {
+      if (x + 1 < phase.region.width()) {
+        look_across(phase, forest, {x, y}, {x + 1, y}, regions.smooth_right(x, y) != 0, borders);
+      }
+      if (y + 1 < phase.region.height()) {
+        look_across(phase, forest, {x, y}, {x, y + 1}, regions.smooth_below(x, y) != 0, borders);
+      }
+    }
+  }
+  return borders;
+}
+
+/// Merges across the safe borders, longest first; returns how many.
+int merge_safe(const Borders& borders, double min_agreement, Forest& forest) {
+  struct Merge {
+    int votes;
+    int keep;
+    int give;
+    int fringes;
+  };
+  std::vector<Merge> merges;
+  for (const auto& [pair, border] : borders) {
+    const auto best = std::max_element(
+        border.votes.begin(), border.votes.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second;
+        });
+    if (best == border.votes.end()) continue;
+    if (best->second < min_agreement * border.length) continue;
+    merges.push_back({best->second, pair.first, pair.second, best->first});
+  }
+  std::stable_sort(merges.begin(), merges.end(), [](const Merge& a, const Merge& b) {
+    return a.votes > b.votes;
+  });
+  int merged = 0;
+  std::vector<bool> touched(static_cast<std::size_t>(forest.count()), false);
+  for (const Merge& merge : merges) {
+    // A region that has just changed is looked at again in the next round, with its new border.
+    if (touched[static_cast<std::size_t>(merge.keep)]) continue;
+    if (touched[static_cast<std::size_t>(merge.give)]) continue;
+    forest.hang(merge.give, merge.keep, merge.fringes);
+    touched[static_cast<std::size_t>(merge.give)] = true;
+    ++merged;
+  }
+  return merged;
+}
+
+void relabel_from_largest(RelativePhase& phase, const Forest& forest) {
+  std::vector<std::size_t> sizes(static_cast<std::size_t>(phase.region_count), 0);
+  std::vector<std::pair<int, int>> roots;
+  for (int region = 0; region < phase.region_count; ++region)
+    roots.push_back(forest.root(region));
+  const auto labels = phase.region.pixels();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < 0) continue;
+    const auto [root, fringes] = roots[static_cast<std::size_t>(labels[i])];
+    phase.phase_rad.pixels()[i] += static_cast<float>(kTurnRad * fringes);
+    labels[i] = root;
+    ++sizes[static_cast<std::size_t>(root)];
+  }
+  std::vector<int> order(sizes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return sizes[static_cast<std::size_t>(a)] > sizes[static_cast<std::size_t>(b)];
+  });
+  std::vector<std::int32_t> rank(sizes.size(), -1);
+  phase.region_count = 0;
+  for (const int region : order) {
+    if (sizes[static_cast<std::size_t>(region)] > 0)
+      rank[static_cast<std::size_t>(region)] = phase.region_count++;
+  }
+  for (auto& label : labels) {
+    if (label >= 0) label = rank[static_cast<std::size_t>(label)];
+  }
+}
+
+}  // namespace
+
+void join_regions(RelativePhase& phase, const Regions& regions, const JoinOptions& options) {
+  Forest forest(phase.region_count);
+  while (merge_safe(all_borders(phase, regions, forest), options.min_agreement, forest) > 0) {
+  }
+  relabel_from_largest(phase, forest);
+}
+
+}  // namespace frangia

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "frangia/phase/phase_map.h"
+
+namespace frangia {
+
+struct SplitOptions {
+  /// How far a jump between neighbours may lie from those beside it, besides the noise that the
+  /// jumps themselves show: a crease bends the phase by less, a depth step by any amount.
+  float slack_rad = 0.3F;
+  /// A fringe is at least three pixels wide, as the paper asks.
+  float max_jump_rad = 2.09F;
+  /// Regions that only hang together through a neck this narrow are two: a depth step whose height
+  /// varies is bound to look smooth somewhere.
+  int neck_radius_px = 2;
+};
+
+/// Regions within which the phase is smooth, so that unwrapping cannot go wrong there.
+struct Regions {
+  Image<std::int32_t> label;  ///< 0, 1, ...; -1 where not measured
+  int count = 0;
+  Image<std::uint8_t> smooth_right;  ///< the jump to the right-hand neighbour is smooth
+  Image<std::uint8_t> smooth_below;  ///< the jump to the neighbour below is smooth
+};
+
+/// Cuts the phase wherever it may hide a step of more than half a fringe. It cuts too much rather
+/// than too little: `join_regions` mends what is safe.
+[[nodiscard]] Regions split_regions(const WrappedPhase& phase, const SplitOptions& options = {});
+
+}  // namespace frangia

@@ -1,0 +1,149 @@
+#include "frangia/range/anchor_phase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
+#include "frangia/range/fringe_ray.h"
+
+namespace frangia {
+namespace {
+
+/// Fringes to add to each region, where known.
+using Orders = std::vector<std::optional<int>>;
+
+/// Whether all eight neighbours belong to the pixel's region: its rim may see two surfaces.
+bool is_inner(const Image<std::int32_t>& region, std::size_t i) {
+  const auto row = static_cast<std::size_t>(region.width());
+  const int x = static_cast<int>(i % row);
+  const int y = static_cast<int>(i / row);
+  if (x == 0 || y == 0 || x + 1 == region.width() || y + 1 == region.height()) return false;
+  for (int v = y - 1; v <= y + 1; ++v) {
+    for (int u = x - 1; u <= x + 1; ++u) {
+      if (region(u, v) != region(x, y)) return false;
+    }
+  }
+  return true;
+}
+
+AnchoredPhase with_orders(const RelativePhase& relative, const Orders& orders) {
+  AnchoredPhase out;
+  out.phase = {relative.pattern, relative.phase_rad, relative.sigma_rad, relative.fate};
+  std::vector<LooseRegion> loose(orders.size());
+  const auto labels = relative.region.pixels();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < 0) continue;
+    const auto region = static_cast<std::size_t>(labels[i]);
+    float& phase = out.phase.phase_rad.pixels()[i];
+    float& sigma = out.phase.sigma_rad.pixels()[i];
+    if (orders[region]) {
+      phase = static_cast<float>(phase + kTurn * *orders[region]);
+      continue;
+    }
+    if (is_inner(relative.region, i)) {
+      loose[region].pixel.push_back(static_cast<std::uint32_t>(i));
+      loose[region].phase_rad.push_back(phase);
+      loose[region].sigma_rad.push_back(sigma);
+    }
+    phase = kMissing;
+    sigma = kMissing;
+    out.phase.fate.pixels()[i] = PixelFate::Unanchored;
+  }
+  for (LooseRegion& region : loose) {
+    if (!region.pixel.empty()) out.loose.push_back(std::move(region));
+  }
+  return out;
+}
+
+struct Crossing {
+  int region;
+  double fringes;  ///< to add, not yet whole
+};
+
+/// The relative phase under a sub-pixel place, from two measured pixels of one region.
+std::optional<Crossing> cross(const RelativePhase& phase,
+                              const ProfilePoint& point,
+                              const Projector& projector) {
+  const double expected = phase_at(point.point_mm, phase.pattern, projector);
+  if (std::isnan(expected)) return {};
+  const int x = static_cast<int>(std::floor(point.pixel.x()));
+  const int y = static_cast<int>(std::floor(point.pixel.y()));
+  const double fx = point.pixel.x() - x;
+  const double fy = point.pixel.y() - y;
+  const int u = fx > 0.0 ? x + 1 : x;
+  const int v = fy > 0.0 ? y + 1 : y;
+  if (x < 0 || y < 0 || u >= phase.region.width() || v >= phase.region.height()) return {};
+  const int region = phase.region(x, y);
+  if (region < 0 || phase.region(u, v) != region) return {};
+  // The line runs along one axis of the scan, so one of fx and fy is zero.
+  const double share = fx + fy;
+  const double here = (1.0 - share) * phase.phase_rad(x, y) + share * phase.phase_rad(u, v);
+  return Crossing{region, (expected - here) / kTurn};
+}
+
+std::optional<int> vote(const std::vector<double>& fringes, const AnchorOptions& options) {
+  if (fringes.size() < static_cast<std::size_t>(options.min_crossings)) return {};
+  std::map<int, int> votes;
+  for (const double value : fringes)
+    ++votes[static_cast<int>(std::lround(value))];
+  const auto winner = std::max_element(
+      votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (winner->second < options.min_agreement * static_cast<double>(fringes.size())) return {};
+  std::vector<double> departures;
+  for (const double value : fringes)
+    departures.push_back(std::abs(value - winner->first));
+  const auto middle = departures.begin() + static_cast<std::ptrdiff_t>(departures.size() / 2);
+  std::nth_element(departures.begin(), middle, departures.end());
+  if (*middle > options.max_departure) return {};
+  return winner->first;
+}
+
+}  // namespace
+
+AnchoredPhase anchor_by_line(const RelativePhase& phase,
+                             const std::vector<ProfilePoint>& profile,
+                             const Projector& projector,
+                             const AnchorOptions& options) {
+  std::vector<std::vector<double>> fringes(static_cast<std::size_t>(phase.region_count));
+  for (const ProfilePoint& point : profile) {
+    if (const auto crossing = cross(phase, point, projector)) {
+      fringes[static_cast<std::size_t>(crossing->region)].push_back(crossing->fringes);
+    }
+  }
+  Orders orders;
+  for (const auto& asked : fringes)
+    orders.push_back(vote(asked, options));
+  return with_orders(phase, orders);
+}
+
+AnchoredPhase anchor_by_distance(const RelativePhase& phase,
+                                 const Rig& rig,
+                                 const Image<Eigen::Vector2f>& rays,
+                                 double distance_mm) {
+  std::vector<std::vector<double>> fringes(static_cast<std::size_t>(phase.region_count));
+  const auto labels = phase.region.pixels();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < 0) continue;
+    const Eigen::Vector2f ray = rays.pixels()[i];
+    const Eigen::Vector3d there = distance_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
+    const double expected = phase_at(there, phase.pattern, rig.projector);
+    if (std::isnan(expected)) continue;
+    fringes[static_cast<std::size_t>(labels[i])].push_back(
+        (expected - phase.phase_rad.pixels()[i]) / kTurn);
+  }
+  Orders orders;
+  for (auto& asked : fringes) {
+    orders.emplace_back();
+    if (asked.empty()) continue;
+    const auto middle = asked.begin() + static_cast<std::ptrdiff_t>(asked.size() / 2);
+    std::nth_element(asked.begin(), middle, asked.end());
+    orders.back() = static_cast<int>(std::lround(*middle));
+  }
+  return with_orders(phase, orders);
+}
+
+}  // namespace frangia

@@ -1,0 +1,114 @@
+#include "frangia/range/drop_mixed_edges.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+
+namespace frangia {
+namespace {
+
+struct Grid {
+  const RangeGrid& range;
+  const Image<Eigen::Vector2f>& rays;
+  float max_slope;  ///< depth for each unit across
+
+  /// Whether a continuous surface can run from one pixel to its neighbour.
+  [[nodiscard]] bool connected(int x, int y, int u, int v) const {
+    const float a = range.depth_mm(x, y);
+    const float b = range.depth_mm(u, v);
+    const float across = (rays(x, y) - rays(u, v)).norm() * 0.5F * (a + b);
+    const float noise = std::hypot(range.sigma_mm(x, y), range.sigma_mm(u, v));
+    return std::abs(a - b) <= max_slope * across + 4.0F * noise;  // false for NaN
+  }
+};
+
+bool at_depth_step(const Grid& grid, int x, int y) {
+  const auto& depth = grid.range.depth_mm;
+  for (int v = std::max(0, y - 1); v <= std::min(depth.height() - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(depth.width() - 1, x + 1); ++u) {
+      if (!std::isnan(depth(u, v)) && !grid.connected(x, y, u, v)) return true;
+    }
+  }
+  return false;
+}
+
+/// Three dark neighbours make a border; fewer are specks.
+bool at_silhouette(const Image<PixelFate>& fate, int x, int y) {
+  int dark = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(fate.height() - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(fate.width() - 1, x + 1); ++u)
+      dark += fate(u, v) == PixelFate::Unmodulated ? 1 : 0;
+  }
+  return dark >= 3;
+}
+
+struct Pixel {
+  int x;
+  int y;
+};
+
+/// Marks the pixels of patches with fewer than `min_px`.
+void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& drop) {
+  const auto& depth = grid.range.depth_mm;
+  Image<std::uint8_t> seen = drop;
+  std::vector<Pixel> patch;
+  for (int y = 0; y < depth.height(); ++y) {
+    for (int x = 0; x < depth.width(); ++x) {
+      if (seen(x, y) != 0 || std::isnan(depth(x, y))) continue;
+      patch.assign(1, {x, y});
+      seen(x, y) = 1;
+      for (std::size_t head = 0; head < patch.size(); ++head) {
+        const Pixel p = patch[head];
+        const auto visit = [&](int u, int v) {
+          if (u < 0 || v < 0 || u >= depth.width() || v >= depth.height()) return;
+          if (seen(u, v) != 0 || !grid.connected(p.x, p.y, u, v)) return;
+          seen(u, v) = 1;
+          patch.push_back({u, v});
+        };
+        visit(p.x - 1, p.y);
+        visit(p.x + 1, p.y);
+        visit(p.x, p.y - 1);
+        visit(p.x, p.y + 1);
+      }
+      if (patch.size() >= static_cast<std::size_t>(min_px)) continue;
+      for (const Pixel& p : patch)
+        drop(p.x, p.y) = 1;
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t drop_mixed_edges(RangeGrid& range,
+                             const Image<Eigen::Vector2f>& rays,
+                             Image<PixelFate>& fate,
+                             const EdgeOptions& options) {
+  require(same_size(range.depth_mm, rays) && same_size(range.depth_mm, fate),
+          "drop_mixed_edges: range, rays and fate differ in size");
+  const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
+  const Grid grid{range, rays, slope};
+  Image<std::uint8_t> drop(rays.width(), rays.height(), 0);
+  parallel_rows(rays.height(), [&](int y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      if (std::isnan(range.depth_mm(x, y))) continue;
+      drop(x, y) = at_depth_step(grid, x, y) || at_silhouette(fate, x, y) ? 1 : 0;
+    }
+  });
+  mark_small_patches(grid, options.min_patch_px, drop);
+  std::size_t dropped = 0;
+  for (std::size_t i = 0; i < drop.pixels().size(); ++i) {
+    if (drop.pixels()[i] == 0) continue;
+    range.depth_mm.pixels()[i] = kMissing;
+    range.sigma_mm.pixels()[i] = kMissing;
+    fate.pixels()[i] = PixelFate::MixedEdge;
+    ++dropped;
+  }
+  return dropped;
+}
+
+}  // namespace frangia

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// One place where the plane of light meets the object.
+struct ProfilePoint {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< sub-pixel
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< rig frame
+  double sigma_px = 0.0;                               ///< of the centre, across the line
+};
+
+struct LineOptions {
+  double min_sigmas =
+      6.0;                 ///< a peak stands out from its surroundings by this many sigmas of noise
+  int half_width_px = 12;  ///< how far around a peak belongs to it, at most
+};
+
+/// The object's profile in the plane of light: the centre of each bright crossing of each row (or
+/// column, where the line runs across the image), triangulated with the plane.
+///
+/// units    px and mm, rig frame
+/// missing  a row without a crossing, or whose peak is saturated flat over more than 3 pixels
+/// errors   Error(Input) when the rig has no plane of light
+/// source   centre of gravity above the surroundings, Fisher & Naidu 1996
+[[nodiscard]] std::vector<ProfilePoint> line_profile(const FrameStack& line,
+                                                     const Rig& rig,
+                                                     const NoiseModel& noise,
+                                                     const LineOptions& options = {});
+
+}  // namespace frangia

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/phase/phase_map.h"
+#include "frangia/range/range_grid.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// Where each camera ray meets the light of its phase.
+///
+/// shape    w x h in and out; `rays` from `rays_of(rig.camera.lens)`
+/// units    mm, rig frame; sigma along the viewing ray
+/// missing  a pixel without a phase, or whose phase the projector does not show in front of the
+///          camera, has no depth; the latter is marked OutOfField in `phase`
+/// errors   Error(Input) when the phase and the rays differ in size
+/// source   the paper's equations (5) to (8)
+[[nodiscard]] RangeGrid triangulate(AbsolutePhase& phase,
+                                    const Rig& rig,
+                                    const Image<Eigen::Vector2f>& rays);
+
+}  // namespace frangia

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "frangia/pattern/pattern.h"
+#include "frangia/rig/projector.h"
+
+namespace frangia {
+
+/// The absolute phases that a pattern has over the lit field.
+struct PhaseRange {
+  double min_rad = 0.0;
+  double max_rad = 0.0;
+  [[nodiscard]] double width_rad() const { return max_rad - min_rad; }
+  [[nodiscard]] double centre_rad() const { return 0.5 * (min_rad + max_rad); }
+};
+
+[[nodiscard]] PhaseRange phase_range(const Pattern& pattern, const Projector& projector);
+
+/// Whether the whole field holds one fringe or less, so that the wrapped phase is the absolute one.
+[[nodiscard]] bool is_absolute(const Pattern& pattern, const Projector& projector);
+
+}  // namespace frangia

@@ -1,0 +1,85 @@
+#include "frangia/scan/decode_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "frangia/phase/estimate_noise.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/rig/phase_range.h"
+
+namespace frangia {
+namespace {
+
+/// The fringe patterns that number the projector's columns (or its rows, when there are only
+/// those), coarse to fine.
+std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks) {
+  std::vector<const FrameStack*> fringes;
+  for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
+    for (const FrameStack& stack : stacks) {
+      if (stack.pattern.kind == PatternKind::Fringe && stack.pattern.direction == direction) {
+        fringes.push_back(&stack);
+      }
+    }
+    if (!fringes.empty()) break;
+  }
+  require(!fringes.empty(), "scan.toml has no pattern of kind \"fringe\"; nothing can be measured");
+  std::stable_sort(fringes.begin(), fringes.end(), [](const auto* a, const auto* b) {
+    return a->pattern.fringes_per_unit() < b->pattern.fringes_per_unit();
+  });
+  return fringes;
+}
+
+const FrameStack* line_of(std::span<const FrameStack> stacks) {
+  const auto found = std::find_if(stacks.begin(), stacks.end(), [](const FrameStack& stack) {
+    return stack.pattern.kind == PatternKind::Line;
+  });
+  return found == stacks.end() ? nullptr : &*found;
+}
+
+/// Distance at which the camera's axis meets the middle of the lit field: the paper's x0.
+double crossing_distance(const Pattern& pattern, const Rig& rig) {
+  const double middle = phase_range(pattern, rig.projector).centre_rad();
+  return intersect({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
+}
+
+}  // namespace
+
+bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
+  return std::any_of(patterns.begin(), patterns.end(), [&](const Pattern& pattern) {
+    return pattern.kind == PatternKind::Line || is_absolute(pattern, projector);
+  });
+}
+
+DecodedView decode_view(std::span<const FrameStack> stacks,
+                        const Rig& rig,
+                        const Image<Eigen::Vector2f>& rays,
+                        const DecodeOptions& options,
+                        const Run& run) {
+  DecodedView out;
+  const auto fringes = fringes_of(stacks);
+  out.noise = rig.camera.noise ? *rig.camera.noise : estimate_noise(stacks);
+  for (const FrameStack* stack : fringes) {
+    run.check();
+    const PhaseAlgorithm algorithm = choose_algorithm(options.algorithm, stack->pattern);
+    out.wrapped.push_back(wrap_phase(*stack, algorithm, out.noise, options.wrap));
+  }
+  if (is_absolute(out.wrapped.front().pattern, rig.projector)) {
+    out.phase = unwrap_in_time(out.wrapped, rig.projector, options.in_time);
+  } else {
+    out.relative = unwrap_in_space(out.wrapped.front(), options.in_space);
+    const FrameStack* line = line_of(stacks);
+    if (line != nullptr) out.profile = line_profile(*line, rig, out.noise, options.line);
+    AnchoredPhase anchored =
+        line != nullptr
+            ? anchor_by_line(*out.relative, out.profile, rig.projector, options.anchor)
+            : anchor_by_distance(
+                  *out.relative, rig, rays, crossing_distance(out.relative->pattern, rig));
+    const auto finer = std::span(out.wrapped).subspan(1);
+    out.phase = lift_in_time(std::move(anchored.phase), finer, options.in_time);
+    out.loose = std::move(anchored.loose);
+  }
+  fill_enclosed(out.phase, options.fill);
+  return out;
+}
+
+}  // namespace frangia

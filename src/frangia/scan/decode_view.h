@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/core/run.h"
+#include "frangia/frames/frame_stack.h"
+#include "frangia/phase/fill_enclosed.h"
+#include "frangia/phase/phase_map.h"
+#include "frangia/phase/unwrap_in_space.h"
+#include "frangia/phase/unwrap_in_time.h"
+#include "frangia/phase/wrap_phase.h"
+#include "frangia/range/anchor_phase.h"
+#include "frangia/range/line_profile.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+struct DecodeOptions {
+  std::string algorithm = "auto";  ///< see `choose_algorithm`
+  WrapOptions wrap;
+  TimeUnwrapOptions in_time;
+  SpaceUnwrapOptions in_space;
+  LineOptions line;
+  AnchorOptions anchor;
+  FillOptions fill;
+};
+
+/// Everything that the frames of one view say about its phase, stage by stage.
+struct DecodedView {
+  NoiseModel noise;
+  std::vector<WrappedPhase> wrapped;      ///< coarse to fine
+  std::optional<RelativePhase> relative;  ///< of a scan that is unwrapped in space
+  std::vector<ProfilePoint> profile;      ///< of a scan with the plane of light
+  AbsolutePhase phase;                    ///< of the finest fringes
+  std::vector<LooseRegion> loose;         ///< regions whose fringe is not known yet
+};
+
+/// Frames to absolute phase: unwrapped in time from an absolute pattern where there is one, else in
+/// space, the whole number of fringes from the plane of light, or, with neither, from where the
+/// axes of camera and projector come together.
+///
+/// errors   Error(Input) when no pattern holds fringes
+[[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
+                                      const Rig& rig,
+                                      const Image<Eigen::Vector2f>& rays,
+                                      const DecodeOptions& options = {},
+                                      const Run& run = {});
+
+/// Whether the scan's phase can be told from its patterns alone: it holds an absolute pattern or
+/// the plane of light. If not, a reconstruction is relative to the fringe through the projection
+/// axis.
+[[nodiscard]] bool has_absolute_phase(std::span<const Pattern> patterns,
+                                      const Projector& projector);
+
+}  // namespace frangia

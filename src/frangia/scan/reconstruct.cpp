@@ -1,0 +1,93 @@
+#include "frangia/scan/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/range/triangulate.h"
+#include "frangia/views/view_store.h"
+
+namespace frangia {
+namespace {
+
+std::size_t count_points(const RangeGrid& range) {
+  const auto depth = range.depth_mm.pixels();
+  return static_cast<std::size_t>(
+      std::count_if(depth.begin(), depth.end(), [](float z) { return !std::isnan(z); }));
+}
+
+double share(const Image<PixelFate>& fate, PixelFate which) {
+  const auto count = std::count(fate.pixels().begin(), fate.pixels().end(), which);
+  return 100.0 * static_cast<double>(count) / static_cast<double>(fate.pixels().size());
+}
+
+std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelFate>& fate) {
+  return fmt::format(
+      "{}: no point was measured, and the view is left out: {:.1f} % of its pixels are unmodulated "
+      "and {:.1f} % saturated; check light and exposure",
+      (scan.folder / scan.views[view].folder).string(),
+      share(fate, PixelFate::Unmodulated),
+      share(fate, PixelFate::Saturated));
+}
+
+}  // namespace
+
+Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
+  if (!has_absolute_phase(scan.patterns, scan.rig.projector)) {
+    run.warn(
+        "the scan holds neither an absolute pattern nor the plane of light: distances are relative "
+        "to the fringe through the projection axis");
+  }
+  Reconstruction out;
+  ViewStore views;
+  std::vector<LoosePart> loose;
+  Pattern loose_pattern;
+  const auto rays = rays_of(scan.rig.camera.lens);
+
+  for (std::size_t i = 0; i < scan.views.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
+    run.stage("frames");
+    const auto frames = read_frames(scan, i, run);
+    run.stage("phase");
+    DecodedView decoded = decode_view(frames, scan.rig, rays, options.decode, run);
+    run.stage("range");
+    RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
+    drop_mixed_edges(range, rays, decoded.phase.fate, options.edges);
+
+    const std::size_t points = count_points(range);
+    if (points == 0 && decoded.loose.empty()) {
+      run.warn(why_empty(scan, i, decoded.phase.fate));
+      continue;
+    }
+    for (LooseRegion& region : decoded.loose)
+      loose.push_back({views.size(), std::move(region)});
+    loose_pattern = decoded.wrapped.front().pattern;
+    views.add({std::move(range), scan.rig.rig_from_object(scan.views[i].angle_rad)});
+    out.points += points;
+  }
+
+  run.stage("views");
+  const auto anchored =
+      anchor_by_views(views, loose, loose_pattern, scan.rig, rays, options.anchor_by_views, run);
+  out.points += anchored.anchored_points;
+  if (anchored.dropped_points > 0) {
+    run.warn(
+        fmt::format("{} points lie in regions whose fringe neither the plane of light nor "
+                    "another view tells, and are dropped",
+                    anchored.dropped_points));
+  }
+  out.views = views.size();
+  if (out.points == 0) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: no view has a lit pixel; check light, exposure and white_level",
+                            scan.folder.string()));
+  }
+  run.stage("surface");
+  out.mesh = paste_views(views, scan.rig.camera.lens, options.paste, run);
+  return out;
+}
+
+}  // namespace frangia
