@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 namespace frangia {
 
 std::vector<Eigen::Vector3f> vertex_normals(const Mesh& mesh) {

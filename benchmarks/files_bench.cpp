@@ -1,0 +1,59 @@
+#include <filesystem>
+#include <string>
+
+#include <benchmark/benchmark.h>
+#include <unistd.h>
+
+#include "frangia/files/read_mesh.h"
+#include "frangia/files/write_mesh.h"
+
+#include "files/sample_meshes.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::uint32_t kSide = 708;  // a million triangles
+
+std::filesystem::path scratch(const std::string& ending) {
+  const std::string name = "frangia-bench-" + std::to_string(::getpid()) + ending;
+  return std::filesystem::temp_directory_path() / name;
+}
+
+/// A million triangles to the disk; the rate is triangles per second.
+void write_million(benchmark::State& state, const std::string& ending, DxfVariant variant) {
+  const Mesh mesh = testing::measured_sheet(kSide);
+  const auto path = scratch(ending);
+  for (auto iteration : state) {
+    static_cast<void>(iteration);
+    write_mesh(path, mesh, {.dxf = {variant}});
+  }
+  state.SetItemsProcessed(state.iterations() * std::ssize(mesh.triangles));
+  state.counters["bytes"] = static_cast<double>(std::filesystem::file_size(path));
+  std::filesystem::remove(path);
+}
+BENCHMARK_CAPTURE(write_million, dxf_faces, ".dxf", DxfVariant::Faces)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_million, dxf_polyface, ".dxf", DxfVariant::Polyface)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_million, stl, ".stl", DxfVariant::Faces)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_million, ply, ".ply", DxfVariant::Faces)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_million, obj, ".obj", DxfVariant::Faces)->Unit(benchmark::kMillisecond);
+
+/// A million triangles from the disk.
+void read_million(benchmark::State& state, const std::string& ending) {
+  const Mesh mesh = testing::measured_sheet(kSide);
+  const auto path = scratch(ending);
+  write_mesh(path, mesh);
+  for (auto iteration : state) {
+    static_cast<void>(iteration);
+    benchmark::DoNotOptimize(read_mesh(path));
+  }
+  state.SetItemsProcessed(state.iterations() * std::ssize(mesh.triangles));
+  std::filesystem::remove(path);
+}
+BENCHMARK_CAPTURE(read_million, stl, ".stl")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_million, ply, ".ply")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(read_million, obj, ".obj")->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace frangia

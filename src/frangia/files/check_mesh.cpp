@@ -1,0 +1,64 @@
+#include "frangia/files/check_mesh.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
+}
+
+void check_finite(const std::vector<Eigen::Vector3f>& vectors,
+                  const char* what,
+                  const std::filesystem::path& path) {
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    const Eigen::Vector3f& v = vectors[i];
+    if (v.allFinite()) continue;
+    fail(path,
+         fmt::format("{} {} (counted from 0) is {} {} {}, which is no place; remove it",
+                     what,
+                     i,
+                     v.x(),
+                     v.y(),
+                     v.z()));
+  }
+}
+
+}  // namespace
+
+void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
+  const std::size_t count = mesh.vertices_mm.size();
+  check_finite(mesh.vertices_mm, "vertex", path);
+  check_finite(mesh.normals, "normal", path);
+  if (!mesh.normals.empty() && mesh.normals.size() != count) {
+    fail(path, fmt::format("{} normals for {} vertices", mesh.normals.size(), count));
+  }
+  if (!mesh.sigma_mm.empty() && mesh.sigma_mm.size() != count) {
+    fail(path, fmt::format("{} values of sigma_mm for {} vertices", mesh.sigma_mm.size(), count));
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t corner : mesh.triangles[i]) {
+      if (corner < count) continue;
+      fail(path,
+           fmt::format("triangle {} refers to vertex {}, counted from 0, of only {}; "
+                       "the mesh is damaged, export it again",
+                       i,
+                       corner,
+                       count));
+    }
+  }
+}
+
+void check_triangles(const Mesh& mesh, const std::filesystem::path& path) {
+  check_mesh(mesh, path);
+  if (!mesh.triangles.empty()) return;
+  fail(path, "there is no triangle to write; points alone can be written as .ply or .obj");
+}
+
+}  // namespace frangia

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+#include "frangia/surface/mesh.h"
+
+namespace frangia {
+
+/// An STL file, binary or ascii: its size says which.
+///
+/// shape    corners at the same place become one vertex; the file's normals are not kept
+/// units    as in the file, taken for mm
+/// missing  a triangle with two corners at one place is left out
+/// errors   Error(Input) that names the file and what is wrong with it: cut short, a count that
+/// does
+///          not fit its size, a corner that is not finite
+/// source   3D Systems, Stereolithography Interface Specification, 1989
+[[nodiscard]] Mesh read_stl(const std::filesystem::path& path);
+
+/// Binary, each triangle with its own normal.
+///
+/// units    mm
+/// errors   Error(Input) when the mesh is not whole or has no triangle; Error(File) when it cannot
+///          be written
+void write_stl(const std::filesystem::path& path, const Mesh& mesh);
+
+}  // namespace frangia

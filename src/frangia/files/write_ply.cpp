@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include "frangia/files/check_mesh.h"
+#include "frangia/files/file_writer.h"
+#include "frangia/files/ply.h"
+
+namespace frangia {
+namespace {
+
+void write_header(FileWriter& file, const Mesh& mesh) {
+  file.text("ply\nformat binary_little_endian 1.0\ncomment Frangia; lengths in mm\n");
+  file.text(fmt::format("element vertex {}\n", mesh.vertices_mm.size()));
+  file.text("property float x\nproperty float y\nproperty float z\n");
+  if (!mesh.normals.empty()) {
+    file.text("property float nx\nproperty float ny\nproperty float nz\n");
+  }
+  if (!mesh.sigma_mm.empty()) file.text("property float sigma_mm\n");
+  file.text(fmt::format("element face {}\n", mesh.triangles.size()));
+  file.text("property list uchar int vertex_indices\nend_header\n");
+}
+
+}  // namespace
+
+void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+  check_mesh(mesh, path);
+  FileWriter file(path);
+  write_header(file, mesh);
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    for (const float coordinate : mesh.vertices_mm[i])
+      file.binary(coordinate);
+    if (!mesh.normals.empty())
+      for (const float coordinate : mesh.normals[i])
+        file.binary(coordinate);
+    if (!mesh.sigma_mm.empty()) file.binary(mesh.sigma_mm[i]);
+  }
+  for (const Mesh::Triangle& triangle : mesh.triangles) {
+    file.binary(std::uint8_t{3});
+    for (const std::uint32_t corner : triangle)
+      file.binary(corner);
+  }
+  file.commit();
+}
+
+}  // namespace frangia

@@ -1,0 +1,29 @@
+"""Reads and audits a DXF with ezdxf and prints the number of its faces, their extents, and those its
+header claims: "FACES LOW HIGH LOW HIGH", each three numbers. Fails when the audit finds anything."""
+import sys
+
+import ezdxf
+
+document = ezdxf.readfile(sys.argv[1])
+auditor = document.audit()
+complaints = auditor.errors + auditor.fixes
+for complaint in complaints:
+    print(complaint.message, file=sys.stderr)
+
+faces, corners = 0, []
+for entity in document.modelspace():
+    if entity.dxf.layer != "SCAN":
+        sys.exit(f"an entity is on layer {entity.dxf.layer}")
+    if entity.dxftype() == "3DFACE":
+        faces += 1
+        corners += entity.wcs_vertices()
+    else:
+        for face in entity.faces():  # the last vertex is the face's own record
+            faces += 1
+            corners += [vertex.dxf.location for vertex in face[:-1]]
+
+low = [min(corner[axis] for corner in corners) for axis in range(3)]
+high = [max(corner[axis] for corner in corners) for axis in range(3)]
+claimed = [*document.header["$EXTMIN"], *document.header["$EXTMAX"]]
+print(faces, *(f"{number:.4f}" for number in [*low, *high, *claimed]))
+sys.exit(bool(complaints))

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include <sys/wait.h>
+
+namespace frangia::testing {
+
+/// What a program printed, and whether it was content.
+struct Answer {
+  bool content = false;
+  std::string text;
+};
+
+inline Answer ask(const std::string& command) {
+  Answer answer;
+  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> piece{};
+  while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), pipe))
+    answer.text.append(piece.data(), got);
+  answer.content = ::pclose(pipe) == 0;
+  return answer;
+}
+
+inline bool have_ezdxf() {
+  return ask("/usr/bin/python3 -c 'import ezdxf'").content;
+}
+inline bool have_assimp() {
+  return ask("assimp version").content;
+}
+
+inline Answer ask_ezdxf(const std::filesystem::path& dxf) {
+  return ask("/usr/bin/python3 " FRANGIA_SOURCE_DIR "/tests/files/judge_ezdxf.py " + dxf.string());
+}
+inline Answer ask_libdime(const std::filesystem::path& dxf) {
+  return ask(FRANGIA_JUDGE_LIBDIME " " + dxf.string());
+}
+
+/// The faces that assimp finds in a file; -1 when it does not like it.
+inline int assimp_faces(const std::filesystem::path& path) {
+  const Answer answer = ask("assimp info " + path.string());
+  const std::size_t line = answer.text.find("\nFaces:");
+  if (!answer.content || line == std::string::npos) return -1;
+  return std::stoi(answer.text.substr(line + 7));
+}
+
+}  // namespace frangia::testing

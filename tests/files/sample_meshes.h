@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/surface/mesh.h"
+
+namespace frangia::testing {
+
+/// A rolling sheet of side x side vertices, 2 (side - 1)^2 triangles, with coordinates of all
+/// digits.
+inline Mesh sheet(std::uint32_t side) {
+  Mesh mesh;
+  for (std::uint32_t y = 0; y < side; ++y) {
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const float u = static_cast<float>(x) / 7.0F;
+      const float v = static_cast<float>(y) / 11.0F;
+      mesh.vertices_mm.emplace_back(u - 1.0F, v, std::sin(u) * std::cos(v) / 3.0F);
+    }
+  }
+  for (std::uint32_t i = 0; i + side < side * side; ++i) {
+    if (i % side + 1 == side) continue;
+    mesh.triangles.push_back({i, i + 1, i + side});
+    mesh.triangles.push_back({i + 1, i + side + 1, i + side});
+  }
+  return mesh;
+}
+
+/// The same with normals and sigma.
+inline Mesh measured_sheet(std::uint32_t side) {
+  Mesh mesh = sheet(side);
+  mesh.normals = vertex_normals(mesh);
+  for (const auto& vertex : mesh.vertices_mm)
+    mesh.sigma_mm.push_back(0.01F + std::abs(vertex.z()) / 100.0F);
+  return mesh;
+}
+
+inline void expect_same_surface(const Mesh& a, const Mesh& b) {
+  EXPECT_EQ(a.vertices_mm, b.vertices_mm);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+/// The sentence of the Error that `work` throws; empty, and a failed test, when it throws none.
+template <typename Work>
+std::string error_of(Work&& work) {
+  try {
+    static_cast<void>(work());
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no Error was thrown";
+  return {};
+}
+
+}  // namespace frangia::testing

@@ -1,0 +1,59 @@
+#include "frangia/files/text_reader.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "files/sample_meshes.h"
+
+namespace frangia {
+namespace {
+
+TEST(TextReader, ReadsNumbersAsPeopleAndProgramsWriteThem) {
+  EXPECT_EQ(real_of("+1.5e+01"), 15.0F);
+  EXPECT_EQ(real_of("-.5"), -0.5F);
+  EXPECT_EQ(real_of("1e-60"), 0.0F);
+  EXPECT_TRUE(std::isinf(real_of("1e60").value()));
+  EXPECT_TRUE(std::isnan(real_of("nan").value()));
+  EXPECT_EQ(integer_of("+7"), 7);
+}
+
+TEST(TextReader, ReadsEveryFloatBackFromItsShortestDigits) {
+  EXPECT_TRUE(rc::check([](std::uint32_t bits) {
+    const auto number = std::bit_cast<float>(bits);
+    std::array<char, 32> text{};
+    const auto* end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+    const std::optional<float> back =
+        real_of({text.data(), static_cast<std::size_t>(end - text.data())});
+    RC_ASSERT(back && (*back == number || std::isnan(number)));
+  }));
+}
+
+TEST(TextReader, RefusesWordsThatOnlyBeginAsNumbers) {
+  for (const char* word : {"", "+", "+-1", "1,5", "1.5mm", "0x10", "one"})
+    EXPECT_FALSE(real_of(word)) << word;
+  for (const char* word : {"", "1.0", "99999999999999999999"})
+    EXPECT_FALSE(integer_of(word)) << word;
+}
+
+TEST(TextReader, EndsALineOnlyWhereItEnds) {
+  TextReader reader("a.txt", "one  two\r\n\n three");
+  EXPECT_EQ(reader.word_on_line(), "one");
+  EXPECT_EQ(reader.word_on_line(), "two");
+  EXPECT_EQ(reader.word_on_line(), "");
+  EXPECT_EQ(reader.word(), "three");
+  EXPECT_EQ(reader.word(), "");
+}
+
+TEST(TextReader, ShowsNothingThatATerminalWouldObey) {
+  TextReader reader("a.txt", "\n\x1b[2Jabcdefghijklmnopqrstuvwxyz 1");
+  EXPECT_EQ(testing::error_of([&] { return reader.real(); }),
+            "a.txt, line 2: '?[2Jabcdefghijklmnopqrst...' is not a number");
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,88 @@
+#include "frangia/files/write_mesh.h"
+
+#include <limits>
+#include <string>
+
+#include "files/in_a_folder.h"
+#include "files/judges.h"
+#include "files/sample_meshes.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+
+class WriteMesh : public testing::InAFolder {
+ protected:
+  static constexpr std::array kNames{"part.dxf", "part.stl", "part.ply", "part.obj"};
+  [[nodiscard]] std::string error_writing(const std::string& name, const Mesh& mesh) const {
+    return error_of([&] { return write_mesh(at(name), mesh), 0; });
+  }
+};
+
+TEST_F(WriteMesh, IsReadByAssimpWithAllFacesInEveryFormat) {
+  if (!testing::have_assimp()) GTEST_SKIP() << "assimp is missing; ./run setup installs it";
+  const Mesh mesh = testing::measured_sheet(30);
+  const int faces = 2 * 29 * 29;
+  for (const char* name : kNames) {
+    write_mesh(at(name), mesh);
+    EXPECT_EQ(testing::assimp_faces(at(name)), faces) << name;
+  }
+  write_mesh(at("polyface.dxf"), mesh, {.dxf = {DxfVariant::Polyface}});
+  EXPECT_EQ(testing::assimp_faces(at("polyface.dxf")), faces);
+}
+
+TEST_F(WriteMesh, TakesTheEndingInEitherCase) {
+  write_mesh(at("PART.STL"), testing::sheet(3));
+  EXPECT_EQ(bytes_in("PART.STL").size(), 84U + 8 * 50);
+}
+
+TEST_F(WriteMesh, ListsTheEndingsThatItKnows) {
+  for (const char* name : {"part.step", "part", ".ply"}) {
+    EXPECT_NE(error_writing(name, testing::sheet(3)).find(".dxf, .stl, .ply or .obj"),
+              std::string::npos);
+    EXPECT_THROW(check_mesh_ending(name), Error);
+  }
+  EXPECT_NO_THROW(check_mesh_ending("part.Dxf"));
+  EXPECT_TRUE(folder_is_empty());
+}
+
+TEST_F(WriteMesh, LeavesNothingOfAMeshThatIsNotWhole) {
+  Mesh no_place = testing::sheet(3);
+  no_place.vertices_mm[7].y() = std::numeric_limits<float>::quiet_NaN();
+  Mesh no_vertex = testing::sheet(3);
+  no_vertex.triangles[5][2] = 9;
+  for (const char* name : kNames) {
+    EXPECT_NE(error_writing(name, no_place).find("vertex 7"), std::string::npos) << name;
+    EXPECT_NE(error_writing(name, no_vertex).find("triangle 5 refers to vertex 9"),
+              std::string::npos)
+        << name;
+  }
+  EXPECT_TRUE(folder_is_empty());
+}
+
+TEST_F(WriteMesh, KeepsTheOldFileWhenTheNewOneFails) {
+  Mesh bad = testing::sheet(3);
+  bad.triangles[0][0] = 99;
+  for (const char* name : kNames) {
+    static_cast<void>(put(name, "old"));
+    static_cast<void>(error_writing(name, bad));
+    EXPECT_EQ(bytes_in(name), "old");
+  }
+}
+
+TEST_F(WriteMesh, RefusesPointsAloneWhereTheFormatHoldsTrianglesOnly) {
+  Mesh points;
+  points.vertices_mm = testing::sheet(3).vertices_mm;
+  EXPECT_NE(error_writing("part.dxf", points).find("no triangle"), std::string::npos);
+  EXPECT_NE(error_writing("part.stl", points).find("no triangle"), std::string::npos);
+  EXPECT_NO_THROW(write_mesh(at("part.ply"), points));
+}
+
+TEST_F(WriteMesh, SaysWhenThereIsNoSuchFolder) {
+  EXPECT_NE(error_writing("nowhere/part.ply", testing::sheet(3)).find("nowhere"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia
