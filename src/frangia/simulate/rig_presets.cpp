@@ -40,14 +40,14 @@ LightPlane plane_of_light(const Projector& projector, double angle_rad) {
 
 /// The paper's set-up: the axes of camera and projector cross under theta0 at O, x0 before the
 /// camera.
-Rig paper_rig() {
+Rig paper_rig(double focal_px) {
   constexpr double kX0_mm = 490.0;
   constexpr double kProjectorDistance_mm = 1000.0;
   const double theta0 = rad_from_deg(20.0);
   Rig rig;
   rig.camera.lens = {.width_px = 512,
                      .height_px = 512,
-                     .focal_px = {1000.0, 1000.0},  // 12.5 mm over pixels of 12.5 um
+                     .focal_px = {focal_px, focal_px},
                      .principal_point_px = {255.5, 255.5}};
   rig.projector.model = AngularModel{rad_from_deg(-12.0), rad_from_deg(12.0)};
   rig.projector.position_mm = {kProjectorDistance_mm * std::sin(theta0),
@@ -61,8 +61,13 @@ Rig paper_rig() {
   return rig;
 }
 
+/// 12.5 mm over pixels of 8 um: a field of 160 mm.
+Rig carducci() {
+  return paper_rig(12.5 / 0.008);
+}
+
 Rig angular() {
-  Rig rig = paper_rig();
+  Rig rig = paper_rig(1000.0);
   rig.line = plane_of_light(rig.projector, rad_from_deg(20.5));
   rig.turntable = Turntable{{3.5, 55.0, 496.0}, Eigen::Vector3d(0.008, -1.0, 0.011).normalized()};
   return rig;
@@ -71,7 +76,7 @@ Rig angular() {
 using Maker = Rig (*)();
 
 constexpr std::array<std::pair<std::string_view, Maker>, 3> kRigs{
-    {{"digital", digital}, {"angular", angular}, {"carducci", paper_rig}}};
+    {{"digital", digital}, {"angular", angular}, {"carducci", carducci}}};
 
 }  // namespace
 
