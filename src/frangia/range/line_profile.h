@@ -19,18 +19,24 @@ struct ProfilePoint {
 
 struct LineOptions {
   double min_sigmas =
-      6.0;                 ///< a peak stands out from its surroundings by this many sigmas of noise
-  int half_width_px = 12;  ///< how far around a peak belongs to it, at most
+      6.0;  ///< a peak stands out from its surroundings by this many sigmas of noise
+  double min_contrast = 0.5;  ///< and by this share of the object's glow
+  int half_width_px = 12;     ///< how far around a peak belongs to it, at most
 };
 
 /// The object's profile in the plane of light: the centre of each bright crossing of each row (or
 /// column, where the line runs across the image), triangulated with the plane.
 ///
-/// units    px and mm, rig frame
+/// Light that spills beside the plane, and other light, make the whole object glow, and its edges
+/// look like lines. The fringe frames tell how bright each pixel is: the glow that goes with their
+/// mean is measured over the picture and taken away first.
+///
+/// units    px and mm, rig frame; `lit_counts` the mean of the fringe frames, w x h
 /// missing  a row without a crossing, or whose peak is saturated flat over more than 3 pixels
-/// errors   Error(Input) when the rig has no plane of light
+/// errors   Error(Input) when the rig has no plane of light, or the images differ in size
 /// source   centre of gravity above the surroundings, Fisher & Naidu 1996
 [[nodiscard]] std::vector<ProfilePoint> line_profile(const FrameStack& line,
+                                                     const Image<float>& lit_counts,
                                                      const Rig& rig,
                                                      const NoiseModel& noise,
                                                      const LineOptions& options = {});
