@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
+
+#include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
 namespace {
@@ -18,27 +20,45 @@ constexpr std::size_t kRowSamples = 400'000;  ///< pixels looked at in a stack, 
 
 using Bins = std::array<std::vector<float>, kBins>;
 
+using Weights = std::vector<double>;
+
 /// Combinations of the frames, of unit length, that hold noise only.
-std::vector<Eigen::VectorXd> noise_combinations(const std::vector<double>& shifts_rad) {
-  const auto count = static_cast<Eigen::Index>(shifts_rad.size());
-  Eigen::MatrixXd model(count, 3);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double shift = shifts_rad[static_cast<std::size_t>(k)];
-    model.row(k) << 1.0, std::cos(shift), std::sin(shift);
-  }
-  std::vector<Eigen::VectorXd> combinations;
+std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
+  const std::size_t count = shifts_rad.size();
+  std::vector<Weights> combinations;
   if (count == 3) {
-    for (Eigen::Index k = 0; k < count; ++k)
-      combinations.emplace_back(Eigen::VectorXd::Unit(count, k));
+    for (std::size_t k = 0; k < count; ++k) {
+      combinations.emplace_back(count, 0.0);
+      combinations.back()[k] = 1.0;
+    }
     return combinations;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(model, Eigen::ComputeFullU);
-  combinations.emplace_back(svd.matrixU().col(count - 1));
+  // What is left of one frame when mean, cosine and sine of all are taken out; of the frame of
+  // which most is left.
+  const PhaseAlgorithm fit = least_squares(shifts_rad);
+  Weights best;
+  double best_square = 0.0;
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    Weights left(count);
+    double square = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double model = fit.mean[frame] + fit.cosine[frame] * std::cos(shifts_rad[k]) -
+                           fit.sine[frame] * std::sin(shifts_rad[k]);
+      left[k] = (k == frame ? 1.0 : 0.0) - model;
+      square += left[k] * left[k];
+    }
+    if (square <= best_square) continue;
+    best_square = square;
+    best = left;
+  }
+  for (double& weight : best)
+    weight /= std::sqrt(best_square);
+  combinations.push_back(best);
   return combinations;
 }
 
 /// |second differences| along one row, each in the bin of its brightness.
-void gather_row(const FrameStack& stack, const Eigen::VectorXd& weights, int y, Bins& bins) {
+void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bins) {
   const int width = width_of(stack.frames.front());
   std::vector<double> sum(static_cast<std::size_t>(width), 0.0);
   std::vector<double> mean(sum);
@@ -49,7 +69,7 @@ void gather_row(const FrameStack& stack, const Eigen::VectorXd& weights, int y, 
         [&](const auto& image) {
           for (int x = 0; x < width; ++x) {
             const auto i = static_cast<std::size_t>(x);
-            sum[i] += weights(static_cast<Eigen::Index>(k)) * image(x, y);
+            sum[i] += weights[k] * image(x, y);
             mean[i] += image(x, y) / static_cast<double>(stack.frames.size());
             top[i] = std::max(top[i], static_cast<int>(image(x, y)));
             bottom[i] = std::min(bottom[i], static_cast<int>(image(x, y)));
@@ -99,7 +119,7 @@ NoiseModel estimate_noise(std::span<const FrameStack> stacks) {
     const int width = width_of(stack.frames.front());
     const int stride =
         std::max(1, static_cast<int>(static_cast<double>(width) * height / kRowSamples));
-    for (const Eigen::VectorXd& weights : noise_combinations(stack.pattern.shifts_rad)) {
+    for (const Weights& weights : noise_combinations(stack.pattern.shifts_rad)) {
       for (int y = stride / 2; y < height; y += stride)
         gather_row(stack, weights, y, bins);
     }
@@ -119,7 +139,7 @@ NoiseModel estimate_noise(std::span<const FrameStack> stacks) {
   NoiseModel model;
   if (normal(0, 0) == 0.0) return model;
   Eigen::Vector2d line(right(0) / normal(0, 0), 0.0);
-  if (normal.determinant() > 1e-9 * normal(0, 0) * normal(1, 1)) line = normal.ldlt().solve(right);
+  if (normal.determinant() > 1e-9 * normal(0, 0) * normal(1, 1)) line = normal.inverse() * right;
   if (line(1) < 0.0) line = {right(0) / normal(0, 0), 0.0};
   if (line(0) < model.floor_counts2)
     line = {model.floor_counts2,

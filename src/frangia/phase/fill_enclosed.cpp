@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 namespace frangia {
 namespace {
@@ -77,7 +77,7 @@ Plane fit_plane(const AbsolutePhase& phase, const std::vector<Pixel>& rim) {
     right += row * static_cast<double>(phase.phase_rad(p.x, p.y));
   }
   Plane plane;
-  plane.coefficients = normal.ldlt().solve(right);
+  plane.coefficients = normal.inverse() * right;
   for (const Pixel p : rim) {
     const double error = phase.phase_rad(p.x, p.y) - plane.coefficients.dot(Eigen::Vector3d(
                                                          1.0, p.x - origin.x, p.y - origin.y));

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
@@ -13,6 +14,9 @@ namespace {
 
 /// How far a shift may lie from its place before an algorithm made for equal steps is refused.
 constexpr double kStepTolerance_rad = 1e-3;
+
+/// Below this the shifts are as good as singular: noise would be amplified a thousandfold.
+constexpr double kLeastEigenvalueShare = 1e-6;
 
 /// +1 or -1 for four steps of +90 or -90 degrees, 0 for any others.
 int quarter_step_sign(const std::vector<double>& shifts_rad) {
@@ -52,30 +56,32 @@ double PhaseAlgorithm::noise_gain() const {
 }
 
 PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
-  const auto count = static_cast<Eigen::Index>(shifts_rad.size());
-  if (count < 3) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{} shifts do not determine a phase; give at least 3", count));
+  if (shifts_rad.size() < 3) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{} shifts do not determine a phase; give at least 3", shifts_rad.size()));
   }
-  Eigen::MatrixXd model(count, 3);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double shift = shifts_rad[static_cast<std::size_t>(k)];
-    model.row(k) << 1.0, std::cos(shift), -std::sin(shift);
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(model, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& singular = svd.singularValues();
-  if (!(singular(2) > 1e-3 * singular(0))) {
+  // I = A + B cos(phi) cos(shift) - B sin(phi) sin(shift), in the three unknowns.
+  const auto row = [](double shift) {
+    return Eigen::Vector3d(1.0, std::cos(shift), -std::sin(shift));
+  };
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  for (const double shift : shifts_rad)
+    normal += row(shift) * row(shift).transpose();
+  const Eigen::Vector3d eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(normal).eigenvalues();
+  if (!(eigenvalues(0) > kLeastEigenvalueShare * eigenvalues(2))) {
     throw Error(ErrorKind::Input,
                 "shifts_deg does not determine a phase: at least three shifts must differ, modulo "
                 "360 degrees");
   }
-  const Eigen::MatrixXd inverse =
-      svd.matrixV() * singular.cwiseInverse().asDiagonal() * svd.matrixU().transpose();
-  PhaseAlgorithm algorithm{.name = "least-squares", .sine = {}, .cosine = {}, .mean = {}};
-  for (Eigen::Index k = 0; k < count; ++k) {
-    algorithm.mean.push_back(inverse(0, k));
-    algorithm.cosine.push_back(inverse(1, k));
-    algorithm.sine.push_back(inverse(2, k));
+  const Eigen::Matrix3d inverse = normal.inverse();
+  PhaseAlgorithm algorithm{.name = "least-squares"};
+  for (const double shift : shifts_rad) {
+    const Eigen::Vector3d weights = inverse * row(shift);
+    algorithm.mean.push_back(weights(0));
+    algorithm.cosine.push_back(weights(1));
+    algorithm.sine.push_back(weights(2));
   }
   return algorithm;
 }

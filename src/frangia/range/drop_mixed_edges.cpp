@@ -37,6 +37,27 @@ bool at_depth_step(const Grid& grid, int x, int y) {
   return false;
 }
 
+/// A step too low for `at_depth_step`: how much more the depth changes between (x, y) - d and (x,
+/// y) + d than the surfaces on both sides of it go on to, which a slope or a crease does not. 0
+/// when it is within noise and a few pixels' size.
+float low_step_mm(const Grid& grid, int x, int y, int dx, int dy) {
+  const auto& depth = grid.range.depth_mm;
+  const auto at = [&](int k) {
+    const int u = x + k * dx;
+    const int v = y + k * dy;
+    const bool inside = u >= 0 && v >= 0 && u < depth.width() && v < depth.height();
+    return inside ? depth(u, v) : kMissing;
+  };
+  const float jump = at(1) - at(-1);
+  const float before = at(-1) - at(-3);  // over two pixels, as the jump
+  const float behind = at(3) - at(1);
+  const float expected = 0.5F * (before + behind);
+  const float pixel_mm = (grid.rays(x, y) - grid.rays(x + dx, y + dy)).norm() * at(-1);
+  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump less the expected one
+  const float excess = std::abs(jump - expected);
+  return excess > 4.0F * pixel_mm + 4.0F * noise ? excess : 0.0F;  // 0 for NaN
+}
+
 /// Three dark neighbours make a border; fewer are specks.
 bool at_silhouette(const Image<PixelFate>& fate, int x, int y) {
   int dark = 0;
@@ -82,6 +103,22 @@ void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& drop)
   }
 }
 
+void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
+  const int width = drop.width();
+  const int height = drop.height();
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      for (int k = -1; k <= 1; ++k) {
+        const int u = x + k;
+        const int v = y + k;
+        const bool across = u > 0 && u + 1 < width && low_step_mm(grid, u, y, 1, 0) > 0.0F;
+        const bool down = v > 0 && v + 1 < height && low_step_mm(grid, x, v, 0, 1) > 0.0F;
+        if (across || down) drop(x, y) = 1;
+      }
+    }
+  });
+}
+
 }  // namespace
 
 std::size_t drop_mixed_edges(RangeGrid& range,
@@ -99,10 +136,11 @@ std::size_t drop_mixed_edges(RangeGrid& range,
       drop(x, y) = at_depth_step(grid, x, y) || at_silhouette(fate, x, y) ? 1 : 0;
     }
   });
+  mark_low_steps(grid, drop);
   mark_small_patches(grid, options.min_patch_px, drop);
   std::size_t dropped = 0;
   for (std::size_t i = 0; i < drop.pixels().size(); ++i) {
-    if (drop.pixels()[i] == 0) continue;
+    if (drop.pixels()[i] == 0 || std::isnan(range.depth_mm.pixels()[i])) continue;
     range.depth_mm.pixels()[i] = kMissing;
     range.sigma_mm.pixels()[i] = kMissing;
     fate.pixels()[i] = PixelFate::MixedEdge;

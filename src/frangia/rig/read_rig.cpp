@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -50,9 +50,7 @@ Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
                 "is not a rotation: its rows must be the projector's x, y and z axes, of unit "
                 "length, perpendicular and right-handed");
   }
-  // The nearest exact rotation.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
 }
 
 Lens read_lens(TomlReader& reader) {
