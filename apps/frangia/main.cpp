@@ -54,7 +54,10 @@ int run_program(int argc, char** argv) {
           "cores to use; the result has the same bytes for any number")
       ->check(CLI::Range(1, 1024));
   program.fallthrough();
+  add_demo_verb(program, terminal);
   add_simulate_verb(program, terminal);
+  add_reconstruct_verb(program, terminal);
+  add_decode_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -43,6 +43,7 @@ void gather_row(const FrameStack& stack, const Eigen::VectorXd& weights, int y, 
   std::vector<double> sum(static_cast<std::size_t>(width), 0.0);
   std::vector<double> mean(sum);
   std::vector<int> top(sum.size(), 0);
+  std::vector<int> bottom(sum.size(), stack.white_level);
   for (std::size_t k = 0; k < stack.frames.size(); ++k) {
     std::visit(
         [&](const auto& image) {
@@ -51,12 +52,15 @@ void gather_row(const FrameStack& stack, const Eigen::VectorXd& weights, int y, 
             sum[i] += weights(static_cast<Eigen::Index>(k)) * image(x, y);
             mean[i] += image(x, y) / static_cast<double>(stack.frames.size());
             top[i] = std::max(top[i], static_cast<int>(image(x, y)));
+            bottom[i] = std::min(bottom[i], static_cast<int>(image(x, y)));
           }
         },
         stack.frames[k]);
   }
   for (std::size_t i = 1; i + 1 < sum.size(); ++i) {
     if (std::max({top[i - 1], top[i], top[i + 1]}) >= stack.white_level) continue;
+    // Cut off at black, noise looks smaller than it is.
+    if (std::min({bottom[i - 1], bottom[i], bottom[i + 1]}) <= 0) continue;
     const double difference = (sum[i - 1] - 2.0 * sum[i] + sum[i + 1]) / std::sqrt(6.0);
     const double share = mean[i] / stack.white_level;
     const auto bin = std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(share * kBins));
@@ -64,11 +68,22 @@ void gather_row(const FrameStack& stack, const Eigen::VectorXd& weights, int y, 
   }
 }
 
-/// Variance of Gaussian noise from its absolute values, blind to the few that are no noise.
+/// Variance of Gaussian noise from its absolute values, blind to the few that are no noise. A
+/// median alone would move in steps where the counts are few.
 double robust_variance(std::vector<float>& magnitudes) {
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  const double sigma = *middle / 0.6745;
+  double sigma = std::max(*middle / 0.6745, 0.3);
+  for (int i = 0; i < 3; ++i) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const float magnitude : magnitudes) {
+      if (magnitude > 3.0 * sigma) continue;
+      sum += static_cast<double>(magnitude) * magnitude;
+      count += 1.0;
+    }
+    sigma = std::sqrt(sum / std::max(count, 1.0) / 0.9733);  // what 3 sigmas cut off a Gaussian
+  }
   return sigma * sigma;
 }
 

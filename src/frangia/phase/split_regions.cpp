@@ -94,24 +94,31 @@ Image<std::uint8_t> broken_pixels(const Image<float>& phase, const Regions& regi
   return broken;
 }
 
-/// Measured pixels that are farther than `radius` from any broken one.
-Image<std::uint8_t> core_pixels(const Image<float>& phase,
-                                const Image<std::uint8_t>& broken,
-                                int radius) {
-  Image<std::uint8_t> core(phase.width(), phase.height(), 0);
-  parallel_rows(phase.height(), [&](int y) {
-    for (int x = 0; x < phase.width(); ++x) {
-      bool clear = !std::isnan(phase(x, y));
-      for (int v = std::max(0, y - radius); clear && v <= std::min(phase.height() - 1, y + radius);
-           ++v) {
-        for (int u = std::max(0, x - radius); clear && u <= std::min(phase.width() - 1, x + radius);
-             ++u)
-          clear = broken(u, v) == 0;
-      }
-      core(x, y) = clear ? 1 : 0;
+/// Steps of a chess king from each pixel to the nearest broken one, up to `limit`.
+Image<std::int32_t> distance_to(const Image<std::uint8_t>& broken, int limit) {
+  const int width = broken.width();
+  const int height = broken.height();
+  Image<std::int32_t> distance(width, height, limit);
+  const auto relax = [&](int x, int y, int u, int v) {
+    if (u < 0 || v < 0 || u >= width || v >= height) return;
+    distance(x, y) = std::min(distance(x, y), distance(u, v) + 1);
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (broken(x, y) != 0) distance(x, y) = 0;
+      relax(x, y, x - 1, y);
+      for (int u = x - 1; u <= x + 1; ++u)
+        relax(x, y, u, y - 1);
     }
-  });
-  return core;
+  }
+  for (int y = height - 1; y >= 0; --y) {
+    for (int x = width - 1; x >= 0; --x) {
+      relax(x, y, x + 1, y);
+      for (int u = x - 1; u <= x + 1; ++u)
+        relax(x, y, u, y + 1);
+    }
+  }
+  return distance;
 }
 
 struct Pixel {
@@ -162,9 +169,11 @@ Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options) 
                   .count = 0,
                   .smooth_right = smooth_jumps(phase, 1, 0, options),
                   .smooth_below = smooth_jumps(phase, 0, 1, options)};
-  const auto core = core_pixels(phase, broken_pixels(phase, regions), options.neck_radius_px);
+  const int limit = options.neck_radius_px + 1;
+  const auto distance = distance_to(broken_pixels(phase, regions), limit);
   const auto measured = [&](int x, int y) { return !std::isnan(phase(x, y)); };
-  std::vector<Pixel> front = label_all(regions, [&](int x, int y) { return core(x, y) != 0; });
+  std::vector<Pixel> front =
+      label_all(regions, [&](int x, int y) { return measured(x, y) && distance(x, y) == limit; });
   spread(front, regions, measured);                 // the rims around the cores
   static_cast<void>(label_all(regions, measured));  // what no core reaches
   return regions;

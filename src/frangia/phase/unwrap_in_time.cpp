@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
@@ -10,14 +12,44 @@
 #include "frangia/rig/phase_range.h"
 
 namespace frangia {
+
+double wrong_order_chance(double sigma_rad) {
+  return std::erfc(kPi / (sigma_rad * std::numbers::sqrt2));
+}
+
 namespace {
 
-AbsolutePhase from_single_fringe(const WrappedPhase& level, const Projector& projector) {
+constexpr std::size_t kChunk = 1 << 16;
+
+/// The sigma whose chance of a wrong order is `chance`, by bisection.
+double sigma_of_chance(double chance) {
+  double low = 1e-3;
+  double high = 1e3;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = std::sqrt(low * high);
+    (wrong_order_chance(middle) > chance ? high : low) = middle;
+  }
+  return low;
+}
+
+/// A phase near the ends of the fringe may have slipped over to the other end by noise: doubtful.
+AbsolutePhase from_single_fringe(const WrappedPhase& level,
+                                 const Projector& projector,
+                                 double sigmas_of_chance) {
   AbsolutePhase out{level.pattern, level.phase_rad, level.sigma_rad, level.fate};
   const double centre = phase_range(level.pattern, projector).centre_rad();
-  for (float& phase : out.phase_rad.pixels()) {
-    if (!std::isnan(phase)) phase = static_cast<float>(centre + wrap_rad(phase - centre));
-  }
+  parallel_chunks(out.fate.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (out.fate.pixels()[i] != PixelFate::Measured) continue;
+      float& phase = out.phase_rad.pixels()[i];
+      float& sigma = out.sigma_rad.pixels()[i];
+      const double from_centre = wrap_rad(phase - centre);
+      phase = static_cast<float>(centre + from_centre);
+      if (kPi - std::abs(from_centre) > sigmas_of_chance * sigma) continue;
+      out.fate.pixels()[i] = PixelFate::Doubtful;
+      phase = sigma = kMissing;
+    }
+  });
   return out;
 }
 
@@ -75,22 +107,7 @@ void lift_row(const AbsolutePhase& coarse, double max_sigma, int y, AbsolutePhas
   }
 }
 
-/// The sigma whose chance of a wrong order is `chance`, by bisection.
-double sigma_of_chance(double chance) {
-  double low = 1e-3;
-  double high = 1e3;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = std::sqrt(low * high);
-    (wrong_order_chance(middle) > chance ? high : low) = middle;
-  }
-  return low;
-}
-
 }  // namespace
-
-double wrong_order_chance(double sigma_rad) {
-  return std::erfc(kPi / (sigma_rad * std::numbers::sqrt2));
-}
 
 AbsolutePhase lift_in_time(AbsolutePhase absolute,
                            std::span<const WrappedPhase> finer,
@@ -116,8 +133,9 @@ AbsolutePhase unwrap_in_time(std::span<const WrappedPhase> coarse_to_fine,
   require(!coarse_to_fine.empty(), "unwrap_in_time: no phase given");
   require(is_absolute(coarse_to_fine.front().pattern, projector),
           "unwrap_in_time: the first level must hold one fringe or less over the field");
-  return lift_in_time(
-      from_single_fringe(coarse_to_fine.front(), projector), coarse_to_fine.subspan(1), options);
+  const double sigmas = kPi / sigma_of_chance(options.max_wrong_order);
+  AbsolutePhase coarsest = from_single_fringe(coarse_to_fine.front(), projector, sigmas);
+  return lift_in_time(std::move(coarsest), coarse_to_fine.subspan(1), options);
 }
 
 }  // namespace frangia

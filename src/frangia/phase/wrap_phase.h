@@ -8,9 +8,9 @@
 namespace frangia {
 
 struct WrapOptions {
-  /// A phase less certain than this is background or shadow: at 0.2 rad the modulation is five
-  /// times its own noise, which pure noise reaches in 4 pixels of a million.
-  float max_sigma_rad = 0.2F;
+  /// A phase less certain than this is background or shadow: at 0.1 rad the modulation is some ten
+  /// times its own noise, and its points would be too coarse to be worth keeping.
+  float max_sigma_rad = 0.1F;
 };
 
 /// Phase, modulation, mean and expected phase noise of every pixel.

@@ -16,18 +16,21 @@ namespace {
 /// Fringes to add to each region, where known.
 using Orders = std::vector<std::optional<int>>;
 
-/// Whether all eight neighbours belong to the pixel's region: its rim may see two surfaces.
-bool is_inner(const Image<std::int32_t>& region, std::size_t i) {
+/// How near to a pixel another region may come: two pixels of a border may each see both sides.
+constexpr int kRim_px = 2;
+
+/// Whether a pixel lies so near to another region that it may see that one's surface too.
+bool at_border(const Image<std::int32_t>& region, std::size_t i) {
   const auto row = static_cast<std::size_t>(region.width());
   const int x = static_cast<int>(i % row);
   const int y = static_cast<int>(i / row);
-  if (x == 0 || y == 0 || x + 1 == region.width() || y + 1 == region.height()) return false;
-  for (int v = y - 1; v <= y + 1; ++v) {
-    for (int u = x - 1; u <= x + 1; ++u) {
-      if (region(u, v) != region(x, y)) return false;
+  const std::int32_t own = region(x, y);
+  for (int v = std::max(0, y - kRim_px); v <= std::min(region.height() - 1, y + kRim_px); ++v) {
+    for (int u = std::max(0, x - kRim_px); u <= std::min(region.width() - 1, x + kRim_px); ++u) {
+      if (region(u, v) >= 0 && region(u, v) != own) return true;
     }
   }
-  return true;
+  return false;
 }
 
 AnchoredPhase with_orders(const RelativePhase& relative, const Orders& orders) {
@@ -40,18 +43,19 @@ AnchoredPhase with_orders(const RelativePhase& relative, const Orders& orders) {
     const auto region = static_cast<std::size_t>(labels[i]);
     float& phase = out.phase.phase_rad.pixels()[i];
     float& sigma = out.phase.sigma_rad.pixels()[i];
-    if (orders[region]) {
+    if (at_border(relative.region, i)) {
+      out.phase.fate.pixels()[i] = PixelFate::MixedEdge;
+    } else if (orders[region]) {
       phase = static_cast<float>(phase + kTurn * *orders[region]);
       continue;
-    }
-    if (is_inner(relative.region, i)) {
+    } else {
       loose[region].pixel.push_back(static_cast<std::uint32_t>(i));
       loose[region].phase_rad.push_back(phase);
       loose[region].sigma_rad.push_back(sigma);
+      out.phase.fate.pixels()[i] = PixelFate::Unanchored;
     }
     phase = kMissing;
     sigma = kMissing;
-    out.phase.fate.pixels()[i] = PixelFate::Unanchored;
   }
   for (LooseRegion& region : loose) {
     if (!region.pixel.empty()) out.loose.push_back(std::move(region));

@@ -9,8 +9,7 @@
 
 namespace frangia {
 
-/// A region whose whole number of fringes is not known yet: its pixels, but for the rim, which may
-/// see two surfaces, and what they hold.
+/// A region whose whole number of fringes is not known yet: its pixels and what they hold.
 struct LooseRegion {
   std::vector<std::uint32_t> pixel;  ///< y * width + x
   std::vector<float> phase_rad;

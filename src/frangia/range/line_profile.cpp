@@ -14,13 +14,6 @@ struct Peak {
   double sigma_px;
 };
 
-/// Brightness around the peaks: the median of the scan line, which a thin line does not move.
-double surroundings(std::vector<double> counts) {
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  return *middle;
-}
-
 /// Centre of gravity of what stands above a fifth of the peak's height, so that both flanks count
 /// alike and the surroundings do not pull.
 Peak centre_of(const std::vector<double>& counts,
@@ -56,27 +49,23 @@ std::vector<Peak> peaks_of(const std::vector<double>& counts,
                            const NoiseModel& noise,
                            const LineOptions& options) {
   std::vector<Peak> peaks;
-  const double base = surroundings(counts);
+  const auto reach = static_cast<std::size_t>(options.half_width_px);
   for (std::size_t i = 1; i + 1 < counts.size(); ++i) {
-    // The first of equal values, larger than all within reach: a flank or a speck is no peak.
+    // The first of equal values, and the largest within reach: a flank or a speck is no peak.
     if (counts[i] <= counts[i - 1] || counts[i] < counts[i + 1]) continue;
-    const std::size_t first = i - std::min(i, static_cast<std::size_t>(options.half_width_px));
-    const std::size_t last =
-        std::min(counts.size() - 1, i + static_cast<std::size_t>(options.half_width_px));
-    double local_base = 1e300;
-    bool highest = true;
-    int saturated = 0;
-    for (std::size_t k = first; k <= last; ++k) {
-      highest = highest && counts[k] <= counts[i];
-      local_base = std::min(local_base, counts[k]);
-      saturated += counts[k] >= white_level ? 1 : 0;
-    }
-    const double height = counts[i] - std::max(base, local_base);
-    if (!highest || saturated > 3) continue;
+    const auto begin = counts.begin();
+    const auto first = begin + static_cast<std::ptrdiff_t>(i - std::min(i, reach));
+    const auto here = begin + static_cast<std::ptrdiff_t>(i);
+    const auto last = begin + static_cast<std::ptrdiff_t>(std::min(counts.size(), i + reach + 1));
+    if (*std::max_element(first, last) > counts[i]) continue;
+    if (std::count_if(first, last, [&](double c) { return c >= white_level; }) > 3) continue;
+    // The brighter of both sides: one of them may be the dark beyond the object's edge.
+    const double base = std::max(*std::min_element(first, here), *std::min_element(here + 1, last));
+    const double height = counts[i] - base;
     if (height < options.min_sigmas * std::sqrt(noise.variance(base)) + 2.0) continue;
     // Two pixels at least share a real line's light; a hot pixel stands alone.
     if (std::max(counts[i - 1], counts[i + 1]) < counts[i] - 0.9 * height) continue;
-    peaks.push_back(centre_of(counts, i, std::max(base, local_base), noise, options.half_width_px));
+    peaks.push_back(centre_of(counts, i, base, noise, options.half_width_px));
   }
   return peaks;
 }

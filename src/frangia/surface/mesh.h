@@ -16,6 +16,7 @@ struct Mesh {
   std::vector<Triangle> triangles;
   std::vector<Eigen::Vector3f> normals;  ///< unit, one a vertex, or empty
   std::vector<float> sigma_mm;  ///< standard deviation along the normal, one a vertex, or empty
+  std::vector<std::uint16_t> views;  ///< how many saw it, one a vertex, or empty
 
   [[nodiscard]] bool empty() const { return triangles.empty(); }
 };

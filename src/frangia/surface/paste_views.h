@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "frangia/core/run.h"
 #include "frangia/rig/lens.h"
 #include "frangia/surface/mesh.h"
@@ -13,14 +15,21 @@ struct PasteOptions {
   double min_z_mm =
       0.0;  ///< nothing below this height of the object frame, when `clip_below` is set
   bool clip_below = false;
+  std::size_t min_part_triangles = 100;  ///< smaller parts, not joined to others, are dropped
 };
 
-/// All views pasted into one mesh, each point weighted by 1/sigma^2.
+/// All views pasted into one mesh, each point weighted by cos^2/sigma^2, with normals, sigma and
+/// the number of views at each vertex.
 ///
+/// The views are averaged as signed distances near the surface; then every place where that average
+/// crosses zero is put to the views again: those that saw it say where it lies and how it slopes,
+/// those that see through it vote it out. Sharp edges are kept: vertices lie where planes meet.
+/// Memory holds one view and the surface.
 /// units    mm, object frame
 /// missing  where no view saw the surface the mesh stays open: nothing is invented
 /// errors   Error(Input) when no view holds a point
-/// source   signed distance in a hashed grid: Curless & Levoy 1996, Niessner et al. 2013
+/// source   signed distance in a hashed grid: Curless & Levoy 1996, Niessner et al. 2013; vertices:
+///          Ju et al. 2002
 [[nodiscard]] Mesh paste_views(const ViewStore& views,
                                const Lens& camera,
                                const PasteOptions& options = {},

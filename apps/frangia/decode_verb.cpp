@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/range/drop_mixed_edges.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/scan/decode_view.h"
+#include "frangia/scan/scan_folder.h"
+#include "frangia/scan/write_stages.h"
+
+#include "reconstruct_options.h"
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+struct DecodeArguments {
+  std::filesystem::path scan;
+  std::size_t view = 0;
+  std::filesystem::path folder;
+  DecodeOptions options;
+};
+
+void print_result(const DecodedView& decoded,
+                  const std::vector<std::string>& files,
+                  const DecodeArguments& arguments,
+                  Terminal& terminal) {
+  const auto fate = decoded.phase.fate.pixels();
+  nlohmann::ordered_json json;
+  terminal.finish();
+  for (const FateLegend& entry : fate_legend()) {
+    const auto count = std::count(fate.begin(), fate.end(), entry.fate);
+    json["pixels"][entry.meaning] = count;
+    if (count == 0 || terminal.json || terminal.quiet) continue;
+    fmt::print("{:>10} pixels {} ({} in mask.png)\n", count, entry.meaning, entry.colour_name);
+  }
+  json["files"] = files;
+  if (terminal.json) fmt::print("{}\n", json.dump(2));
+  if (!terminal.json && !terminal.quiet) {
+    fmt::print("wrote {} files into {}\n", files.size(), arguments.folder.string());
+  }
+}
+
+void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  const Scan scan = read_scan(arguments.scan, run);
+  if (arguments.view >= scan.views.size()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("--view {} is not in {}, which has views 0 to {}",
+                            arguments.view,
+                            arguments.scan.string(),
+                            scan.views.size() - 1));
+  }
+  const auto rays = rays_of(scan.rig.camera.lens);
+  const auto frames = read_frames(scan, arguments.view, run);
+  DecodedView decoded = decode_view(frames, scan.rig, rays, arguments.options, run);
+  RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
+  drop_mixed_edges(range, rays, decoded.phase.fate);
+  const auto files = write_stages(decoded, range, arguments.folder, run);
+  print_result(decoded, files, arguments, terminal);
+}
+
+}  // namespace
+
+void add_decode_verb(CLI::App& program, Terminal& terminal) {
+  auto arguments = std::make_shared<DecodeArguments>();
+  CLI::App* verb = program.add_subcommand("decode", "write the images of each stage of one view");
+  verb->footer("example:\n  frangia decode ball-bar --view 3 -o stages");
+  verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
+      ->required();
+  verb->add_option("--view", arguments->view, "number of the view, from 0")->capture_default_str();
+  verb->add_option("-o,--output", arguments->folder, "the folder to write into")->required();
+  add_decode_options(*verb, arguments->options);
+  verb->callback([arguments, &terminal] { decode_verb(*arguments, terminal); });
+}
+
+}  // namespace frangia

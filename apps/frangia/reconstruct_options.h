@@ -1,0 +1,21 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "frangia/scan/reconstruct.h"
+
+namespace frangia {
+
+/// The options of `reconstruct` that `decode` has too.
+inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
+  verb.add_option(
+          "--algorithm", options.algorithm, "phase-shift algorithm: auto, schwider, least-squares")
+      ->capture_default_str();
+  verb.add_option("--max-sigma",
+                  options.wrap.max_sigma_rad,
+                  "drop pixels whose phase is less certain than this, in rad")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
+}  // namespace frangia

@@ -1,0 +1,115 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/scan/reconstruct.h"
+
+#include "reconstruct_options.h"
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+struct ReconstructArguments {
+  std::filesystem::path scan;
+  std::vector<std::filesystem::path> outputs;
+  std::string dxf = "faces";
+  double clip_below_mm = 0.0;
+  ReconstructOptions options;
+  WriteOptions write;
+};
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+void print_result(const Reconstruction& result,
+                  const ReconstructArguments& arguments,
+                  Terminal& terminal) {
+  const auto stages = terminal.stage_seconds();
+  if (terminal.json) {
+    nlohmann::ordered_json json;
+    json["points"] = result.points;
+    json["views"] = result.views;
+    json["vertices"] = result.mesh.vertices_mm.size();
+    json["triangles"] = result.mesh.triangles.size();
+    for (const auto& [stage, seconds] : stages)
+      json["seconds"][stage] = seconds;
+    json["peak_memory_mb"] = peak_memory_mb();
+    json["warnings"] = terminal.warnings();
+    for (const auto& path : arguments.outputs)
+      json["outputs"].push_back(path.string());
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  if (terminal.quiet) return;
+  terminal.finish();
+  fmt::print("{} points from {} views -> {} triangles\n",
+             result.points,
+             result.views,
+             result.mesh.triangles.size());
+  for (const auto& [stage, seconds] : stages)
+    fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
+  fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
+  for (const auto& path : arguments.outputs)
+    fmt::print("wrote {}\n", path.string());
+}
+
+void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
+  for (const auto& path : arguments.outputs) {
+    check_mesh_ending(path);
+    const AtomicFile probe(path);  // an output that cannot be written is told before the work
+  }
+  arguments.write.dxf.variant =
+      arguments.dxf == "faces" ? DxfVariant::Faces : DxfVariant::Polyface;
+  const Run run = terminal.run();
+  const Scan scan = read_scan(arguments.scan, run);
+  const Reconstruction result = reconstruct(scan, arguments.options, run);
+  run.stage("files");
+  for (const auto& path : arguments.outputs)
+    write_mesh(path, result.mesh, arguments.write);
+  print_result(result, arguments, terminal);
+}
+
+}  // namespace
+
+void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
+  auto arguments = std::make_shared<ReconstructArguments>();
+  CLI::App* verb = program.add_subcommand("reconstruct", "turn a scan into a measured mesh");
+  verb->footer(
+      "example:\n  frangia reconstruct ball-bar -o ball-bar.dxf -o ball-bar.ply --clip-below 1");
+  verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
+      ->required();
+  verb->add_option("-o,--output",
+                   arguments->outputs,
+                   "where to write the mesh: .dxf, .stl, .ply or .obj; may be given more than once")
+      ->required()
+      ->allow_extra_args(false);
+  verb->add_option("--dxf", arguments->dxf, "DXF variant: faces (3DFACE) or polyface (POLYLINE)")
+      ->check(CLI::IsMember({"faces", "polyface"}))
+      ->capture_default_str();
+  auto* clip =
+      verb->add_option("--clip-below",
+                       arguments->options.paste.min_z_mm,
+                       "leave out what lies below this height above the turntable's origin, in mm");
+  verb->add_option("--voxel",
+                   arguments->options.paste.voxel_mm,
+                   "sampling of the surface in mm; chosen from the data when not given")
+      ->check(CLI::PositiveNumber);
+  add_decode_options(*verb, arguments->options.decode);
+  verb->callback([arguments, clip, &terminal] {
+    arguments->options.paste.clip_below = clip->count() > 0;
+    reconstruct_verb(*arguments, terminal);
+  });
+}
+
+}  // namespace frangia

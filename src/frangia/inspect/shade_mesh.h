@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/image.h"
+#include "frangia/core/run.h"
+#include "frangia/frames/png.h"
+#include "frangia/inspect/color_map.h"
+#include "frangia/surface/mesh.h"
+
+namespace frangia {
+
+struct ShadeOptions {
+  int width_px = 1200;
+  int height_px = 900;
+  int samples_across = 4;                     ///< rays a pixel are its square
+  double azimuth_rad = rad_from_deg(35.0);    ///< of the viewer about z, from x towards y
+  double elevation_rad = rad_from_deg(20.0);  ///< of the viewer above the ground
+  bool perspective = true;                    ///< false: parallel projection
+  bool ground = true;                         ///< the part's shadow on what it stands on
+  double crease_rad = rad_from_deg(40.0);     ///< sharper edges stay sharp
+
+  std::vector<float> values;  ///< one a vertex, shown as colours; empty for plain plaster
+  float value_min = 0.0F;     ///< the colour map's two ends
+  float value_max = 1.0F;
+  ColorMap color_map = ColorMap::Viridis;
+};
+
+/// A picture of a mesh, fitted to its bounds, as a product photograph shows it.
+///
+/// Gouraud shading with two lights, a rim and a soft sky; the inside shows in red where a hole lets
+/// one see it.
+/// missing  vertices whose value is NaN are grey
+/// errors   Error(Input) for an empty mesh, values that are not one a vertex, or an empty picture
+[[nodiscard]] Image<Rgb> shade_mesh(const Mesh& mesh,
+                                    const ShadeOptions& options = {},
+                                    const Run& run = {});
+
+}  // namespace frangia

@@ -1,0 +1,103 @@
+#include "frangia/scan/simulate_scan.h"
+
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/parallel.h"
+#include "frangia/files/ply.h"
+#include "frangia/frames/png.h"
+#include "frangia/simulate/render_view.h"
+#include "frangia/simulate/simulated_scene.h"
+
+namespace frangia {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  }
+}
+
+/// Says in the folder that a simulation is under way, or was interrupted: only then are images that
+/// lie there already ours to replace.
+std::filesystem::path claim(const std::filesystem::path& folder) {
+  const std::filesystem::path mark = folder / "simulation-not-finished";
+  make_folder(folder);
+  if (!std::filesystem::is_empty(folder) && !std::filesystem::exists(mark)) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: is not empty; name a new folder, or empty this one", folder.string()));
+  }
+  AtomicFile(mark).commit();
+  std::filesystem::remove(folder / "scan.toml");
+  return mark;
+}
+
+struct FrameFile {
+  std::filesystem::path path;
+  const Frame* frame;
+};
+
+/// Packing a PNG takes longer than rendering it: all frames of a view at once.
+void write_frames(const std::filesystem::path& folder, const std::vector<FrameStack>& stacks) {
+  std::vector<FrameFile> files;
+  for (const FrameStack& stack : stacks) {
+    for (std::size_t i = 0; i < stack.frames.size(); ++i) {
+      files.push_back(
+          {folder / frame_file_name(stack.pattern, static_cast<int>(i)), &stack.frames[i]});
+    }
+  }
+  parallel_chunks(files.size(), 1, [&](std::size_t begin, std::size_t) {
+    write_png(files[begin].path, *files[begin].frame);
+  });
+}
+
+/// Progress of one view as a part of the whole.
+Run part_of(const Run& run, std::size_t index, std::size_t count) {
+  Run part = run;
+  if (run.progress) {
+    part.progress = [&run, index, count](double done) {
+      run.progress((static_cast<double>(index) + done) / static_cast<double>(count));
+    };
+  }
+  return part;
+}
+
+}  // namespace
+
+Scan simulate_scan(const Mesh& part,
+                   const Scan& plan,
+                   const SimulateOptions& options,
+                   const Run& run) {
+  require(!plan.patterns.empty() && !plan.views.empty(),
+          "simulate_scan: a scan needs at least one pattern and one view");
+  std::vector<SimulatedView> views;
+  for (std::size_t i = 0; i < plan.views.size(); ++i)
+    views.push_back({i, plan.views[i].angle_rad});
+  const SimulatedScene scene = make_simulated_scene(part, plan.rig, views, options);
+
+  const std::filesystem::path mark = claim(plan.folder);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Run view_run = part_of(run, i, views.size());
+    const std::filesystem::path folder = plan.folder / plan.views[i].folder;
+    const auto stacks = render_view(scene, plan.patterns, views[i], view_run);
+    std::filesystem::remove_all(folder);
+    make_folder(folder);
+    write_frames(folder, stacks);
+    run.check();
+  }
+  write_ply(plan.folder / "truth.ply", part);
+  Scan scan = plan;
+  scan.rig = scene.known_rig;
+  write_scan(scan);
+  std::filesystem::remove(mark);
+  return scan;
+}
+
+}  // namespace frangia

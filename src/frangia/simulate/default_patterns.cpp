@@ -1,0 +1,78 @@
+#include "frangia/simulate/default_patterns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+std::vector<double> even_shifts(int count) {
+  std::vector<double> shifts;
+  for (int i = 0; i < count; ++i)
+    shifts.push_back(kTurn * i / count);
+  return shifts;
+}
+
+Pattern angular_pattern(const std::string& name, double fringes_per_degree, int shifts) {
+  Pattern pattern;
+  pattern.name = name;
+  pattern.fringes_per_degree = fringes_per_degree;
+  pattern.shifts_rad = even_shifts(shifts);
+  return pattern;
+}
+
+std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
+  const double finest = plan.fringes_per_degree;
+  require(std::isfinite(finest) && finest > 0.0, "fringes per degree must be above 0");
+  if (rig.line) {
+    Pattern line;
+    line.name = "line";
+    line.kind = PatternKind::Line;
+    return {angular_pattern("fringe", finest, plan.shifts), line};
+  }
+  const auto& field = std::get<AngularModel>(rig.projector.model);
+  const double fringes = finest * deg_from_rad(field.field_max_rad - field.field_min_rad);
+  // A whisker of slack: a field of exactly 32 fringes needs five doublings, not six.
+  const int doublings = std::max(0, static_cast<int>(std::ceil(std::log2(fringes) - 1e-9)));
+  std::vector<Pattern> patterns;
+  for (int i = 0; i <= doublings; ++i) {
+    patterns.push_back(angular_pattern(
+        fmt::format("fringe{}", i), std::ldexp(finest, i - doublings), plan.shifts));
+  }
+  return patterns;
+}
+
+std::vector<Pattern> pinhole_patterns(const PinholeModel& lens, const PatternPlan& plan) {
+  std::vector<double> periods = plan.periods_px;
+  if (periods.empty()) {
+    const double width = lens.width_px;
+    periods = {width, width / 8.0, width / 64.0};
+  }
+  std::sort(periods.begin(), periods.end(), std::greater<>());
+  std::vector<Pattern> patterns;
+  for (const double period : periods) {
+    require(std::isfinite(period) && period > 0.0, "a fringe period must be above 0 pixels");
+    Pattern pattern;
+    pattern.name = fmt::format("p{:g}", period);
+    pattern.period_px = period;
+    pattern.shifts_rad = even_shifts(plan.shifts);
+    patterns.push_back(pattern);
+  }
+  return patterns;
+}
+
+}  // namespace
+
+std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
+  require(plan.shifts >= 3, "a phase needs at least three shifts");
+  const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+  return lens != nullptr ? pinhole_patterns(*lens, plan) : angular_patterns(rig, plan);
+}
+
+}  // namespace frangia

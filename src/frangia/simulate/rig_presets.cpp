@@ -1,0 +1,100 @@
+#include "frangia/simulate/rig_presets.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+Rig digital() {
+  Rig rig;
+  rig.camera.lens = {.width_px = 960,
+                     .height_px = 768,
+                     .focal_px = {1800.0, 1800.0},
+                     .principal_point_px = {490.45, 377.35},
+                     .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0}};
+  rig.projector.model = PinholeModel{.width_px = 1280,
+                                     .height_px = 800,
+                                     .focal_px = {1900.0, 1900.0},
+                                     .principal_point_px = {639.5, 399.5}};
+  rig.projector.position_mm = {-180.0, -20.0, 30.0};
+  rig.projector.rotation << 0.931242779706, 0.0, -0.364399348581,  //
+      -0.0147420196862, 0.999181334288, -0.0376740503092,          //
+      0.364101027328, 0.0404556697031, 0.930480403172;
+  rig.turntable = Turntable{{3.5, 55.0, 496.0}, Eigen::Vector3d(0.008, -1.0, 0.011).normalized()};
+  return rig;
+}
+
+/// A plane of light through the projector that leaves it at an angle from the camera's axis.
+LightPlane plane_of_light(const Projector& projector, double angle_rad) {
+  const Eigen::Vector3d normal(std::cos(angle_rad), 0.0, std::sin(angle_rad));
+  return {normal, normal.dot(projector.position_mm)};
+}
+
+/// The paper's set-up: the axes of camera and projector cross under theta0 at O, x0 before the
+/// camera.
+Rig paper_rig(double focal_px) {
+  constexpr double kX0_mm = 490.0;
+  constexpr double kProjectorDistance_mm = 1000.0;
+  const double theta0 = rad_from_deg(20.0);
+  Rig rig;
+  rig.camera.lens = {.width_px = 512,
+                     .height_px = 512,
+                     .focal_px = {focal_px, focal_px},
+                     .principal_point_px = {255.5, 255.5}};
+  rig.projector.model = AngularModel{rad_from_deg(-12.0), rad_from_deg(12.0)};
+  rig.projector.position_mm = {kProjectorDistance_mm * std::sin(theta0),
+                               0.0,
+                               kX0_mm - kProjectorDistance_mm * std::cos(theta0)};
+  rig.projector.rotation << std::cos(theta0), 0.0, std::sin(theta0),  //
+      0.0, 1.0, 0.0,                                                  //
+      -std::sin(theta0), 0.0, std::cos(theta0);
+  rig.line = plane_of_light(rig.projector, theta0);
+  rig.turntable = Turntable{{0.0, 55.0, kX0_mm}, {0.0, -1.0, 0.0}};
+  return rig;
+}
+
+/// 12.5 mm over pixels of 8 um: a field of 160 mm.
+Rig carducci() {
+  return paper_rig(12.5 / 0.008);
+}
+
+Rig angular() {
+  Rig rig = paper_rig(1000.0);
+  rig.line = plane_of_light(rig.projector, rad_from_deg(20.5));
+  rig.turntable = Turntable{{3.5, 55.0, 496.0}, Eigen::Vector3d(0.008, -1.0, 0.011).normalized()};
+  return rig;
+}
+
+using Maker = Rig (*)();
+
+constexpr std::array<std::pair<std::string_view, Maker>, 3> kRigs{
+    {{"digital", digital}, {"angular", angular}, {"carducci", carducci}}};
+
+}  // namespace
+
+std::vector<std::string> rig_preset_names() {
+  std::vector<std::string> names;
+  for (const auto& rig : kRigs)
+    names.emplace_back(rig.first);
+  return names;
+}
+
+Rig rig_preset(std::string_view name) {
+  for (const auto& rig : kRigs) {
+    if (rig.first == name) return rig.second();
+  }
+  throw Error(ErrorKind::Input,
+              fmt::format("there is no built-in rig \"{}\"; choose one of {}, or name a rig.toml",
+                          name,
+                          fmt::join(rig_preset_names(), ", ")));
+}
+
+}  // namespace frangia

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/surface/distance_field.h"
+
+namespace frangia {
+
+/// Where the surface crosses the edges of the voxel grid, and the cells it runs through.
+///
+/// shape    blocks of 8^3, as in the field, only those that the surface meets; a cell and the edges
+///          towards +x, +y, +z belong to the voxel at their low corner
+/// units    mm, object frame
+/// missing  a cell with an unseen corner has the sign pattern 0, as one without surface
+struct Crossings {
+  struct Block {
+    std::array<std::uint8_t, DistanceField::kVoxels> inside{};  ///< sign pattern, for `cell_loops`
+    std::array<std::uint8_t, DistanceField::kVoxels>
+        axes{};  ///< bit a: the edge along a is crossed
+    std::array<std::uint32_t, DistanceField::kVoxels> first_crossing{};
+    std::array<std::uint32_t, DistanceField::kVoxels> first_vertex{};
+  };
+
+  double voxel_mm = 0.0;
+  std::vector<Eigen::Vector3i> places;
+  std::vector<Block> blocks;
+  std::unordered_map<std::uint64_t, std::uint32_t> index;  ///< of `block_key(place)`
+  std::vector<Eigen::Vector3f> points_mm;                  ///< one a crossing
+  std::vector<std::int8_t> outward;  ///< axis + 1, negative when outside is at the lower end
+  std::size_t vertices = 0;          ///< one a loop
+
+  /// The voxel's block and its place in there.
+  struct Address {
+    const Block* block = nullptr;  ///< null where there is none
+    std::size_t voxel = 0;
+  };
+  [[nodiscard]] Address at(const Eigen::Vector3i& voxel) const;
+  /// The crossing on the edge from `voxel` along `axis`, which must be there.
+  [[nodiscard]] std::uint32_t crossing(const Eigen::Vector3i& voxel, int axis) const;
+};
+
+/// Finds them: only cells all of whose corners were seen, and where the distance runs through zero
+/// as a distance does. A jump is where two views tell of different surfaces.
+[[nodiscard]] Crossings find_crossings(const DistanceField& field);
+
+}  // namespace frangia

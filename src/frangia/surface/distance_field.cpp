@@ -1,0 +1,193 @@
+#include "frangia/surface/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/core/parallel.h"
+#include "frangia/surface/fast_lens.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kEdge = DistanceField::kEdge;
+
+/// Distance of a voxel from what a view saw, at the voxel's pixel.
+struct Sampler {
+  const LocalPlanes& view;
+  FastLens lens;
+  float front;
+  float back;
+  float guess;
+
+  Sampler(const LocalPlanes& seen, const Lens& camera, const Band& band)
+      : view(seen),
+        lens(camera),
+        front(static_cast<float>(band.front_mm)),
+        back(static_cast<float>(band.back_mm)),
+        guess(static_cast<float>(band.guess_mm)) {}
+
+  void add(DistanceField::Voxel& cell, float u, float v, const Eigen::Vector3f& point) const {
+    const LocalPlanes::Quad* quad = view.quad_at(u, v);
+    if (quad == nullptr || quad->kind == LocalPlanes::Kind::Unseen || !(point.z() > 0.0F)) return;
+    float distance = (1.0F - point.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
+    if (quad->kind != LocalPlanes::Kind::Smooth)
+      distance = view.nearest_face(u, v, point).distance_mm;
+    if (!(distance < front && distance > -back)) return;
+    // Behind its surface a view can only guess: the object may be thin, or end beside the ray.
+    const float depth = distance < 0.0F ? distance / guess : 0.0F;
+    const float trust = 1.0F / ((1.0F + depth * depth) * (1.0F + depth * depth));
+    cell.weighted_mm += quad->weight * trust * distance;
+    cell.weight += quad->weight * trust;
+  }
+};
+
+/// Camera coordinates of a block's voxels: the first one's, and the step along each axis.
+void add_block(DistanceField::Block& block,
+               const Sampler& sampler,
+               const Eigen::Vector3f& first,
+               const Eigen::Matrix3f& steps) {
+  alignas(32) std::array<float, kEdge> u{};
+  alignas(32) std::array<float, kEdge> v{};
+  for (int row = 0; row < kEdge * kEdge; ++row) {
+    const Eigen::Vector3f start = first + steps.col(1) * static_cast<float>(row % kEdge) +
+                                  steps.col(2) * static_cast<float>(row / kEdge);
+    for (std::size_t i = 0; i < kEdge; ++i) {
+      const auto step = static_cast<float>(i);
+      sampler.lens.project(start.x() + step * steps(0, 0),
+                           start.y() + step * steps(1, 0),
+                           start.z() + step * steps(2, 0),
+                           u[i],
+                           v[i]);
+    }
+    DistanceField::Voxel* cells = block.data() + row * kEdge;
+    for (std::size_t i = 0; i < kEdge; ++i) {
+      sampler.add(cells[i], u[i], v[i], start + static_cast<float>(i) * steps.col(0));
+    }
+  }
+}
+
+/// Collects keys of blocks, cheap when the same ones come again and again.
+class KeySet {
+ public:
+  void add(std::uint64_t key) {
+    for (const std::uint64_t seen : recent_) {
+      if (seen == key) return;
+    }
+    recent_[next_] = key;
+    next_ = (next_ + 1) % recent_.size();
+    keys_.push_back(key);
+    if (keys_.size() > limit_) {
+      tidy();
+      limit_ = std::max(limit_, 2 * keys_.size());
+    }
+  }
+  std::vector<std::uint64_t> take() {
+    tidy();
+    return std::move(keys_);
+  }
+
+ private:
+  void tidy() {
+    std::sort(keys_.begin(), keys_.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  }
+
+  std::array<std::uint64_t, 8> recent_{};
+  std::size_t next_ = 0;
+  std::size_t limit_ = 4096;
+  std::vector<std::uint64_t> keys_;
+};
+
+/// All blocks that a cube of two voxels' edge about `point` (in voxels) meets.
+void add_around(KeySet& keys, const Eigen::Vector3f& point) {
+  const Eigen::Array3i low = (point.array() - 1.0F).floor().cast<int>();
+  const Eigen::Array3i high = (point.array() + 1.0F).floor().cast<int>();
+  for (int z = low.z() >> 3; z <= high.z() >> 3; ++z) {
+    for (int y = low.y() >> 3; y <= high.y() >> 3; ++y) {
+      for (int x = low.x() >> 3; x <= high.x() >> 3; ++x)
+        keys.add(block_key(x, y, z));
+    }
+  }
+}
+
+Eigen::Vector3i place_of(std::uint64_t key) {
+  constexpr std::uint64_t kMask = (1 << 21) - 1;
+  constexpr int kOffset = 1 << 20;
+  return {static_cast<int>(key & kMask) - kOffset,
+          static_cast<int>((key >> 21) & kMask) - kOffset,
+          static_cast<int>(key >> 42) - kOffset};
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
+                                       const CameraRays& camera,
+                                       const Band& band) {
+  const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
+  const Eigen::Matrix3f rotation = (object_from_rig.linear() / band.voxel_mm).cast<float>();
+  const Eigen::Vector3f origin = (object_from_rig.translation() / band.voxel_mm).cast<float>();
+  constexpr float kLongest = 2.0F;  // at grazing incidence the band along the ray has no end
+  constexpr int kRows = 16;
+
+  const auto height = static_cast<std::size_t>(view.quads.height());
+  std::vector<std::vector<std::uint64_t>> parts((height + kRows - 1) / kRows);
+  parallel_chunks(height, kRows, [&](std::size_t begin, std::size_t end) {
+    KeySet keys;
+    for (std::size_t row = begin; row < end; ++row) {
+      const int y = static_cast<int>(row);
+      for (int x = 0; x < view.quads.width(); ++x) {
+        const LocalPlanes::Quad& quad = view.quads(x, y);
+        if (quad.kind == LocalPlanes::Kind::Unseen) continue;
+        const float depth = 1.0F / view.inverse_depth(x, y);
+        const Eigen::Vector3f ray(camera.rays(x, y).x(), camera.rays(x, y).y(), 1.0F);
+        const Eigen::Vector3f point = origin + rotation * (depth * ray);
+        const Eigen::Vector3f along = (rotation * ray).normalized();  // one voxel
+        const float cosine = std::max(1.0F / kLongest, quad.distance_mm / (depth * ray.norm()));
+        const auto reach = static_cast<float>(1.0 / band.voxel_mm) / cosine;
+        const float last = static_cast<float>(band.back_mm) * reach;
+        constexpr float kStride = 2.0F;
+        for (float t = -static_cast<float>(band.front_mm) * reach; t < last; t += kStride) {
+          add_around(keys, point + t * along);
+        }
+        add_around(keys, point + last * along);
+      }
+    }
+    parts[begin / kRows] = keys.take();
+  });
+  KeySet all;
+  for (const auto& part : parts) {
+    for (const std::uint64_t key : part)
+      all.add(key);
+  }
+  return all.take();
+}
+
+void add_view(DistanceField& field,
+              const LocalPlanes& view,
+              const CameraRays& camera,
+              const Band& band) {
+  const std::vector<std::uint64_t> keys = blocks_near(view, camera, band);
+  std::vector<std::uint32_t> touched;
+  touched.reserve(keys.size());
+  for (const std::uint64_t key : keys) {
+    const auto [entry, fresh] =
+        field.index.try_emplace(key, static_cast<std::uint32_t>(field.blocks.size()));
+    if (fresh) {
+      field.places.push_back(place_of(key));
+      field.blocks.emplace_back();
+    }
+    touched.push_back(entry->second);
+  }
+  const Sampler sampler(view, camera.lens, band);
+  const Eigen::Matrix3f steps = (view.rig_from_object.linear() * band.voxel_mm).cast<float>();
+  parallel_chunks(touched.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d corner =
+          field.places[touched[i]].cast<double>() * (kEdge * band.voxel_mm);
+      add_block(
+          field.blocks[touched[i]], sampler, (view.rig_from_object * corner).cast<float>(), steps);
+    }
+  });
+}
+
+}  // namespace frangia

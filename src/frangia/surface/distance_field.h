@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/surface/local_planes.h"
+
+namespace frangia {
+
+/// How far from a measured point the field reaches, along the surface's normal.
+struct Band {
+  double voxel_mm = 0.0;
+  double front_mm = 0.0;  ///< towards the camera
+  double back_mm = 0.0;   ///< into the object
+  double guess_mm = 0.0;  ///< a view's word on what lies deeper than this counts little
+};
+
+/// Signed distance to the surface in the object frame, positive outside, averaged over the views.
+///
+/// Kept in blocks of 8^3 voxels that exist near the surface only. Voxel (i, j, k) is the point
+/// `voxel_mm * (i, j, k)`; it belongs to block (i >> 3, j >> 3, k >> 3).
+struct DistanceField {
+  static constexpr int kEdge = 8;
+  static constexpr std::size_t kVoxels = kEdge * kEdge * kEdge;
+
+  struct Voxel {
+    float weighted_mm = 0.0F;  ///< sum of weight * distance
+    float weight = 0.0F;       ///< 0 where no view has spoken
+  };
+  using Block = std::array<Voxel, kVoxels>;  ///< x runs fastest
+
+  double voxel_mm = 0.0;
+  std::vector<Eigen::Vector3i> places;  ///< of each block, in blocks
+  std::deque<Block> blocks;
+  std::unordered_map<std::uint64_t, std::uint32_t> index;  ///< of `block_key(place)`
+};
+
+/// A block's place as one number; places run from -2^20 to 2^20 - 1.
+[[nodiscard]] constexpr std::uint64_t block_key(int x, int y, int z) {
+  constexpr int kOffset = 1 << 20;
+  return (static_cast<std::uint64_t>(z + kOffset) << 42) |
+         (static_cast<std::uint64_t>(y + kOffset) << 21) | static_cast<std::uint64_t>(x + kOffset);
+}
+[[nodiscard]] inline std::uint64_t block_key(const Eigen::Vector3i& place) {
+  return block_key(place.x(), place.y(), place.z());
+}
+
+/// Keys of all blocks within a view's band, ascending.
+[[nodiscard]] std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
+                                                     const CameraRays& camera,
+                                                     const Band& band);
+
+/// Adds what one view saw to the blocks within its band, making those that are new.
+///
+/// A voxel takes the distance from the plane of the quad that it projects into, never across a
+/// depth step, weighted by cos^2/sigma^2 and, behind the surface, less and less. source   Curless &
+/// Levoy 1996; Niessner et al. 2013
+void add_view(DistanceField& field,
+              const LocalPlanes& view,
+              const CameraRays& camera,
+              const Band& band);
+
+}  // namespace frangia

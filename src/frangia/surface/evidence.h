@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/surface/crossings.h"
+#include "frangia/surface/local_planes.h"
+
+namespace frangia {
+
+/// What the views say about one point of the surface.
+///
+/// units    mm, object frame; weights 1/mm^2
+struct Evidence {
+  /// One plane near the point, from the views that agree on how it slopes.
+  struct Face {
+    float weight = 0.0F;          ///< sum of w
+    float weight_squared = 0.0F;  ///< sum of w^2
+    float offset = 0.0F;          ///< sum of w d, the point's distance in front
+    float offset_squared = 0.0F;  ///< sum of w d^2
+    float noise = 0.0F;           ///< sum of w v, v the variance of d
+    float noise_squared = 0.0F;   ///< sum of w^2 v
+    float spacing = 0.0F;         ///< sum of w times the distance of pixels
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sum of w n
+    std::uint16_t views = 0;
+
+    [[nodiscard]] float distance_mm() const { return offset / weight; }
+    [[nodiscard]] float spacing_mm() const { return spacing / weight; }
+  };
+
+  std::array<Face, 2> faces;  ///< two where the point is near an edge of the object
+  float against = 0.0F;       ///< sum of w over the views that see through
+  float common = 0.0F;        ///< variance that does not average away between neighbouring points
+
+  [[nodiscard]] bool holds() const { return faces[0].weight + faces[1].weight > against; }
+  /// The face that most weight speaks for.
+  [[nodiscard]] const Face& main() const {
+    return faces[faces[0].weight < faces[1].weight ? 1 : 0];
+  }
+  [[nodiscard]] const Face& side() const {
+    return faces[faces[0].weight < faces[1].weight ? 0 : 1];
+  }
+};
+
+/// How much the mean over pixels at one point has to do with the mean at another: linear
+/// interpolation spreads a pixel over a triangle, whose autocorrelation is the cubic spline.
+[[nodiscard]] float correlation(float distance_mm, float spacing_mm);
+
+struct EvidenceOptions {
+  double near_mm = 0.0;     ///< a view that saw the surface farther off speaks of another one
+  double through_mm = 0.0;  ///< a view that saw the surface farther behind looks through the point
+};
+
+/// Asks one view about every crossing. It speaks against one only with clear sight all around.
+void add_evidence(std::vector<Evidence>& evidence,
+                  const Crossings& crossings,
+                  const LocalPlanes& view,
+                  const CameraRays& camera,
+                  const EvidenceOptions& options);
+
+/// Adds to the variance of each crossing what the views disagree by beyond their noise, taken
+/// together over its block: an error that a view makes all over a region does not average away
+/// within it.
+///
+/// source   random effects, DerSimonian & Laird 1986
+void add_disagreement(std::vector<Evidence>& evidence, const Crossings& crossings);
+
+}  // namespace frangia

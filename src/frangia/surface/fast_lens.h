@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "frangia/rig/lens.h"
+
+namespace frangia {
+
+/// `Lens::project` in single precision, written so that the compiler takes 8 points at once.
+struct FastLens {
+  explicit FastLens(const Lens& lens)
+      : fx(static_cast<float>(lens.focal_px.x())),
+        fy(static_cast<float>(lens.focal_px.y())),
+        cx(static_cast<float>(lens.principal_point_px.x())),
+        cy(static_cast<float>(lens.principal_point_px.y())),
+        k1(static_cast<float>(lens.distortion[0])),
+        k2(static_cast<float>(lens.distortion[1])),
+        p1(static_cast<float>(lens.distortion[2])),
+        p2(static_cast<float>(lens.distortion[3])),
+        k3(static_cast<float>(lens.distortion[4])) {}
+
+  /// Pixel of a point with z > 0; others come out anywhere.
+  void project(float px, float py, float pz, float& u, float& v) const {
+    const float inverse = 1.0F / pz;
+    const float x = px * inverse;
+    const float y = py * inverse;
+    const float r2 = x * x + y * y;
+    const float radial = 1.0F + r2 * (k1 + r2 * (k2 + r2 * k3));
+    u = cx + fx * (x * radial + 2.0F * p1 * x * y + p2 * (r2 + 2.0F * x * x));
+    v = cy + fy * (y * radial + p1 * (r2 + 2.0F * y * y) + 2.0F * p2 * x * y);
+  }
+
+  float fx, fy, cx, cy, k1, k2, p1, p2, k3;
+};
+
+}  // namespace frangia

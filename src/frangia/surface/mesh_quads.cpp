@@ -1,0 +1,227 @@
+#include "frangia/surface/mesh_quads.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "frangia/core/parallel.h"
+#include "frangia/surface/cell_loops.h"
+
+namespace frangia {
+namespace {
+
+/// The quad around one crossing. Side i lies between corners i and i + 1, on a face between two
+/// cells.
+struct Quad {
+  std::array<std::uint32_t, 4> ring{};
+  std::uint32_t crossing = 0;
+  unsigned pinched = 0;  ///< bit i: side i needs a vertex of its own on its face
+  Eigen::Vector3i voxel = Eigen::Vector3i::Zero();
+  int axis = 0;
+};
+
+/// Offsets of the four cells around an edge along axis a, on axes b = a + 1 and c = a + 2: counter-
+/// clockwise seen from the edge's upper end.
+constexpr std::array<std::array<int, 2>, 4> kRing{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
+
+Eigen::Vector3i cell_of(const Quad& quad, std::size_t corner) {
+  Eigen::Vector3i cell = quad.voxel;
+  cell[(quad.axis + 1) % 3] += kRing[corner % 4][0];
+  cell[(quad.axis + 2) % 3] += kRing[corner % 4][1];
+  return cell;
+}
+
+/// The axis across the face between the cells of corners i and i + 1.
+int face_axis(const Quad& quad, std::size_t side) {
+  return (quad.axis + (side % 2 == 0 ? 1 : 2)) % 3;
+}
+
+/// The face's lowest corner.
+Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
+  return cell_of(quad, side).cwiseMax(cell_of(quad, side + 1));
+}
+
+/// Of the two strands of surface through a pinched face, the one around the inside corner that is
+/// lower along the face's first axis gets a vertex of its own.
+bool is_pinched(const Crossings& crossings,
+                const Quad& quad,
+                std::size_t side,
+                bool outside_is_up) {
+  const int across = face_axis(quad, side);
+  const Eigen::Vector3i one = cell_of(quad, side);
+  const Eigen::Vector3i other = cell_of(quad, side + 1);
+  const auto pinched = [&](const Eigen::Vector3i& cell, const Eigen::Vector3i& neighbour) {
+    const auto address = crossings.at(cell);
+    const int face = 2 * across + (neighbour[across] > cell[across] ? 1 : 0);
+    return (cell_loops()[address.block->inside[address.voxel]].pinched_faces >> face & 1) != 0;
+  };
+  if (!pinched(one, other) || !pinched(other, one)) return false;
+  Eigen::Vector3i inside = quad.voxel;
+  if (!outside_is_up) inside[quad.axis] += 1;
+  const int first = (across + 1) % 3;
+  return inside[first] == face_low(quad, side)[first];
+}
+
+void add_quads(std::vector<Quad>& quads,
+               const Crossings& crossings,
+               std::span<const Evidence> evidence,
+               std::size_t block) {
+  const Crossings::Block& cells = crossings.blocks[block];
+  for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (cells.axes[at] == 0) continue;
+    Quad quad;
+    quad.voxel =
+        crossings.places[block] * DistanceField::kEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
+    quad.crossing = cells.first_crossing[at];
+    for (quad.axis = 0; quad.axis < 3; ++quad.axis) {
+      if ((cells.axes[at] >> quad.axis & 1) == 0) continue;
+      bool whole = evidence[quad.crossing].holds();
+      for (std::size_t corner = 0; whole && corner < 4; ++corner) {
+        const auto cell = crossings.at(cell_of(quad, corner));
+        whole = cell.block != nullptr && cell.block->inside[cell.voxel] != 0;
+        if (!whole) break;
+        const int edge = 4 * quad.axis - kRing[corner][0] - 2 * kRing[corner][1];
+        const CellLoops& shape = cell_loops()[cell.block->inside[cell.voxel]];
+        quad.ring[corner] = cell.block->first_vertex[cell.voxel] +
+                            shape.loop_of_edge[static_cast<std::size_t>(edge)];
+      }
+      if (whole) {
+        quad.pinched = 0;
+        for (std::size_t side = 0; side < 4; ++side) {
+          if (is_pinched(crossings, quad, side, crossings.outward[quad.crossing] > 0)) {
+            quad.pinched |= 1U << side;
+          }
+        }
+        quads.push_back(quad);
+      }
+      ++quad.crossing;
+    }
+  }
+}
+
+std::vector<Quad> find_quads(const Crossings& crossings, std::span<const Evidence> evidence) {
+  constexpr std::size_t kChunk = 64;
+  std::vector<std::vector<Quad>> parts((crossings.blocks.size() + kChunk - 1) / kChunk);
+  parallel_chunks(crossings.blocks.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block) {
+      add_quads(parts[begin / kChunk], crossings, evidence, block);
+    }
+  });
+  std::vector<Quad> quads;
+  for (auto& part : parts) {
+    quads.insert(quads.end(), part.begin(), part.end());
+    part = {};
+  }
+  return quads;
+}
+
+/// How a quad reads when cut between corners `from` and `from + 2`.
+struct Cut {
+  std::array<Mesh::Triangle, 2> triangles{};
+  bool upright = true;     ///< both triangles face the way the surface does
+  float agreement = 0.0F;  ///< of the triangles' normals with the vertex that fits each best
+  float length_mm = 0.0F;
+};
+
+Cut cut_quad(const Mesh& mesh,
+             const std::array<std::uint32_t, 4>& ring,
+             std::size_t from,
+             int outward) {
+  Cut cut;
+  cut.length_mm = (mesh.vertices_mm[ring[from]] - mesh.vertices_mm[ring[(from + 2) % 4]]).norm();
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::size_t start = (from + 2 * half) % 4;
+    Mesh::Triangle& triangle = cut.triangles[half];
+    triangle = {ring[start], ring[(start + 1) % 4], ring[(start + 2) % 4]};
+    const Eigen::Vector3f& origin = mesh.vertices_mm[triangle[0]];
+    const Eigen::Vector3f cross =
+        (mesh.vertices_mm[triangle[1]] - origin).cross(mesh.vertices_mm[triangle[2]] - origin);
+    const float facing = outward > 0 ? cross[outward - 1] : -cross[-outward - 1];
+    cut.upright = cut.upright && facing > 0.0F;
+    float best = -1.0F;
+    for (const std::uint32_t vertex : triangle) {
+      best = std::max(best, cross.dot(mesh.normals[vertex]) / (cross.norm() + 1e-20F));
+    }
+    cut.agreement += best;
+  }
+  return cut;
+}
+
+/// The cut that folds no triangle over, then follows the surface, then is short.
+Cut best_cut(const Mesh& mesh, const std::array<std::uint32_t, 4>& ring, int outward) {
+  const Cut one = cut_quad(mesh, ring, 0, outward);
+  const Cut other = cut_quad(mesh, ring, 1, outward);
+  constexpr float kAlike = 0.02F;
+  if (one.upright != other.upright) return one.upright ? one : other;
+  if (std::abs(one.agreement - other.agreement) > kAlike) {
+    return one.agreement > other.agreement ? one : other;
+  }
+  return one.length_mm <= other.length_mm ? one : other;
+}
+
+std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t like) {
+  mesh.vertices_mm.push_back(point);
+  mesh.normals.push_back(mesh.normals[like]);
+  mesh.sigma_mm.push_back(mesh.sigma_mm[like]);
+  mesh.views.push_back(mesh.views[like]);
+  return static_cast<std::uint32_t>(mesh.vertices_mm.size() - 1);
+}
+
+/// Fans of triangles around the crossings of pinched quads, with the vertices on their faces.
+void add_pinched(Mesh& mesh, const Crossings& crossings, std::span<const Quad> quads) {
+  std::map<std::tuple<int, int, int, int>, std::uint32_t> on_face;
+  for (const Quad& quad : quads) {
+    if (quad.pinched == 0) continue;
+    const Eigen::Vector3f& point = crossings.points_mm[quad.crossing];
+    std::vector<std::uint32_t> ring;
+    for (std::size_t side = 0; side < 4; ++side) {
+      ring.push_back(quad.ring[side]);
+      if ((quad.pinched >> side & 1U) == 0) continue;
+      const Eigen::Vector3i low = face_low(quad, side);
+      const std::tuple key{low.x(), low.y(), low.z(), face_axis(quad, side)};
+      const auto found = on_face.find(key);
+      if (found == on_face.end()) {
+        const std::uint32_t vertex = add_vertex(mesh, point, quad.ring[side]);
+        on_face.emplace(key, vertex);
+        ring.push_back(vertex);
+      } else {  // the second of the strand's two quads: halfway between their crossings
+        mesh.vertices_mm[found->second] = 0.5F * (mesh.vertices_mm[found->second] + point);
+        ring.push_back(found->second);
+      }
+    }
+    if (crossings.outward[quad.crossing] < 0) std::reverse(ring.begin(), ring.end());
+    const std::uint32_t centre = add_vertex(mesh, point, ring[0]);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      mesh.triangles.push_back({centre, ring[i], ring[(i + 1) % ring.size()]});
+    }
+  }
+}
+
+}  // namespace
+
+Mesh mesh_quads(Mesh vertices, const Crossings& crossings, std::span<const Evidence> evidence) {
+  const std::vector<Quad> quads = find_quads(crossings, evidence);
+  std::vector<Mesh::Triangle> triangles(2 * quads.size());
+  parallel_chunks(quads.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (quads[i].pinched != 0) continue;
+      auto ring = quads[i].ring;
+      const int outward = crossings.outward[quads[i].crossing];
+      if (outward < 0) std::reverse(ring.begin(), ring.end());
+      const Cut cut = best_cut(vertices, ring, outward);
+      triangles[2 * i] = cut.triangles[0];
+      triangles[2 * i + 1] = cut.triangles[1];
+    }
+  });
+  const auto unset = [](const Mesh::Triangle& t) { return t[0] == t[1]; };
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), unset), triangles.end());
+  vertices.triangles = std::move(triangles);
+  add_pinched(vertices, crossings, quads);
+  return vertices;
+}
+
+}  // namespace frangia

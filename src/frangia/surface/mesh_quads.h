@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+
+#include "frangia/surface/crossings.h"
+#include "frangia/surface/evidence.h"
+#include "frangia/surface/mesh.h"
+
+namespace frangia {
+
+/// Joins the vertices of `place_vertices`: around each crossing that the views hold up, the quad of
+/// the four cells that share its edge, cut along the diagonal that follows the surface.
+///
+/// No edge is in more than two triangles: where two neighbouring cells share a face that one sheet
+/// of surface crosses twice, a vertex on the face keeps the two edges apart.
+/// missing  no quad where a cell has an unseen corner, nor where no view saw the surface
+[[nodiscard]] Mesh mesh_quads(Mesh vertices,
+                              const Crossings& crossings,
+                              std::span<const Evidence> evidence);
+
+}  // namespace frangia

@@ -1,0 +1,157 @@
+#include "frangia/surface/tidy_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace frangia {
+namespace {
+
+/// Disjoint sets of vertices.
+class Parts {
+ public:
+  explicit Parts(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i)
+      i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// A number for each vertex that tells its edges apart.
+std::uint64_t scrambled(std::uint32_t i) {
+  std::uint64_t x = i + 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+/// Vertices at the mesh's rim: around others each edge is entered as often as it is left.
+std::vector<bool> rim_of(const Mesh& mesh) {
+  std::vector<std::uint64_t> balance(mesh.vertices_mm.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      balance[t[i]] += scrambled(t[(i + 1) % 3]) - scrambled(t[(i + 2) % 3]);
+    }
+  }
+  std::vector<bool> rim(balance.size());
+  for (std::size_t i = 0; i < rim.size(); ++i)
+    rim[i] = balance[i] != 0;
+  return rim;
+}
+
+struct Corner {
+  std::uint32_t vertex;
+  std::uint32_t triangle;
+  std::uint32_t index;  ///< of the vertex in the triangle
+};
+
+template <typename T>
+void repeat(std::vector<T>& values, std::uint32_t which) {
+  if (!values.empty()) values.push_back(T(values[which]));
+}
+
+/// Numbers the fans among the corners of one vertex; corners that share an edge are of one fan.
+std::vector<std::uint32_t> fans_of(const Mesh& mesh, const std::vector<Corner>& corners) {
+  Parts parts(corners.size());
+  for (std::uint32_t a = 0; a < corners.size(); ++a) {
+    for (std::uint32_t b = 0; b < corners.size(); ++b) {
+      const auto& one = mesh.triangles[corners[a].triangle];
+      const auto& other = mesh.triangles[corners[b].triangle];
+      if (one[(corners[a].index + 2) % 3] == other[(corners[b].index + 1) % 3]) parts.join(a, b);
+    }
+  }
+  std::vector<std::uint32_t> fans(corners.size());
+  for (std::uint32_t a = 0; a < corners.size(); ++a)
+    fans[a] = parts.find(a);
+  return fans;
+}
+
+}  // namespace
+
+void drop_small_parts(Mesh& mesh, std::size_t min_triangles) {
+  Parts parts(mesh.vertices_mm.size());
+  for (const auto& t : mesh.triangles) {
+    parts.join(t[0], t[1]);
+    parts.join(t[0], t[2]);
+  }
+  std::vector<std::uint32_t> sizes(mesh.vertices_mm.size(), 0);
+  for (const auto& t : mesh.triangles)
+    ++sizes[parts.find(t[0])];
+  const auto small = [&](const Mesh::Triangle& t) {
+    return sizes[parts.find(t[0])] < min_triangles;
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), small),
+                       mesh.triangles.end());
+}
+
+void split_bow_ties(Mesh& mesh) {
+  const std::vector<bool> rim = rim_of(mesh);
+  std::vector<Corner> corners;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (rim[mesh.triangles[t][i]]) corners.push_back({mesh.triangles[t][i], t, i});
+    }
+  }
+  std::stable_sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.vertex < b.vertex;
+  });
+  for (auto begin = corners.begin(); begin != corners.end();) {
+    const auto end = std::find_if(
+        begin, corners.end(), [&](const Corner& c) { return c.vertex != begin->vertex; });
+    const std::vector<Corner> around(begin, end);
+    const std::vector<std::uint32_t> fans = fans_of(mesh, around);
+    for (std::uint32_t fan = 1; fan < fans.size(); ++fan) {
+      if (fans[fan] != fan) continue;
+      const auto fresh = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+      repeat(mesh.vertices_mm, around[0].vertex);
+      repeat(mesh.normals, around[0].vertex);
+      repeat(mesh.sigma_mm, around[0].vertex);
+      repeat(mesh.views, around[0].vertex);
+      for (std::size_t i = 0; i < fans.size(); ++i) {
+        if (fans[i] == fan) mesh.triangles[around[i].triangle][around[i].index] = fresh;
+      }
+    }
+    begin = end;
+  }
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+  constexpr std::uint32_t kUnused = ~0U;
+  std::vector<std::uint32_t> renamed(mesh.vertices_mm.size(), kUnused);
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t vertex : t)
+      renamed[vertex] = 0;
+  }
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < renamed.size(); ++i) {
+    if (renamed[i] != kUnused) renamed[i] = next++;
+  }
+  const auto keep = [&](auto& values) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < renamed.size(); ++i) {
+      if (renamed[i] != kUnused) values[renamed[i]] = values[i];
+    }
+    values.resize(next);
+  };
+  keep(mesh.vertices_mm);
+  keep(mesh.normals);
+  keep(mesh.sigma_mm);
+  keep(mesh.views);
+  for (auto& t : mesh.triangles) {
+    for (std::uint32_t& vertex : t)
+      vertex = renamed[vertex];
+  }
+}
+
+}  // namespace frangia

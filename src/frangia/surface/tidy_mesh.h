@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "frangia/surface/mesh.h"
+
+namespace frangia {
+
+/// Drops connected parts of fewer triangles than `min_triangles`, in place.
+void drop_small_parts(Mesh& mesh, std::size_t min_triangles);
+
+/// Gives each fan of triangles a vertex of its own where several meet in one vertex only.
+void split_bow_ties(Mesh& mesh);
+
+/// Drops vertices without a triangle; the others keep their order.
+void drop_unused_vertices(Mesh& mesh);
+
+}  // namespace frangia

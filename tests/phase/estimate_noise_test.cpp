@@ -1,0 +1,77 @@
+#include "frangia/phase/estimate_noise.h"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_fringes.h"
+
+namespace frangia {
+namespace {
+
+using testing::equal_shifts;
+using testing::photograph;
+using testing::quarter_steps;
+using testing::Scene;
+
+/// Frames of a scene that darkens to one side, with shot and read noise of an 8-bit camera.
+FrameStack shot_noise_frames(const Pattern& pattern, double step_error = 0.0) {
+  const double gain_e = 60.0;
+  const double read_counts = 0.6;
+  std::mt19937 generator(3);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  FrameStack stack{.pattern = pattern, .frames = {}, .white_level = 255};
+  for (const double shift : pattern.shifts_rad) {
+    Image<std::uint8_t> image(640, 400);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const double mean = 20.0 + 0.16 * x;
+        const double light =
+            mean * (1.0 + 0.7 * std::cos(0.1 * x + 0.02 * y + shift * (1.0 + step_error)));
+        const double sigma = std::hypot(read_counts, std::sqrt(light / gain_e));
+        image(x, y) =
+            static_cast<std::uint8_t>(std::lround(std::max(0.0, light + sigma * noise(generator))));
+      }
+    }
+    stack.frames.emplace_back(std::move(image));
+  }
+  return stack;
+}
+
+double true_variance(double counts) {
+  return 0.36 + counts / 60.0 + 1.0 / 12.0;
+}
+
+TEST(EstimateNoise, FindsShotAndReadNoiseFromFourFrames) {
+  const std::vector<FrameStack> stacks = {shot_noise_frames(quarter_steps())};
+  const NoiseModel noise = estimate_noise(stacks);
+  for (const double counts : {30.0, 70.0, 110.0})
+    EXPECT_NEAR(noise.variance(counts) / true_variance(counts), 1.0, 0.06) << counts;
+}
+
+TEST(EstimateNoise, IsNotFooledByAStepError) {
+  const std::vector<FrameStack> stacks = {shot_noise_frames(quarter_steps(), 0.05)};
+  EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.1);
+}
+
+TEST(EstimateNoise, FindsItFromThreeFramesToo) {
+  Pattern pattern = quarter_steps();
+  pattern.shifts_rad = equal_shifts(3, kTurn / 3.0);
+  const std::vector<FrameStack> stacks = {shot_noise_frames(pattern)};
+  EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.15);
+}
+
+TEST(EstimateNoise, KeepsTheNoiseOfQuantisationForPerfectFrames) {
+  const std::vector<FrameStack> stacks = {
+      photograph({.height = 200}, quarter_steps(), [](int x, int) { return 0.05 * x; })};
+  EXPECT_GE(estimate_noise(stacks).variance(30000.0), 1.0 / 12.0);
+}
+
+TEST(EstimateNoise, OfNothingIsTheNoiseOfQuantisation) {
+  EXPECT_DOUBLE_EQ(estimate_noise({}).variance(100.0), 1.0 / 12.0);
+}
+
+}  // namespace
+}  // namespace frangia

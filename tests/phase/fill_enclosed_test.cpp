@@ -1,0 +1,74 @@
+#include "frangia/phase/fill_enclosed.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/missing.h"
+
+namespace frangia {
+namespace {
+
+double bowl(int x, int y) {
+  return 0.2 * x - 0.1 * y + 0.001 * x * y;
+}
+
+AbsolutePhase measured(int width, int height) {
+  AbsolutePhase phase{.pattern = {},
+                      .phase_rad = Image<float>(width, height),
+                      .sigma_rad = Image<float>(width, height, 0.02F),
+                      .fate = Image<PixelFate>(width, height, PixelFate::Measured)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      phase.phase_rad(x, y) = static_cast<float>(bowl(x, y));
+  }
+  return phase;
+}
+
+void punch(AbsolutePhase& phase, int x0, int y0, int x1, int y1, PixelFate fate) {
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      phase.phase_rad(x, y) = kMissing;
+      phase.sigma_rad(x, y) = kMissing;
+      phase.fate(x, y) = fate;
+    }
+  }
+}
+
+TEST(FillEnclosed, InterpolatesASaturatedHighlightAndMarksIt) {
+  AbsolutePhase phase = measured(40, 30);
+  punch(phase, 10, 10, 17, 16, PixelFate::Saturated);
+  EXPECT_EQ(fill_enclosed(phase), 42U);
+  for (int y = 10; y < 16; ++y) {
+    for (int x = 10; x < 17; ++x) {
+      EXPECT_NEAR(phase.phase_rad(x, y), bowl(x, y), 0.01);
+      EXPECT_GE(phase.sigma_rad(x, y), 0.02F);
+      EXPECT_EQ(phase.fate(x, y), PixelFate::Filled);
+    }
+  }
+}
+
+TEST(FillEnclosed, LeavesATrueHoleOpen) {
+  AbsolutePhase phase = measured(40, 30);
+  punch(phase, 10, 10, 16, 16, PixelFate::Unmodulated);
+  EXPECT_EQ(fill_enclosed(phase), 0U);
+}
+
+TEST(FillEnclosed, LeavesAHoleOpenThatReachesTheBorder) {
+  AbsolutePhase phase = measured(40, 30);
+  punch(phase, 0, 10, 5, 14, PixelFate::Saturated);
+  EXPECT_EQ(fill_enclosed(phase), 0U);
+}
+
+TEST(FillEnclosed, DoesNotBridgeADepthStep) {
+  AbsolutePhase phase = measured(40, 30);
+  punch(phase, 18, 10, 22, 14, PixelFate::Residue);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 20; x < 40; ++x)
+      phase.phase_rad(x, y) += 6.0F;
+  }
+  EXPECT_EQ(fill_enclosed(phase), 0U);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,122 @@
+#include "frangia/phase/unwrap_in_space.h"
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
+#include "frangia/phase/discard_residues.h"
+
+namespace frangia {
+namespace {
+
+/// A wrapped map of `phase(x, y)`; NaN there is missing.
+template <typename PhaseOf>
+WrappedPhase wrapped_map(int width, int height, const PhaseOf& phase, double noise_rad = 0.0) {
+  std::mt19937 generator(9);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  WrappedPhase map{.pattern = {},
+                   .phase_rad = Image<float>(width, height, kMissing),
+                   .sigma_rad = Image<float>(width, height, kMissing),
+                   .modulation_counts = Image<float>(width, height, 50.0F),
+                   .mean_counts = Image<float>(width, height, 80.0F),
+                   .fate = Image<PixelFate>(width, height, PixelFate::Unmodulated)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double value = phase(x, y) + noise_rad * noise(generator);
+      if (std::isnan(value)) continue;
+      map.phase_rad(x, y) = static_cast<float>(wrap_rad(value));
+      map.sigma_rad(x, y) = static_cast<float>(std::max(noise_rad, 0.01));
+      map.fate(x, y) = PixelFate::Measured;
+    }
+  }
+  return map;
+}
+
+/// Whether the phase differs from the truth by one whole number of turns within each region.
+template <typename PhaseOf>
+::testing::AssertionResult is_true_but_for_turns(const RelativePhase& found,
+                                                 const PhaseOf& truth,
+                                                 double tolerance) {
+  std::map<int, int> turns;
+  for (int y = 0; y < found.phase_rad.height(); ++y) {
+    for (int x = 0; x < found.phase_rad.width(); ++x) {
+      if (found.region(x, y) < 0) continue;
+      const double off = (found.phase_rad(x, y) - truth(x, y)) / kTurn;
+      const int whole = static_cast<int>(std::lround(off));
+      const int expected = turns.emplace(found.region(x, y), whole).first->second;
+      if (whole != expected || std::abs(off - whole) * kTurn > tolerance) {
+        return ::testing::AssertionFailure()
+               << "at " << x << ", " << y << ": off by " << off << " turns";
+      }
+    }
+  }
+  return ::testing::AssertionSuccess();
+}
+
+double dome(int x, int y) {
+  return 30.0 - 0.002 * ((x - 90) * (x - 90) + (y - 70) * (y - 70));
+}
+
+TEST(UnwrapInSpace, RecoversASmoothSurfaceAsOneRegion) {
+  const RelativePhase found = unwrap_in_space(wrapped_map(180, 140, dome, 0.05));
+  EXPECT_EQ(found.region_count, 1);
+  EXPECT_TRUE(is_true_but_for_turns(found, dome, 0.4));
+}
+
+TEST(UnwrapInSpace, KeepsACreaseInOneRegion) {
+  const auto roof = [](int x, int) { return x < 60 ? 0.15 * x : 9.0 - 0.20 * (x - 60); };
+  const RelativePhase found = unwrap_in_space(wrapped_map(120, 80, roof, 0.02));
+  EXPECT_EQ(found.region_count, 1);
+  EXPECT_TRUE(is_true_but_for_turns(found, roof, 0.2));
+}
+
+TEST(UnwrapInSpace, NeverJoinsAcrossAStepOfMoreThanHalfAFringe) {
+  // The step's height runs from 2 to 9 rad: it wraps to nothing on its way, where it looks smooth.
+  const auto step = [](int x, int y) { return 0.1 * x + (x < 100 ? 0.0 : 2.0 + 0.05 * y); };
+  const RelativePhase found = unwrap_in_space(wrapped_map(200, 140, step, 0.03));
+  EXPECT_GE(found.region_count, 2);
+  EXPECT_TRUE(is_true_but_for_turns(found, step, 0.3));
+}
+
+TEST(UnwrapInSpace, GivesEveryConnectedPieceItsOwnRegion) {
+  const auto islands = [](int x, int) { return x / 50 % 2 == 0 ? 0.2 * x : std::nan(""); };
+  const RelativePhase found = unwrap_in_space(wrapped_map(250, 60, islands));
+  EXPECT_EQ(found.region_count, 3);
+  EXPECT_TRUE(is_true_but_for_turns(found, islands, 1e-4));
+}
+
+TEST(UnwrapInSpace, NumbersRegionsFromTheLargest) {
+  const auto sizes = [](int x, int) { return x < 20 ? 1.0 : x < 30 ? std::nan("") : 2.0; };
+  const RelativePhase found = unwrap_in_space(wrapped_map(150, 40, sizes));
+  ASSERT_EQ(found.region_count, 2);
+  EXPECT_EQ(found.region(5, 5), 1);
+  EXPECT_EQ(found.region(100, 5), 0);
+}
+
+TEST(UnwrapInSpace, TakesMapsOfOnePixelAndOfOneRow) {
+  const auto flat = [](int x, int) { return 0.3 * x; };
+  EXPECT_EQ(unwrap_in_space(wrapped_map(1, 1, flat)).region_count, 1);
+  const RelativePhase row = unwrap_in_space(wrapped_map(100, 1, flat));
+  EXPECT_EQ(row.region_count, 1);
+  EXPECT_TRUE(is_true_but_for_turns(row, flat, 1e-4));
+  const RelativePhase column =
+      unwrap_in_space(wrapped_map(1, 50, [](int, int y) { return 0.3 * y; }));
+  EXPECT_EQ(column.region_count, 1);
+}
+
+TEST(DiscardResidues, FindsTheCoreOfASpiralAndNothingInASmoothMap) {
+  WrappedPhase smooth = wrapped_map(180, 140, dome);
+  EXPECT_EQ(discard_residues(smooth), 0U);
+  WrappedPhase spiral =
+      wrapped_map(41, 41, [](int x, int y) { return std::atan2(y - 20.5, x - 20.5); });
+  EXPECT_EQ(discard_residues(spiral), 4U);
+  EXPECT_EQ(spiral.fate(20, 20), PixelFate::Residue);
+  EXPECT_TRUE(std::isnan(spiral.phase_rad(21, 21)));
+}
+
+}  // namespace
+}  // namespace frangia

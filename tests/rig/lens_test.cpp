@@ -1,0 +1,56 @@
+#include "frangia/rig/lens.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace frangia {
+namespace {
+
+const Lens kLens{.width_px = 640,
+                 .height_px = 512,
+                 .focal_px = {1200.0, 1190.0},
+                 .principal_point_px = {326.8, 251.4},
+                 .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.01}};
+
+TEST(Lens, ProjectsAsOpenCvDoes) {
+  // cv2.projectPoints of (30, -20, 400) with the same matrix and coefficients.
+  const Eigen::Vector2d n(0.075, -0.05);
+  const double r2 = 0.008125;
+  const double radial = 1.0 - 0.09 * r2 + 0.05 * r2 * r2 + 0.01 * r2 * r2 * r2;
+  const double x = n.x() * radial + 2 * 4e-4 * n.x() * n.y() - 3e-4 * (r2 + 2 * n.x() * n.x());
+  const double y = n.y() * radial + 4e-4 * (r2 + 2 * n.y() * n.y()) - 2 * 3e-4 * n.x() * n.y();
+  const Eigen::Vector2d pixel = kLens.project({30.0, -20.0, 400.0});
+  EXPECT_NEAR(pixel.x(), 1200.0 * x + 326.8, 1e-9);
+  EXPECT_NEAR(pixel.y(), 1190.0 * y + 251.4, 1e-9);
+}
+
+TEST(Lens, RayOfAPixelProjectsBackOntoIt) {
+  for (int y = 0; y < kLens.height_px; y += 73) {
+    for (int x = 0; x < kLens.width_px; x += 61) {
+      const Eigen::Vector2d ray = kLens.ray(Eigen::Vector2d(x, y));
+      const Eigen::Vector2d pixel = kLens.project({ray.x() * 333.0, ray.y() * 333.0, 333.0});
+      EXPECT_NEAR((pixel - Eigen::Vector2d(x, y)).norm(), 0.0, 1e-9);
+    }
+  }
+}
+
+TEST(Lens, JacobianIsTheDerivativeOfDistort) {
+  const Eigen::Vector2d at(0.21, -0.17);
+  const double h = 1e-6;
+  Eigen::Matrix2d numeric;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(axis);
+    numeric.col(axis) = (kLens.distort(at + step) - kLens.distort(at - step)) / (2.0 * h);
+  }
+  EXPECT_NEAR((numeric - kLens.distort_jacobian(at)).norm(), 0.0, 1e-8);
+}
+
+TEST(Lens, HasNoRayWhereTheModelFoldsBack) {
+  Lens folding = kLens;
+  folding.distortion = {-2.0, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_TRUE(folding.undistort({0.9, 0.0}).hasNaN());
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,145 @@
+#include "frangia/rig/read_rig.h"
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/rig/paper_rig.h"
+
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::TemporaryFolder;
+
+const std::string kRig = R"(format = "frangia-rig"
+version = 1
+[camera]
+size_px = [1280, 1024]
+focal_px = [2400.0, 2400.0]
+principal_point_px = [646.8, 507.4]
+distortion = [-0.09, 0.05, 4e-4, -3e-4, 0.0]
+white_level = 4095
+[projector]
+model = "angular"
+position_mm = [342.0, 0.0, -449.7]
+rotation = [[0.93969262, 0, 0.34202014], [0, 1, 0], [-0.34202014, 0, 0.93969262]]
+field_deg = [-12, 12]
+[line]
+normal = [0.936672189, 0.0, 0.350207381]
+offset_mm = 162.9
+[turntable]
+point_mm = [3.5, 55.0, 496.0]
+axis = [0.008, -0.9999, 0.011]
+)";
+
+std::filesystem::path save(const TemporaryFolder& folder, const std::string& text) {
+  const auto path = folder.path() / "rig.toml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = kRig;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(ReadRig, ReadsEveryTable) {
+  const TemporaryFolder folder;
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Rig rig = read_rig(save(folder, kRig), run);
+  EXPECT_EQ(rig.camera.lens.width_px, 1280);
+  EXPECT_EQ(rig.camera.white_level, 4095);
+  EXPECT_TRUE(rig.projector.is_angular());
+  EXPECT_DOUBLE_EQ(rig.line->offset_mm, 162.9);
+  EXPECT_NEAR(rig.turntable->axis.norm(), 1.0, 1e-15);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(ReadRig, ReadsBackWhatWriteRigWrote) {
+  const TemporaryFolder folder;
+  Rig rig = make_paper_rig({});
+  rig.turntable = Turntable{.point_mm = {1.0, 2.0, 480.0}};
+  rig.camera.noise = NoiseModel::from_camera(40.0, 11.0);
+  write_rig(folder.path() / "rig.toml", rig);
+  const Rig back = read_rig(folder.path() / "rig.toml");
+  EXPECT_TRUE(back.projector.rotation.isApprox(rig.projector.rotation, 1e-12));
+  EXPECT_TRUE(back.projector.position_mm.isApprox(rig.projector.position_mm, 1e-15));
+  EXPECT_TRUE(back.line->normal.isApprox(rig.line->normal, 1e-15));
+  EXPECT_NEAR(back.camera.noise->variance(100.0), rig.camera.noise->variance(100.0), 1e-9);
+  EXPECT_EQ(back.camera.lens.distortion, rig.camera.lens.distortion);
+}
+
+TEST(ReadRig, WarnsOfKeysThatItDoesNotKnowByName) {
+  const TemporaryFolder folder;
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  static_cast<void>(read_rig(save(folder, with("white_level", "colour = 3\nwhite_level")), run));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("camera.colour"), std::string::npos);
+}
+
+struct Fault {
+  std::string from;
+  std::string to;
+  std::string names;  ///< what the sentence must name
+};
+
+class ReadRigFault : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(ReadRigFault, IsOneSentenceThatNamesFileAndKey) {
+  const TemporaryFolder folder;
+  const auto path = save(folder, with(GetParam().from, GetParam().to));
+  try {
+    static_cast<void>(read_rig(path));
+    FAIL() << "accepted " << GetParam().to;
+  } catch (const Error& error) {
+    const std::string sentence = error.what();
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
+    EXPECT_NE(sentence.find("rig.toml"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(GetParam().names), std::string::npos) << sentence;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All,
+    ReadRigFault,
+    ::testing::Values(
+        Fault{"\"angular\"", "\"laser\"", "projector.model"},
+        Fault{"[0, 1, 0]", "[0, 0, 0]", "projector.rotation"},
+        Fault{"[0, 1, 0]", "[0, -1, 0]", "projector.rotation"},
+        Fault{"[0, 1, 0]", "[0, 1]", "projector.rotation"},
+        Fault{"offset_mm = 162.9", "offset_mm = nan", "line.offset_mm"},
+        Fault{"focal_px = [2400.0, 2400.0]", "focal_px = [2400.0, inf]", "camera.focal_px"},
+        Fault{"focal_px = [2400.0, 2400.0]", "focal_px = [2400.0, -1]", "camera.focal_px"},
+        Fault{"size_px = [1280, 1024]", "size_px = [1280, 0]", "camera.size_px"},
+        Fault{"white_level = 4095", "white_level = \"white\"", "camera.white_level"},
+        Fault{"white_level = 4095", "white_level = 0", "camera.white_level"},
+        Fault{"field_deg = [-12, 12]", "field_deg = [12, -12]", "projector.field_deg"},
+        Fault{"axis = [0.008, -0.9999, 0.011]", "axis = [0, 0, 0]", "turntable.axis"},
+        Fault{"position_mm = [342.0, 0.0, -449.7]", "", "projector.position_mm"},
+        Fault{"position_mm = [342.0, 0.0, -449.7]", "position_mm = [0, 0, 0]", "position_mm"},
+        Fault{"version = 1", "version = 2", "version"},
+        Fault{"\"frangia-rig\"", "\"frangia-scan\"", "format"},
+        Fault{"[line]", "[line", "line 14"}));
+
+TEST(ReadRig, NamesAFileThatIsNotThere) {
+  try {
+    static_cast<void>(read_rig("/nowhere/rig.toml"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("/nowhere/rig.toml"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace frangia
