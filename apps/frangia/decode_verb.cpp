@@ -36,7 +36,7 @@ void print_result(const DecodedView& decoded,
     const auto count = std::count(fate.begin(), fate.end(), entry.fate);
     json["pixels"][entry.meaning] = count;
     if (count == 0 || terminal.json || terminal.quiet) continue;
-    fmt::print("{:>10} pixels {} ({} in mask.png)\n", count, entry.meaning, entry.colour_name);
+    fmt::print("{:>10} pixels {} ({} in mask.png)\n", count, entry.meaning, entry.color_name);
   }
   json["files"] = files;
   if (terminal.json) fmt::print("{}\n", json.dump(2));

@@ -69,8 +69,7 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
     check_mesh_ending(path);
     const AtomicFile probe(path);  // an output that cannot be written is told before the work
   }
-  arguments.write.dxf.variant =
-      arguments.dxf == "faces" ? DxfVariant::Faces : DxfVariant::Polyface;
+  arguments.write.dxf.variant = arguments.dxf == "faces" ? DxfVariant::Faces : DxfVariant::Polyface;
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
   const Reconstruction result = reconstruct(scan, arguments.options, run);

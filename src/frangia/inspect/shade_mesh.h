@@ -5,8 +5,8 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
+#include "frangia/frames/color_map.h"
 #include "frangia/frames/png.h"
-#include "frangia/inspect/color_map.h"
 #include "frangia/surface/mesh.h"
 
 namespace frangia {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "frangia/frames/colour_map.h"
 #include "frangia/frames/float_tiff.h"
+#include "frangia/frames/map_picture.h"
 
 namespace frangia {
 namespace {
@@ -35,7 +35,7 @@ class StageWriter {
   }
   void map(const std::string& name, const Image<float>& values) {
     numbers(name, values);
-    picture(name, picture_of(values, usual_range(values), Palette::Viridis));
+    picture(name, map_picture(values, usual_range(values), ColorMap::Viridis));
   }
 
   std::vector<std::string> written;
@@ -48,18 +48,19 @@ class StageWriter {
 Image<Rgb> mask_picture(const Image<PixelFate>& fate) {
   Image<Rgb> picture(fate.width(), fate.height());
   for (std::size_t i = 0; i < fate.pixels().size(); ++i)
-    picture.pixels()[i] = fate_legend()[static_cast<std::size_t>(fate.pixels()[i])].colour;
+    picture.pixels()[i] = fate_legend()[static_cast<std::size_t>(fate.pixels()[i])].color;
   return picture;
 }
 
-/// Neighbouring regions in colours far apart, the largest in the calmest.
+/// Neighbouring regions in colors far apart, the largest in the calmest.
 Image<Rgb> region_picture(const Image<std::int32_t>& region) {
   Image<Rgb> picture(region.width(), region.height(), Rgb{36, 40, 52});
   for (std::size_t i = 0; i < region.pixels().size(); ++i) {
     const std::int32_t label = region.pixels()[i];
     if (label < 0) continue;
     const double golden = 0.6180339887 * (label + 1);
-    picture.pixels()[i] = colour_of(golden - std::floor(golden), Palette::Viridis);
+    picture.pixels()[i] =
+        pixel_of(ColorMap::Viridis, static_cast<float>(golden - std::floor(golden)));
   }
   return picture;
 }
@@ -90,7 +91,7 @@ std::vector<std::string> write_stages(const DecodedView& decoded,
     out.numbers(name + "-wrapped", level.phase_rad);
     // As in the paper's Fig. 4: the phase modulo 2 pi, from black to white.
     out.picture(name + "-wrapped",
-                picture_of(level.phase_rad, {-3.14159265F, 3.14159265F}, Palette::Grey));
+                map_picture(level.phase_rad, {-3.14159265F, 3.14159265F}, ColorMap::Grey));
     out.map(name + "-modulation", level.modulation_counts);
     out.map(name + "-sigma", level.sigma_rad);
   }

@@ -14,8 +14,8 @@ namespace frangia {
 /// How a fate is drawn in mask.png, and what to call it.
 struct FateLegend {
   PixelFate fate;
-  Rgb colour;
-  std::string colour_name;
+  Rgb color;
+  std::string color_name;
   std::string meaning;
 };
 [[nodiscard]] const std::vector<FateLegend>& fate_legend();

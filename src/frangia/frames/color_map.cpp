@@ -1,4 +1,4 @@
-#include "frangia/inspect/color_map.h"
+#include "frangia/frames/color_map.h"
 
 #include <algorithm>
 #include <array>
@@ -42,6 +42,7 @@ const Stops& cool_warm() {
 
 Eigen::Vector3f color_of(ColorMap map, float value) {
   if (std::isnan(value)) return Eigen::Vector3f::Constant(0.5F);
+  if (map == ColorMap::Grey) return Eigen::Vector3f::Constant(std::clamp(value, 0.0F, 1.0F));
   const Stops& stops = map == ColorMap::Viridis ? viridis() : cool_warm();
   const float place = std::clamp(value, 0.0F, 1.0F) * static_cast<float>(stops.size() - 1);
   const std::size_t low = std::min(static_cast<std::size_t>(place), stops.size() - 2);

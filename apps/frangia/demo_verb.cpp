@@ -1,0 +1,213 @@
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/frames/map_picture.h"
+#include "frangia/inspect/contact_sheet.h"
+#include "frangia/inspect/shade_mesh.h"
+#include "frangia/inspect/surface_coverage.h"
+#include "frangia/inspect/surface_error.h"
+#include "frangia/scan/reconstruct.h"
+#include "frangia/scan/simulate_scan.h"
+#include "frangia/simulate/default_patterns.h"
+#include "frangia/simulate/parts.h"
+#include "frangia/simulate/rig_presets.h"
+
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+struct DemoArguments {
+  std::filesystem::path folder = "frangia-demo";
+  bool open = false;
+};
+
+/// One part on one rig, from its scan to what is known of the result.
+struct Act {
+  std::string part;
+  std::string rig;
+  Reconstruction result;
+  SurfaceError error;
+  SurfaceCoverage coverage;
+  std::vector<Image<Rgb>> pictures;  ///< its fringes, its phase, its mesh, its error
+};
+
+constexpr int kViews = 8;
+constexpr double kWithin_mm = 0.2;
+constexpr float kErrorScale_mm = 0.1F;
+
+Scan plan_of(const Act& act, const std::filesystem::path& folder) {
+  Scan plan;
+  plan.folder = folder / (act.part + "-scan");
+  plan.name = act.part;
+  plan.rig = rig_preset(act.rig);
+  plan.patterns = default_patterns(plan.rig);
+  for (int i = 0; i < kViews; ++i)
+    plan.views.push_back({kTurn * i / kViews, fmt::format("views/{:03}", i)});
+  return plan;
+}
+
+Image<Rgb> grey_picture(const Frame& frame, int white_level) {
+  Image<Rgb> picture(width_of(frame), height_of(frame));
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const float share =
+          static_cast<float>(counts_at(frame, x, y)) / static_cast<float>(white_level);
+      picture(x, y) = pixel_of(ColorMap::Grey, share);
+    }
+  }
+  return picture;
+}
+
+/// The view's first fringe frame and its phase modulo 2 pi, as in the paper's Fig. 3 and 4.
+void picture_phase(const Scan& scan, Act& act, const Run& run) {
+  const auto stacks = read_frames(scan, 0, run);
+  const DecodedView decoded = decode_view(stacks, scan.rig, rays_of(scan.rig.camera.lens), {}, run);
+  const WrappedPhase& finest = decoded.wrapped.back();
+  for (const FrameStack& stack : stacks) {
+    if (stack.pattern.name != finest.pattern.name) continue;
+    act.pictures.push_back(
+        cropped_to_light(grey_picture(stack.frames.front(), stack.white_level), 24));
+  }
+  constexpr float kHalfTurn = 3.14159265F;
+  Image<float> phase = finest.phase_rad;
+  Image<Rgb> picture = map_picture(phase, {-kHalfTurn, kHalfTurn}, ColorMap::Grey);
+  for (std::size_t i = 0; i < phase.pixels().size(); ++i) {
+    if (std::isnan(phase.pixels()[i])) picture.pixels()[i] = {0, 0, 0};
+  }
+  act.pictures.push_back(cropped_to_light(picture, 24));
+}
+
+void measure(const Scan& scan, const Mesh& truth, Act& act, const Run& run) {
+  const RayScene truth_scene(truth);
+  const RayScene mesh_scene(act.result.mesh);
+  std::vector<Eigen::Isometry3d> poses;
+  for (const ScanView& view : scan.views)
+    poses.push_back(scan.rig.rig_from_object(view.angle_rad));
+  act.error = surface_error(act.result.mesh, truth_scene, {}, run);
+  act.coverage = surface_coverage(
+      truth_scene, mesh_scene, SeenFrom{scan.rig, poses}, {.within_mm = kWithin_mm}, run);
+  ShadeOptions shade{.width_px = 900, .height_px = 900};
+  act.pictures.push_back(shade_mesh(act.result.mesh, shade, run));
+  shade.values = vertex_errors_mm(act.result.mesh, truth_scene, run);
+  shade.value_min = -kErrorScale_mm;
+  shade.value_max = kErrorScale_mm;
+  shade.color_map = ColorMap::Diverging;
+  act.pictures.push_back(shade_mesh(act.result.mesh, shade, run));
+}
+
+void perform(Act& act, const std::filesystem::path& folder, const Run& run) {
+  run.stage("simulate");
+  const Scan plan = plan_of(act, folder);
+  std::filesystem::remove_all(plan.folder);  // of an earlier demo
+  const Mesh truth = make_part(act.part);
+  const Scan scan = simulate_scan(truth, plan, {.samples_per_px = 4}, run);
+  act.result = reconstruct(scan, {}, run);
+  run.stage("files");
+  for (const char* ending : {"dxf", "ply", "stl"})
+    write_mesh(folder / fmt::format("{}.{}", act.part, ending), act.result.mesh);
+  run.stage("pictures");
+  picture_phase(scan, act, run);
+  measure(scan, truth, act, run);
+  write_png(folder / (act.part + ".png"), act.pictures[2]);
+}
+
+void print_json(const std::vector<Act>& acts, Terminal& terminal) {
+  nlohmann::ordered_json json;
+  for (const Act& act : acts) {
+    json["parts"].push_back({{"part", act.part},
+                             {"rig", act.rig},
+                             {"points", act.result.points},
+                             {"triangles", act.result.mesh.triangles.size()},
+                             {"rms_mm", act.error.rms_mm},
+                             {"p99_mm", act.error.p99_mm},
+                             {"max_mm", act.error.max_mm},
+                             {"covered", act.coverage.share}});
+  }
+  for (const auto& stage : terminal.stage_seconds())
+    json["seconds"][stage.first] = stage.second;
+  json["warnings"] = terminal.warnings();
+  fmt::print("{}\n", json.dump(2));
+}
+
+void print_table(const std::vector<Act>& acts, Terminal& terminal) {
+  fmt::print("{:<8}{:<10}{:>9}{:>11}{:>17}{:>11}{:>10}\n",
+             "part",
+             "rig",
+             "points",
+             "triangles",
+             "error RMS, mm",
+             "99 %, mm",
+             "covered");
+  for (const Act& act : acts) {
+    fmt::print("{:<8}{:<10}{:>9}{:>11}{:>17.4f}{:>11.4f}{:>8.1f} %\n",
+               act.part,
+               act.rig,
+               act.result.points,
+               act.result.mesh.triangles.size(),
+               act.error.rms_mm,
+               act.error.p99_mm,
+               100.0 * act.coverage.share);
+  }
+  fmt::print("(covered: of what a view could measure, has mesh within {} mm)\n\n", kWithin_mm);
+  for (const auto& [stage, seconds] : terminal.stage_seconds())
+    fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
+}
+
+void demo(const DemoArguments& arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  std::error_code error;
+  std::filesystem::create_directories(arguments.folder, error);
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be made: {}", arguments.folder.string(), error.message()));
+  }
+  std::vector<Act> acts(2);
+  acts[0].part = "bust";
+  acts[0].rig = "digital";
+  acts[1].part = "shaft";
+  acts[1].rig = "angular";
+  std::vector<std::vector<Image<Rgb>>> rows;
+  for (Act& act : acts) {
+    run.note(fmt::format("{} on the {} rig, {} views", act.part, act.rig, kViews));
+    perform(act, arguments.folder, run);
+    rows.push_back(act.pictures);
+  }
+  const auto sheet = arguments.folder / "demo.png";
+  write_png(sheet, contact_sheet(rows, 420));
+  terminal.finish();
+  if (terminal.json) {
+    print_json(acts, terminal);
+  } else {
+    print_table(acts, terminal);
+    fmt::print(
+        "\nmeshes and pictures are in {}; look at {}\n", arguments.folder.string(), sheet.string());
+  }
+  if (!arguments.open) return;
+  const std::string command = "xdg-open '" + sheet.string() + "'";
+  if (std::system(command.c_str()) != 0) run.warn("no program opens " + sheet.string());  // NOLINT
+}
+
+}  // namespace
+
+void add_demo_verb(CLI::App& program, Terminal& terminal) {
+  auto arguments = std::make_shared<DemoArguments>();
+  CLI::App* verb = program.add_subcommand(
+      "demo", "scan two parts on the simulated rig and measure them, in about a minute");
+  verb->footer("example:\n  frangia demo --open");
+  verb->add_option("-o,--output", arguments->folder, "the folder to write into")
+      ->capture_default_str();
+  verb->add_flag("--open", arguments->open, "show the picture when it is done");
+  verb->callback([arguments, &terminal] { demo(*arguments, terminal); });
+}
+
+}  // namespace frangia
