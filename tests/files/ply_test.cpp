@@ -71,6 +71,7 @@ TEST_F(ReadPly, ReadsBackWhatWritePlyWrote) {
   const Mesh back = read_ply(at("part.ply"));
   expect_same_surface(back, mesh);
   EXPECT_EQ(back.normals, mesh.normals);
+  EXPECT_EQ(back.views, mesh.views);
   ASSERT_EQ(back.sigma_mm.size(), mesh.sigma_mm.size());
   for (std::size_t i = 0; i < mesh.sigma_mm.size(); ++i)
     EXPECT_TRUE(back.sigma_mm[i] == mesh.sigma_mm[i] || (i == 3 && std::isnan(back.sigma_mm[i])));

@@ -29,12 +29,14 @@ inline Mesh sheet(std::uint32_t side) {
   return mesh;
 }
 
-/// The same with normals and sigma.
+/// The same with normals, sigma and views.
 inline Mesh measured_sheet(std::uint32_t side) {
   Mesh mesh = sheet(side);
   mesh.normals = vertex_normals(mesh);
-  for (const auto& vertex : mesh.vertices_mm)
+  for (const auto& vertex : mesh.vertices_mm) {
     mesh.sigma_mm.push_back(0.01F + std::abs(vertex.z()) / 100.0F);
+    mesh.views.push_back(static_cast<std::uint16_t>(mesh.views.size() * 997));
+  }
   return mesh;
 }
 

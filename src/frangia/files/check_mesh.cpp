@@ -36,12 +36,15 @@ void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::size_t count = mesh.vertices_mm.size();
   check_finite(mesh.vertices_mm, "vertex", path);
   check_finite(mesh.normals, "normal", path);
-  if (!mesh.normals.empty() && mesh.normals.size() != count) {
-    fail(path, fmt::format("{} normals for {} vertices", mesh.normals.size(), count));
-  }
-  if (!mesh.sigma_mm.empty() && mesh.sigma_mm.size() != count) {
-    fail(path, fmt::format("{} values of sigma_mm for {} vertices", mesh.sigma_mm.size(), count));
-  }
+  const auto check_count = [&](std::size_t has, const char* what) {
+    if (has != 0 && has != count) {
+      fail(path,
+           fmt::format("{} {} for {} vertices; there must be one each, or none", has, what, count));
+    }
+  };
+  check_count(mesh.normals.size(), "normals");
+  check_count(mesh.sigma_mm.size(), "values of sigma_mm");
+  check_count(mesh.views.size(), "counts of views");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       if (corner < count) continue;

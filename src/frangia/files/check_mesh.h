@@ -9,8 +9,8 @@ namespace frangia {
 /// What must hold of a mesh on its way out of or into a file.
 ///
 /// errors   Error(Input) that names the file and the place: a vertex or normal that is not finite,
-///          a triangle that refers to a vertex that is not there, normals or sigma that are not one
-///          a vertex
+///          a triangle that refers to a vertex that is not there, normals, sigma or views that are
+///          not one a vertex
 void check_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
 /// The same, for a format that holds triangles only.

@@ -9,8 +9,8 @@ namespace frangia {
 /// A PLY file, ascii or binary of either byte order. Points without faces are a mesh without
 /// triangles.
 ///
-/// shape    kept: x y z, nx ny nz when all three are there, sigma_mm; faces of any size become
-///          triangles. Other properties and elements are skipped.
+/// shape    kept: x y z, nx ny nz when all three are there, sigma_mm, views (an ushort); faces of
+///          any size become triangles. Other properties and elements are skipped.
 /// units    as in the file, taken for mm
 /// missing  a normal that is not finite is zero
 /// errors   Error(Input) that names the file and what is wrong with it: cut short, a count that the
@@ -19,7 +19,8 @@ namespace frangia {
 /// source   Greg Turk, The PLY Polygon File Format, 1994
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
 
-/// Binary, little endian: x y z, nx ny nz and sigma_mm when the mesh has them, all float; faces.
+/// Binary, little endian: x y z, nx ny nz and sigma_mm when the mesh has them, all float; views, an
+/// ushort, when it has them; faces.
 ///
 /// units    mm
 /// errors   Error(Input) when the mesh is not whole; Error(File) when it cannot be written

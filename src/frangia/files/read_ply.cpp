@@ -15,14 +15,17 @@
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 7> kKept{"x", "y", "z", "nx", "ny", "nz", "sigma_mm"};
+constexpr std::array<std::string_view, 8> kKept{
+    "x", "y", "z", "nx", "ny", "nz", "sigma_mm", "views"};
+constexpr std::size_t kViews = 7;
 
 /// For each property of a vertex its place in kKept; the size of kKept for one that is skipped.
 std::vector<std::size_t> slots_of(const PlyElement& element) {
   std::vector<std::size_t> slots;
   for (const PlyProperty& property : element.properties) {
     const auto* const found = std::find(kKept.begin(), kKept.end(), property.name);
-    const bool kept = !property.count_type.has_value();
+    const bool kept = !property.count_type &&
+                      (property.name != kKept[kViews] || property.type == PlyType::Uint16);
     slots.push_back(kept ? static_cast<std::size_t>(found - kKept.begin()) : kKept.size());
   }
   return slots;
@@ -55,6 +58,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
   const std::vector<std::size_t> slots = slots_of(element);
   const bool has_normals = has(slots, 3, 3);
   const bool has_sigma = has(slots, 6, 1);
+  const bool has_views = has(slots, kViews, 1);
   if (!has(slots, 0, 3)) source.fail("its vertices lack an x, y or z");
   mesh.vertices_mm.reserve(element.count);
   std::array<float, kKept.size()> kept{};
@@ -68,6 +72,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
     }
     mesh.vertices_mm.emplace_back(kept[0], kept[1], kept[2]);
     if (has_sigma) mesh.sigma_mm.push_back(kept[6]);
+    if (has_views) mesh.views.push_back(static_cast<std::uint16_t>(kept[kViews]));
     if (!has_normals) continue;
     const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
     mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());

@@ -12,8 +12,7 @@ namespace frangia {
 /// units    as in the file, taken for mm
 /// missing  a triangle with two corners at one place is left out
 /// errors   Error(Input) that names the file and what is wrong with it: cut short, a count that
-/// does
-///          not fit its size, a corner that is not finite
+///          does not fit its size, a corner that is not finite
 /// source   3D Systems, Stereolithography Interface Specification, 1989
 [[nodiscard]] Mesh read_stl(const std::filesystem::path& path);
 

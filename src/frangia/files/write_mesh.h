@@ -14,7 +14,8 @@ struct WriteOptions {
 /// Writes .dxf, .stl, .ply or .obj, whole or not at all; the ending, in either case, says which.
 ///
 /// units    mm
-/// missing  only .ply keeps sigma_mm; only .ply and .obj keep normals and points without triangles
+/// missing  only .ply keeps sigma_mm and views; only .ply and .obj keep normals and points without
+///          triangles
 /// errors   Error(Input) for another ending; else as write_dxf, write_stl, write_ply and write_obj
 void write_mesh(const std::filesystem::path& path,
                 const Mesh& mesh,

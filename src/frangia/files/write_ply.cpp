@@ -15,6 +15,7 @@ void write_header(FileWriter& file, const Mesh& mesh) {
     file.text("property float nx\nproperty float ny\nproperty float nz\n");
   }
   if (!mesh.sigma_mm.empty()) file.text("property float sigma_mm\n");
+  if (!mesh.views.empty()) file.text("property ushort views\n");
   file.text(fmt::format("element face {}\n", mesh.triangles.size()));
   file.text("property list uchar int vertex_indices\nend_header\n");
 }
@@ -33,6 +34,7 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
         file.binary(coordinate);
     }
     if (!mesh.sigma_mm.empty()) file.binary(mesh.sigma_mm[i]);
+    if (!mesh.views.empty()) file.binary(mesh.views[i]);
   }
   for (const Mesh::Triangle& triangle : mesh.triangles) {
     file.binary(std::uint8_t{3});
