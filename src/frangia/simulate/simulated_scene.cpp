@@ -94,7 +94,9 @@ Mesh with_platter(const Mesh& part, double radius_mm) {
   platter.add_band(low, high);
   platter.add_fan({low.rbegin(), low.rend()}, {0.0, 0.0, -kThickness_mm});
   const Mesh disc = platter.build();
-  Mesh both{part.vertices_mm, part.triangles, {}, {}};
+  Mesh both;
+  both.vertices_mm = part.vertices_mm;
+  both.triangles = part.triangles;
   const auto first = static_cast<std::uint32_t>(part.vertices_mm.size());
   both.vertices_mm.insert(both.vertices_mm.end(), disc.vertices_mm.begin(), disc.vertices_mm.end());
   for (const auto& [a, b, c] : disc.triangles)
