@@ -14,11 +14,8 @@ namespace frangia::testing {
 /// A test with a folder of its own, empty before and gone after it.
 class InAFolder : public ::testing::Test {
  protected:
-  InAFolder() { std::filesystem::create_directories(folder_); }
-  ~InAFolder() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::filesystem::path at(std::string_view name) const { return folder_ / name; }
   [[nodiscard]] bool folder_is_empty() const { return std::filesystem::is_empty(folder_); }

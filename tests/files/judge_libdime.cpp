@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
+#include <exception>
 #include <limits>
+#include <stdexcept>
 
 #include <dime/Input.h>
 #include <dime/Model.h>
@@ -22,8 +23,7 @@ struct Findings {
 };
 
 [[noreturn]] void refuse(const char* why) {
-  std::fprintf(stderr, "libdime: %s\n", why);
-  std::exit(1);
+  throw std::runtime_error(why);
 }
 
 void add(Findings& found, const dimeVec3f& place) {
@@ -68,7 +68,7 @@ bool visit(const dimeState* /*state*/, dimeEntity* entity, void* data) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 2) refuse("name one DXF file");
   dimeInput input;
   dimeModel model;
@@ -82,4 +82,8 @@ int main(int argc, char** argv) {
   for (const auto& corner : {found.low, found.high})
     std::printf(" %.4f %.4f %.4f", corner[0], corner[1], corner[2]);
   std::printf("\n");
+  return 0;
+} catch (const std::exception& refusal) {
+  std::fprintf(stderr, "libdime: %s\n", refusal.what());
+  return 1;
 }

@@ -48,7 +48,7 @@ std::string square(bool big_endian) {
   bytes +=
       kSquareHeader + "\2" + raw<std::int16_t>(-5, big_endian) + raw<std::int16_t>(9, big_endian);
   for (int i = 0; i < 4; ++i) {
-    bytes += raw<double>(i == 1 || i == 2, big_endian) + raw<double>(i >= 2, big_endian);
+    bytes += raw<double>(i % 3 == 0 ? 0 : 1, big_endian) + raw<double>(i < 2 ? 0 : 1, big_endian);
     bytes += raw<float>(0.25F, big_endian) + "\x7f\1" + raw<std::int32_t>(i, big_endian);
     bytes += raw<float>(0.5F, big_endian);
   }

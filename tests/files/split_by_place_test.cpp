@@ -56,9 +56,10 @@ TEST(SplitByPlace, MakesGroupsThatHardlyOverlap) {
   const Mesh mesh = testing::sheet(60);
   const auto area_of = [&](const std::vector<std::uint32_t>& group) {
     Eigen::AlignedBox2f box;
-    for (const auto triangle : group)
+    for (const auto triangle : group) {
       for (const auto corner : mesh.triangles[triangle])
         box.extend(mesh.vertices_mm[corner].head<2>());
+    }
     return box.volume();
   };
   float sum = 0.0F;

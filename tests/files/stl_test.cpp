@@ -42,9 +42,10 @@ std::string ascii_of(const Mesh& mesh) {
 /// Where the corners of all triangles lie, in order: what an STL is.
 std::vector<Eigen::Vector3f> corners_of(const Mesh& mesh) {
   std::vector<Eigen::Vector3f> corners;
-  for (const auto& triangle : mesh.triangles)
+  for (const auto& triangle : mesh.triangles) {
     for (const auto corner : triangle)
       corners.push_back(mesh.vertices_mm[corner]);
+  }
   return corners;
 }
 

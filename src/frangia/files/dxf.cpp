@@ -37,11 +37,8 @@ struct Drawing {
 };
 
 Steps steps_of(const Eigen::Vector3f& place) {
-  Steps steps{};
-  for (int axis = 0; axis < 3; ++axis) {
-    steps.at(static_cast<std::size_t>(axis)) = std::llround(double{place[axis]} * kStepsPerMm);
-  }
-  return steps;
+  const Eigen::Vector3d steps = place.cast<double>() * kStepsPerMm;
+  return {std::llround(steps.x()), std::llround(steps.y()), std::llround(steps.z())};
 }
 
 Drawing draw(const Mesh& mesh, const std::filesystem::path& path) {
@@ -145,16 +142,6 @@ void write_faces(FileWriter& file, const Drawing& drawing) {
     write_place(file, drawing.vertices[c], 2);
     write_place(file, drawing.vertices[c], 3);  // a triangle is a face whose last corners coincide
   }
-}
-
-std::vector<std::uint32_t> vertices_of(const Mesh& mesh, const std::vector<std::uint32_t>& group) {
-  std::vector<std::uint32_t> vertices;
-  for (const std::uint32_t triangle : group)
-    vertices.insert(
-        vertices.end(), mesh.triangles[triangle].begin(), mesh.triangles[triangle].end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
 }
 
 void write_polyfaces(FileWriter& file, const Drawing& drawing) {

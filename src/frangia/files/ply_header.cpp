@@ -42,9 +42,11 @@ PlyFormat read_format(TextReader& reader) {
   const std::string_view word = reader.word_on_line();
   if (word == "ascii") return PlyFormat::Ascii;
   if (word == "binary_little_endian") return PlyFormat::LittleEndian;
-  if (word == "binary_big_endian") return PlyFormat::BigEndian;
-  reader.fail(fmt::format("the format {} is not ascii, binary_little_endian or binary_big_endian",
-                          in_quotes(word)));
+  if (word != "binary_big_endian") {
+    reader.fail(fmt::format("the format {} is not ascii, binary_little_endian or binary_big_endian",
+                            in_quotes(word)));
+  }
+  return PlyFormat::BigEndian;
 }
 
 PlyElement read_element(TextReader& reader) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,8 +44,8 @@ class AsciiPlySource {
 /// The values of a binary PLY, in order.
 class BinaryPlySource {
  public:
-  BinaryPlySource(const std::filesystem::path& path, std::string_view body, PlyFormat format)
-      : path_(path), left_(body), swapped_(format == PlyFormat::BigEndian) {
+  BinaryPlySource(std::filesystem::path path, std::string_view body, PlyFormat format)
+      : path_(std::move(path)), left_(body), swapped_(format == PlyFormat::BigEndian) {
     static_assert(std::endian::native == std::endian::little);
   }
 
@@ -73,7 +74,7 @@ class BinaryPlySource {
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties)
       bytes += bytes_of(property.count_type.value_or(property.type));
-    return left_.size() / bytes;
+    return left_.size() / std::max<std::size_t>(bytes, 1);
   }
   [[noreturn]] void fail(const std::string& why) const {
     throw Error(ErrorKind::Input, fmt::format("{}: {}", path_.string(), why));

@@ -135,9 +135,10 @@ Mesh read_elements(Source source, const PlyHeader& header) {
     } else if (element.name == "tristrips") {
       source.fail("triangle strips are not read; export it with faces");
     } else {
-      for (std::uint64_t i = 0; i < element.count; ++i)
+      for (std::uint64_t i = 0; i < element.count; ++i) {
         for (const PlyProperty& property : element.properties)
           skip(source, property);
+      }
     }
   }
   if (!has_vertices) source.fail("there is no element 'vertex' in it");

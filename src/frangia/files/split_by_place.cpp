@@ -17,17 +17,9 @@ Eigen::Vector3f corner_sum(const Mesh& mesh, std::uint32_t triangle) {
   return mesh.vertices_mm[a] + mesh.vertices_mm[b] + mesh.vertices_mm[c];
 }
 
-std::size_t vertex_count(const Mesh& mesh, Group group) {
-  std::vector<std::uint32_t> corners;
-  for (const std::uint32_t triangle : group)
-    corners.insert(corners.end(), mesh.triangles[triangle].begin(), mesh.triangles[triangle].end());
-  std::sort(corners.begin(), corners.end());
-  return static_cast<std::size_t>(std::unique(corners.begin(), corners.end()) - corners.begin());
-}
-
 bool fits(const Mesh& mesh, Group group, std::size_t most) {
   if (group.size() > most) return false;
-  return 3 * group.size() <= most || vertex_count(mesh, group) <= most;
+  return 3 * group.size() <= most || vertices_of(mesh, group).size() <= most;
 }
 
 /// Orders the group so that its halves lie apart. Ties go by index, so the halves are always the
@@ -67,12 +59,25 @@ void split(const Mesh& mesh,
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> split_by_place(const Mesh& mesh,
-                                                       std::vector<std::uint32_t> triangles,
+                                                       std::span<const std::uint32_t> triangles,
                                                        std::size_t most) {
   require(most >= 3, "split_by_place: a group must hold the three corners of a triangle");
   std::vector<std::vector<std::uint32_t>> groups;
-  split(mesh, triangles, most, groups);
+  std::vector<std::uint32_t> order(triangles.begin(), triangles.end());
+  split(mesh, order, most, groups);
   return groups;
+}
+
+std::vector<std::uint32_t> vertices_of(const Mesh& mesh, std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint32_t> vertices;
+  vertices.reserve(3 * triangles.size());
+  for (const std::uint32_t triangle : triangles) {
+    const Mesh::Triangle& corners = mesh.triangles[triangle];
+    vertices.insert(vertices.end(), corners.begin(), corners.end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 }  // namespace frangia

@@ -17,6 +17,10 @@ namespace frangia {
 ///          is in ascending order
 /// errors   Error(Input) when `most` is below 3, which no triangle fits
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> split_by_place(
-    const Mesh& mesh, std::vector<std::uint32_t> triangles, std::size_t most);
+    const Mesh& mesh, std::span<const std::uint32_t> triangles, std::size_t most);
+
+/// The vertices of some triangles of a mesh, each once, in ascending order.
+[[nodiscard]] std::vector<std::uint32_t> vertices_of(const Mesh& mesh,
+                                                     std::span<const std::uint32_t> triangles);
 
 }  // namespace frangia

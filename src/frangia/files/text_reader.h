@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace frangia {
 
@@ -19,7 +20,8 @@ namespace frangia {
 /// errors   Error(Input) that names the file and the line
 class TextReader {
  public:
-  TextReader(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {}
+  TextReader(std::filesystem::path path, std::string_view text)
+      : path_(std::move(path)), text_(text) {}
 
   /// The next word, on this line or a later one; empty at the end of the text.
   [[nodiscard]] std::string_view word();

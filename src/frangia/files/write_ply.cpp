@@ -28,9 +28,10 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
     for (const float coordinate : mesh.vertices_mm[i])
       file.binary(coordinate);
-    if (!mesh.normals.empty())
+    if (!mesh.normals.empty()) {
       for (const float coordinate : mesh.normals[i])
         file.binary(coordinate);
+    }
     if (!mesh.sigma_mm.empty()) file.binary(mesh.sigma_mm[i]);
   }
   for (const Mesh::Triangle& triangle : mesh.triangles) {

@@ -23,9 +23,10 @@ void write_stl(const std::filesystem::path& path, const Mesh& mesh) {
     const Eigen::Vector3f normal = (b - a).cross(c - a).stableNormalized();
     for (const float coordinate : normal)
       file.binary(coordinate);
-    for (const std::uint32_t corner : triangle)
+    for (const std::uint32_t corner : triangle) {
       for (const float coordinate : mesh.vertices_mm[corner])
         file.binary(coordinate);
+    }
     file.binary(std::uint16_t{0});
   }
   file.commit();

@@ -15,38 +15,29 @@ constexpr int kEdge = DistanceField::kEdge;
 struct Sampler {
   const LocalPlanes& view;
   FastLens lens;
-  float voxel;
   float front;
   float back;
+  float guess;
 
   Sampler(const LocalPlanes& seen, const Lens& camera, const Band& band)
       : view(seen),
         lens(camera),
-        voxel(static_cast<float>(band.voxel_mm)),
         front(static_cast<float>(band.front_mm)),
-        back(static_cast<float>(band.back_mm)) {}
+        back(static_cast<float>(band.back_mm)),
+        guess(static_cast<float>(band.guess_mm)) {}
 
-  void add(DistanceField::Voxel& cell, float u, float v, float z) const {
-    // Written so that NaN fails.
-    if (!(z > 0.0F && u >= 0.0F && v >= 0.0F && u < static_cast<float>(view.quads.width()) &&
-          v < static_cast<float>(view.quads.height()))) {
-      return;
-    }
-    const int x = static_cast<int>(u);
-    const int y = static_cast<int>(v);
-    const LocalPlanes::Quad quad = view.quads(x, y);
-    if (quad.weight == 0.0F) return;
-    const float right = u - static_cast<float>(x);
-    const float down = v - static_cast<float>(y);
-    const Image<float>& q = view.inverse_depth;
-    const float upper = q(x, y) + right * (q(x + 1, y) - q(x, y));
-    const float lower = q(x, y + 1) + right * (q(x + 1, y + 1) - q(x, y + 1));
-    const float distance = (1.0F - z * (upper + down * (lower - upper))) * quad.distance_mm;
+  void add(DistanceField::Voxel& cell, float u, float v, const Eigen::Vector3f& point) const {
+    const LocalPlanes::Quad* quad = view.quad_at(u, v);
+    if (quad == nullptr || quad->kind == LocalPlanes::Kind::Unseen || !(point.z() > 0.0F)) return;
+    float distance = (1.0F - point.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
+    if (quad->kind != LocalPlanes::Kind::Smooth)
+      distance = view.nearest_face(u, v, point).distance_mm;
     if (!(distance < front && distance > -back)) return;
-    // Behind the first voxel the view can only guess: the object may be thin.
-    const float trust = distance < -voxel ? (distance + back) / (back - voxel) : 1.0F;
-    cell.weighted_mm += quad.weight * trust * distance;
-    cell.weight += quad.weight * trust;
+    // Behind its surface a view can only guess: the object may be thin, or end beside the ray.
+    const float depth = distance < 0.0F ? distance / guess : 0.0F;
+    const float trust = 1.0F / ((1.0F + depth * depth) * (1.0F + depth * depth));
+    cell.weighted_mm += quad->weight * trust * distance;
+    cell.weight += quad->weight * trust;
   }
 };
 
@@ -57,19 +48,21 @@ void add_block(DistanceField::Block& block,
                const Eigen::Matrix3f& steps) {
   alignas(32) std::array<float, kEdge> u{};
   alignas(32) std::array<float, kEdge> v{};
-  alignas(32) std::array<float, kEdge> z{};
   for (int row = 0; row < kEdge * kEdge; ++row) {
     const Eigen::Vector3f start = first + steps.col(1) * static_cast<float>(row % kEdge) +
                                   steps.col(2) * static_cast<float>(row / kEdge);
     for (std::size_t i = 0; i < kEdge; ++i) {
       const auto step = static_cast<float>(i);
-      z[i] = start.z() + step * steps(2, 0);
-      sampler.lens.project(
-          start.x() + step * steps(0, 0), start.y() + step * steps(1, 0), z[i], u[i], v[i]);
+      sampler.lens.project(start.x() + step * steps(0, 0),
+                           start.y() + step * steps(1, 0),
+                           start.z() + step * steps(2, 0),
+                           u[i],
+                           v[i]);
     }
     DistanceField::Voxel* cells = block.data() + row * kEdge;
-    for (std::size_t i = 0; i < kEdge; ++i)
-      sampler.add(cells[i], u[i], v[i], z[i]);
+    for (std::size_t i = 0; i < kEdge; ++i) {
+      sampler.add(cells[i], u[i], v[i], start + static_cast<float>(i) * steps.col(0));
+    }
   }
 }
 
@@ -144,7 +137,7 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
       const int y = static_cast<int>(row);
       for (int x = 0; x < view.quads.width(); ++x) {
         const LocalPlanes::Quad& quad = view.quads(x, y);
-        if (quad.weight == 0.0F) continue;
+        if (quad.kind == LocalPlanes::Kind::Unseen) continue;
         const float depth = 1.0F / view.inverse_depth(x, y);
         const Eigen::Vector3f ray(camera.rays(x, y).x(), camera.rays(x, y).y(), 1.0F);
         const Eigen::Vector3f point = origin + rotation * (depth * ray);

@@ -17,7 +17,8 @@ namespace frangia {
 struct Band {
   double voxel_mm = 0.0;
   double front_mm = 0.0;  ///< towards the camera
-  double back_mm = 0.0;   ///< into the object, where the weight has fallen to 0
+  double back_mm = 0.0;   ///< into the object
+  double guess_mm = 0.0;  ///< a view's word on what lies deeper than this counts little
 };
 
 /// Signed distance to the surface in the object frame, positive outside, averaged over the views.

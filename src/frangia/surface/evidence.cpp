@@ -9,7 +9,9 @@
 namespace frangia {
 namespace {
 
-constexpr int kTile = 4;  // pixels; sight is clear when it is so over 3 x 3 tiles
+constexpr float kAgree = 0.8F;  // cosine between normals of one face
+constexpr float kBack = -0.3F;  // a normal that points so far inward is the back of a thin wall
+constexpr int kTile = 4;        // pixels; sight is clear when it is so over 3 x 3 tiles
 
 /// The nearest surface (largest inverse depth) within a tile of each pixel's tile and its
 /// neighbours.
@@ -39,13 +41,6 @@ Image<float> nearest_of(const Image<float>& inverse_depth) {
   return nearest;
 }
 
-/// Autocorrelation of the triangle that linear interpolation spreads a pixel over, at lag x.
-float cubic_spline(float x) {
-  if (x >= 2.0F) return 0.0F;
-  if (x >= 1.0F) return (2.0F - x) * (2.0F - x) * (2.0F - x) / 6.0F;
-  return 2.0F / 3.0F - x * x + 0.5F * x * x * x;
-}
-
 struct Questioner {
   const LocalPlanes& view;
   FastLens lens;
@@ -53,7 +48,6 @@ struct Questioner {
   Eigen::Matrix3f rotation;
   Eigen::Vector3f translation;
   float pixel_rad;
-  float voxel_mm;
   float near_mm;
   float through_mm;
 
@@ -62,57 +56,75 @@ struct Questioner {
     float u = 0.0F;
     float v = 0.0F;
     lens.project(p.x(), p.y(), p.z(), u, v);
-    if (!(p.z() > 0.0F && u >= 0.0F && v >= 0.0F && u < static_cast<float>(view.quads.width()) &&
-          v < static_cast<float>(view.quads.height()))) {
-      return;
-    }
-    const int x = static_cast<int>(u);
-    const int y = static_cast<int>(v);
-    const LocalPlanes::Quad& quad = view.quads(x, y);
-    if (quad.weight == 0.0F) return;
-    const float right = u - static_cast<float>(x);
-    const float down = v - static_cast<float>(y);
-    const Image<float>& q = view.inverse_depth;
-    const float upper = q(x, y) + right * (q(x + 1, y) - q(x, y));
-    const float lower = q(x, y + 1) + right * (q(x + 1, y + 1) - q(x, y + 1));
-    const float inverse = upper + down * (lower - upper);
-    const float distance = (1.0F - p.z() * inverse) * quad.distance_mm;
-    if (std::abs(distance) < near_mm) {
-      const Eigen::Vector3f& plane = view.plane_per_mm(x + (right > 0.5F), y + (down > 0.5F));
-      const Eigen::Vector3f normal = rotation.transpose() * plane * (-1.0F / plane.norm());
+    const LocalPlanes::Quad* quad = view.quad_at(u, v);
+    if (quad == nullptr || quad->kind == LocalPlanes::Kind::Unseen || !(p.z() > 0.0F)) return;
+    const bool smooth = quad->kind == LocalPlanes::Kind::Smooth;
+    const LocalPlanes::Face face =
+        smooth ? LocalPlanes::Face{(1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm,
+                                   &view.plane_per_mm(static_cast<int>(u + 0.5F),
+                                                      static_cast<int>(v + 0.5F))}
+               : view.nearest_face(u, v, p);
+    if (std::abs(face.distance_mm) < near_mm) {
+      const Eigen::Vector3f& plane = *face.plane_per_mm;
+      const float per_norm = 1.0F / plane.norm();
+      const Eigen::Vector3f normal = rotation.transpose() * plane * -per_norm;
       const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];
-      if (along < -0.3F) return;  // the back of a thin wall
-      const float cosine = inverse * quad.distance_mm * p.z() / p.norm();
-      support(evidence, distance, quad.weight, cosine, p.z());
-      evidence.normal += normal * quad.weight;
-    } else if (distance > through_mm) {
-      const float blocking = nearest(x / kTile, y / kTile);
-      if ((1.0F - p.z() * blocking) * quad.distance_mm > through_mm)
-        evidence.against += quad.weight;
+      if (along < kBack) return;
+      const float cosine = plane.dot(p) * per_norm / p.norm();
+      add(face_for(evidence, normal), normal, face.distance_mm, {quad->weight, cosine, p.z()});
+    } else if (face.distance_mm > through_mm) {
+      const float blocking = nearest(static_cast<int>(u) / kTile, static_cast<int>(v) / kTile);
+      if ((1.0F - p.z() * blocking) * quad->distance_mm > through_mm)
+        evidence.against += quad->weight;
     }
   }
 
-  void support(Evidence& evidence, float distance, float quad_weight, float cosine, float z) const {
+  /// The face that slopes as the view says, or a new one.
+  static Evidence::Face& face_for(Evidence& evidence, const Eigen::Vector3f& normal) {
+    const auto agreement = [&](const Evidence::Face& face) {
+      return face.views == 0 ? kAgree : normal.dot(face.normal) / face.normal.norm();
+    };
+    const float first = agreement(evidence.faces[0]);
+    if (first >= kAgree) return evidence.faces[0];
+    return evidence.faces[agreement(evidence.faces[1]) > first ? 1 : 0];
+  }
+
+  struct Pixel {
+    float weight;
+    float cosine;
+    float depth_mm;
+  };
+
+  void add(Evidence::Face& face,
+           const Eigen::Vector3f& normal,
+           float distance,
+           const Pixel& pixel) const {
     const float ratio = distance / near_mm;
     const float trust = (1.0F - ratio * ratio) * (1.0F - ratio * ratio);  // Tukey's biweight
-    const float w = quad_weight * trust;
-    const float cosine2 = cosine * cosine;
-    const float variance = cosine2 * cosine2 / quad_weight;  // of one pixel, along the normal
-    constexpr float kInterpolated = 4.0F / 9.0F;             // of it left after interpolation
-    const float spacing = z * pixel_rad / std::sqrt(cosine);
-    const float per_axis = 0.5F * (2.0F / 3.0F + cubic_spline(voxel_mm / spacing));
-    evidence.weight += w;
-    evidence.weight_squared += w * w;
-    evidence.offset += w * distance;
-    evidence.offset_squared += w * distance * distance;
-    evidence.noise += w * variance * kInterpolated;
-    evidence.noise_squared += w * w * variance * kInterpolated;
-    evidence.vertex_noise += w * w * variance * per_axis * per_axis;
-    ++evidence.views;
+    const float w = pixel.weight * trust;
+    const float cosine2 = pixel.cosine * pixel.cosine;
+    constexpr float kInterpolated = 4.0F / 9.0F;  // of a pixel's variance, after interpolation
+    const float variance = kInterpolated * cosine2 * cosine2 / pixel.weight;
+    face.weight += w;
+    face.weight_squared += w * w;
+    face.offset += w * distance;
+    face.offset_squared += w * distance * distance;
+    face.noise += w * variance;
+    face.noise_squared += w * w * variance;
+    face.spacing += w * pixel.depth_mm * pixel_rad / std::sqrt(pixel.cosine);
+    face.normal += w * normal;
+    ++face.views;
   }
 };
 
 }  // namespace
+
+float correlation(float distance_mm, float spacing_mm) {
+  const float x = distance_mm / spacing_mm;
+  if (x >= 2.0F) return 0.0F;
+  if (x >= 1.0F) return 0.25F * (2.0F - x) * (2.0F - x) * (2.0F - x);
+  return 1.0F - 1.5F * x * x + 0.75F * x * x * x;
+}
 
 void add_evidence(std::vector<Evidence>& evidence,
                   const Crossings& crossings,
@@ -125,7 +137,6 @@ void add_evidence(std::vector<Evidence>& evidence,
                               view.rig_from_object.linear().cast<float>(),
                               view.rig_from_object.translation().cast<float>(),
                               static_cast<float>(1.0 / camera.lens.focal_px.mean()),
-                              static_cast<float>(crossings.voxel_mm),
                               static_cast<float>(options.near_mm),
                               static_cast<float>(options.through_mm)};
   parallel_chunks(evidence.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -145,17 +156,18 @@ void add_disagreement(std::vector<Evidence>& evidence, const Crossings& crossing
       float excess = 0.0F;  // of the scatter between views over what their noise explains
       float freedom = 0.0F;
       for (std::size_t i = first; i < last; ++i) {
-        const Evidence& e = evidence[i];
-        if (e.views < 2) continue;
-        const float scatter = e.offset_squared - e.offset * e.offset / e.weight;
-        const float expected = e.noise - e.noise_squared / e.weight;
-        excess += (scatter - expected) / e.weight;
-        freedom += 1.0F - e.weight_squared / (e.weight * e.weight);
+        const Evidence::Face& face = evidence[i].main();
+        if (face.views < 2) continue;
+        const float scatter = face.offset_squared - face.offset * face.offset / face.weight;
+        const float expected = face.noise - face.noise_squared / face.weight;
+        excess += (scatter - expected) / face.weight;
+        freedom += 1.0F - face.weight_squared / (face.weight * face.weight);
       }
       if (!(excess > 0.0F && freedom > 0.0F)) continue;
-      const float variance = excess / freedom;
       for (std::size_t i = first; i < last; ++i) {
-        evidence[i].vertex_noise += variance * evidence[i].weight_squared;
+        const Evidence::Face& face = evidence[i].main();
+        if (face.views == 0) continue;
+        evidence[i].common = excess / freedom * face.weight_squared / (face.weight * face.weight);
       }
     }
   });

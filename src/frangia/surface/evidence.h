@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,22 +15,39 @@ namespace frangia {
 ///
 /// units    mm, object frame; weights 1/mm^2
 struct Evidence {
-  float weight = 0.0F;          ///< sum of w over the views that saw the surface here
-  float weight_squared = 0.0F;  ///< sum of w^2
-  float offset = 0.0F;  ///< sum of w d, d how far the point lies in front of the view's surface
-  float offset_squared = 0.0F;  ///< sum of w d^2
-  float noise = 0.0F;           ///< sum of w v, v the variance of d
-  float noise_squared = 0.0F;   ///< sum of w^2 v
-  float vertex_noise = 0.0F;    ///< sum of w^2 v', v' the variance left in the mean over a cell
-  float against = 0.0F;         ///< sum of w over the views that see through
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sum of w n
-  std::uint16_t views = 0;
+  /// One plane near the point, from the views that agree on how it slopes.
+  struct Face {
+    float weight = 0.0F;          ///< sum of w
+    float weight_squared = 0.0F;  ///< sum of w^2
+    float offset = 0.0F;          ///< sum of w d, the point's distance in front
+    float offset_squared = 0.0F;  ///< sum of w d^2
+    float noise = 0.0F;           ///< sum of w v, v the variance of d
+    float noise_squared = 0.0F;   ///< sum of w^2 v
+    float spacing = 0.0F;         ///< sum of w times the distance of pixels
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sum of w n
+    std::uint16_t views = 0;
 
-  [[nodiscard]] bool holds() const { return weight > against; }
-  /// How far to move along the normal to reach the surface.
-  [[nodiscard]] float shift_mm() const { return -offset / weight; }
-  [[nodiscard]] float vertex_variance() const { return vertex_noise / (weight * weight); }
+    [[nodiscard]] float distance_mm() const { return offset / weight; }
+    [[nodiscard]] float spacing_mm() const { return spacing / weight; }
+  };
+
+  std::array<Face, 2> faces;  ///< two where the point is near an edge of the object
+  float against = 0.0F;       ///< sum of w over the views that see through
+  float common = 0.0F;        ///< variance that does not average away between neighbouring points
+
+  [[nodiscard]] bool holds() const { return faces[0].weight + faces[1].weight > against; }
+  /// The face that most weight speaks for.
+  [[nodiscard]] const Face& main() const {
+    return faces[faces[0].weight < faces[1].weight ? 1 : 0];
+  }
+  [[nodiscard]] const Face& side() const {
+    return faces[faces[0].weight < faces[1].weight ? 0 : 1];
+  }
 };
+
+/// How much the mean over pixels at one point has to do with the mean at another: linear
+/// interpolation spreads a pixel over a triangle, whose autocorrelation is the cubic spline.
+[[nodiscard]] float correlation(float distance_mm, float spacing_mm);
 
 struct EvidenceOptions {
   double near_mm = 0.0;     ///< a view that saw the surface farther off speaks of another one

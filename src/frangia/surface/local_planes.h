@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include <Eigen/Geometry>
 
 #include "frangia/core/image.h"
@@ -25,24 +28,77 @@ struct CameraRays {
 ///
 /// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
 /// units    mm, rig frame
-/// missing  inverse depth 0; a quad that lacks a corner or crosses a depth step has weight 0
+/// missing  inverse depth 0; a quad that lacks a corner or crosses a depth step is Unseen
 struct LocalPlanes {
+  enum class Kind : std::uint8_t { Unseen, Smooth, Ridge, Valley };
   struct Quad {
     float distance_mm = 0.0F;  ///< of the plane from the camera's centre, 1 / |(a, b, c)|
     float weight = 0.0F;       ///< cos(incidence)^2 / sigma^2, in 1/mm^2
+    Kind kind = Kind::Unseen;
   };
 
   Image<float> inverse_depth;           ///< q, 1/mm
   Image<Eigen::Vector3f> plane_per_mm;  ///< (a, b, c): points away from the camera
   Image<Quad> quads;
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
+
+  /// The quad that pixel (u, v) falls into; null outside the image and for NaN.
+  [[nodiscard]] const Quad* quad_at(float u, float v) const {
+    const bool within = u >= 0.0F && v >= 0.0F && u < static_cast<float>(quads.width()) &&
+                        v < static_cast<float>(quads.height());
+    return within ? &quads(static_cast<int>(u), static_cast<int>(v)) : nullptr;
+  }
+
+  /// Inverse depth between the pixels of a quad.
+  [[nodiscard]] float inverse_depth_at(float u, float v) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    const float right = u - static_cast<float>(x);
+    const float down = v - static_cast<float>(y);
+    const Image<float>& q = inverse_depth;
+    const float upper = q(x, y) + right * (q(x + 1, y) - q(x, y));
+    const float lower = q(x, y + 1) + right * (q(x + 1, y + 1) - q(x, y + 1));
+    return upper + down * (lower - upper);
+  }
+
+  /// A point's distance from a quad whose corners lie on several faces, and the face it belongs to:
+  /// the object is what all faces of a ridge have behind them, and what any of a valley has.
+  struct Face {
+    float distance_mm;
+    const Eigen::Vector3f* plane_per_mm;
+  };
+  [[nodiscard]] Face nearest_face(float u, float v, const Eigen::Vector3f& point_mm) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    const bool ridge = quads(x, y).kind == Kind::Ridge;
+    Face found{0.0F, nullptr};
+    for (const auto* plane : {&plane_per_mm(x, y),
+                              &plane_per_mm(x + 1, y),  //
+                              &plane_per_mm(x, y + 1),
+                              &plane_per_mm(x + 1, y + 1)}) {
+      const float distance = (1.0F - plane->dot(point_mm)) / plane->norm();
+      if (found.plane_per_mm == nullptr || (distance > found.distance_mm) == ridge) {
+        found = {distance, plane};
+      }
+    }
+    return found;
+  }
 };
 
-/// The local plane at each pixel, by least squares over those of its 3 x 3 neighbours that lie on
-/// the same surface: a pair of pixels does not when the line that joins it is within 8 degrees of
-/// the viewing ray, by more than its noise.
+struct LocalPlanesOptions {
+  int radius = 2;           ///< of the windows, px
+  double crease_rad = 0.3;  ///< neighbouring planes that differ by more belong to different faces
+};
+
+/// The local plane at each pixel, by least squares over a square window.
 ///
-/// errors   Error(Input) when the grid and the camera differ in size
-[[nodiscard]] LocalPlanes local_planes(const View& view, const CameraRays& camera);
+/// Near an edge of the object a window about the pixel would round it off: of the windows that hold
+/// the pixel and fit no better than noise allows, the best one is taken, which lies to one side.
+/// Neighbouring pixels are on one surface unless the line that joins them is within 8 degrees of
+/// the viewing ray, by more than their noise. errors   Error(Input) when the grid and the camera
+/// differ in size source   the choice among windows: Kuwahara et al. 1976
+[[nodiscard]] LocalPlanes local_planes(const View& view,
+                                       const CameraRays& camera,
+                                       const LocalPlanesOptions& options = {});
 
 }  // namespace frangia

@@ -62,7 +62,8 @@ Mesh paste_views(const ViewStore& views,
   require(sampling.points > 0, "no view holds a point: there is no surface to paste");
   const double voxel_mm = choose_voxel(sampling, options, run);
   const double noise_mm = 4.0 * sampling.sigma_mm;
-  const Band band{voxel_mm, 4.0 * voxel_mm + noise_mm, 2.0 * voxel_mm + noise_mm};
+  const Band band{
+      voxel_mm, 4.0 * voxel_mm + noise_mm, 2.0 * voxel_mm + noise_mm, 0.5 * voxel_mm + noise_mm};
   const auto count = static_cast<double>(views.size());
 
   DistanceField field;
@@ -80,7 +81,7 @@ Mesh paste_views(const ViewStore& views,
                  crossings,
                  load(views, i, rays, options),
                  rays,
-                 {voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
+                 {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
     run.report(0.6 + 0.2 * static_cast<double>(i + 1) / count);
   }
   add_disagreement(evidence, crossings);

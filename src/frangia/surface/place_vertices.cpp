@@ -21,20 +21,66 @@ struct Plane {
   Eigen::Vector3f normal;
 };
 
-/// The planes through a loop's crossings, and what they know of their noise.
-struct Loop {
-  std::array<Plane, 12> planes;
-  std::size_t count = 0;
-  float variance = 0.0F;
-  float views = 0.0F;
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+Plane plane_at(const Eigen::Vector3f& point, const Evidence::Face& face) {
+  const Eigen::Vector3f unit = face.normal.normalized();
+  return {point - unit * face.distance_mm(), unit};
+}
 
-  void add(const Eigen::Vector3f& point, const Evidence& evidence) {
-    const Eigen::Vector3f unit = evidence.normal.normalized();
-    planes[count++] = {point + unit * evidence.shift_mm(), unit};
-    variance += evidence.vertex_variance();
-    views += static_cast<float>(evidence.views);
-    normal += unit;
+/// The crossings of a loop that hold, and the planes through them.
+struct Loop {
+  std::array<Plane, 24> planes;  ///< first the main faces, then those beside
+  std::size_t count = 0;         ///< of crossings
+  std::size_t all = 0;           ///< of planes
+  std::array<const Evidence*, 12> evidence{};
+
+  void add(const Eigen::Vector3f& point, const Evidence& found) {
+    evidence[count] = &found;
+    planes[count++] = plane_at(point, found.main());
+    all = count;
+  }
+  /// Planes of other faces that run through the cell, too.
+  void add_sides(const Eigen::Array3f& low, const Eigen::Array3f& high) {
+    constexpr float kSpeaks = 0.1F;  // of the main face's weight
+    const std::size_t mains = count;
+    for (std::size_t i = 0; i < mains; ++i) {
+      const Evidence::Face& side = evidence[i]->side();
+      const Evidence::Face& face = evidence[i]->main();
+      if (side.weight < kSpeaks * face.weight || side.views == 0) continue;
+      const Eigen::Vector3f origin = planes[i].point + planes[i].normal * face.distance_mm();
+      const Plane plane = plane_at(origin, side);
+      if ((plane.point.array() >= low).all() && (plane.point.array() <= high).all()) {
+        planes[all++] = plane;
+      }
+    }
+  }
+  [[nodiscard]] Eigen::Vector3f normal() const {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < count; ++i)
+      sum += planes[i].normal;
+    return sum.normalized();
+  }
+  [[nodiscard]] float views() const {
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < count; ++i)
+      sum += static_cast<float>(evidence[i]->main().views);
+    return sum / static_cast<float>(count);
+  }
+  /// Of the mean of the crossings: pixels that two of them share do not average away.
+  [[nodiscard]] float variance() const {
+    float sum = 0.0F;
+    float common = 0.0F;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Evidence::Face& one = evidence[i]->main();
+      common += evidence[i]->common;
+      for (std::size_t j = 0; j < count; ++j) {
+        const Evidence::Face& other = evidence[j]->main();
+        const float product = std::sqrt(one.noise_squared * other.noise_squared);
+        const float distance = (planes[i].point - planes[j].point).norm();
+        sum += product / (one.weight * other.weight) * correlation(distance, one.spacing_mm());
+      }
+    }
+    const auto n = static_cast<float>(count);
+    return sum / (n * n) + common / n;
   }
 };
 
@@ -46,13 +92,13 @@ struct Meeting {
   Eigen::Vector3f strengths = Eigen::Vector3f::Zero();
   Eigen::Vector3f moves = Eigen::Vector3f::Zero();
 
-  explicit Meeting(const Loop& loop) {
+  Meeting(const Loop& loop, std::size_t count) {
     for (std::size_t i = 0; i < loop.count; ++i)
       middle += loop.planes[i].point;
     middle /= static_cast<float>(loop.count);
     Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
     Eigen::Vector3f pull = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < loop.count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const Plane& plane = loop.planes[i];
       spread += plane.normal * plane.normal.transpose();
       pull += plane.normal * plane.normal.dot(plane.point - middle);
@@ -77,14 +123,23 @@ struct Meeting {
 
 /// The meeting point, or one that fewer directions determine, so that it stays in its cell: then
 /// no triangle about an edge of the grid can turn over.
-Eigen::Vector3f place(const Loop& loop, const Eigen::Vector3f& low_mm, float edge_mm) {
-  const Meeting meeting(loop);
-  constexpr float kRim = 0.02F;  // keeps vertices of neighbouring cells apart
+Eigen::Vector3f place(Loop& loop, const Eigen::Vector3f& low_mm, float edge_mm) {
+  constexpr float kRim = 1e-3F;  // keeps vertices of neighbouring cells apart
   const Eigen::Array3f low = low_mm.array() + kRim * edge_mm;
   const Eigen::Array3f high = low_mm.array() + (1.0F - kRim) * edge_mm;
+  const auto within = [&](const Eigen::Vector3f& point) {
+    return (point.array() >= low).all() && (point.array() <= high).all();
+  };
+  loop.add_sides(low, high);
+  if (loop.all > loop.count) {
+    const Meeting meeting(loop, loop.all);
+    const Eigen::Vector3f point = meeting.at(meeting.rank());
+    if (within(point)) return point;
+  }
+  const Meeting meeting(loop, loop.count);
   for (int rank = meeting.rank(); rank > 0; --rank) {
     const Eigen::Vector3f point = meeting.at(rank);
-    if ((point.array() >= low).all() && (point.array() <= high).all()) return point;
+    if (within(point)) return point;
   }
   return meeting.at(1).array().max(low).min(high);
 }
@@ -120,16 +175,15 @@ void place_in_block(Mesh& mesh,
     if (shape.count == 0) continue;
     const Eigen::Vector3i voxel =
         crossings.places[block] * DistanceField::kEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
-    const auto loops = loops_at(crossings, evidence, voxel, shape);
+    auto loops = loops_at(crossings, evidence, voxel, shape);
     for (std::uint32_t loop = 0; loop < shape.count; ++loop) {
-      const Loop& found = loops[loop];
+      Loop& found = loops[loop];
       if (found.count == 0) continue;
       const std::size_t vertex = cells.first_vertex[cell] + loop;
-      const auto count = static_cast<float>(found.count);
       mesh.vertices_mm[vertex] = place(found, voxel.cast<float>() * edge_mm, edge_mm);
-      mesh.normals[vertex] = found.normal.normalized();
-      mesh.sigma_mm[vertex] = std::sqrt(found.variance / count);
-      mesh.views[vertex] = static_cast<std::uint16_t>(std::lround(found.views / count));
+      mesh.normals[vertex] = found.normal();
+      mesh.sigma_mm[vertex] = std::sqrt(found.variance());
+      mesh.views[vertex] = static_cast<std::uint16_t>(std::lround(found.views()));
     }
   }
 }
