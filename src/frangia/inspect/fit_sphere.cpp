@@ -19,8 +19,9 @@ Sphere algebraic_fit(const Eigen::Matrix3Xd& points) {
     A += row * row.transpose();
     b += row * points.col(i).squaredNorm();
   }
-  const Eigen::FullPivLU<Eigen::Matrix4d> lu(A);
-  if (lu.rcond() < 1e-13) {
+  Eigen::FullPivLU<Eigen::Matrix4d> lu(A);
+  lu.setThreshold(1e-12);
+  if (!lu.isInvertible()) {
     throw Error(ErrorKind::Numeric,
                 "fit_sphere: the points lie in a plane; a sphere needs points all around it");
   }

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
+#include <cstdint>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
+#include "frangia/inspect/picture_viewer.h"
 #include "frangia/mesh/corner_normals.h"
 #include "frangia/mesh/ray_scene.h"
 
@@ -18,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHalfField = 0.21;  ///< tangent of half the field of view, along the shorter side
-constexpr double kFill = 0.86;       ///< how much of the picture the part takes
 constexpr std::size_t kSkyRays = 4;  ///< a sample
 
 struct Light {
@@ -34,58 +33,6 @@ const std::array<Light, 3>& lights() {
        {Vector3d(0.80, 0.22, 0.55).normalized(), Vector3d(0.11, 0.13, 0.17), 0.25},
        {Vector3d(0.45, 0.55, -0.75).normalized(), Vector3d(0.30, 0.32, 0.36), 0.15}}};
   return three;
-}
-
-/// Where the viewer stands and what each pixel looks at.
-struct Viewer {
-  Eigen::Matrix3d axes;  ///< rows: right, up, towards the viewer
-  Vector3d target;
-  double distance = 0.0;
-  double scale = 0.0;  ///< mm at the target for half the shorter side of the picture
-  bool perspective = true;
-
-  struct Ray {
-    Vector3d origin, direction;
-  };
-  /// The ray through a place of the picture, in halves of its shorter side from the middle.
-  [[nodiscard]] Ray ray(double x, double y) const {
-    const Vector3d offset = axes.transpose() * Vector3d(x * scale, y * scale, 0.0);
-    const Vector3d eye = target + distance * axes.row(2).transpose();
-    if (!perspective) return {eye + offset, -axes.row(2).transpose()};
-    return {eye, (target + offset - eye).normalized()};
-  }
-};
-
-Viewer fitted_viewer(const Mesh& mesh, const ShadeOptions& options) {
-  Viewer viewer;
-  viewer.perspective = options.perspective;
-  const double ca = std::cos(options.azimuth_rad);
-  const double sa = std::sin(options.azimuth_rad);
-  const double ce = std::cos(options.elevation_rad);
-  const double se = std::sin(options.elevation_rad);
-  viewer.axes << -sa, ca, 0.0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se;
-  Eigen::AlignedBox3d box;
-  for (const auto& vertex : mesh.vertices_mm)
-    box.extend(viewer.axes * vertex.cast<double>());
-  viewer.target = viewer.axes.transpose() * box.center();
-
-  const double shorter = std::min(options.width_px, options.height_px);
-  const Eigen::Vector2d half(options.width_px / shorter * kFill,
-                             options.height_px / shorter * kFill);
-  const Vector3d size = 0.5 * box.sizes();
-  if (!options.perspective) {
-    viewer.scale = std::max(size.x() / half.x(), size.y() / half.y());
-    viewer.distance = 2.0 * box.sizes().norm() + 1.0;
-    return viewer;
-  }
-  for (const auto& vertex : mesh.vertices_mm) {
-    const Vector3d p = viewer.axes * vertex.cast<double>() - box.center();
-    const double needed =
-        std::max(std::abs(p.x()) / half.x(), std::abs(p.y()) / half.y()) / kHalfField + p.z();
-    viewer.distance = std::max(viewer.distance, needed);
-  }
-  viewer.scale = kHalfField * viewer.distance;
-  return viewer;
 }
 
 /// The background: a light gradient, brighter behind the part.
@@ -123,7 +70,7 @@ Vector3d sky_direction(const Vector3d& n, const Eigen::Vector2d& point) {
 }
 
 /// A light's direction, moved about within its disc.
-Vector3d toward(const Viewer& viewer, const Light& light, const Eigen::Vector2d& point) {
+Vector3d toward(const PictureViewer& viewer, const Light& light, const Eigen::Vector2d& point) {
   const double around = kTurn * point.x();
   const Vector3d u = light.direction.unitOrthogonal();
   const Vector3d off = std::cos(around) * u + std::sin(around) * light.direction.cross(u);
@@ -147,11 +94,11 @@ class Painter {
 
   /// The light from one place of the picture.
   [[nodiscard]] Vector3d color_at(double x, double y, const Scatter& scatter) const {
-    const Viewer::Ray ray = viewer_.ray(x, y);
+    const PictureViewer::Ray ray = viewer_.ray(x, y);
     if (const auto hit = scene_.first_hit(ray.origin, ray.direction)) {
       return surface_color(ray, *hit, scatter);
     }
-    const Vector3d behind = backdrop(x, y);
+    Vector3d behind = backdrop(x, y);
     if (!options_.ground || options_.elevation_rad <= 0.0 || ray.direction.z() > -1e-3)
       return behind;
     const double along = (ground_z_ - ray.origin.z()) / ray.direction.z();
@@ -197,7 +144,7 @@ class Painter {
     return normal.squaredNorm() > 0.0 ? normal.normalized() : hit.normal;
   }
 
-  [[nodiscard]] Vector3d surface_color(const Viewer::Ray& ray,
+  [[nodiscard]] Vector3d surface_color(const PictureViewer::Ray& ray,
                                        const RayHit& hit,
                                        const Scatter& scatter) const {
     const bool inside = hit.normal.dot(ray.direction) > 0.0;
@@ -213,7 +160,8 @@ class Painter {
       const double up = 0.5 + 0.5 * way.z();
       sky += (0.10 + 0.26 * up) * Vector3d(0.97, 0.99, 1.03) / kSkyRays;
     }
-    Vector3d diffuse = sky;
+    // No sky reaches the inside of a nearly closed mesh: let it glow enough to be seen.
+    Vector3d diffuse = inside ? Vector3d(sky + Vector3d::Constant(0.45)) : sky;
     double gloss = 0.0;
     for (std::size_t i = 0; i < lights().size(); ++i) {
       const Light& light = lights()[i];
@@ -230,7 +178,7 @@ class Painter {
   const ShadeOptions& options_;
   RayScene scene_;
   std::vector<std::array<Eigen::Vector3f, 3>> normals_;
-  Viewer viewer_;
+  PictureViewer viewer_;
   double size_mm_ = 0.0;
   double ground_z_ = 0.0;
 };
@@ -263,8 +211,9 @@ Image<Rgb> shade_mesh(const Mesh& mesh, const ShadeOptions& options, const Run& 
     for (int x = 0; x < options.width_px; ++x) {
       Vector3d sum = Vector3d::Zero();
       for (int sample = 0; sample < across * across; ++sample) {
-        const double sx = x + (sample % across + 0.5) / across;
-        const double sy = y + (sample / across + 0.5) / across;
+        const int row = sample / across;
+        const double sx = x + (sample - row * across + 0.5) / across;
+        const double sy = y + (row + 0.5) / across;
         const auto pixel = static_cast<std::uint64_t>(y) * 65536U + static_cast<std::uint64_t>(x);
         sum += painter.color_at((sx - 0.5 * options.width_px) / half,
                                 (0.5 * options.height_px - sy) / half,

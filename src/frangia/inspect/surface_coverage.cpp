@@ -11,8 +11,8 @@
 namespace frangia {
 namespace {
 
-/// How far a ray starts off the surface it leaves.
-constexpr double kStepOff_mm = 1e-3;
+/// How far a ray starts off the surface it leaves, mm.
+constexpr double kStepOff = 1e-3;
 
 bool in_picture(const Lens& lens, const Eigen::Vector3d& point) {
   if (point.z() <= 0.0) return false;
@@ -31,6 +31,9 @@ bool in_field(const Projector& projector, const Eigen::Vector3d& point_in_rig) {
   return psi >= field.field_min_rad && psi <= field.field_max_rad;
 }
 
+/// What became of a sample of the truth.
+enum class Found : std::uint8_t { Uncounted, Bare, Covered };
+
 using Counts = std::function<bool(const SurfaceSample&)>;
 
 SurfaceCoverage coverage_of(const RayScene& truth,
@@ -40,18 +43,18 @@ SurfaceCoverage coverage_of(const RayScene& truth,
                             const Run& run) {
   const auto samples = sample_surface(truth.mesh(), options.samples, options.seed);
   require(!samples.empty(), "surface_coverage: the truth has no surface");
-  enum : std::uint8_t { kUnseen, kBare, kCovered };
-  std::vector<std::uint8_t> state(samples.size(), kUnseen);
+  std::vector<Found> found(samples.size(), Found::Uncounted);
   constexpr std::size_t kChunk = 1024;
   parallel_chunks(samples.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!counts(samples[i])) continue;
-      state[i] = mesh.nearest(samples[i].point_mm, options.within_mm) ? kCovered : kBare;
+      found[i] =
+          mesh.nearest(samples[i].point_mm, options.within_mm) ? Found::Covered : Found::Bare;
     }
   });
   run.report(1.0);
-  const auto covered = std::count(state.begin(), state.end(), kCovered);
-  const auto bare = std::count(state.begin(), state.end(), kBare);
+  const auto covered = std::count(found.begin(), found.end(), Found::Covered);
+  const auto bare = std::count(found.begin(), found.end(), Found::Bare);
   SurfaceCoverage coverage;
   coverage.count = static_cast<std::size_t>(covered + bare);
   if (coverage.count > 0) {
@@ -68,7 +71,7 @@ bool is_measurable(const RayScene& scene,
                    const SeenFrom& view,
                    double max_angle_rad) {
   const double min_cos = std::cos(max_angle_rad);
-  const Eigen::Vector3d start = point_mm + kStepOff_mm * normal;
+  const Eigen::Vector3d start = point_mm + kStepOff * normal;
   return std::any_of(
       view.rig_from_object.begin(), view.rig_from_object.end(), [&](const Eigen::Isometry3d& pose) {
         const Eigen::Vector3d seen = pose * point_mm;

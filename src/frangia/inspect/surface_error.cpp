@@ -42,7 +42,7 @@ std::vector<Eigen::Vector3d> points_of(const Mesh& mesh, const SurfaceErrorOptio
       used[vertex] = true;
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i]) points.push_back(mesh.vertices_mm[i].cast<double>());
+    if (used[i]) points.emplace_back(mesh.vertices_mm[i].cast<double>());
   }
   return points;
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <new>
 #include <utility>
+#include <vector>
 
 #include <tbb/task_arena.h>
 #if __has_include(<embree4/rtcore.h>)
@@ -55,8 +56,8 @@ Eigen::Vector3d nearest_on(const Corners& t, const Eigen::Vector3d& p) {
   return t.a + ab * (vb / sum) + ac * (vc / sum);
 }
 
-/// Two distances closer than this share a nearest point: an edge or a corner.
-constexpr double kTie_mm = 1e-7;
+/// Two distances closer than this, in mm, share a nearest point: an edge or a corner.
+constexpr double kTie = 1e-7;
 
 struct Search {
   const Mesh* mesh;
@@ -78,8 +79,8 @@ bool consider(Search& search, std::uint32_t triangle) {
   const double height = way.dot(normal);
   const double squareness = distance > 0.0 ? std::abs(height) / distance : 1.0;
   if (search.best) {
-    if (distance > search.best->distance_mm + kTie_mm) return false;
-    const bool nearer = distance < search.best->distance_mm - kTie_mm;
+    if (distance > search.best->distance_mm + kTie) return false;
+    const bool nearer = distance < search.best->distance_mm - kTie;
     const bool squarer = squareness > search.squareness + 1e-9;
     const bool as_square = squareness >= search.squareness - 1e-9;
     if (!nearer && !squarer && !(as_square && triangle < search.best->triangle)) return false;
@@ -120,7 +121,7 @@ void copy_buffer(RTCGeometry geometry,
                  const std::vector<Item>& items) {
   void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), items.size());
   if (buffer == nullptr) throw std::bad_alloc();
-  std::memcpy(buffer, items.data(), items.size() * sizeof(Item));
+  std::copy(items.begin(), items.end(), static_cast<Item*>(buffer));
 }
 
 }  // namespace
@@ -165,8 +166,8 @@ RayScene::RayScene(Mesh mesh) : mesh_(std::move(mesh)) {
   });
 }
 
-RayScene::RayScene(RayScene&&) noexcept = default;
-RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+RayScene::RayScene(RayScene&& other) noexcept = default;
+RayScene& RayScene::operator=(RayScene&& other) noexcept = default;
 RayScene::~RayScene() = default;
 
 std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3d& origin_mm,

@@ -38,8 +38,8 @@ class RayScene {
   explicit RayScene(Mesh mesh);
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
-  RayScene(RayScene&&) noexcept;
-  RayScene& operator=(RayScene&&) noexcept;
+  RayScene(RayScene&& other) noexcept;
+  RayScene& operator=(RayScene&& other) noexcept;
   ~RayScene();
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }

@@ -27,15 +27,15 @@ double eyes(const Place& p, double head) {
 }
 
 double nose(const Place& p) {
-  double d = rod(p, {{15.6, 0, 86.5}, {20.6, 0, 76.8}, 1.5, 2.0});
-  d = blend(d, ball(p, {18.7, 2.3, 76.0}, 1.5), 1.4);
-  return carve(d, ball(p, {19.4, 1.5, 74.2}, 0.8), 0.6);
+  double d = rod(p, {{15.4, 0, 86.5}, {20.0, 0, 77.4}, 1.5, 1.9});
+  d = blend(d, ball(p, {17.9, 2.3, 76.8}, 1.5), 1.4);
+  return carve(d, ball(p, {18.6, 1.5, 75.1}, 0.7), 0.6);
 }
 
 double mouth(const Place& p, double head) {
-  double d = carve(head, rod(p, {{18.6, 0, 71.3}, {14.4, 5.2, 70.9}, 0.5, 0.3}), 1.2);
-  d = blend(d, rod(p, {{16.5, 1.0, 72.4}, {13.9, 4.6, 71.2}, 1.25, 0.5}), 1.0);
-  return blend(d, rod(p, {{16.0, 0, 69.9}, {13.8, 3.8, 70.7}, 1.45, 0.6}), 1.0);
+  double d = blend(head, rod(p, {{16.0, 0.8, 72.5}, {13.4, 4.4, 71.3}, 1.5, 0.8}), 1.0);
+  d = blend(d, rod(p, {{15.7, 0, 69.7}, {13.4, 3.7, 70.6}, 1.7, 0.9}), 1.0);
+  return carve(d, rod(p, {{17.9, 0, 71.2}, {14.4, 5.0, 70.9}, 0.5, 0.25}), 0.8);
 }
 
 double ear(const Place& p) {

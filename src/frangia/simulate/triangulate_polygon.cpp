@@ -111,16 +111,18 @@ struct Clipper {
     });
   }
 
+  [[noreturn]] static void fail() {
+    throw Error(ErrorKind::Numeric,
+                "triangulate_polygon: the polygon crosses itself or runs clockwise");
+  }
+
   void clip() {
     std::size_t place = 0;
     std::size_t refused = 0;
     while (ring.size() > 3) {
       place %= ring.size();
       if (!is_ear(place)) {
-        if (++refused > ring.size()) {
-          throw Error(ErrorKind::Numeric,
-                      "triangulate_polygon: the polygon crosses itself or runs clockwise");
-        }
+        if (++refused > ring.size()) fail();
         ++place;
         continue;
       }
@@ -131,6 +133,7 @@ struct Clipper {
       ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(place));
       ++place;  // moving on spreads the ears and keeps triangles from becoming a single fan
     }
+    if (turn(at(0), at(1), at(2)) < -kFlat) fail();
     triangles.push_back({ring[0], ring[1], ring[2]});
   }
 };
@@ -151,6 +154,16 @@ std::vector<std::array<std::size_t, 3>> triangulate_polygon(const Polygon& outer
     clipper.points.insert(clipper.points.end(), hole.begin(), hole.end());
     rings.push_back(std::move(ring));
   }
+  // The hole farthest right has nothing between its rightmost point and the rim.
+  const auto reach = [&](const Ring& ring) {
+    double right = clipper.points[ring.front()].x();
+    for (const std::size_t i : ring)
+      right = std::max(right, clipper.points[i].x());
+    return right;
+  };
+  std::stable_sort(rings.begin(), rings.end(), [&](const Ring& a, const Ring& b) {
+    return reach(a) < reach(b);
+  });
   while (!rings.empty()) {
     const Ring hole = std::move(rings.back());
     rings.pop_back();

@@ -1,0 +1,129 @@
+#include "frangia/simulate/parts.h"
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/mesh/ray_scene.h"
+
+#include "support/mesh_truths.h"
+
+namespace frangia {
+namespace {
+
+using testing::open_edges;
+using testing::volume_mm3;
+
+class Parts : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Parts, AreClosedOutwardAndStandOnTheGroundAboutTheAxis) {
+  const Mesh mesh = make_part(GetParam());
+  EXPECT_EQ(open_edges(mesh), 0U);
+  EXPECT_GT(volume_mm3(mesh), 1000.0);
+  Eigen::AlignedBox3f bounds;
+  for (const auto& vertex : mesh.vertices_mm)
+    bounds.extend(vertex);
+  EXPECT_NEAR(bounds.min().z(), 0.0F, 1e-4F);
+  EXPECT_LT(bounds.max().z(), 120.0F);
+  EXPECT_LT(std::max(bounds.max().head<2>().norm(), bounds.min().head<2>().norm()), 65.0F);
+  EXPECT_TRUE(RayScene(mesh).first_hit({200, 0, 30}, {-1, 0, 0}) ||
+              RayScene(mesh).first_hit({200, 35, 30}, {-1, 0, 0}));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Parts, ::testing::ValuesIn(part_names()), [](const auto& instance) {
+  std::string name = instance.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(Plate, HasTheVolumeOfItsSides) {
+  EXPECT_NEAR(volume_mm3(make_plate()), 80.0 * 60.0 * 6.0, 1e-3);
+}
+
+TEST(BallBar, HasTheVolumeOfItsSolids) {
+  // A ball less the cap that the post replaces, a post up to there, the base.
+  const double inner = std::sqrt(20.0 * 20.0 - 7.0 * 7.0);
+  const double cap_height = 20.0 - inner;
+  const double cap = kPi * cap_height * cap_height * (20.0 - cap_height / 3.0);
+  const double ball = 4.0 / 3.0 * kPi * 8000.0 - cap;
+  const double post = kPi * 49.0 * (60.0 - inner - 8.0);
+  const double expected = 2.0 * (ball + post) + 40.0 * 120.0 * 8.0;
+  EXPECT_NEAR(volume_mm3(make_ball_bar()), expected, 2e-4 * expected);
+}
+
+TEST(BallBar, HasItsBallsWhereTheyBelong) {
+  for (const auto& vertex : make_ball_bar().vertices_mm) {
+    if (vertex.z() < 41.3F) continue;
+    const Eigen::Vector3d center(0.0, vertex.y() < 0.0F ? -35.0 : 35.0, 60.0);
+    EXPECT_NEAR((vertex.cast<double>() - center).norm(), 20.0, 1e-5);
+  }
+}
+
+TEST(Shaft, HasTheVolumeOfItsConesLessTheKeyway) {
+  const double rings[][2] = {{17, 0},
+                             {18, 1},
+                             {18, 18},
+                             {22, 18},
+                             {22, 21},
+                             {25, 21},
+                             {26, 22},
+                             {26, 37},
+                             {25, 38},
+                             {18, 38},
+                             {18, 79},
+                             {17, 80},
+                             {13, 80},
+                             {13, 83},
+                             {14, 83},
+                             {14, 99},
+                             {13, 100}};
+  double expected = 0.0;
+  for (std::size_t i = 1; i < std::size(rings); ++i) {
+    const double a = rings[i - 1][0];
+    const double b = rings[i][0];
+    expected += kPi / 3.0 * (rings[i][1] - rings[i - 1][1]) * (a * a + a * b + b * b);
+  }
+  constexpr int kSteps = 20000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double y = -3.0 + 6.0 * (i + 0.5) / kSteps;
+    const double height = 18.0 + 2.0 * std::sqrt(9.0 - y * y);
+    expected -= 6.0 / kSteps * height * (std::sqrt(18.0 * 18.0 - y * y) - 14.0);
+  }
+  EXPECT_NEAR(volume_mm3(make_shaft()), expected, 1e-4 * expected);
+}
+
+TEST(Bracket, HasTheVolumeOfItsPlatesLessTheBores) {
+  const double plates = 50.0 * (60.0 * 8.0 + 8.0 * 54.0 + 38.0 * 8.0);
+  const double rib = 6.0 * 0.5 * 30.0 * 30.0;
+  const double bores = kPi * 8.0 * (2.0 * 25.0 + 2.0 * 36.0 + 49.0);
+  EXPECT_NEAR(volume_mm3(make_bracket()), plates + rib - bores, 1.0);
+}
+
+TEST(Bust, HasANoseInFrontAndEarsOnBothSides) {
+  const RayScene bust(make_bust());
+  const auto depth = [&](double y, double z) {
+    const auto hit = bust.first_hit({100, y, z}, {-1, 0, 0});
+    return hit ? 100.0 - hit->distance : -100.0;
+  };
+  EXPECT_GT(depth(0, 77), depth(5, 77) + 4.0);  // nose and cheek
+  EXPECT_GT(depth(0, 90), depth(6, 84));        // brow and eye
+  EXPECT_GT(depth(0, 66), depth(0, 60) + 5.0);  // chin and throat: an undercut
+  for (const double side : {-1.0, 1.0}) {
+    const auto ear = bust.first_hit({-2, 60 * side, 82}, {0, -side, 0});
+    const auto cheek = bust.first_hit({6, 60 * side, 80}, {0, -side, 0});
+    ASSERT_TRUE(ear && cheek);
+    EXPECT_LT(ear->distance, cheek->distance - 2.0);
+  }
+}
+
+TEST(MakePart, NamesWhatThereIs) {
+  try {
+    static_cast<void>(make_part("teapot"));
+    FAIL() << "a teapot was made";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("bust"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("teapot"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace frangia
