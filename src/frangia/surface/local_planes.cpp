@@ -6,6 +6,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/surface/fast_lens.h"
 #include "frangia/surface/fit_windows.h"
 
 namespace frangia {
@@ -78,21 +79,25 @@ float slope_between(const Grid& grid, int x, int y, Link link) {
   return sum / count;
 }
 
-/// The best window's plane at pixel (x, y).
-WindowFit choose_window(const Grid& grid, const Image<WindowFit>& fits, int x, int y, int radius) {
-  constexpr float kNoiseFits = 2.0F;  // in variance: a centred window that fits so well is kept
-  constexpr float kClearlyBetter = 0.5F;
-  const WindowFit& centred = fits(x, y);
+/// The best window's plane at pixel (x, y), from fits that begin at row `first`.
+WindowFit choose_window(const Grid& grid,
+                        const Image<WindowFit>& fits,
+                        int first,
+                        int radius,
+                        const Eigen::Vector2i& at) {
+  constexpr float kNoiseFits = 2.0F;      // in variance: a centred window that fits so well is kept
+  constexpr float kClearlyBetter = 0.5F;  // than a centred one
+  const int x = at.x();
+  const int y = at.y();
+  const WindowFit& centred = fits(x, y - first);
   const float noise = grid.noise(x, y);
   if (centred.variance < kNoiseFits * noise * noise) return centred;
   WindowFit best = centred;
   float limit = std::isnan(centred.variance) ? 1e30F : kClearlyBetter * centred.variance;
   for (const int dy : {-radius, 0, radius}) {
     for (const int dx : {-radius, 0, radius}) {
-      const int to_x = x + dx;
-      const int to_y = y + dy;
-      if (to_x < 0 || to_y < 0 || to_x >= fits.width() || to_y >= fits.height()) continue;
-      const WindowFit& shifted = fits(to_x, to_y);
+      if (x + dx < 0 || x + dx >= fits.width()) continue;
+      const WindowFit& shifted = fits(x + dx, y + dy - first);
       if (!(shifted.variance < limit)) continue;
       limit = shifted.variance;
       best = shifted;
@@ -106,10 +111,9 @@ WindowFit choose_window(const Grid& grid, const Image<WindowFit>& fits, int x, i
 }
 
 /// The plane through a pixel's point, from q and its slope over the image.
-Eigen::Vector3f plane_of(const WindowFit& fit, const Lens& camera, const Eigen::Vector2f& ray) {
-  const Eigen::Matrix2f pixels_per_ray =
-      (camera.focal_px.asDiagonal() * camera.distort_jacobian(ray.cast<double>())).cast<float>();
-  const Eigen::Vector2f ab = pixels_per_ray.transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
+Eigen::Vector3f plane_of(const WindowFit& fit, const FastLens& lens, const Eigen::Vector2f& ray) {
+  const Eigen::Vector2f ab =
+      lens.jacobian(ray).transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
   return {ab.x(), ab.y(), fit.mean - ab.dot(ray)};
 }
 
@@ -172,19 +176,25 @@ LocalPlanes local_planes(const View& view,
   require(same_size(view.range.depth_mm, rays) && same_size(view.range.sigma_mm, rays),
           "local_planes: the range grid and the camera differ in size");
   const Grid grid = link_pixels(view.range, camera.lens);
-  const Image<WindowFit> fits = fit_windows(grid.q, options.radius);
   const int width = rays.width();
   const int height = rays.height();
   LocalPlanes planes{Image<float>(width, height),
                      Image<Eigen::Vector3f>(width, height, Eigen::Vector3f::Zero()),
                      Image<LocalPlanes::Quad>(std::max(0, width - 1), std::max(0, height - 1)),
                      view.rig_from_object};
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      if (!(grid.q(x, y) > 0.0F)) continue;
-      planes.inverse_depth(x, y) = grid.q(x, y);
-      const WindowFit fit = choose_window(grid, fits, x, y, options.radius);
-      planes.plane_per_mm(x, y) = plane_of(fit, camera.lens, rays(x, y));
+  const FastLens lens(camera.lens);
+  constexpr std::size_t kRows = 32;
+  parallel_chunks(static_cast<std::size_t>(height), kRows, [&](std::size_t begin, std::size_t end) {
+    const int first = static_cast<int>(begin) - options.radius;
+    Image<WindowFit> fits(width, static_cast<int>(end) + options.radius - first);
+    fit_windows(grid.q, options.radius, first, fits);
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!(grid.q(x, y) > 0.0F)) continue;
+        planes.inverse_depth(x, y) = grid.q(x, y);
+        const WindowFit fit = choose_window(grid, fits, first, options.radius, {x, y});
+        planes.plane_per_mm(x, y) = plane_of(fit, lens, rays(x, y));
+      }
     }
   });
   const auto crease_cosine = static_cast<float>(std::cos(options.crease_rad));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -134,6 +135,27 @@ struct Meeting {
   }
 };
 
+/// The middle of planes that are as good as parallel, moved onto them.
+///
+/// The plane through a point of a curved surface leaves it on one side, the point itself lies on
+/// the other side of the plane here: the mean of both normals makes up for the curvature.
+std::optional<Eigen::Vector3f> flat_place(const Loop& loop) {
+  constexpr float kParallel = 0.97F;  // cosine: the eigenvalues would be below kFlat
+  const Eigen::Vector3f normal = loop.normal();
+  Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < loop.count; ++i) {
+    if (loop.planes[i].normal.dot(normal) < kParallel) return std::nullopt;
+    middle += loop.planes[i].point;
+  }
+  middle /= static_cast<float>(loop.count);
+  float offset = 0.0F;
+  for (std::size_t i = 0; i < loop.count; ++i) {
+    const Plane& plane = loop.planes[i];
+    offset += 0.5F * (plane.normal + normal).dot(plane.point - middle);
+  }
+  return middle + normal * (offset / static_cast<float>(loop.count));
+}
+
 /// The meeting point, or one that fewer planes or directions determine, so that it lies in the
 /// cell.
 Eigen::Vector3f place(Loop& loop, const Cell& cell) {
@@ -143,6 +165,8 @@ Eigen::Vector3f place(Loop& loop, const Cell& cell) {
     const Eigen::Vector3f point = meeting.at(meeting.rank());
     if (cell.holds(point)) return point;
   }
+  const auto flat = flat_place(loop);
+  if (flat && cell.holds(*flat)) return *flat;
   const Meeting meeting(loop, loop.count);
   for (int rank = meeting.rank(); rank > 0; --rank) {
     const Eigen::Vector3f point = meeting.at(rank);
@@ -190,7 +214,9 @@ void place_in_block(PlacedVertices& placed,
       const std::size_t vertex = cells.first_vertex[cell] + loop;
       const Eigen::Vector3f low = voxel.cast<float>() * edge_mm;
       mesh.vertices_mm[vertex] = place(found, Cell(low, edge_mm, kRoam * edge_mm));
-      placed.within_mm[vertex] = place(found, Cell(low, edge_mm, -kRim * edge_mm));
+      const Cell strict(low, edge_mm, -kRim * edge_mm);
+      const bool within = strict.holds(mesh.vertices_mm[vertex]);
+      placed.within_mm[vertex] = within ? mesh.vertices_mm[vertex] : place(found, strict);
       mesh.normals[vertex] = found.normal();
       mesh.sigma_mm[vertex] = std::sqrt(found.variance());
       mesh.views[vertex] = static_cast<std::uint16_t>(std::lround(found.views()));
