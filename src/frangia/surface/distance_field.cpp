@@ -28,10 +28,10 @@ struct Sampler {
 
   void add(DistanceField::Voxel& cell, float u, float v, const Eigen::Vector3f& point) const {
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
-    if (quad == nullptr || quad->kind == LocalPlanes::Kind::Unseen || !(point.z() > 0.0F)) return;
+    if (quad == nullptr || !(point.z() > 0.0F)) return;
     float distance = (1.0F - point.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
     if (quad->kind != LocalPlanes::Kind::Smooth)
-      distance = view.nearest_face(u, v, point).distance_mm;
+      distance = view.nearest_face(u, v, point).in_front_mm(point);
     if (!(distance < front && distance > -back)) return;
     // Behind its surface a view can only guess: the object may be thin, or end beside the ray.
     const float depth = distance < 0.0F ? distance / guess : 0.0F;

@@ -71,7 +71,7 @@ void add_quads(std::vector<Quad>& quads,
                const Crossings& crossings,
                std::span<const Evidence> evidence,
                std::size_t block) {
-  const Crossings::Block& cells = crossings.blocks[block];
+  const Crossings::Block& cells = *crossings.blocks[block];
   for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (cells.axes[at] == 0) continue;

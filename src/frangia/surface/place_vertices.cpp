@@ -199,7 +199,7 @@ void place_in_block(PlacedVertices& placed,
                     std::span<const Evidence> evidence,
                     std::size_t block) {
   Mesh& mesh = placed.mesh;
-  const Crossings::Block& cells = crossings.blocks[block];
+  const Crossings::Block& cells = *crossings.blocks[block];
   const auto edge_mm = static_cast<float>(crossings.voxel_mm);
   for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
     const auto cell = static_cast<std::size_t>(i);
