@@ -53,7 +53,7 @@ Corners corners_of(const DistanceField& field, const Eigen::Vector3i& place) {
 
 /// What one block holds, before the blocks are numbered through.
 struct Found {
-  Crossings::Block block;
+  std::unique_ptr<Crossings::Block> block = std::make_unique<Crossings::Block>();
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<std::int8_t> outward;
   std::uint32_t vertices = 0;
@@ -87,7 +87,7 @@ void add_crossings(Found& found,
   const int z = voxel.z() & 7;
   const float here = corners.distance[Corners::at(x, y, z)];
   const std::size_t i = voxel_at(x, y, z);
-  found.block.first_crossing[i] = static_cast<std::uint32_t>(found.points_mm.size());
+  found.block->first_crossing[i] = static_cast<std::uint32_t>(found.points_mm.size());
   for (int axis = 0; axis < 3; ++axis) {
     const float there =
         corners.distance[Corners::at(x + (axis == 0), y + (axis == 1), z + (axis == 2))];
@@ -95,7 +95,7 @@ void add_crossings(Found& found,
       continue;
     Eigen::Vector3f point = voxel.cast<float>();
     point[axis] += here / (here - there);
-    found.block.axes[i] |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis));
+    found.block->axes[i] |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis));
     found.points_mm.emplace_back(point * edge_mm);
     found.outward.push_back(static_cast<std::int8_t>(there < 0.0F ? -axis - 1 : axis + 1));
   }
@@ -116,9 +116,9 @@ std::unique_ptr<Found> search(const DistanceField& field, const Eigen::Vector3i&
     for (int y = 0; y < kEdge; ++y) {
       for (int x = 0; x < kEdge; ++x) {
         const std::size_t i = voxel_at(x, y, z);
-        found->block.inside[i] = pattern_at(corners, x, y, z, kLargestJump * edge_mm);
-        found->block.first_vertex[i] = found->vertices;
-        found->vertices += cell_loops()[found->block.inside[i]].count;
+        found->block->inside[i] = pattern_at(corners, x, y, z, kLargestJump * edge_mm);
+        found->block->first_vertex[i] = found->vertices;
+        found->vertices += cell_loops()[found->block->inside[i]].count;
         add_crossings(*found, corners, place * kEdge + Eigen::Vector3i(x, y, z), edge_mm);
       }
     }
@@ -132,7 +132,7 @@ std::unique_ptr<Found> search(const DistanceField& field, const Eigen::Vector3i&
 Crossings::Address Crossings::at(const Eigen::Vector3i& voxel) const {
   const auto found = index.find(block_key(voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3));
   if (found == index.end()) return {};
-  return {&blocks[found->second], voxel_at(voxel.x(), voxel.y(), voxel.z())};
+  return {blocks[found->second].get(), voxel_at(voxel.x(), voxel.y(), voxel.z())};
 }
 
 std::uint32_t Crossings::crossing(const Eigen::Vector3i& voxel, int axis) const {
@@ -155,13 +155,13 @@ Crossings find_crossings(const DistanceField& field) {
     if (!parts[i]) continue;
     Found& part = *parts[i];
     const auto crossings = static_cast<std::uint32_t>(all.points_mm.size());
-    for (std::uint32_t& first : part.block.first_crossing)
+    for (std::uint32_t& first : part.block->first_crossing)
       first += crossings;
-    for (std::uint32_t& first : part.block.first_vertex)
+    for (std::uint32_t& first : part.block->first_vertex)
       first += static_cast<std::uint32_t>(all.vertices);
     all.index.emplace(block_key(field.places[i]), static_cast<std::uint32_t>(all.blocks.size()));
     all.places.push_back(field.places[i]);
-    all.blocks.push_back(part.block);
+    all.blocks.push_back(std::move(part.block));
     all.points_mm.insert(all.points_mm.end(), part.points_mm.begin(), part.points_mm.end());
     all.outward.insert(all.outward.end(), part.outward.begin(), part.outward.end());
     all.vertices += part.vertices;

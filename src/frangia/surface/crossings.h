@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct Crossings {
 
   double voxel_mm = 0.0;
   std::vector<Eigen::Vector3i> places;
-  std::vector<Block> blocks;
+  std::vector<std::unique_ptr<const Block>> blocks;
   std::unordered_map<std::uint64_t, std::uint32_t> index;  ///< of `block_key(place)`
   std::vector<Eigen::Vector3f> points_mm;                  ///< one a crossing
   std::vector<std::int8_t> outward;  ///< axis + 1, negative when outside is at the lower end

@@ -28,10 +28,10 @@ struct Sampler {
 
   void add(DistanceField::Voxel& cell, float u, float v, const Eigen::Vector3f& point) const {
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
-    if (quad == nullptr || quad->kind == LocalPlanes::Kind::Unseen || !(point.z() > 0.0F)) return;
+    if (quad == nullptr || !(point.z() > 0.0F)) return;
     float distance = (1.0F - point.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
     if (quad->kind != LocalPlanes::Kind::Smooth)
-      distance = view.nearest_face(u, v, point).distance_mm;
+      distance = view.nearest_face(u, v, point).in_front_mm(point);
     if (!(distance < front && distance > -back)) return;
     // Behind its surface a view can only guess: the object may be thin, or end beside the ray.
     const float depth = distance < 0.0F ? distance / guess : 0.0F;
@@ -41,11 +41,12 @@ struct Sampler {
   }
 };
 
-/// Camera coordinates of a block's voxels: the first one's, and the step along each axis.
-void add_block(DistanceField::Block& block,
-               const Sampler& sampler,
-               const Eigen::Vector3f& first,
-               const Eigen::Matrix3f& steps) {
+/// Adds a view to a block, given in camera coordinates: the first voxel, and the step along each
+/// axis.
+[[gnu::target_clones("avx512f", "avx2", "default")]] void add_block(DistanceField::Block& block,
+                                                                    const Sampler& sampler,
+                                                                    const Eigen::Vector3f& first,
+                                                                    const Eigen::Matrix3f& steps) {
   alignas(32) std::array<float, kEdge> u{};
   alignas(32) std::array<float, kEdge> v{};
   for (int row = 0; row < kEdge * kEdge; ++row) {
@@ -98,16 +99,42 @@ class KeySet {
   std::vector<std::uint64_t> keys_;
 };
 
-/// All blocks that a cube of two voxels' edge about `point` (in voxels) meets.
-void add_around(KeySet& keys, const Eigen::Vector3f& point) {
-  const Eigen::Array3i low = (point.array() - 1.0F).floor().cast<int>();
-  const Eigen::Array3i high = (point.array() + 1.0F).floor().cast<int>();
-  for (int z = low.z() >> 3; z <= high.z() >> 3; ++z) {
-    for (int y = low.y() >> 3; y <= high.y() >> 3; ++y) {
-      for (int x = low.x() >> 3; x <= high.x() >> 3; ++x)
+/// All blocks that a box of voxel coordinates meets.
+void add_box(KeySet& keys, const Eigen::Array3f& low, const Eigen::Array3f& high) {
+  const Eigen::Array3i first = low.floor().cast<int>();
+  const Eigen::Array3i last = high.floor().cast<int>();
+  for (int z = first.z() >> 3; z <= last.z() >> 3; ++z) {
+    for (int y = first.y() >> 3; y <= last.y() >> 3; ++y) {
+      for (int x = first.x() >> 3; x <= last.x() >> 3; ++x)
         keys.add(block_key(x, y, z));
     }
   }
+}
+
+/// All blocks within a voxel of the segment.
+void add_along(KeySet& keys, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
+  constexpr float kMargin = 1.0F;
+  const Eigen::Array3f low = from.cwiseMin(to).array() - kMargin;
+  const Eigen::Array3f high = from.cwiseMax(to).array() + kMargin;
+  const Eigen::Array3f block = (low * 0.125F).floor() * 8.0F;
+  if ((high < block + 8.0F).all()) return add_box(keys, low, low);
+  const float length = (to - from).norm();
+  const int steps = static_cast<int>(length / 2.0F) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Array3f point =
+        from + (to - from) * (static_cast<float>(i) / static_cast<float>(steps));
+    add_box(keys, point - kMargin, point + kMargin);
+  }
+}
+
+/// How many pixels to step so that no voxel between two of them is left out.
+int pixel_stride(const LocalPlanes& view, const CameraRays& camera, const Band& band) {
+  float nearest = 0.0F;
+  for (const float q : view.inverse_depth.pixels())
+    nearest = std::max(nearest, q);
+  const double pixels =
+      band.voxel_mm * static_cast<double>(nearest) * camera.lens.focal_px.minCoeff();
+  return std::clamp(static_cast<int>(pixels), 1, 8);
 }
 
 Eigen::Vector3i place_of(std::uint64_t key) {
@@ -127,15 +154,17 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
   const Eigen::Matrix3f rotation = (object_from_rig.linear() / band.voxel_mm).cast<float>();
   const Eigen::Vector3f origin = (object_from_rig.translation() / band.voxel_mm).cast<float>();
   constexpr float kLongest = 2.0F;  // at grazing incidence the band along the ray has no end
-  constexpr int kRows = 16;
+  const auto per_voxel = static_cast<float>(1.0 / band.voxel_mm);
+  const int stride = pixel_stride(view, camera, band);
 
-  const auto height = static_cast<std::size_t>(view.quads.height());
-  std::vector<std::vector<std::uint64_t>> parts((height + kRows - 1) / kRows);
-  parallel_chunks(height, kRows, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kRows = 16;
+  const std::size_t rows = static_cast<std::size_t>((view.quads.height() + stride - 1) / stride);
+  std::vector<std::vector<std::uint64_t>> parts((rows + kRows - 1) / kRows);
+  parallel_chunks(rows, kRows, [&](std::size_t begin, std::size_t end) {
     KeySet keys;
-    for (std::size_t row = begin; row < end; ++row) {
-      const int y = static_cast<int>(row);
-      for (int x = 0; x < view.quads.width(); ++x) {
+    for (int y = static_cast<int>(begin) * stride; y < static_cast<int>(end) * stride;
+         y += stride) {
+      for (int x = 0; x < view.quads.width(); x += stride) {
         const LocalPlanes::Quad& quad = view.quads(x, y);
         if (quad.kind == LocalPlanes::Kind::Unseen) continue;
         const float depth = 1.0F / view.inverse_depth(x, y);
@@ -143,13 +172,10 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
         const Eigen::Vector3f point = origin + rotation * (depth * ray);
         const Eigen::Vector3f along = (rotation * ray).normalized();  // one voxel
         const float cosine = std::max(1.0F / kLongest, quad.distance_mm / (depth * ray.norm()));
-        const auto reach = static_cast<float>(1.0 / band.voxel_mm) / cosine;
-        const float last = static_cast<float>(band.back_mm) * reach;
-        constexpr float kStride = 2.0F;
-        for (float t = -static_cast<float>(band.front_mm) * reach; t < last; t += kStride) {
-          add_around(keys, point + t * along);
-        }
-        add_around(keys, point + last * along);
+        const float reach = per_voxel / cosine;
+        add_along(keys,
+                  point - along * (static_cast<float>(band.front_mm) * reach),
+                  point + along * (static_cast<float>(band.back_mm) * reach));
       }
     }
     parts[begin / kRows] = keys.take();

@@ -57,22 +57,20 @@ struct Questioner {
     float v = 0.0F;
     lens.project(p.x(), p.y(), p.z(), u, v);
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
-    if (quad == nullptr || quad->kind == LocalPlanes::Kind::Unseen || !(p.z() > 0.0F)) return;
+    if (quad == nullptr || !(p.z() > 0.0F)) return;
     const bool smooth = quad->kind == LocalPlanes::Kind::Smooth;
-    const LocalPlanes::Face face =
-        smooth ? LocalPlanes::Face{(1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm,
-                                   &view.plane_per_mm(static_cast<int>(u + 0.5F),
-                                                      static_cast<int>(v + 0.5F))}
+    const LocalPlanes::Plane& plane =
+        smooth ? view.planes(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F))
                : view.nearest_face(u, v, p);
-    if (std::abs(face.distance_mm) < near_mm) {
-      const Eigen::Vector3f& plane = *face.plane_per_mm;
-      const float per_norm = 1.0F / plane.norm();
-      const Eigen::Vector3f normal = rotation.transpose() * plane * -per_norm;
+    const float distance = smooth ? (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm
+                                  : plane.in_front_mm(p);
+    if (std::abs(distance) < near_mm) {
+      const Eigen::Vector3f normal = rotation.transpose() * plane.normal;
       const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];
       if (along < kBack) return;
-      const float cosine = plane.dot(p) * per_norm / p.norm();
-      add(face_for(evidence, normal), normal, face.distance_mm, {quad->weight, cosine, p.z()});
-    } else if (face.distance_mm > through_mm) {
+      const float cosine = -plane.normal.dot(p) / p.norm();
+      add(face_for(evidence, normal), normal, distance, {quad->weight, cosine, p.z()});
+    } else if (distance > through_mm) {
       const float blocking = nearest(static_cast<int>(u) / kTile, static_cast<int>(v) / kTile);
       if ((1.0F - p.z() * blocking) * quad->distance_mm > through_mm)
         evidence.against += quad->weight;
@@ -149,9 +147,9 @@ void add_evidence(std::vector<Evidence>& evidence,
 void add_disagreement(std::vector<Evidence>& evidence, const Crossings& crossings) {
   parallel_chunks(crossings.blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
-      const std::size_t first = crossings.blocks[block].first_crossing.front();
+      const std::size_t first = crossings.blocks[block]->first_crossing.front();
       const std::size_t last = block + 1 < crossings.blocks.size()
-                                   ? crossings.blocks[block + 1].first_crossing.front()
+                                   ? crossings.blocks[block + 1]->first_crossing.front()
                                    : evidence.size();
       float excess = 0.0F;  // of the scatter between views over what their noise explains
       float freedom = 0.0F;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
-
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include "frangia/rig/lens.h"
 
@@ -30,6 +28,20 @@ struct FastLens {
     const float radial = 1.0F + r2 * (k1 + r2 * (k2 + r2 * k3));
     u = cx + fx * (x * radial + 2.0F * p1 * x * y + p2 * (r2 + 2.0F * x * x));
     v = cy + fy * (y * radial + p1 * (r2 + 2.0F * y * y) + 2.0F * p2 * x * y);
+  }
+
+  /// How the pixel moves with the normalised point (x/z, y/z).
+  [[nodiscard]] Eigen::Matrix2f jacobian(const Eigen::Vector2f& ray) const {
+    const float x = ray.x();
+    const float y = ray.y();
+    const float r2 = x * x + y * y;
+    const float radial = 1.0F + r2 * (k1 + r2 * (k2 + r2 * k3));
+    const float slope = 2.0F * (k1 + r2 * (2.0F * k2 + r2 * 3.0F * k3));
+    const float mixed = slope * x * y + 2.0F * p1 * x + 2.0F * p2 * y;
+    Eigen::Matrix2f moves;
+    moves << fx * (radial + slope * x * x + 2.0F * p1 * y + 6.0F * p2 * x), fx * mixed,  //
+        fy * mixed, fy * (radial + slope * y * y + 6.0F * p1 * y + 2.0F * p2 * x);
+    return moves;
   }
 
   float fx, fy, cx, cy, k1, k2, p1, p2, k3;

@@ -1,90 +1,101 @@
 #include "frangia/surface/fit_windows.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
-#include "frangia/core/parallel.h"
 
 namespace frangia {
 namespace {
 
-using Row = std::vector<float>;
-
-/// The fits of one row, as separate rows: loops over them become vector code.
+/// The fits of one row, each figure in a row of its own: loops over them become vector code.
 struct RowOfFits {
-  explicit RowOfFits(std::size_t width)
-      : mean(width), slope_x(width), slope_y(width), variance(width) {}
-  Row mean;
-  Row slope_x;
-  Row slope_y;
-  Row variance;
+  explicit RowOfFits(int width)
+      : mean(static_cast<std::size_t>(width)), slope_x(mean), slope_y(mean), variance(mean) {}
+  std::vector<float> mean;
+  std::vector<float> slope_x;
+  std::vector<float> slope_y;
+  std::vector<float> variance;
 };
 
 template <int kRadius>
-void fit_row(const Image<float>& image, int y, RowOfFits& fits) {
+[[gnu::always_inline]] inline void fit_row_of(const float* top,
+                                              std::ptrdiff_t width,
+                                              RowOfFits& fits) {
   constexpr int kSide = 2 * kRadius + 1;
   constexpr float kPerCount = 1.0F / (kSide * kSide);
   constexpr float kPerSpread = 3.0F / (kSide * kSide * kRadius * (kRadius + 1));
-  const std::size_t inner = fits.mean.size();
-  const auto width = static_cast<std::size_t>(image.width());
-  const float* top = image.pixels().data() + static_cast<std::size_t>(y - kRadius) * width;
-  for (std::size_t x = 0; x < inner; ++x) {
+  float* mean = fits.mean.data();
+  float* slope_x = fits.slope_x.data();
+  float* slope_y = fits.slope_y.data();
+  float* variance = fits.variance.data();
+  const std::ptrdiff_t inner = width - 2 * kRadius;
+  for (std::ptrdiff_t x = 0; x < inner; ++x) {
     float sum = 0.0F;
     float along_x = 0.0F;
     float along_y = 0.0F;
     for (int j = 0; j < kSide; ++j) {
-      const float* row = top + static_cast<std::size_t>(j) * width + x;
       float of_row = 0.0F;
       for (int i = 0; i < kSide; ++i) {
-        of_row += row[i];
-        along_x += static_cast<float>(i - kRadius) * row[i];
+        const float value = top[j * width + x + i];
+        of_row += value;
+        along_x += static_cast<float>(i - kRadius) * value;
       }
       sum += of_row;
       along_y += static_cast<float>(j - kRadius) * of_row;
     }
-    fits.mean[x] = sum * kPerCount;
-    fits.slope_x[x] = along_x * kPerSpread;
-    fits.slope_y[x] = along_y * kPerSpread;
+    mean[x] = sum * kPerCount;
+    slope_x[x] = along_x * kPerSpread;
+    slope_y[x] = along_y * kPerSpread;
   }
   // About the plane rather than from the sum of squares, which would cancel all digits.
-  for (std::size_t x = 0; x < inner; ++x) {
+  for (std::ptrdiff_t x = 0; x < inner; ++x) {
     float squares = 0.0F;
     for (int j = 0; j < kSide; ++j) {
-      const float* row = top + static_cast<std::size_t>(j) * width + x;
-      const float start = fits.mean[x] + static_cast<float>(j - kRadius) * fits.slope_y[x];
       for (int i = 0; i < kSide; ++i) {
-        const float rest = row[i] - start - static_cast<float>(i - kRadius) * fits.slope_x[x];
+        const float plane = mean[x] + static_cast<float>(j - kRadius) * slope_y[x] +
+                            static_cast<float>(i - kRadius) * slope_x[x];
+        const float rest = top[j * width + x + i] - plane;
         squares += rest * rest;
       }
     }
-    fits.variance[x] = squares * (1.0F / (kSide * kSide - 3));
+    variance[x] = squares * (1.0F / (kSide * kSide - 3));
   }
 }
 
-template <int kRadius>
-Image<WindowFit> fit_all(const Image<float>& image) {
-  const int width = image.width();
-  Image<WindowFit> fits(width, image.height(), {kMissing, kMissing, kMissing, kMissing});
-  if (width <= 2 * kRadius || image.height() <= 2 * kRadius) return fits;
-  parallel_rows(image.height() - 2 * kRadius, [&](int row) {
-    RowOfFits found(static_cast<std::size_t>(width - 2 * kRadius));
-    fit_row<kRadius>(image, row + kRadius, found);
-    for (std::size_t x = 0; x < found.mean.size(); ++x) {
-      fits(static_cast<int>(x) + kRadius, row + kRadius) = {
-          found.mean[x], found.slope_x[x], found.slope_y[x], found.variance[x]};
-    }
-  });
-  return fits;
+/// One body for each instruction set: without contraction they give the same bytes.
+[[gnu::target_clones("avx512f", "avx2", "default")]] void fit_row(const float* top,
+                                                                  std::ptrdiff_t width,
+                                                                  int radius,
+                                                                  RowOfFits& fits) {
+  if (radius == 1) fit_row_of<1>(top, width, fits);
+  if (radius == 2) fit_row_of<2>(top, width, fits);
+  if (radius == 3) fit_row_of<3>(top, width, fits);
 }
 
 }  // namespace
 
-Image<WindowFit> fit_windows(const Image<float>& image, int radius) {
+void fit_windows(const Image<float>& image, int radius, int first, Image<WindowFit>& fits) {
   require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
-  if (radius == 1) return fit_all<1>(image);
-  return radius == 2 ? fit_all<2>(image) : fit_all<3>(image);
+  constexpr WindowFit kNone{kMissing, kMissing, kMissing, kMissing};
+  const int width = image.width();
+  RowOfFits found(width);
+  for (int row = 0; row < fits.height(); ++row) {
+    const int top = first + row - radius;
+    const bool within = top >= 0 && top + 2 * radius < image.height() && width > 2 * radius;
+    if (within) fit_row(&image(0, top), width, radius, found);
+    for (int x = 0; x < width; ++x) {
+      const auto from = static_cast<std::size_t>(x - radius);
+      const bool inner = within && x >= radius && x + radius < width;
+      fits(x, row) = inner ? WindowFit{found.mean[from],
+                                       found.slope_x[from],
+                                       found.slope_y[from],
+                                       found.variance[from]}
+                           : kNone;
+    }
+  }
 }
 
 }  // namespace frangia

@@ -12,10 +12,12 @@ struct WindowFit {
   float variance = 0.0F;  ///< of the values about the plane
 };
 
-/// Least-squares planes over the (2 radius + 1)^2 window about each pixel.
+/// Least-squares planes over the (2 radius + 1)^2 window about each pixel of the rows from `first`
+/// on.
 ///
-/// shape    as the image
+/// shape    `fits` has the image's width and as many rows as are wanted
 /// missing  NaN in the image; a window that holds one, or leaves the image, has NaN everywhere
-[[nodiscard]] Image<WindowFit> fit_windows(const Image<float>& image, int radius);
+/// errors   Error(Input) unless the radius is 1, 2 or 3
+void fit_windows(const Image<float>& image, int radius, int first, Image<WindowFit>& fits);
 
 }  // namespace frangia

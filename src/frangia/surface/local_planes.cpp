@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/surface/fast_lens.h"
 #include "frangia/surface/fit_windows.h"
 
 namespace frangia {
@@ -19,22 +21,29 @@ constexpr float kSmallestSigma = 1e-6F;  // of the depth: keeps the weight of pe
 enum Link : std::uint8_t { kRight = 1, kDown = 2 };
 
 struct Grid {
-  Image<float> q;      ///< inverse depth, NaN where missing
-  Image<float> noise;  ///< its standard deviation
+  const Image<float>& q;  ///< inverse depth
+  Image<float> noise;     ///< its standard deviation
   Image<std::uint8_t> links;
 };
 
-Grid link_pixels(const RangeGrid& range, const Lens& camera) {
+template <typename T>
+void fit_size(Image<T>& image, int width, int height) {
+  if (image.width() != width || image.height() != height) image = Image<T>(width, height);
+}
+
+/// Fills `q`.
+
+Grid link_pixels(Image<float>& q, const RangeGrid& range, const Lens& camera) {
   const int width = range.depth_mm.width();
   const int height = range.depth_mm.height();
-  Grid grid{
-      Image<float>(width, height), Image<float>(width, height), Image<std::uint8_t>(width, height)};
+  fit_size(q, width, height);
+  Grid grid{q, Image<float>(width, height), Image<std::uint8_t>(width, height)};
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const float depth = range.depth_mm(x, y);
       const float sigma = std::max(range.sigma_mm(x, y), kSmallestSigma * depth);
       const bool seen = depth > 0.0F && sigma >= 0.0F;
-      grid.q(x, y) = seen ? 1.0F / depth : kMissing;
+      q(x, y) = seen ? 1.0F / depth : kMissing;
       grid.noise(x, y) = sigma / (depth * depth);
     }
   });
@@ -78,21 +87,25 @@ float slope_between(const Grid& grid, int x, int y, Link link) {
   return sum / count;
 }
 
-/// The best window's plane at pixel (x, y).
-WindowFit choose_window(const Grid& grid, const Image<WindowFit>& fits, int x, int y, int radius) {
-  constexpr float kNoiseFits = 2.0F;  // in variance: a centred window that fits so well is kept
-  constexpr float kClearlyBetter = 0.5F;
-  const WindowFit& centred = fits(x, y);
+/// The best window's plane at pixel (x, y), from fits that begin at row `first`.
+WindowFit choose_window(const Grid& grid,
+                        const Image<WindowFit>& fits,
+                        int first,
+                        int radius,
+                        const Eigen::Vector2i& at) {
+  constexpr float kNoiseFits = 2.0F;      // in variance: a centred window that fits so well is kept
+  constexpr float kClearlyBetter = 0.5F;  // than a centred one
+  const int x = at.x();
+  const int y = at.y();
+  const WindowFit& centred = fits(x, y - first);
   const float noise = grid.noise(x, y);
   if (centred.variance < kNoiseFits * noise * noise) return centred;
   WindowFit best = centred;
   float limit = std::isnan(centred.variance) ? 1e30F : kClearlyBetter * centred.variance;
   for (const int dy : {-radius, 0, radius}) {
     for (const int dx : {-radius, 0, radius}) {
-      const int to_x = x + dx;
-      const int to_y = y + dy;
-      if (to_x < 0 || to_y < 0 || to_x >= fits.width() || to_y >= fits.height()) continue;
-      const WindowFit& shifted = fits(to_x, to_y);
+      if (x + dx < 0 || x + dx >= fits.width()) continue;
+      const WindowFit& shifted = fits(x + dx, y + dy - first);
       if (!(shifted.variance < limit)) continue;
       limit = shifted.variance;
       best = shifted;
@@ -106,38 +119,51 @@ WindowFit choose_window(const Grid& grid, const Image<WindowFit>& fits, int x, i
 }
 
 /// The plane through a pixel's point, from q and its slope over the image.
-Eigen::Vector3f plane_of(const WindowFit& fit, const Lens& camera, const Eigen::Vector2f& ray) {
-  const Eigen::Matrix2f pixels_per_ray =
-      (camera.focal_px.asDiagonal() * camera.distort_jacobian(ray.cast<double>())).cast<float>();
-  const Eigen::Vector2f ab = pixels_per_ray.transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
-  return {ab.x(), ab.y(), fit.mean - ab.dot(ray)};
+LocalPlanes::Plane plane_of(const WindowFit& fit,
+                            const FastLens& lens,
+                            const Eigen::Vector2f& ray) {
+  const Eigen::Vector2f ab =
+      lens.jacobian(ray).transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
+  const Eigen::Vector3f abc(ab.x(), ab.y(), fit.mean - ab.dot(ray));
+  const float distance = 1.0F / abc.norm();
+  return {-distance * abc, distance};
 }
 
+/// The corners of quad (x, y).
 using Corners = std::array<Eigen::Vector2i, 4>;
+Corners corners_of(int x, int y) {
+  return {Eigen::Vector2i(x, y),
+          Eigen::Vector2i(x + 1, y),
+          Eigen::Vector2i(x, y + 1),
+          Eigen::Vector2i(x + 1, y + 1)};
+}
 
-/// Whether the corners of a quad lie on one face, and if not whether the faces bulge or gape.
-LocalPlanes::Kind kind_of(const LocalPlanes& planes,
-                          const Image<Eigen::Vector2f>& rays,
-                          const Corners& corners,
-                          float crease_cosine) {
-  bool one_face = true;
-  float gap = 0.0F;  // how far the corners lie in front of one another's planes
-  for (const auto& a : corners) {
-    const Eigen::Vector3f& plane = planes.plane_per_mm(a.x(), a.y());
-    for (const auto& b : corners) {
-      const Eigen::Vector3f& other = planes.plane_per_mm(b.x(), b.y());
-      if (plane.dot(other) > crease_cosine * plane.norm() * other.norm()) continue;
-      one_face = false;
-      const float depth = 1.0F / planes.inverse_depth(b.x(), b.y());
-      gap += (1.0F - depth * plane.dot(rays(b.x(), b.y()).homogeneous())) / plane.norm();
+/// Whether the corners of a quad lie on one face.
+bool is_smooth(const Image<LocalPlanes::Plane>& planes, int x, int y, float crease_cosine) {
+  const Eigen::Vector3f& a = planes(x, y).normal;
+  const Eigen::Vector3f& b = planes(x + 1, y).normal;
+  const Eigen::Vector3f& c = planes(x, y + 1).normal;
+  const Eigen::Vector3f& d = planes(x + 1, y + 1).normal;
+  return std::min({a.dot(b), a.dot(c), a.dot(d), b.dot(c), b.dot(d), c.dot(d)}) > crease_cosine;
+}
+
+/// Whether the faces of a quad bulge or gape: whether its corners lie behind one another's planes.
+LocalPlanes::Kind crease_of(const LocalPlanes& view,
+                            const Image<Eigen::Vector2f>& rays,
+                            int x,
+                            int y) {
+  float in_front = 0.0F;
+  for (const auto& a : corners_of(x, y)) {
+    for (const auto& b : corners_of(x, y)) {
+      const float depth = 1.0F / view.inverse_depth(b.x(), b.y());
+      in_front += view.planes(a.x(), a.y()).in_front_mm(depth * rays(b.x(), b.y()).homogeneous());
     }
   }
-  if (one_face) return LocalPlanes::Kind::Smooth;
-  return gap < 0.0F ? LocalPlanes::Kind::Ridge : LocalPlanes::Kind::Valley;
+  return in_front < 0.0F ? LocalPlanes::Kind::Ridge : LocalPlanes::Kind::Valley;
 }
 
 LocalPlanes::Quad quad_of(const Grid& grid,
-                          const LocalPlanes& planes,
+                          const LocalPlanes& view,
                           const Image<Eigen::Vector2f>& rays,
                           const Eigen::Vector2i& at,
                           float crease_cosine) {
@@ -147,53 +173,60 @@ LocalPlanes::Quad quad_of(const Grid& grid,
       !has(grid, x + 1, y, kDown)) {
     return {};
   }
-  const Corners corners{at, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}};
-  Eigen::Vector3f plane = Eigen::Vector3f::Zero();
+  float distance = 0.0F;
   float q = 0.0F;
   float variance = 0.0F;
-  for (const auto& corner : corners) {
+  for (const auto& corner : corners_of(x, y)) {
     const float noise = grid.noise(corner.x(), corner.y());
-    plane += 0.25F * planes.plane_per_mm(corner.x(), corner.y());
-    q += 0.25F * planes.inverse_depth(corner.x(), corner.y());
+    distance += 0.25F * view.planes(corner.x(), corner.y()).distance_mm;
+    q += 0.25F * grid.q(corner.x(), corner.y());
     variance += 0.25F * noise * noise;
   }
-  const float q2 = q * q;
-  return {1.0F / plane.norm(),
-          q2 / plane.squaredNorm() * (q2 * q2 / variance),
-          kind_of(planes, rays, corners, crease_cosine)};
+  const float cosine = q * distance;
+  const float sigma2 = variance / (q * q * q * q);
+  return {distance,
+          cosine * cosine / sigma2,
+          is_smooth(view.planes, x, y, crease_cosine) ? LocalPlanes::Kind::Smooth
+                                                      : crease_of(view, rays, x, y)};
 }
 
 }  // namespace
 
 LocalPlanes local_planes(const View& view,
                          const CameraRays& camera,
-                         const LocalPlanesOptions& options) {
+                         const LocalPlanesOptions& options,
+                         LocalPlanes reuse) {
   const Image<Eigen::Vector2f>& rays = camera.rays;
   require(same_size(view.range.depth_mm, rays) && same_size(view.range.sigma_mm, rays),
           "local_planes: the range grid and the camera differ in size");
-  const Grid grid = link_pixels(view.range, camera.lens);
-  const Image<WindowFit> fits = fit_windows(grid.q, options.radius);
   const int width = rays.width();
   const int height = rays.height();
-  LocalPlanes planes{Image<float>(width, height),
-                     Image<Eigen::Vector3f>(width, height, Eigen::Vector3f::Zero()),
-                     Image<LocalPlanes::Quad>(std::max(0, width - 1), std::max(0, height - 1)),
-                     view.rig_from_object};
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      if (!(grid.q(x, y) > 0.0F)) continue;
-      planes.inverse_depth(x, y) = grid.q(x, y);
-      const WindowFit fit = choose_window(grid, fits, x, y, options.radius);
-      planes.plane_per_mm(x, y) = plane_of(fit, camera.lens, rays(x, y));
+  LocalPlanes out = std::move(reuse);
+  out.rig_from_object = view.rig_from_object;
+  fit_size(out.planes, width, height);
+  fit_size(out.quads, std::max(0, width - 1), std::max(0, height - 1));
+  const Grid grid = link_pixels(out.inverse_depth, view.range, camera.lens);
+  const FastLens lens(camera.lens);
+  constexpr std::size_t kRows = 32;
+  parallel_chunks(static_cast<std::size_t>(height), kRows, [&](std::size_t begin, std::size_t end) {
+    const int first = static_cast<int>(begin) - options.radius;
+    Image<WindowFit> fits(width, static_cast<int>(end) + options.radius - first);
+    fit_windows(grid.q, options.radius, first, fits);
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (std::isnan(grid.q(x, y))) continue;
+        const WindowFit fit = choose_window(grid, fits, first, options.radius, {x, y});
+        out.planes(x, y) = plane_of(fit, lens, rays(x, y));
+      }
     }
   });
   const auto crease_cosine = static_cast<float>(std::cos(options.crease_rad));
-  parallel_rows(planes.quads.height(), [&](int y) {
-    for (int x = 0; x < planes.quads.width(); ++x) {
-      planes.quads(x, y) = quad_of(grid, planes, rays, {x, y}, crease_cosine);
+  parallel_rows(out.quads.height(), [&](int y) {
+    for (int x = 0; x < out.quads.width(); ++x) {
+      out.quads(x, y) = quad_of(grid, out, rays, {x, y}, crease_cosine);
     }
   });
-  return planes;
+  return out;
 }
 
 }  // namespace frangia

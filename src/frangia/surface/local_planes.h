@@ -28,25 +28,36 @@ struct CameraRays {
 ///
 /// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
 /// units    mm, rig frame
-/// missing  inverse depth 0; a quad that lacks a corner or crosses a depth step is Unseen
+/// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Unseen
 struct LocalPlanes {
+  struct Plane {
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
+    float distance_mm = 0.0F;                          ///< from the camera's centre
+
+    [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
+      return normal.dot(point) + distance_mm;
+    }
+  };
   enum class Kind : std::uint8_t { Unseen, Smooth, Ridge, Valley };
   struct Quad {
-    float distance_mm = 0.0F;  ///< of the plane from the camera's centre, 1 / |(a, b, c)|
+    float distance_mm = 0.0F;  ///< of its plane from the camera's centre
     float weight = 0.0F;       ///< cos(incidence)^2 / sigma^2, in 1/mm^2
     Kind kind = Kind::Unseen;
   };
 
-  Image<float> inverse_depth;           ///< q, 1/mm
-  Image<Eigen::Vector3f> plane_per_mm;  ///< (a, b, c): points away from the camera
+  Image<float> inverse_depth;  ///< q, 1/mm
+  Image<Plane> planes;
   Image<Quad> quads;
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
 
-  /// The quad that pixel (u, v) falls into; null outside the image and for NaN.
+  /// The quad that pixel (u, v) falls into; null where it is unseen, outside the image, and for
+  /// NaN.
   [[nodiscard]] const Quad* quad_at(float u, float v) const {
     const bool within = u >= 0.0F && v >= 0.0F && u < static_cast<float>(quads.width()) &&
                         v < static_cast<float>(quads.height());
-    return within ? &quads(static_cast<int>(u), static_cast<int>(v)) : nullptr;
+    if (!within) return nullptr;
+    const Quad& quad = quads(static_cast<int>(u), static_cast<int>(v));
+    return quad.kind == Kind::Unseen ? nullptr : &quad;
   }
 
   /// Inverse depth between the pixels of a quad.
@@ -61,27 +72,17 @@ struct LocalPlanes {
     return upper + down * (lower - upper);
   }
 
-  /// A point's distance from a quad whose corners lie on several faces, and the face it belongs to:
-  /// the object is what all faces of a ridge have behind them, and what any of a valley has.
-  struct Face {
-    float distance_mm;
-    const Eigen::Vector3f* plane_per_mm;
-  };
-  [[nodiscard]] Face nearest_face(float u, float v, const Eigen::Vector3f& point_mm) const {
+  /// Of a quad whose corners lie on several faces, the one that a point belongs to: the object is
+  /// what all faces of a ridge have behind them, and what any face of a valley has.
+  [[nodiscard]] const Plane& nearest_face(float u, float v, const Eigen::Vector3f& point) const {
     const int x = static_cast<int>(u);
     const int y = static_cast<int>(v);
     const bool ridge = quads(x, y).kind == Kind::Ridge;
-    Face found{0.0F, nullptr};
-    for (const auto* plane : {&plane_per_mm(x, y),
-                              &plane_per_mm(x + 1, y),  //
-                              &plane_per_mm(x, y + 1),
-                              &plane_per_mm(x + 1, y + 1)}) {
-      const float distance = (1.0F - plane->dot(point_mm)) / plane->norm();
-      if (found.plane_per_mm == nullptr || (distance > found.distance_mm) == ridge) {
-        found = {distance, plane};
-      }
+    const Plane* found = &planes(x, y);
+    for (const Plane* other : {&planes(x + 1, y), &planes(x, y + 1), &planes(x + 1, y + 1)}) {
+      if ((other->in_front_mm(point) > found->in_front_mm(point)) == ridge) found = other;
     }
-    return found;
+    return *found;
   }
 };
 
@@ -99,6 +100,7 @@ struct LocalPlanesOptions {
 /// differ in size source   the choice among windows: Kuwahara et al. 1976
 [[nodiscard]] LocalPlanes local_planes(const View& view,
                                        const CameraRays& camera,
-                                       const LocalPlanesOptions& options = {});
+                                       const LocalPlanesOptions& options = {},
+                                       LocalPlanes reuse = {});
 
 }  // namespace frangia

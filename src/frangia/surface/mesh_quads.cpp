@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "frangia/core/parallel.h"
 #include "frangia/surface/cell_loops.h"
 
@@ -69,7 +71,7 @@ void add_quads(std::vector<Quad>& quads,
                const Crossings& crossings,
                std::span<const Evidence> evidence,
                std::size_t block) {
-  const Crossings::Block& cells = crossings.blocks[block];
+  const Crossings::Block& cells = *crossings.blocks[block];
   for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (cells.axes[at] == 0) continue;
@@ -122,17 +124,35 @@ std::vector<Quad> find_quads(const Crossings& crossings, std::span<const Evidenc
 /// How a quad reads when cut between corners `from` and `from + 2`.
 struct Cut {
   std::array<Mesh::Triangle, 2> triangles{};
-  bool upright = true;     ///< both triangles face the way the surface does
-  float agreement = 0.0F;  ///< of the triangles' normals with the vertex that fits each best
+  bool upright = true;   ///< neither triangle faces inward
+  float away_mm = 0.0F;  ///< of the cut's middle from the surface at the crossing
   float length_mm = 0.0F;
 };
+
+/// The surface at a crossing: its plane, and which way out is along the grid's edge.
+struct Surface {
+  Eigen::Hyperplane<float, 3> plane;
+  Eigen::Vector3f outward;
+};
+
+Surface surface_at(const Crossings& crossings, const Evidence& evidence, std::uint32_t crossing) {
+  const Evidence::Face& face = evidence.main();
+  const Eigen::Vector3f normal = face.normal.normalized();
+  const int axis = std::abs(crossings.outward[crossing]) - 1;
+  const float sign = crossings.outward[crossing] > 0 ? 1.0F : -1.0F;
+  return {{normal, crossings.points_mm[crossing] - normal * face.distance_mm()},
+          sign * Eigen::Vector3f::Unit(axis)};
+}
 
 Cut cut_quad(const Mesh& mesh,
              const std::array<std::uint32_t, 4>& ring,
              std::size_t from,
-             int outward) {
+             const Surface& surface) {
+  const Eigen::Vector3f& one = mesh.vertices_mm[ring[from]];
+  const Eigen::Vector3f& other = mesh.vertices_mm[ring[(from + 2) % 4]];
   Cut cut;
-  cut.length_mm = (mesh.vertices_mm[ring[from]] - mesh.vertices_mm[ring[(from + 2) % 4]]).norm();
+  cut.length_mm = (one - other).norm();
+  cut.away_mm = surface.plane.absDistance(0.5F * (one + other));
   for (std::size_t half = 0; half < 2; ++half) {
     const std::size_t start = (from + 2 * half) % 4;
     Mesh::Triangle& triangle = cut.triangles[half];
@@ -140,27 +160,40 @@ Cut cut_quad(const Mesh& mesh,
     const Eigen::Vector3f& origin = mesh.vertices_mm[triangle[0]];
     const Eigen::Vector3f cross =
         (mesh.vertices_mm[triangle[1]] - origin).cross(mesh.vertices_mm[triangle[2]] - origin);
-    const float facing = outward > 0 ? cross[outward - 1] : -cross[-outward - 1];
-    cut.upright = cut.upright && facing > 0.0F;
-    float best = -1.0F;
-    for (const std::uint32_t vertex : triangle) {
-      best = std::max(best, cross.dot(mesh.normals[vertex]) / (cross.norm() + 1e-20F));
-    }
-    cut.agreement += best;
+    // Against the edge of the grid, which a triangle within the cells never is, or the plane.
+    cut.upright = cut.upright &&
+                  (cross.dot(surface.outward) > 0.0F || cross.dot(surface.plane.normal()) > 0.0F);
   }
   return cut;
 }
 
-/// The cut that folds no triangle over, then follows the surface, then is short.
-Cut best_cut(const Mesh& mesh, const std::array<std::uint32_t, 4>& ring, int outward) {
-  const Cut one = cut_quad(mesh, ring, 0, outward);
-  const Cut other = cut_quad(mesh, ring, 1, outward);
-  constexpr float kAlike = 0.02F;
+/// The cut that folds no triangle over, then stays on the surface, then is short.
+Cut best_cut(const Mesh& mesh, const std::array<std::uint32_t, 4>& ring, const Surface& surface) {
+  const Cut one = cut_quad(mesh, ring, 0, surface);
+  const Cut other = cut_quad(mesh, ring, 1, surface);
+  constexpr float kAlike = 0.02F;  // of the cut's length
   if (one.upright != other.upright) return one.upright ? one : other;
-  if (std::abs(one.agreement - other.agreement) > kAlike) {
-    return one.agreement > other.agreement ? one : other;
+  if (std::abs(one.away_mm - other.away_mm) > kAlike * (one.length_mm + other.length_mm)) {
+    return one.away_mm < other.away_mm ? one : other;
   }
   return one.length_mm <= other.length_mm ? one : other;
+}
+
+/// Cuts all quads but pinched ones, and tells which of them fold whatever the cut.
+std::vector<Cut> cut_quads(const Mesh& mesh,
+                           const Crossings& crossings,
+                           std::span<const Evidence> evidence,
+                           std::span<const Quad> quads) {
+  std::vector<Cut> cuts(quads.size());
+  parallel_chunks(quads.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      auto ring = quads[i].ring;
+      if (crossings.outward[quads[i].crossing] < 0) std::reverse(ring.begin(), ring.end());
+      cuts[i] = best_cut(
+          mesh, ring, surface_at(crossings, evidence[quads[i].crossing], quads[i].crossing));
+    }
+  });
+  return cuts;
 }
 
 std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t like) {
@@ -203,25 +236,32 @@ void add_pinched(Mesh& mesh, const Crossings& crossings, std::span<const Quad> q
 
 }  // namespace
 
-Mesh mesh_quads(Mesh vertices, const Crossings& crossings, std::span<const Evidence> evidence) {
+Mesh mesh_quads(PlacedVertices vertices,
+                const Crossings& crossings,
+                std::span<const Evidence> evidence) {
+  Mesh& mesh = vertices.mesh;
   const std::vector<Quad> quads = find_quads(crossings, evidence);
-  std::vector<Mesh::Triangle> triangles(2 * quads.size());
-  parallel_chunks(quads.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (quads[i].pinched != 0) continue;
-      auto ring = quads[i].ring;
-      const int outward = crossings.outward[quads[i].crossing];
-      if (outward < 0) std::reverse(ring.begin(), ring.end());
-      const Cut cut = best_cut(vertices, ring, outward);
-      triangles[2 * i] = cut.triangles[0];
-      triangles[2 * i + 1] = cut.triangles[1];
+  std::vector<Cut> cuts = cut_quads(mesh, crossings, evidence, quads);
+  constexpr int kRounds = 3;  // pulling one quad's vertices back may fold the next
+  for (int round = 0; round < kRounds; ++round) {
+    bool folded = false;
+    for (std::size_t i = 0; i < quads.size(); ++i) {
+      if (cuts[i].upright && quads[i].pinched == 0) continue;
+      folded = true;
+      for (const std::uint32_t v : quads[i].ring)
+        mesh.vertices_mm[v] = vertices.within_mm[v];
     }
-  });
-  const auto unset = [](const Mesh::Triangle& t) { return t[0] == t[1]; };
-  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), unset), triangles.end());
-  vertices.triangles = std::move(triangles);
-  add_pinched(vertices, crossings, quads);
-  return vertices;
+    if (!folded) break;
+    cuts = cut_quads(mesh, crossings, evidence, quads);
+  }
+  mesh.triangles.reserve(2 * quads.size());
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    if (quads[i].pinched != 0) continue;
+    for (const auto& triangle : cuts[i].triangles)
+      mesh.triangles.push_back(triangle);
+  }
+  add_pinched(mesh, crossings, quads);
+  return std::move(vertices.mesh);
 }
 
 }  // namespace frangia

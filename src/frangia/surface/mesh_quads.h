@@ -5,6 +5,7 @@
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/evidence.h"
 #include "frangia/surface/mesh.h"
+#include "frangia/surface/place_vertices.h"
 
 namespace frangia {
 
@@ -13,8 +14,9 @@ namespace frangia {
 ///
 /// No edge is in more than two triangles: where two neighbouring cells share a face that one sheet
 /// of surface crosses twice, a vertex on the face keeps the two edges apart.
+/// Vertices that would fold a triangle over go back into their cells, where none can.
 /// missing  no quad where a cell has an unseen corner, nor where no view saw the surface
-[[nodiscard]] Mesh mesh_quads(Mesh vertices,
+[[nodiscard]] Mesh mesh_quads(PlacedVertices vertices,
                               const Crossings& crossings,
                               std::span<const Evidence> evidence);
 

@@ -1,6 +1,8 @@
 #include "frangia/surface/paste_views.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,13 +44,18 @@ void clip(View& view, const CameraRays& camera, double min_z_mm) {
   });
 }
 
-LocalPlanes load(const ViewStore& views,
-                 std::size_t index,
-                 const CameraRays& camera,
-                 const PasteOptions& options) {
-  View view = views.load(index);
-  if (options.clip_below) clip(view, camera, options.min_z_mm);
-  return local_planes(view, camera);
+/// Calls `use` with each view in turn; one is in memory at a time.
+void for_each_view(const ViewStore& views,
+                   const CameraRays& camera,
+                   const PasteOptions& options,
+                   const std::function<void(const LocalPlanes&)>& use) {
+  LocalPlanes planes;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    View view = views.load(i);
+    if (options.clip_below) clip(view, camera, options.min_z_mm);
+    planes = local_planes(view, camera, {}, std::move(planes));
+    use(planes);
+  }
 }
 
 }  // namespace
@@ -63,27 +70,25 @@ Mesh paste_views(const ViewStore& views,
   const double voxel_mm = choose_voxel(sampling, options, run);
   const double noise_mm = 4.0 * sampling.sigma_mm;
   const Band band{
-      voxel_mm, 4.0 * voxel_mm + noise_mm, 2.0 * voxel_mm + noise_mm, 0.5 * voxel_mm + noise_mm};
-  const auto count = static_cast<double>(views.size());
+      voxel_mm, 3.0 * voxel_mm + noise_mm, 2.0 * voxel_mm + noise_mm, 0.5 * voxel_mm + noise_mm};
+  const double step = 0.4 / static_cast<double>(views.size());
+  double done = 0.0;
 
   DistanceField field;
   field.voxel_mm = voxel_mm;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    add_view(field, load(views, i, rays, options), rays, band);
-    run.report(0.6 * static_cast<double>(i + 1) / count);
-  }
+  for_each_view(views, rays, options, [&](const LocalPlanes& view) {
+    add_view(field, view, rays, band);
+    run.report(done += step);
+  });
   const Crossings crossings = find_crossings(field);
   field = {};
 
   std::vector<Evidence> evidence(crossings.points_mm.size());
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    add_evidence(evidence,
-                 crossings,
-                 load(views, i, rays, options),
-                 rays,
-                 {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
-    run.report(0.6 + 0.2 * static_cast<double>(i + 1) / count);
-  }
+  for_each_view(views, rays, options, [&](const LocalPlanes& view) {
+    add_evidence(
+        evidence, crossings, view, rays, {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
+    run.report(done += step);
+  });
   add_disagreement(evidence, crossings);
   Mesh mesh = mesh_quads(place_vertices(crossings, evidence), crossings, evidence);
   run.report(0.95);

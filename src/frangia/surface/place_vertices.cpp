@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -15,6 +16,21 @@ namespace {
 /// Eigenvalues of sum n n^T below this part of the largest are noise: two faces that meet at less
 /// than 25 degrees are taken for one.
 constexpr float kFlat = 0.05F;
+
+constexpr float kRoam = 0.5F;  // voxels that a vertex may leave its cell by
+constexpr float kRim = 1e-3F;  // voxels that keep those within apart from their neighbours
+
+/// A cell, or one grown by `margin` on every side.
+struct Cell {
+  Cell(const Eigen::Vector3f& low_mm, float edge_mm, float margin_mm)
+      : low(low_mm.array() - margin_mm), high(low_mm.array() + edge_mm + margin_mm) {}
+
+  [[nodiscard]] bool holds(const Eigen::Vector3f& point) const {
+    return (point.array() >= low).all() && (point.array() <= high).all();
+  }
+  Eigen::Array3f low;
+  Eigen::Array3f high;
+};
 
 struct Plane {
   Eigen::Vector3f point;
@@ -39,18 +55,16 @@ struct Loop {
     all = count;
   }
   /// Planes of other faces that run through the cell, too.
-  void add_sides(const Eigen::Array3f& low, const Eigen::Array3f& high) {
+  void add_sides(const Cell& cell) {
     constexpr float kSpeaks = 0.1F;  // of the main face's weight
-    const std::size_t mains = count;
-    for (std::size_t i = 0; i < mains; ++i) {
+    all = count;
+    for (std::size_t i = 0; i < count; ++i) {
       const Evidence::Face& side = evidence[i]->side();
       const Evidence::Face& face = evidence[i]->main();
       if (side.weight < kSpeaks * face.weight || side.views == 0) continue;
       const Eigen::Vector3f origin = planes[i].point + planes[i].normal * face.distance_mm();
       const Plane plane = plane_at(origin, side);
-      if ((plane.point.array() >= low).all() && (plane.point.array() <= high).all()) {
-        planes[all++] = plane;
-      }
+      if (cell.holds(plane.point)) planes[all++] = plane;
     }
   }
   [[nodiscard]] Eigen::Vector3f normal() const {
@@ -121,27 +135,44 @@ struct Meeting {
   }
 };
 
-/// The meeting point, or one that fewer directions determine, so that it stays in its cell: then
-/// no triangle about an edge of the grid can turn over.
-Eigen::Vector3f place(Loop& loop, const Eigen::Vector3f& low_mm, float edge_mm) {
-  constexpr float kRim = 1e-3F;  // keeps vertices of neighbouring cells apart
-  const Eigen::Array3f low = low_mm.array() + kRim * edge_mm;
-  const Eigen::Array3f high = low_mm.array() + (1.0F - kRim) * edge_mm;
-  const auto within = [&](const Eigen::Vector3f& point) {
-    return (point.array() >= low).all() && (point.array() <= high).all();
-  };
-  loop.add_sides(low, high);
+/// The middle of planes that are as good as parallel, moved onto them.
+///
+/// The plane through a point of a curved surface leaves it on one side, the point itself lies on
+/// the other side of the plane here: the mean of both normals makes up for the curvature.
+std::optional<Eigen::Vector3f> flat_place(const Loop& loop) {
+  constexpr float kParallel = 0.97F;  // cosine: the eigenvalues would be below kFlat
+  const Eigen::Vector3f normal = loop.normal();
+  Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < loop.count; ++i) {
+    if (loop.planes[i].normal.dot(normal) < kParallel) return std::nullopt;
+    middle += loop.planes[i].point;
+  }
+  middle /= static_cast<float>(loop.count);
+  float offset = 0.0F;
+  for (std::size_t i = 0; i < loop.count; ++i) {
+    const Plane& plane = loop.planes[i];
+    offset += 0.5F * (plane.normal + normal).dot(plane.point - middle);
+  }
+  return middle + normal * (offset / static_cast<float>(loop.count));
+}
+
+/// The meeting point, or one that fewer planes or directions determine, so that it lies in the
+/// cell.
+Eigen::Vector3f place(Loop& loop, const Cell& cell) {
+  loop.add_sides(cell);
   if (loop.all > loop.count) {
     const Meeting meeting(loop, loop.all);
     const Eigen::Vector3f point = meeting.at(meeting.rank());
-    if (within(point)) return point;
+    if (cell.holds(point)) return point;
   }
+  const auto flat = flat_place(loop);
+  if (flat && cell.holds(*flat)) return *flat;
   const Meeting meeting(loop, loop.count);
   for (int rank = meeting.rank(); rank > 0; --rank) {
     const Eigen::Vector3f point = meeting.at(rank);
-    if (within(point)) return point;
+    if (cell.holds(point)) return point;
   }
-  return meeting.at(1).array().max(low).min(high);
+  return meeting.at(1).array().max(cell.low).min(cell.high);
 }
 
 Eigen::Vector3i corner_offset(int corner) {
@@ -163,11 +194,12 @@ std::array<Loop, 4> loops_at(const Crossings& crossings,
   return loops;
 }
 
-void place_in_block(Mesh& mesh,
+void place_in_block(PlacedVertices& placed,
                     const Crossings& crossings,
                     std::span<const Evidence> evidence,
                     std::size_t block) {
-  const Crossings::Block& cells = crossings.blocks[block];
+  Mesh& mesh = placed.mesh;
+  const Crossings::Block& cells = *crossings.blocks[block];
   const auto edge_mm = static_cast<float>(crossings.voxel_mm);
   for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
     const auto cell = static_cast<std::size_t>(i);
@@ -180,7 +212,11 @@ void place_in_block(Mesh& mesh,
       Loop& found = loops[loop];
       if (found.count == 0) continue;
       const std::size_t vertex = cells.first_vertex[cell] + loop;
-      mesh.vertices_mm[vertex] = place(found, voxel.cast<float>() * edge_mm, edge_mm);
+      const Eigen::Vector3f low = voxel.cast<float>() * edge_mm;
+      mesh.vertices_mm[vertex] = place(found, Cell(low, edge_mm, kRoam * edge_mm));
+      const Cell strict(low, edge_mm, -kRim * edge_mm);
+      const bool within = strict.holds(mesh.vertices_mm[vertex]);
+      placed.within_mm[vertex] = within ? mesh.vertices_mm[vertex] : place(found, strict);
       mesh.normals[vertex] = found.normal();
       mesh.sigma_mm[vertex] = std::sqrt(found.variance());
       mesh.views[vertex] = static_cast<std::uint16_t>(std::lround(found.views()));
@@ -190,18 +226,19 @@ void place_in_block(Mesh& mesh,
 
 }  // namespace
 
-Mesh place_vertices(const Crossings& crossings, std::span<const Evidence> evidence) {
-  Mesh mesh;
-  mesh.vertices_mm.assign(crossings.vertices, Eigen::Vector3f::Zero());
-  mesh.normals.assign(crossings.vertices, Eigen::Vector3f::Zero());
-  mesh.sigma_mm.assign(crossings.vertices, 0.0F);
-  mesh.views.assign(crossings.vertices, 0);
+PlacedVertices place_vertices(const Crossings& crossings, std::span<const Evidence> evidence) {
+  PlacedVertices placed;
+  placed.mesh.vertices_mm.assign(crossings.vertices, Eigen::Vector3f::Zero());
+  placed.mesh.normals.assign(crossings.vertices, Eigen::Vector3f::Zero());
+  placed.mesh.sigma_mm.assign(crossings.vertices, 0.0F);
+  placed.mesh.views.assign(crossings.vertices, 0);
+  placed.within_mm = placed.mesh.vertices_mm;
   parallel_chunks(crossings.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
-      place_in_block(mesh, crossings, evidence, block);
+      place_in_block(placed, crossings, evidence, block);
     }
   });
-  return mesh;
+  return placed;
 }
 
 }  // namespace frangia

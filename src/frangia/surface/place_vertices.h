@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/evidence.h"
@@ -8,13 +9,21 @@
 
 namespace frangia {
 
+/// Vertices with normals, sigma and views; no triangles yet.
+struct PlacedVertices {
+  Mesh mesh;
+  std::vector<Eigen::Vector3f> within_mm;  ///< where each would be if it had to stay in its cell
+};
+
 /// One vertex for each loop of each cell, where the planes through the loop's crossings meet.
 ///
 /// Planes that agree are averaged, planes that meet in an edge or a corner put the vertex there:
-/// directions in which they say less than noise does are left at their middle.
-/// shape    `crossings.vertices` vertices with normals, sigma and views; no triangles
+/// directions in which they say less than noise does are left at their middle. A vertex may leave
+/// its cell by half a voxel, since an edge of the object can run where the grid has no crossing.
+/// shape    `crossings.vertices` vertices
 /// missing  a vertex none of whose crossings holds is zero
 /// source   dual contouring, Ju et al. 2002; several vertices a cell, Schaefer et al. 2007
-[[nodiscard]] Mesh place_vertices(const Crossings& crossings, std::span<const Evidence> evidence);
+[[nodiscard]] PlacedVertices place_vertices(const Crossings& crossings,
+                                            std::span<const Evidence> evidence);
 
 }  // namespace frangia
