@@ -12,8 +12,8 @@ struct SplitOptions {
   float slack_rad = 0.3F;
   /// A fringe is at least three pixels wide, as the paper asks.
   float max_jump_rad = 2.09F;
-  /// Regions that only hang together through a neck of twice this width beside a cut are two: a depth
-  /// step whose height varies looks smooth where it passes a whole number of fringes.
+  /// Regions that only hang together through a neck of twice this width beside a cut are two: a
+  /// depth step whose height varies looks smooth where it passes a whole number of fringes.
   int neck_radius_px = 12;
 };
 

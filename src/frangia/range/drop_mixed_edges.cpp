@@ -37,10 +37,9 @@ bool at_depth_step(const Grid& grid, int x, int y) {
   return false;
 }
 
-/// A step too low for `at_depth_step`: how much more the depth changes between (x, y) - d and (x,
-/// y) + d than the surfaces on both sides of it go on to, which a slope or a crease does not. 0
-/// when it is within noise and a few pixels' size.
-float low_step_mm(const Grid& grid, int x, int y, int dx, int dy) {
+/// A step too low for `at_depth_step`: between (x, y) - d and (x, y) + d the depth changes by more
+/// than it does on either side, and by more than a slope or a crease would make of those sides.
+bool is_low_step(const Grid& grid, int x, int y, int dx, int dy) {
   const auto& depth = grid.range.depth_mm;
   const auto at = [&](int k) {
     const int u = x + k * dx;
@@ -51,11 +50,11 @@ float low_step_mm(const Grid& grid, int x, int y, int dx, int dy) {
   const float jump = at(1) - at(-1);
   const float before = at(-1) - at(-3);  // over two pixels, as the jump
   const float behind = at(3) - at(1);
-  const float expected = 0.5F * (before + behind);
   const float pixel_mm = (grid.rays(x, y) - grid.rays(x + dx, y + dy)).norm() * at(-1);
-  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump less the expected one
-  const float excess = std::abs(jump - expected);
-  return excess > 4.0F * pixel_mm + 4.0F * noise ? excess : 0.0F;  // 0 for NaN
+  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump less what its sides expect
+  const float excess = std::abs(jump - 0.5F * (before + behind));
+  const float steepest = std::max(std::abs(before), std::abs(behind));
+  return excess > 2.5F * pixel_mm + 4.0F * noise && std::abs(jump) > steepest;  // false for NaN
 }
 
 /// Three dark neighbours make a border; fewer are specks.
@@ -111,8 +110,8 @@ void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
       for (int k = -1; k <= 1; ++k) {
         const int u = x + k;
         const int v = y + k;
-        const bool across = u > 0 && u + 1 < width && low_step_mm(grid, u, y, 1, 0) > 0.0F;
-        const bool down = v > 0 && v + 1 < height && low_step_mm(grid, x, v, 0, 1) > 0.0F;
+        const bool across = u > 0 && u + 1 < width && is_low_step(grid, u, y, 1, 0);
+        const bool down = v > 0 && v + 1 < height && is_low_step(grid, x, v, 0, 1);
         if (across || down) drop(x, y) = 1;
       }
     }

@@ -10,7 +10,7 @@ namespace frangia {
 
 struct EdgeOptions {
   /// A surface seen at a flatter angle than this counts as a depth step.
-  double max_incidence_deg = 83.0;
+  double max_incidence_deg = 82.0;
   /// A patch of fewer points than this that hangs on no other is no surface.
   int min_patch_px = 12;
 };

@@ -1,0 +1,134 @@
+// The program as a user meets it: exit codes, one sentence on standard error, nothing half-written.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::TemporaryFolder;
+
+struct Answer {
+  int exit_code = -1;
+  std::string output;  ///< standard output and error
+};
+
+Answer run_program(const std::string& arguments) {
+  const std::string command = fmt::format("{} {} 2>&1", FRANGIA_PROGRAM, arguments);
+  Answer answer;
+  std::FILE* pipe = ::popen(command.c_str(), "r");  // NOLINT(cert-env33-c)
+  std::array<char, 4096> buffer{};
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    answer.output.append(buffer.data(), got);
+  answer.exit_code = WEXITSTATUS(::pclose(pipe));
+  return answer;
+}
+
+std::string quoted(const std::filesystem::path& path) {
+  return "'" + path.string() + "'";
+}
+
+class Program : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path scan() const { return folder_.path() / "scan"; }
+  [[nodiscard]] std::filesystem::path out(const std::string& name) const {
+    return folder_.path() / name;
+  }
+  void simulate() const {
+    const Answer answer =
+        run_program("simulate ball-bar --rig angular --views 2 -o " + quoted(scan()));
+    ASSERT_EQ(answer.exit_code, 0) << answer.output;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Program, SimulatesAndReconstructsToEveryFormat) {
+  simulate();
+  const Answer answer =
+      run_program("reconstruct " + quoted(scan()) + " -o " + quoted(out("a.dxf")) + " -o " +
+                  quoted(out("a.ply")) + " -o " + quoted(out("a.stl")));
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  for (const char* name : {"a.dxf", "a.ply", "a.stl"})
+    EXPECT_GT(std::filesystem::file_size(out(name)), 10000U) << name;
+}
+
+TEST_F(Program, AnswersMachinesInJson) {
+  simulate();
+  const Answer answer =
+      run_program("--json reconstruct " + quoted(scan()) + " -o " + quoted(out("a.ply")));
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(answer.output.front(), '{') << answer.output;
+  EXPECT_NE(answer.output.find("\"triangles\""), std::string::npos);
+}
+
+TEST_F(Program, DecodesTheStagesOfOneView) {
+  simulate();
+  const Answer answer =
+      run_program("decode " + quoted(scan()) + " --view 1 -o " + quoted(out("stages")));
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  for (const char* name : {"fringe-wrapped.png", "fringe-wrapped.tiff", "mask.png", "depth.tiff"})
+    EXPECT_TRUE(std::filesystem::exists(out("stages") / name)) << name;
+}
+
+TEST_F(Program, SaysUsageErrorsWithTwo) {
+  EXPECT_EQ(run_program("").exit_code, 2);
+  EXPECT_EQ(run_program("fly").exit_code, 2);
+  EXPECT_EQ(run_program("reconstruct").exit_code, 2);
+  EXPECT_EQ(run_program("reconstruct --voxel -3 x -o y.ply").exit_code, 2);
+}
+
+TEST_F(Program, ShowsAnExampleInTheHelpOfEveryVerb) {
+  for (const char* verb : {"demo", "simulate", "reconstruct", "decode"}) {
+    const Answer answer = run_program(fmt::format("{} --help", verb));
+    EXPECT_EQ(answer.exit_code, 0);
+    EXPECT_NE(answer.output.find(fmt::format("frangia {}", verb)), std::string::npos) << verb;
+  }
+}
+
+void expect_bad_input(const Answer& answer, const std::string& names) {
+  EXPECT_EQ(answer.exit_code, 3) << answer.output;
+  EXPECT_EQ(std::count(answer.output.begin(), answer.output.end(), '\n'), 1) << answer.output;
+  EXPECT_NE(answer.output.find(names), std::string::npos) << answer.output;
+}
+
+TEST_F(Program, SaysBadInputWithThreeAndOneSentence) {
+  expect_bad_input(run_program("reconstruct /nowhere -o " + quoted(out("a.ply"))), "/nowhere");
+  expect_bad_input(run_program("simulate teapot -o " + quoted(scan())), "teapot");
+  simulate();
+  expect_bad_input(run_program("reconstruct " + quoted(scan()) + " -o " + quoted(out("a.doc"))),
+                   "a.doc");
+  expect_bad_input(run_program("decode " + quoted(scan()) + " --view 9 -o " + quoted(out("d"))),
+                   "--view 9");
+}
+
+TEST_F(Program, RefusesAnUnwritableOutputBeforeTheWork) {
+  simulate();
+  expect_bad_input(run_program("reconstruct " + quoted(scan()) + " -o /nowhere/a.ply"),
+                   "/nowhere/a.ply");
+}
+
+TEST_F(Program, LeavesNothingUnderTheFinalNameWhenAFrameIsBroken) {
+  simulate();
+  const auto frame = scan() / "views/001/fringe-1.png";
+  std::filesystem::resize_file(frame, 200);
+  expect_bad_input(
+      run_program("--quiet reconstruct " + quoted(scan()) + " -o " + quoted(out("a.ply"))),
+      "fringe-1.png");
+  EXPECT_FALSE(std::filesystem::exists(out("a.ply")));
+  for (const auto& entry : std::filesystem::directory_iterator(scan().parent_path()))
+    EXPECT_EQ(entry.path().filename(), "scan");
+}
+
+}  // namespace
+}  // namespace frangia

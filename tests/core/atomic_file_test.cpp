@@ -1,0 +1,63 @@
+#include "frangia/core/atomic_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(AtomicFile, AppearsWholeWhenCommitted) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.txt";
+  AtomicFile file(path);
+  file.stream() << "whole";
+  EXPECT_FALSE(std::filesystem::exists(path));
+  file.commit();
+  EXPECT_EQ(text_of(path), "whole");
+}
+
+TEST(AtomicFile, LeavesTheOldFileAndNoTraceWhenNotCommitted) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.txt";
+  std::ofstream(path) << "old";
+  {
+    AtomicFile file(path);
+    file.stream() << "half";
+  }
+  EXPECT_EQ(text_of(path), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(AtomicFile, NamesAFolderThatIsNotThere) {
+  try {
+    const AtomicFile file("/nowhere/a.txt");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::File);
+    EXPECT_NE(std::string(error.what()).find("/nowhere/a.txt"), std::string::npos);
+  }
+}
+
+TEST(AtomicFile, DoesNotCommitWhatCouldNotBeWritten) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "a.txt";
+  AtomicFile file(path);
+  file.stream().setstate(std::ios::badbit);  // as a full disk would
+  EXPECT_THROW(file.commit(), Error);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,79 @@
+#include "frangia/frames/png.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::TemporaryFolder;
+
+template <typename T>
+Image<T> ramp(int width, int height, int step) {
+  Image<T> image(width, height);
+  for (std::size_t i = 0; i < image.pixels().size(); ++i)
+    image.pixels()[i] = static_cast<T>(i * static_cast<std::size_t>(step));
+  return image;
+}
+
+std::string complaint(const std::filesystem::path& path) {
+  try {
+    static_cast<void>(read_png(path));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
+    EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Png, GivesBackEightAndSixteenBitsAsWritten) {
+  const TemporaryFolder folder;
+  const auto eight = ramp<std::uint8_t>(37, 21, 1);
+  const auto sixteen = ramp<std::uint16_t>(37, 21, 83);
+  write_png(folder.path() / "8.png", Frame(eight));
+  write_png(folder.path() / "16.png", Frame(sixteen));
+  const Frame back8 = read_png(folder.path() / "8.png");
+  const Frame back16 = read_png(folder.path() / "16.png");
+  for (int y = 0; y < 21; ++y) {
+    for (int x = 0; x < 37; ++x) {
+      EXPECT_EQ(std::get<0>(back8)(x, y), eight(x, y));
+      EXPECT_EQ(std::get<1>(back16)(x, y), sixteen(x, y));
+    }
+  }
+}
+
+TEST(Png, RefusesColour) {
+  const TemporaryFolder folder;
+  write_png(folder.path() / "rgb.png", Image<Rgb>(5, 5));
+  EXPECT_NE(complaint(folder.path() / "rgb.png").find("colour"), std::string::npos);
+}
+
+TEST(Png, RefusesATruncatedFileWhereverItEnds) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "cut.png";
+  write_png(path, Frame(ramp<std::uint8_t>(64, 64, 7)));
+  for (auto size = std::filesystem::file_size(path) - 20; size > 0; size = size * 2 / 3) {
+    std::filesystem::resize_file(path, size);
+    EXPECT_NE(complaint(path), "accepted") << size;
+  }
+}
+
+TEST(Png, RefusesWhatIsNoPngOrNotThere) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "text.png") << "not a picture";
+  std::ofstream(folder.path() / "empty.png") << "";
+  EXPECT_NE(complaint(folder.path() / "text.png"), "accepted");
+  EXPECT_NE(complaint(folder.path() / "empty.png"), "accepted");
+  EXPECT_NE(complaint(folder.path() / "none.png").find("missing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,88 @@
+#include "frangia/range/fringe_ray.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+Projector angular() {
+  Projector projector;
+  projector.model = AngularModel{rad_from_deg(-12.0), rad_from_deg(12.0)};
+  projector.position_mm = {342.0, 0.0, -449.7};
+  projector.rotation = Eigen::AngleAxisd(rad_from_deg(-20.0), Eigen::Vector3d::UnitY())
+                           .toRotationMatrix()
+                           .transpose();
+  return projector;
+}
+
+Projector pinhole() {
+  Projector projector;
+  projector.model = Lens{.width_px = 1280,
+                         .height_px = 800,
+                         .focal_px = {1900.0, 1895.0},
+                         .principal_point_px = {650.0, 380.0},
+                         .distortion = {-0.08, 0.03, 3e-4, -2e-4, 0.01}};
+  projector.position_mm = {-180.0, -20.0, 30.0};
+  projector.rotation = (Eigen::AngleAxisd(rad_from_deg(-21.0), Eigen::Vector3d::UnitY()) *
+                        Eigen::AngleAxisd(rad_from_deg(2.0), Eigen::Vector3d::UnitX()))
+                           .toRotationMatrix();
+  return projector;
+}
+
+Pattern columns() {
+  return {.name = "p", .period_px = 20.0};
+}
+Pattern rows() {
+  return {.name = "p", .direction = FringeDirection::Horizontal, .period_px = 20.0};
+}
+Pattern degrees() {
+  return {.name = "p", .fringes_per_degree = 1.5};
+}
+
+class FringeRay : public ::testing::TestWithParam<std::pair<Pattern, Projector>> {};
+
+TEST_P(FringeRay, FindsThePointWhoseLightItIs) {
+  const auto& [pattern, projector] = GetParam();
+  for (double x = -60.0; x <= 60.0; x += 13.0) {
+    for (double y = -50.0; y <= 50.0; y += 17.0) {
+      for (double z = 430.0; z <= 560.0; z += 31.0) {
+        const Eigen::Vector3d point(x, y, z);
+        const double phase = phase_at(point, pattern, projector);
+        const RayDepth found = intersect({x / z, y / z}, phase, pattern, projector);
+        ASSERT_NEAR(found.depth_mm, z, 1e-6) << point.transpose();
+      }
+    }
+  }
+}
+
+TEST_P(FringeRay, KnowsHowFastTheDepthMovesWithThePhase) {
+  const auto& [pattern, projector] = GetParam();
+  const Eigen::Vector2d ray(0.05, -0.03);
+  const double phase = phase_at(500.0 * Eigen::Vector3d(0.05, -0.03, 1.0), pattern, projector);
+  const double h = 1e-4;
+  const double numeric = (intersect(ray, phase + h, pattern, projector).depth_mm -
+                          intersect(ray, phase - h, pattern, projector).depth_mm) /
+                         (2.0 * h);
+  const RayDepth found = intersect(ray, phase, pattern, projector);
+  EXPECT_NEAR(found.mm_per_rad / numeric, 1.0, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Projectors,
+                         FringeRay,
+                         ::testing::Values(std::pair(degrees(), angular()),
+                                           std::pair(columns(), pinhole()),
+                                           std::pair(rows(), pinhole())));
+
+TEST(FringeRayAtInfinity, HasNoPointWhereRayAndLightDoNotMeetInFront) {
+  const Projector projector = angular();
+  // Light that leaves to the other side of the camera's axis never comes back to it.
+  const RayDepth found = intersect({0.0, 0.0}, 2.0 * kPi * 1.5 * 60.0, degrees(), projector);
+  EXPECT_TRUE(std::isnan(found.depth_mm));
+}
+
+}  // namespace
+}  // namespace frangia

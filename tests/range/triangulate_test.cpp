@@ -1,0 +1,83 @@
+#include "frangia/range/triangulate.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/rig/paper_rig.h"
+
+namespace frangia {
+namespace {
+
+const Pattern kPattern{.name = "fringe", .fringes_per_degree = 1.0};
+
+struct Wall {
+  Rig rig = make_paper_rig({.columns = 64, .rows = 48});
+  Image<Eigen::Vector2f> rays = rays_of(rig.camera.lens);
+
+  /// The phase of a plane across the view at `z_mm`.
+  [[nodiscard]] AbsolutePhase phase(double z_mm, float sigma_rad) const {
+    AbsolutePhase out{.pattern = kPattern,
+                      .phase_rad = Image<float>(rays.width(), rays.height()),
+                      .sigma_rad = Image<float>(rays.width(), rays.height(), sigma_rad),
+                      .fate = Image<PixelFate>(rays.width(), rays.height(), PixelFate::Measured)};
+    for (std::size_t i = 0; i < rays.pixels().size(); ++i) {
+      const Eigen::Vector2d ray = rays.pixels()[i].cast<double>();
+      out.phase_rad.pixels()[i] = static_cast<float>(
+          phase_at(z_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0), kPattern, rig.projector));
+    }
+    return out;
+  }
+};
+
+TEST(Triangulate, PutsAWallWhereItStands) {
+  const Wall wall;
+  AbsolutePhase phase = wall.phase(501.5, 0.02F);
+  const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
+  for (const float depth : range.depth_mm.pixels())
+    EXPECT_NEAR(depth, 501.5, 1e-4);
+}
+
+TEST(Triangulate, PredictsTheScatterOfNoisyPhase) {
+  const Wall wall;
+  const float sigma = 0.02F;
+  AbsolutePhase phase = wall.phase(490.0, sigma);
+  std::mt19937 generator(4);
+  std::normal_distribution<float> noise(0.0F, sigma);
+  for (float& value : phase.phase_rad.pixels())
+    value += noise(generator);
+  const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
+  double chi_square = 0.0;
+  for (std::size_t i = 0; i < range.depth_mm.pixels().size(); ++i) {
+    const double along_ray = std::sqrt(1.0 + wall.rays.pixels()[i].squaredNorm());
+    const double error = (range.depth_mm.pixels()[i] - 490.0) * along_ray;
+    chi_square += std::pow(error / range.sigma_mm.pixels()[i], 2);
+  }
+  EXPECT_NEAR(chi_square / static_cast<double>(range.depth_mm.pixels().size()), 1.0, 0.08);
+}
+
+TEST(Triangulate, LeavesOutPhasesThatTheProjectorDoesNotShow) {
+  const Wall wall;
+  AbsolutePhase phase = wall.phase(490.0, 0.02F);
+  phase.phase_rad(3, 4) = 500.0F;  // 80 fringes from the axis of a field of 24
+  phase.phase_rad(5, 4) = kMissing;
+  const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
+  EXPECT_TRUE(std::isnan(range.depth_mm(3, 4)));
+  EXPECT_EQ(phase.fate(3, 4), PixelFate::OutOfField);
+  EXPECT_TRUE(std::isnan(range.depth_mm(5, 4)));
+}
+
+TEST(Triangulate, RefusesAPhaseOfAnotherSize) {
+  const Wall wall;
+  AbsolutePhase phase = wall.phase(490.0, 0.02F);
+  EXPECT_THROW(static_cast<void>(triangulate(
+                   phase, wall.rig, Image<Eigen::Vector2f>(3, 3, Eigen::Vector2f::Zero()))),
+               Error);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,140 @@
+#include "frangia/scan/reconstruct.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "frangia/frames/png.h"
+#include "frangia/inspect/fit_sphere.h"
+#include "frangia/inspect/surface_error.h"
+
+#include "scan/small_scan.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::small_scan;
+using testing::TemporaryFolder;
+
+SurfaceError error_of(const Reconstruction& result, const std::string& part) {
+  return surface_error(result.mesh, RayScene(make_part(part)));
+}
+
+TEST(Reconstruct, MeasuresABustWithADigitalProjector) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bust", "digital", 6);
+  const Reconstruction result = reconstruct(scan);
+  const SurfaceError error = error_of(result, "bust");
+  EXPECT_EQ(result.views, 6U);
+  EXPECT_GT(result.points, 50000U);
+  EXPECT_LT(error.rms_mm, 0.035);
+  EXPECT_LT(error.p99_mm, 0.12);
+}
+
+TEST(Reconstruct, NumbersEveryFringeOfThePapersRigByThePlaneOfLight) {
+  // Half a fringe is 14 mm here: a single view off by one would show.
+  for (const char* part : {"shaft", "bracket", "blade"}) {
+    const TemporaryFolder folder;
+    const Scan scan = small_scan(folder.path(), part, "angular", 6);
+    const SurfaceError error = error_of(reconstruct(scan), part);
+    EXPECT_LT(error.rms_mm, 0.2) << part;
+    EXPECT_LT(error.max_mm, 4.0) << part;
+  }
+}
+
+TEST(Reconstruct, GivesTheSameBytesOnOneThreadAndOnTwo) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "angular", 4);
+  std::vector<Mesh> meshes;
+  for (const std::size_t threads : {1U, 2U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    meshes.push_back(reconstruct(scan).mesh);
+  }
+  ASSERT_EQ(meshes[0].vertices_mm.size(), meshes[1].vertices_mm.size());
+  EXPECT_EQ(meshes[0].vertices_mm, meshes[1].vertices_mm);
+  EXPECT_EQ(meshes[0].triangles, meshes[1].triangles);
+  EXPECT_EQ(meshes[0].sigma_mm, meshes[1].sigma_mm);
+}
+
+void darken(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    Frame frame = read_png(entry.path());
+    std::visit([](auto& image) { std::fill(image.pixels().begin(), image.pixels().end(), 0); },
+               frame);
+    write_png(entry.path(), frame);
+  }
+}
+
+TEST(Reconstruct, LeavesADarkViewOutWithAWarningAndGoesOn) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "ball-bar", "digital", 4);
+  darken(folder.path() / "views/2");
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_EQ(result.views, 3U);
+  EXPECT_FALSE(result.mesh.empty());
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("views/2"), std::string::npos);
+}
+
+TEST(Reconstruct, RefusesAScanWithoutALitPixel) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "plate", "digital", 1);
+  darken(folder.path() / "views/0");
+  EXPECT_THROW(static_cast<void>(reconstruct(scan)), Error);
+}
+
+TEST(Reconstruct, IsRelativeWithAWarningWhenNothingFixesTheFringe) {
+  const TemporaryFolder folder;
+  Scan scan = small_scan(folder.path(), "bust", "angular", 1);
+  scan.patterns.pop_back();  // the plane of light
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_FALSE(result.mesh.empty());
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("relative"), std::string::npos);
+}
+
+TEST(Reconstruct, StopsWhenAsked) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "plate", "digital", 1);
+  std::stop_source source;
+  source.request_stop();
+  frangia::Run run;
+  run.stop = source.get_token();
+  try {
+    static_cast<void>(reconstruct(scan, {}, run));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Cancelled);
+  }
+}
+
+TEST(Reconstruct, MeasuresTheBallBarOfTheSharedScans) {
+  const std::filesystem::path shared =
+      std::filesystem::path(FRANGIA_SOURCE_DIR) / "../shared/scans/balls";
+  if (!std::filesystem::exists(shared)) GTEST_SKIP() << "the shared scans are not on this machine";
+  const Reconstruction result = reconstruct(read_scan(shared));
+  for (const double y : {-35.0, 35.0}) {
+    std::vector<Eigen::Vector3d> near;
+    for (const auto& vertex : result.mesh.vertices_mm) {
+      const double from_centre = (vertex.cast<double>() - Eigen::Vector3d(0.0, y, 60.0)).norm();
+      if (vertex.z() > 47.0F && std::abs(from_centre - 20.0) < 0.5)
+        near.push_back(vertex.cast<double>());
+    }
+    const auto sphere = fit_sphere(near);
+    EXPECT_NEAR(2.0 * sphere.radius_mm, 40.0, 0.02);
+    EXPECT_LT(sphere.rms_mm, 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace frangia

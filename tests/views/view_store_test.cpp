@@ -1,0 +1,53 @@
+#include "frangia/views/view_store.h"
+
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+
+namespace frangia {
+namespace {
+
+View view_of(float value, int width = 30, int height = 20) {
+  View view;
+  view.range = {Image<float>(width, height, value), Image<float>(width, height, 0.1F * value)};
+  view.range.depth_mm(3, 4) = kMissing;
+  view.rig_from_object.translation() = Eigen::Vector3d(value, 0.0, 0.0);
+  return view;
+}
+
+TEST(ViewStore, GivesBackWhatWasAdded) {
+  ViewStore store;
+  store.add(view_of(1.0F));
+  store.add(view_of(2.0F, 11, 7));
+  ASSERT_EQ(store.size(), 2U);
+  const View second = store.load(1);
+  EXPECT_EQ(second.range.depth_mm.width(), 11);
+  EXPECT_EQ(second.range.depth_mm(0, 0), 2.0F);
+  EXPECT_TRUE(std::isnan(second.range.depth_mm(3, 4)));
+  EXPECT_EQ(store.load(0).range.sigma_mm(5, 5), 0.1F);
+  EXPECT_EQ(store.rig_from_object(1).translation().x(), 2.0);
+}
+
+TEST(ViewStore, ReplacesOneViewAndLeavesTheOthers) {
+  ViewStore store;
+  store.add(view_of(1.0F));
+  store.add(view_of(2.0F));
+  store.replace(0, view_of(7.0F));
+  EXPECT_EQ(store.load(0).range.depth_mm(0, 0), 7.0F);
+  EXPECT_EQ(store.load(1).range.depth_mm(0, 0), 2.0F);
+  EXPECT_THROW(store.replace(1, view_of(1.0F, 5, 5)), Error);
+}
+
+TEST(ViewStore, KeepsItsViewsWhenMoved) {
+  ViewStore store;
+  store.add(view_of(3.0F));
+  const ViewStore moved = std::move(store);
+  EXPECT_EQ(moved.load(0).range.depth_mm(0, 0), 3.0F);
+}
+
+}  // namespace
+}  // namespace frangia
