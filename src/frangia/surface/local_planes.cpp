@@ -1,8 +1,10 @@
 #include "frangia/surface/local_planes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
@@ -129,6 +131,58 @@ LocalPlanes::Plane plane_of(const WindowFit& fit,
   return {-distance * abc, distance};
 }
 
+bool has_plane(const Image<LocalPlanes::Plane>& planes, int x, int y) {
+  return x >= 0 && y >= 0 && x < planes.width() && y < planes.height() &&
+         planes(x, y).distance_mm > 0.0F;
+}
+
+constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+
+/// Missing pixels beside one that has a plane, row by row.
+std::vector<Eigen::Vector2i> find_rim(const Image<LocalPlanes::Plane>& planes) {
+  std::vector<std::vector<Eigen::Vector2i>> rows(static_cast<std::size_t>(planes.height()));
+  parallel_rows(planes.height(), [&](int y) {
+    for (int x = 0; x < planes.width(); ++x) {
+      if (has_plane(planes, x, y)) continue;
+      const bool beside = has_plane(planes, x - 1, y) || has_plane(planes, x + 1, y) ||
+                          has_plane(planes, x, y - 1) || has_plane(planes, x, y + 1);
+      if (beside) rows[static_cast<std::size_t>(y)].emplace_back(x, y);
+    }
+  });
+  std::vector<Eigen::Vector2i> rim;
+  for (const auto& row : rows)
+    rim.insert(rim.end(), row.begin(), row.end());
+  return rim;
+}
+
+/// Carries planes on to missing pixels, one pixel farther each time.
+void carry_on(Image<LocalPlanes::Plane>& planes, int reach_px) {
+  std::vector<Eigen::Vector2i> rim =
+      reach_px > 0 ? find_rim(planes) : std::vector<Eigen::Vector2i>();
+  for (int step = 0; step < reach_px; ++step) {
+    std::vector<LocalPlanes::Plane> carried(rim.size());
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      for (const auto& [dx, dy] : kBeside) {
+        if (!has_plane(planes, rim[i].x() + dx, rim[i].y() + dy)) continue;
+        carried[i] = planes(rim[i].x() + dx, rim[i].y() + dy);
+        break;
+      }
+    }
+    for (std::size_t i = 0; i < rim.size(); ++i)
+      planes(rim[i].x(), rim[i].y()) = carried[i];
+    std::vector<Eigen::Vector2i> next;
+    for (const auto& pixel : rim) {
+      for (const auto& [dx, dy] : kBeside) {
+        const int x = pixel.x() + dx;
+        const int y = pixel.y() + dy;
+        const bool within = x >= 0 && y >= 0 && x < planes.width() && y < planes.height();
+        if (within && !has_plane(planes, x, y)) next.emplace_back(x, y);
+      }
+    }
+    rim = std::move(next);
+  }
+}
+
 /// The corners of quad (x, y).
 using Corners = std::array<Eigen::Vector2i, 4>;
 Corners corners_of(int x, int y) {
@@ -214,16 +268,25 @@ LocalPlanes local_planes(const View& view,
     fit_windows(grid.q, options.radius, first, fits);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       for (int x = 0; x < width; ++x) {
+        out.planes(x, y) = {};
         if (std::isnan(grid.q(x, y))) continue;
         const WindowFit fit = choose_window(grid, fits, first, options.radius, {x, y});
         out.planes(x, y) = plane_of(fit, lens, rays(x, y));
       }
     }
   });
+  carry_on(out.planes, options.reach_px);
   const auto crease_cosine = static_cast<float>(std::cos(options.crease_rad));
   parallel_rows(out.quads.height(), [&](int y) {
     for (int x = 0; x < out.quads.width(); ++x) {
-      out.quads(x, y) = quad_of(grid, out, rays, {x, y}, crease_cosine);
+      LocalPlanes::Quad& quad = out.quads(x, y);
+      quad = quad_of(grid, out, rays, {x, y}, crease_cosine);
+      if (quad.kind != LocalPlanes::Kind::Unseen || options.reach_px == 0) continue;
+      const auto corners = corners_of(x, y);
+      const bool beside = std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
+        return has_plane(out.planes, corner.x(), corner.y());
+      });
+      if (beside) quad.kind = LocalPlanes::Kind::Beside;
     }
   });
   return out;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -28,7 +29,9 @@ struct CameraRays {
 ///
 /// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
 /// units    mm, rig frame
-/// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Unseen
+/// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Beside what
+/// was
+///          seen, when a plane reaches there, or Unseen
 struct LocalPlanes {
   struct Plane {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
@@ -38,7 +41,7 @@ struct LocalPlanes {
       return normal.dot(point) + distance_mm;
     }
   };
-  enum class Kind : std::uint8_t { Unseen, Smooth, Ridge, Valley };
+  enum class Kind : std::uint8_t { Unseen, Beside, Smooth, Ridge, Valley };
   struct Quad {
     float distance_mm = 0.0F;  ///< of its plane from the camera's centre
     float weight = 0.0F;       ///< cos(incidence)^2 / sigma^2, in 1/mm^2
@@ -50,14 +53,18 @@ struct LocalPlanes {
   Image<Quad> quads;
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
 
-  /// The quad that pixel (u, v) falls into; null where it is unseen, outside the image, and for
-  /// NaN.
-  [[nodiscard]] const Quad* quad_at(float u, float v) const {
+  /// The quad that pixel (u, v) falls into; null where nothing is, outside the image, and for NaN.
+  [[nodiscard]] const Quad* quad_or_beside(float u, float v) const {
     const bool within = u >= 0.0F && v >= 0.0F && u < static_cast<float>(quads.width()) &&
                         v < static_cast<float>(quads.height());
     if (!within) return nullptr;
     const Quad& quad = quads(static_cast<int>(u), static_cast<int>(v));
     return quad.kind == Kind::Unseen ? nullptr : &quad;
+  }
+  /// The same, null where nothing was seen.
+  [[nodiscard]] const Quad* quad_at(float u, float v) const {
+    const Quad* quad = quad_or_beside(u, v);
+    return quad != nullptr && quad->kind == Kind::Beside ? nullptr : quad;
   }
 
   /// Inverse depth between the pixels of a quad.
@@ -84,11 +91,25 @@ struct LocalPlanes {
     }
     return *found;
   }
+
+  /// A point's distance from the nearest plane that reaches a quad beside what was seen.
+  [[nodiscard]] float beside_mm(float u, float v, const Eigen::Vector3f& point) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    float least = std::numeric_limits<float>::infinity();
+    for (const Plane* plane :
+         {&planes(x, y), &planes(x + 1, y), &planes(x, y + 1), &planes(x + 1, y + 1)}) {
+      const float distance = plane->in_front_mm(point);
+      if (plane->distance_mm > 0.0F && std::abs(distance) < std::abs(least)) least = distance;
+    }
+    return least;
+  }
 };
 
 struct LocalPlanesOptions {
   int radius = 2;           ///< of the windows, px
   double crease_rad = 0.3;  ///< neighbouring planes that differ by more belong to different faces
+  int reach_px = 0;         ///< how far planes are carried on beside what was seen
 };
 
 /// The local plane at each pixel, by least squares over a square window.
