@@ -34,8 +34,7 @@ struct Questioner {
     const LocalPlanes::Plane& plane =
         smooth ? view.planes(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F))
                : view.nearest_face(u, v, p);
-    const float distance = smooth ? (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm
-                                  : plane.in_front_mm(p);
+    const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
       const Eigen::Vector3f normal = rotation.transpose() * plane.normal;
       const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];

@@ -36,6 +36,7 @@ struct LocalPlanes {
   struct Plane {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
     float distance_mm = 0.0F;                          ///< from the camera's centre
+    float through_mm = 0.0F;  ///< the same of the parallel plane through the pixel's own point
 
     [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
       return normal.dot(point) + distance_mm;
@@ -52,6 +53,12 @@ struct LocalPlanes {
   Image<Plane> planes;
   Image<Quad> quads;
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
+
+  /// Whether (x, y) is a pixel with a plane.
+  [[nodiscard]] bool has_plane(int x, int y) const {
+    return x >= 0 && y >= 0 && x < planes.width() && y < planes.height() &&
+           planes(x, y).distance_mm > 0.0F;
+  }
 
   /// The quad that pixel (u, v) falls into; null where nothing is, outside the image, and for NaN.
   [[nodiscard]] const Quad* quad_or_beside(float u, float v) const {
@@ -77,6 +84,25 @@ struct LocalPlanes {
     const float upper = q(x, y) + right * (q(x + 1, y) - q(x, y));
     const float lower = q(x, y + 1) + right * (q(x + 1, y + 1) - q(x, y + 1));
     return upper + down * (lower - upper);
+  }
+
+  /// A point's distance from the surface of a smooth quad, to second order: halfway between the
+  /// chords from corner to corner, which a curved surface leaves on one side, and the corners'
+  /// tangent planes, which it leaves as far on the other.
+  [[nodiscard]] float smooth_mm(float u, float v, const Eigen::Vector3f& point) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    const float right = u - static_cast<float>(x);
+    const float down = v - static_cast<float>(y);
+    const auto tangent = [&](const Plane& plane) {
+      return plane.normal.dot(point) + plane.through_mm;
+    };
+    const float upper = (1.0F - right) * tangent(planes(x, y)) + right * tangent(planes(x + 1, y));
+    const float lower =
+        (1.0F - right) * tangent(planes(x, y + 1)) + right * tangent(planes(x + 1, y + 1));
+    const float tangents = upper + down * (lower - upper);
+    const float chords = (1.0F - point.z() * inverse_depth_at(u, v)) * quads(x, y).distance_mm;
+    return 0.5F * (tangents + chords);
   }
 
   /// Of a quad whose corners lie on several faces, the one that a point belongs to: the object is
