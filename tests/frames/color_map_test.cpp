@@ -1,4 +1,4 @@
-#include "frangia/inspect/color_map.h"
+#include "frangia/frames/color_map.h"
 
 #include <limits>
 
