@@ -82,6 +82,7 @@ constexpr std::array<std::pair<std::string_view, Maker>, 3> kRigs{
 
 std::vector<std::string> rig_preset_names() {
   std::vector<std::string> names;
+  names.reserve(kRigs.size());
   for (const auto& rig : kRigs)
     names.emplace_back(rig.first);
   return names;
