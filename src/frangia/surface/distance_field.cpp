@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "frangia/core/parallel.h"
-#include "frangia/surface/fast_lens.h"
+#include "frangia/views/fast_lens.h"
 
 namespace frangia {
 namespace {

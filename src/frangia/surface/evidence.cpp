@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "frangia/core/parallel.h"
-#include "frangia/surface/fast_lens.h"
+#include "frangia/views/fast_lens.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "frangia/surface/crossings.h"
-#include "frangia/surface/local_planes.h"
+#include "frangia/views/local_planes.h"
 
 namespace frangia {
 

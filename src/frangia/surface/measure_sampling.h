@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "frangia/core/run.h"
-#include "frangia/surface/local_planes.h"
+#include "frangia/views/local_planes.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {

@@ -12,11 +12,11 @@
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/distance_field.h"
 #include "frangia/surface/evidence.h"
-#include "frangia/surface/local_planes.h"
 #include "frangia/surface/measure_sampling.h"
 #include "frangia/surface/mesh_quads.h"
 #include "frangia/surface/place_vertices.h"
 #include "frangia/surface/tidy_mesh.h"
+#include "frangia/views/local_planes.h"
 
 namespace frangia {
 namespace {

@@ -37,6 +37,7 @@ struct LocalPlanes {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
     float distance_mm = 0.0F;                          ///< from the camera's centre
     float through_mm = 0.0F;  ///< the same of the parallel plane through the pixel's own point
+    bool centred = false;     ///< from a window about the pixel, not beside it
 
     [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
       return normal.dot(point) + distance_mm;

@@ -1,4 +1,4 @@
-#include "frangia/surface/local_planes.h"
+#include "frangia/views/local_planes.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "frangia/surface/fit_windows.h"
+#include "frangia/views/fit_windows.h"
 
 namespace frangia {
 
@@ -22,6 +22,11 @@ struct WindowRows {
   Image<WindowFit> fits;
 };
 
+struct ChosenWindow {
+  WindowFit fit;
+  bool centred = false;  ///< about the pixel: its slope is that at the pixel, curved or not
+};
+
 /// The plane that an image follows at a pixel, never rounded off by what lies across an edge: the
 /// window about the pixel when it fits as well as noise allows, else the best of those that hold
 /// the pixel, else the best of 3 x 3 pixels.
@@ -29,9 +34,9 @@ struct WindowRows {
 /// shape    one pixel, in one of the rows; `noise` is its standard deviation
 /// missing  NaN where the pixel lies off even the best plane: there the image is rougher than its
 /// pixels source   Kuwahara et al. 1976
-[[nodiscard]] WindowFit choose_window(const Image<float>& image,
-                                      const WindowRows& fits,
-                                      const Eigen::Vector2i& at,
-                                      float noise);
+[[nodiscard]] ChosenWindow choose_window(const Image<float>& image,
+                                         const WindowRows& fits,
+                                         const Eigen::Vector2i& at,
+                                         float noise);
 
 }  // namespace frangia

@@ -1,4 +1,4 @@
-#include "frangia/surface/carry_planes.h"
+#include "frangia/views/carry_planes.h"
 
 #include <array>
 #include <cstddef>

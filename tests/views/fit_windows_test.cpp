@@ -1,4 +1,4 @@
-#include "frangia/surface/fit_windows.h"
+#include "frangia/views/fit_windows.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "frangia/surface/choose_window.h"
+#include "frangia/views/choose_window.h"
 
 #include <cmath>
 
@@ -51,21 +51,21 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
 
 }  // namespace
 
-WindowFit choose_window(const Image<float>& image,
-                        const WindowRows& fits,
-                        const Eigen::Vector2i& at,
-                        float noise) {
+ChosenWindow choose_window(const Image<float>& image,
+                           const WindowRows& fits,
+                           const Eigen::Vector2i& at,
+                           float noise) {
   constexpr float kFits = 2.0F;      // in variance
   constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
   const float good = kFits * noise * noise;
   const WindowFit& centred = fits.at(at.x(), at.y());
-  if (centred.variance < good) return centred;
+  if (centred.variance < good) return {centred, true};
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
   const auto off = [&](const WindowFit& fit) { return std::abs(fit.mean - image(at.x(), at.y())); };
-  if (large.variance < good && off(large) < kFarthest * noise) return large;
+  if (large.variance < good && off(large) < kFarthest * noise) return {large, false};
   const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
-  if (off(small) < kFarthest * noise) return small;
-  return kNoFit;
+  if (off(small) < kFarthest * noise) return {small, false};
+  return {kNoFit, false};
 }
 
 }  // namespace frangia

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frangia/surface/local_planes.h"
+#include "frangia/views/local_planes.h"
 
 namespace frangia {
 

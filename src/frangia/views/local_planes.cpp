@@ -1,4 +1,4 @@
-#include "frangia/surface/local_planes.h"
+#include "frangia/views/local_planes.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/surface/carry_planes.h"
-#include "frangia/surface/choose_window.h"
-#include "frangia/surface/fast_lens.h"
+#include "frangia/views/carry_planes.h"
+#include "frangia/views/choose_window.h"
+#include "frangia/views/fast_lens.h"
 
 namespace frangia {
 namespace {
@@ -72,15 +72,16 @@ bool has(const Grid& grid, int x, int y, Link link) {
 }
 
 /// The plane through a pixel's point, from q and its slope over the image.
-LocalPlanes::Plane plane_of(const WindowFit& fit,
+LocalPlanes::Plane plane_of(const ChosenWindow& chosen,
                             float q,
                             const FastLens& lens,
                             const Eigen::Vector2f& ray) {
+  const WindowFit& fit = chosen.fit;
   const Eigen::Vector2f ab =
       lens.jacobian(ray).transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
   const Eigen::Vector3f abc(ab.x(), ab.y(), fit.mean - ab.dot(ray));
   const float distance = 1.0F / abc.norm();
-  return {-distance * abc, distance, distance * (fit.mean / q)};
+  return {-distance * abc, distance, distance * (fit.mean / q), chosen.centred};
 }
 
 /// The corners of quad (x, y).
@@ -174,9 +175,9 @@ LocalPlanes local_planes(const View& view,
       for (int x = 0; x < width; ++x) {
         out.planes(x, y) = {};
         if (std::isnan(grid.q(x, y))) continue;
-        const WindowFit fit = choose_window(grid.q, fits, {x, y}, grid.noise(x, y));
-        if (std::isnan(fit.mean)) continue;
-        out.planes(x, y) = plane_of(fit, grid.q(x, y), lens, rays(x, y));
+        const ChosenWindow chosen = choose_window(grid.q, fits, {x, y}, grid.noise(x, y));
+        if (std::isnan(chosen.fit.mean)) continue;
+        out.planes(x, y) = plane_of(chosen, grid.q(x, y), lens, rays(x, y));
       }
     }
   });

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/rig/rig.h"
+#include "frangia/views/fast_lens.h"
+#include "frangia/views/plane_map.h"
+
+namespace frangia {
+
+/// What moves when views are registered: the axis and the angle of each view.
+struct TableState {
+  Turntable table;
+  std::vector<double> angles_rad;
+};
+
+/// How the views fit together in one state, and which way to go: the normal equations of all
+/// point-to- plane distances between views.
+///
+/// shape    unknowns: two tilts of the axis and two shifts, about and along `across`; then the
+/// angles of
+///          views 1, 2, ...; view 0 is held
+/// units    rad, mm
+struct BundleSums {
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd gradient;
+  double squares = 0.0;             ///< sum of w r^2
+  std::vector<float> distances_mm;  ///< of all pairs, without sign
+  std::vector<std::size_t> met;     ///< by view: its spots that lie on a surface another view saw
+  std::vector<std::size_t> faced;   ///< by view: its spots that another view looked at
+};
+
+/// The two directions across the axis in which it is moved.
+[[nodiscard]] Eigen::Matrix<double, 3, 2> across(const Turntable& table);
+
+struct BundleOptions {
+  double gate_mm = 3.0;  ///< pairs farther apart are not of the same surface
+};
+
+/// Compares the spots of each view with the planes that they project onto in each other view.
+///
+/// shape    `spots` and `maps`: one a view
+/// source   projective association, Blais & Levine 1995; symmetric distance, Rusinkiewicz 2019;
+/// Tukey's
+///          biweight
+[[nodiscard]] BundleSums sum_bundle(std::span<const std::vector<PlaneMap::Spot>> spots,
+                                    std::span<const PlaneMap> maps,
+                                    const FastLens& lens,
+                                    const TableState& state,
+                                    const BundleOptions& options);
+
+/// The state after a step in the unknowns.
+[[nodiscard]] TableState moved(const TableState& state, const Eigen::VectorXd& step);
+
+}  // namespace frangia
