@@ -95,9 +95,11 @@ int fringes_off(const Patch& patch, const ReconcileOptions& options) {
   if (present == nullptr || best == nullptr) return 0;
   const auto points = static_cast<double>(best->points_mm.size());
   if (present->agree > options.max_present * points) return 0;
-  // Somebody at least looked at each of its points and did not find it.
-  if (present->contradict + present->unseen < points) return 0;
-  if (best->score() < options.min_agreement * points || 2 * second > best->score()) return 0;
+  // Where others look at it and do not find it, half of it elsewhere is enough; where it hides from
+  // them behind the surface, most of it must be that surface.
+  const bool missed = present->contradict + present->unseen >= points;
+  const double wanted = missed ? options.min_agreement : options.min_agreement_hidden;
+  if (best->score() < wanted * points || 2 * second > best->score()) return 0;
   return best->fringes;
 }
 

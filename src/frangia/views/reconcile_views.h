@@ -15,8 +15,9 @@ namespace frangia {
 struct ReconcileOptions {
   int patches_across = 32;     ///< a view is looked at in this many patches across
   double min_agreement = 0.5;  ///< share of a patch that others must confirm at its new place
-  double max_present = 0.1;    ///< and at most confirm where it is
-  double tolerance = 0.06;     ///< of the depth between two fringes: how near counts as agreeing
+  double min_agreement_hidden = 0.75;  ///< the same for a patch that lies behind what others saw
+  double max_present = 0.1;            ///< and at most confirm where it is
+  double tolerance = 0.06;  ///< of the depth between two fringes: how near counts as agreeing
 };
 
 /// Moves patches that lie a whole number of fringes off to where the other views saw the surface.
