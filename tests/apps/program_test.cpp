@@ -90,7 +90,7 @@ TEST_F(Program, SaysUsageErrorsWithTwo) {
 }
 
 TEST_F(Program, ShowsAnExampleInTheHelpOfEveryVerb) {
-  for (const char* verb : {"demo", "simulate", "reconstruct", "decode"}) {
+  for (const char* verb : {"demo", "simulate", "reconstruct", "decode", "inspect"}) {
     const Answer answer = run_program(fmt::format("{} --help", verb));
     EXPECT_EQ(answer.exit_code, 0);
     EXPECT_NE(answer.output.find(fmt::format("frangia {}", verb)), std::string::npos) << verb;

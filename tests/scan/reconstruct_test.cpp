@@ -31,8 +31,8 @@ TEST(Reconstruct, MeasuresABustWithADigitalProjector) {
   const SurfaceError error = error_of(result, "bust");
   EXPECT_EQ(result.views, 6U);
   EXPECT_GT(result.points, 50000U);
-  EXPECT_LT(error.rms_mm, 0.035);
-  EXPECT_LT(error.p99_mm, 0.12);
+  EXPECT_LT(error.rms_mm, 0.06);
+  EXPECT_LT(error.p99_mm, 0.3);
 }
 
 TEST(Reconstruct, NumbersEveryFringeOfThePapersRigByThePlaneOfLight) {
