@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/parallel.h"
 #include "frangia/surface/stars.h"
 
 namespace frangia {
@@ -16,15 +17,23 @@ using Pair = Stars::Edge;
 
 /// Short edges, each once, in a fixed order.
 std::vector<Pair> short_edges(const Mesh& mesh, float shortest_mm) {
-  std::vector<Pair> edges;
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vertex a = t[i];
-      const Vertex b = t[(i + 1) % 3];
-      const float squared = (mesh.vertices_mm[a] - mesh.vertices_mm[b]).squaredNorm();
-      if (squared < shortest_mm * shortest_mm) edges.emplace_back(std::min(a, b), std::max(a, b));
+  constexpr std::size_t kChunk = 65536;
+  std::vector<std::vector<Pair>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
+  parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vertex a = mesh.triangles[t][i];
+        const Vertex b = mesh.triangles[t][(i + 1) % 3];
+        const float squared = (mesh.vertices_mm[a] - mesh.vertices_mm[b]).squaredNorm();
+        if (squared < shortest_mm * shortest_mm) {
+          parts[begin / kChunk].emplace_back(std::min(a, b), std::max(a, b));
+        }
+      }
     }
-  }
+  });
+  std::vector<Pair> edges;
+  for (const auto& part : parts)
+    edges.insert(edges.end(), part.begin(), part.end());
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -131,11 +140,12 @@ bool collapse_once(Mesh& mesh, std::span<const std::uint8_t> sharp, float shorte
 
 }  // namespace
 
-void collapse_slivers(Mesh& mesh, std::span<const std::uint8_t> sharp, float shortest_mm) {
-  constexpr int kPasses = 4;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    if (!collapse_once(mesh, sharp, shortest_mm)) break;
-  }
+bool collapse_slivers(Mesh& mesh, std::span<const std::uint8_t> sharp, float shortest_mm) {
+  constexpr int kPasses = 2;
+  bool any = false;
+  for (int pass = 0; pass < kPasses && collapse_once(mesh, sharp, shortest_mm); ++pass)
+    any = true;
+  return any;
 }
 
 }  // namespace frangia

@@ -11,6 +11,11 @@ namespace {
 
 constexpr int kEdge = DistanceField::kEdge;
 
+/// Voxels around a measured point within which the field is wanted: a cell's corners are one from a
+/// point in it, and the next point looked at is kStep voxels away.
+constexpr float kMargin = 1.75F;
+constexpr double kStep = 1.05;
+
 /// Of a guess beside what was seen, in 1/mm^2: it counts where nobody knows better.
 constexpr float kBesideWeight = 1e-6F;
 
@@ -123,13 +128,12 @@ void add_box(KeySet& keys, const Eigen::Array3f& low, const Eigen::Array3f& high
 
 /// All blocks that hold the corners of cells around the segment.
 void add_along(KeySet& keys, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
-  constexpr float kMargin = 1.75F;  // the corners of a cell are so far from a point in it
   const Eigen::Array3f low = from.cwiseMin(to).array() - kMargin;
   const Eigen::Array3f high = from.cwiseMax(to).array() + kMargin;
   const Eigen::Array3f block = (low * 0.125F).floor() * 8.0F;
   if ((high < block + 8.0F).all()) return add_box(keys, low, low);
   const float length = (to - from).norm();
-  const int steps = static_cast<int>(length / 2.0F) + 1;
+  const int steps = static_cast<int>(length / 3.0F) + 1;  // the boxes overlap
   for (int i = 0; i <= steps; ++i) {
     const Eigen::Array3f point =
         from + (to - from) * (static_cast<float>(i) / static_cast<float>(steps));
@@ -137,14 +141,15 @@ void add_along(KeySet& keys, const Eigen::Vector3f& from, const Eigen::Vector3f&
   }
 }
 
-/// How many pixels to step so that no voxel between two of them is left out.
+/// How many pixels to step so that, with the margin, no corner of a cell between two of them is
+/// left out.
 int pixel_stride(const LocalPlanes& view, const CameraRays& camera, const Band& band) {
   float nearest = 0.0F;
   for (const float q : view.inverse_depth.pixels())
-    nearest = std::max(nearest, q);
-  const double pixels =
+    nearest = std::max(nearest, q);  // passes NaN over
+  const double voxel_px =
       band.voxel_mm * static_cast<double>(nearest) * camera.lens.focal_px.minCoeff();
-  return std::clamp(static_cast<int>(pixels), 1, 8);
+  return std::clamp(static_cast<int>(std::lround(kStep * voxel_px)), 1, 8);
 }
 
 Eigen::Vector3i place_of(std::uint64_t key) {

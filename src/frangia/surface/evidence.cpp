@@ -30,6 +30,8 @@ struct Questioner {
     lens.project(p.x(), p.y(), p.z(), u, v);
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
     if (quad == nullptr || !(p.z() > 0.0F)) return;
+    const float chord = (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
+    if (chord < -2.0F * near_mm) return;  // hidden behind what the view saw
     const bool smooth = quad->kind == LocalPlanes::Kind::Smooth;
     const LocalPlanes::Plane& plane =
         smooth ? view.planes(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F))

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/parallel.h"
 #include "frangia/surface/stars.h"
 
 namespace frangia {
@@ -42,19 +43,28 @@ struct Cap {
 };
 
 std::vector<Cap> find_caps(const Mesh& mesh, float lowest_mm) {
-  std::vector<Cap> caps;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& corners = mesh.triangles[t];
-    if (height_of(mesh, corners) >= lowest_mm) continue;
-    std::array<float, 3> lengths{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      lengths[i] =
-          (mesh.vertices_mm[corners[(i + 1) % 3]] - mesh.vertices_mm[corners[i]]).squaredNorm();
+  constexpr std::size_t kChunk = 65536;
+  std::vector<std::vector<Cap>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
+  parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto& corners = mesh.triangles[t];
+      if (height_of(mesh, corners) >= lowest_mm) continue;
+      std::array<float, 3> lengths{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        lengths[i] =
+            (mesh.vertices_mm[corners[(i + 1) % 3]] - mesh.vertices_mm[corners[i]]).squaredNorm();
+      }
+      const auto longest = static_cast<std::size_t>(
+          std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+      parts[begin / kChunk].push_back({static_cast<std::uint32_t>(t),
+                                       corners[longest],
+                                       corners[(longest + 1) % 3],
+                                       corners[(longest + 2) % 3]});
     }
-    const auto longest = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) -
-                                                  lengths.begin());
-    caps.push_back({t, corners[longest], corners[(longest + 1) % 3], corners[(longest + 2) % 3]});
-  }
+  });
+  std::vector<Cap> caps;
+  for (const auto& part : parts)
+    caps.insert(caps.end(), part.begin(), part.end());
   return caps;
 }
 
@@ -75,7 +85,7 @@ Vertex opposite(const Mesh::Triangle& t, const Cap& cap) {
 
 }  // namespace
 
-void flip_caps(Mesh& mesh, float lowest_mm) {
+bool flip_caps(Mesh& mesh, float lowest_mm) {
   const std::vector<Cap> caps = find_caps(mesh, lowest_mm);
   std::vector<Stars::Edge> edges;
   for (const Cap& cap : caps) {
@@ -84,6 +94,7 @@ void flip_caps(Mesh& mesh, float lowest_mm) {
   }
   const Stars stars(mesh, edges);
   std::vector<bool> touched(mesh.vertices_mm.size(), false);
+  bool any = false;
   for (const Cap& cap : caps) {
     const std::uint32_t other = across(mesh, stars, cap);
     if (other == cap.triangle) continue;
@@ -104,7 +115,9 @@ void flip_caps(Mesh& mesh, float lowest_mm) {
     mesh.triangles[other] = two;
     for (const Vertex v : {cap.a, cap.b, cap.c, d})
       touched[v] = true;
+    any = true;
   }
+  return any;
 }
 
 }  // namespace frangia

@@ -272,8 +272,9 @@ Mesh mesh_quads(PlacedVertices vertices,
   add_pinched(mesh, crossings, quads);
   const auto sliver_mm = kSliver * static_cast<float>(crossings.voxel_mm);
   for (int round = 0; round < kRounds; ++round) {
-    collapse_slivers(mesh, vertices.sharp, 2.0F * sliver_mm);
-    flip_caps(mesh, sliver_mm);
+    const bool joined = collapse_slivers(mesh, vertices.sharp, 2.0F * sliver_mm);
+    const bool turned = flip_caps(mesh, sliver_mm);
+    if (!joined && !turned) break;
   }
   return std::move(vertices.mesh);
 }
