@@ -1,0 +1,64 @@
+#include "frangia/views/clip_views.h"
+
+#include <cmath>
+#include <vector>
+
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+
+namespace frangia {
+namespace {
+
+struct Count {
+  std::size_t kept = 0;
+  std::size_t dropped = 0;
+};
+
+Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip) {
+  const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
+  Image<float>& depth = view.range.depth_mm;
+  std::vector<Count> rows(static_cast<std::size_t>(depth.height()));
+  parallel_rows(depth.height(), [&](int y) {
+    Count& count = rows[static_cast<std::size_t>(y)];
+    for (int x = 0; x < depth.width(); ++x) {
+      if (std::isnan(depth(x, y))) continue;
+      const Eigen::Vector3f seen = depth(x, y) * rays(x, y).homogeneous();
+      const Eigen::Vector3d point = object_from_rig * seen.cast<double>();
+      if (clip.floor.signedDistance(point) > 0.0 && point.head<2>().norm() < clip.max_radius_mm) {
+        ++count.kept;
+      } else {
+        ++count.dropped;
+        depth(x, y) = kMissing;
+      }
+    }
+  });
+  Count all;
+  for (const Count& row : rows) {
+    all.kept += row.kept;
+    all.dropped += row.dropped;
+  }
+  return all;
+}
+
+}  // namespace
+
+std::size_t clip_views(ViewStore& views, const Lens& camera, const Clip& clip, const Run& run) {
+  const auto rays = rays_of(camera);
+  Count all;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(views.size()));
+    View view = views.load(i);
+    require(same_size(view.range.depth_mm, rays),
+            "clip_views: a view and the camera differ in size");
+    const Count count = clip_view(view, rays, clip);
+    if (count.dropped > 0) views.replace(i, view);
+    all.kept += count.kept;
+    all.dropped += count.dropped;
+  }
+  require(all.kept > 0,
+          "nothing is left of the object: every point lies below the clip or beyond its radius; "
+          "lower --clip-below or widen --clip-radius");
+  return all.dropped;
+}
+
+}  // namespace frangia

@@ -1,0 +1,137 @@
+#include "frangia/views/find_platter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "frangia/views/plane_map.h"
+
+namespace frangia {
+namespace {
+
+struct Cloud {
+  std::vector<Eigen::Vector3d> level;  ///< points whose normal is up
+  std::vector<double> heights;         ///< of all points
+  double sigma_mm = 0.0;
+};
+
+Cloud gather(const ViewStore& views, const Lens& camera, double max_tilt_rad, const Run& run) {
+  constexpr std::size_t kSpots = 20000;
+  const CameraRays rays(camera);
+  // A normal is less certain than the plane of many points: allow it some degrees more.
+  const double upright = std::cos(max_tilt_rad + rad_from_deg(7.0));
+  Cloud cloud;
+  std::vector<float> sigmas;
+  LocalPlanes planes;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(views.size()));
+    planes = local_planes(views.load(i), rays, {}, std::move(planes));
+    const Eigen::Isometry3d object_from_rig = views.rig_from_object(i).inverse();
+    for (const auto& spot : pick_spots(plane_map(planes, rays, 16 * kSpots), kSpots)) {
+      const Eigen::Vector3d point = object_from_rig * spot.point_mm.cast<double>();
+      const Eigen::Vector3d normal = object_from_rig.linear() * spot.normal.cast<double>();
+      cloud.heights.push_back(point.z());
+      if (normal.z() > upright) cloud.level.push_back(point);
+      sigmas.push_back(spot.sigma_mm);
+    }
+  }
+  if (!sigmas.empty()) {
+    const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+    std::nth_element(sigmas.begin(), middle, sigmas.end());
+    cloud.sigma_mm = static_cast<double>(*middle);
+  }
+  return cloud;
+}
+
+using Plane = Eigen::Hyperplane<double, 3>;
+
+std::vector<Eigen::Vector3d> near(const std::vector<Eigen::Vector3d>& points,
+                                  const Plane& plane,
+                                  double within_mm) {
+  std::vector<Eigen::Vector3d> found;
+  std::copy_if(
+      points.begin(), points.end(), std::back_inserter(found), [&](const Eigen::Vector3d& p) {
+        return plane.absDistance(p) < within_mm;
+      });
+  return found;
+}
+
+/// The plane that fits points best, upwards.
+Plane fit(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& point : points)
+    middle += point;
+  middle /= static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto& point : points)
+    spread += (point - middle) * (point - middle).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  if (normal.z() < 0.0) normal = -normal;
+  return {normal, middle};
+}
+
+/// The lowest height at which many level points lie.
+std::optional<double> lowest_level(const Cloud& cloud, std::size_t enough) {
+  std::vector<double> heights;
+  for (const auto& point : cloud.level)
+    heights.push_back(point.z());
+  std::sort(heights.begin(), heights.end());
+  // Wide enough for a platter that is tilted against the axis as it is given.
+  constexpr double kBand_mm = 2.0;
+  for (std::size_t i = 0; i + enough < heights.size(); ++i) {
+    if (heights[i + enough] - heights[i] < kBand_mm) return heights[i + enough / 2];
+  }
+  return std::nullopt;
+}
+
+/// Share of the directions about the axis that the outer half of the points fills.
+double roundness(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<double> radii;
+  for (const auto& point : points)
+    radii.push_back(point.head<2>().norm());
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  constexpr std::size_t kSectors = 36;
+  std::array<bool, kSectors> filled{};
+  for (const auto& point : points) {
+    if (point.head<2>().norm() < *middle) continue;
+    const double turn = std::atan2(point.y(), point.x()) / kTurn + 0.5;
+    filled[std::min(kSectors - 1, static_cast<std::size_t>(turn * kSectors))] = true;
+  }
+  return static_cast<double>(std::count(filled.begin(), filled.end(), true)) / kSectors;
+}
+
+}  // namespace
+
+std::optional<Plane> find_platter(const ViewStore& views,
+                                  const Lens& camera,
+                                  const PlatterOptions& options,
+                                  const Run& run) {
+  const Cloud cloud = gather(views, camera, options.max_tilt_rad, run);
+  const auto enough =
+      static_cast<std::size_t>(options.min_share * static_cast<double>(cloud.heights.size()));
+  const auto height = lowest_level(cloud, std::max<std::size_t>(enough, 50));
+  if (!height) return std::nullopt;
+  Plane plane(Eigen::Vector3d::UnitZ(), -*height);
+  std::vector<Eigen::Vector3d> on_it;
+  for (const double within_mm : {2.0, 1.0, 0.5, 0.5}) {
+    on_it = near(cloud.level, plane, std::max(within_mm, 5.0 * cloud.sigma_mm));
+    if (on_it.size() < std::max<std::size_t>(enough, 50)) return std::nullopt;
+    plane = fit(on_it);
+  }
+  const double below_mm =
+      plane.offset() / -plane.normal().z() - std::max(1.0, 6.0 * cloud.sigma_mm);
+  const auto below = std::count_if(
+      cloud.heights.begin(), cloud.heights.end(), [&](double z) { return z < below_mm; });
+  const bool bottom =
+      static_cast<double>(below) <= options.max_below * static_cast<double>(on_it.size());
+  const bool level = plane.normal().z() > std::cos(options.max_tilt_rad);
+  if (!bottom || !level || roundness(on_it) < options.min_round) return std::nullopt;
+  return plane;
+}
+
+}  // namespace frangia

@@ -1,0 +1,72 @@
+#include "frangia/views/clip_views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+
+#include "support/analytic_views.h"
+
+namespace frangia {
+namespace {
+
+using testing::small_lens;
+
+ViewStore sphere_views() {
+  return testing::snapshots(
+      testing::sphere(40.0), small_lens(120, 600.0), testing::around_table(3, 0.3, 650.0));
+}
+
+/// Calls `look` with every point of every view, in the object frame.
+template <typename Look>
+void for_each_point(const ViewStore& views, const Look& look) {
+  const auto rays = rays_of(small_lens(120, 600.0));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const View view = views.load(i);
+    for (int y = 0; y < rays.height(); ++y) {
+      for (int x = 0; x < rays.width(); ++x) {
+        const float depth = view.range.depth_mm(x, y);
+        if (std::isnan(depth)) continue;
+        const Eigen::Vector3f seen = depth * rays(x, y).homogeneous();
+        look(view.rig_from_object.inverse() * seen.cast<double>());
+      }
+    }
+  }
+}
+
+TEST(ClipViews, KeepsWhatIsAboveTheFloor) {
+  ViewStore views = sphere_views();
+  const auto dropped =
+      clip_views(views, small_lens(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -5.0}});
+  EXPECT_GT(dropped, 1000U);
+  std::size_t left = 0;
+  for_each_point(views, [&](const Eigen::Vector3d& point) {
+    EXPECT_GT(point.z(), 5.0);
+    ++left;
+  });
+  EXPECT_GT(left, 1000U);
+}
+
+TEST(ClipViews, KeepsWhatIsNearTheAxis) {
+  ViewStore views = sphere_views();
+  static_cast<void>(clip_views(views, small_lens(120, 600.0), {.max_radius_mm = 30.0}));
+  for_each_point(views,
+                 [](const Eigen::Vector3d& point) { EXPECT_LT(point.head<2>().norm(), 30.0); });
+}
+
+TEST(ClipViews, KeepsAllWithoutALimit) {
+  ViewStore views = sphere_views();
+  EXPECT_EQ(clip_views(views, small_lens(120, 600.0), {}), 0U);
+}
+
+TEST(ClipViews, RefusesToDropEverything) {
+  ViewStore views = sphere_views();
+  EXPECT_THROW(
+      clip_views(views, small_lens(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -100.0}}),
+      Error);
+}
+
+}  // namespace
+}  // namespace frangia

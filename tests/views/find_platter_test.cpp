@@ -1,0 +1,62 @@
+#include "frangia/views/find_platter.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/analytic_views.h"
+
+namespace frangia {
+namespace {
+
+using testing::Shape;
+using testing::small_lens;
+
+constexpr double kDistance = 650.0;
+
+/// A turntable, thin: of what stands on it only its top is seen.
+Shape disc(double radius_mm, double top_mm) {
+  return [=](const Eigen::Vector3d& p) {
+    return std::max(p.head<2>().norm() - radius_mm, std::max(p.z() - top_mm, top_mm - 0.2 - p.z()));
+  };
+}
+
+ViewStore look_at(const Shape& scene) {
+  return testing::snapshots(scene, small_lens(), testing::around_table(6, 0.6, kDistance));
+}
+
+TEST(FindPlatter, FindsTheDiscThatThePartStandsOn) {
+  const Shape part = testing::box({15.0, 10.0, 12.0}, {3.0, 0.0, 10.0});
+  const auto platter = find_platter(look_at(testing::both(part, disc(45.0, -2.0))), small_lens());
+  ASSERT_TRUE(platter);
+  EXPECT_NEAR(platter->normal().z(), 1.0, 1e-4);
+  EXPECT_NEAR(-platter->offset(), -2.0, 0.02);
+}
+
+TEST(FindPlatter, FindsATiltedOne) {
+  const Eigen::Matrix3d tilt =
+      Eigen::AngleAxisd(rad_from_deg(1.0), Eigen::Vector3d::UnitX()).matrix();
+  const Shape scene = [=, flat = disc(45.0, 0.0)](const Eigen::Vector3d& p) {
+    return flat(tilt.transpose() * p);
+  };
+  const auto platter = find_platter(
+      look_at(testing::both(scene, testing::sphere(15.0, {0.0, 0.0, 14.0}))), small_lens());
+  ASSERT_TRUE(platter);
+  EXPECT_GT(platter->normal().dot(tilt.col(2)), std::cos(rad_from_deg(0.05)));
+}
+
+TEST(FindPlatter, TakesNoFlatTopForOne) {
+  // A flange: level, round, but its own side is below.
+  const Shape flange = [](const Eigen::Vector3d& p) {
+    return std::max(p.head<2>().norm() - 30.0, std::abs(p.z()) - 4.0);
+  };
+  const Shape post = testing::box({8.0, 8.0, 15.0}, {0.0, 0.0, 15.0});
+  EXPECT_FALSE(find_platter(look_at(testing::both(flange, post)), small_lens()));
+}
+
+TEST(FindPlatter, FindsNoneUnderASphere) {
+  EXPECT_FALSE(find_platter(look_at(testing::sphere(30.0)), small_lens()));
+}
+
+}  // namespace
+}  // namespace frangia
