@@ -14,10 +14,10 @@ using testing::small_lens;
 
 constexpr double kDistance = 650.0;
 
-/// A turntable, thin: of what stands on it only its top is seen.
+/// A turntable with its rim.
 Shape disc(double radius_mm, double top_mm) {
   return [=](const Eigen::Vector3d& p) {
-    return std::max(p.head<2>().norm() - radius_mm, std::max(p.z() - top_mm, top_mm - 0.2 - p.z()));
+    return std::max(p.head<2>().norm() - radius_mm, std::max(p.z() - top_mm, top_mm - 4.0 - p.z()));
   };
 }
 
@@ -45,13 +45,15 @@ TEST(FindPlatter, FindsATiltedOne) {
   EXPECT_GT(platter->normal().dot(tilt.col(2)), std::cos(rad_from_deg(0.05)));
 }
 
-TEST(FindPlatter, TakesNoFlatTopForOne) {
-  // A flange: level, round, but its own side is below.
-  const Shape flange = [](const Eigen::Vector3d& p) {
-    return std::max(p.head<2>().norm() - 30.0, std::abs(p.z()) - 4.0);
-  };
+TEST(FindPlatter, TakesNoFlatPartForOne) {
+  const Shape foot = testing::box({30.0, 22.0, 4.0});  // level and at the bottom, but not round
   const Shape post = testing::box({8.0, 8.0, 15.0}, {0.0, 0.0, 15.0});
-  EXPECT_FALSE(find_platter(look_at(testing::both(flange, post)), small_lens()));
+  EXPECT_FALSE(find_platter(look_at(testing::both(foot, post)), small_lens()));
+}
+
+TEST(FindPlatter, TakesNoRoundShelfForOne) {
+  const Shape post = testing::box({10.0, 10.0, 20.0});
+  EXPECT_FALSE(find_platter(look_at(testing::both(disc(30.0, 10.0), post)), small_lens()));
 }
 
 TEST(FindPlatter, FindsNoneUnderASphere) {

@@ -14,7 +14,7 @@ namespace {
 
 struct Cloud {
   std::vector<Eigen::Vector3d> level;  ///< points whose normal is up
-  std::vector<double> heights;         ///< of all points
+  std::vector<Eigen::Vector3d> all;
   double sigma_mm = 0.0;
 };
 
@@ -33,7 +33,7 @@ Cloud gather(const ViewStore& views, const Lens& camera, double max_tilt_rad, co
     for (const auto& spot : pick_spots(plane_map(planes, rays, 16 * kSpots), kSpots)) {
       const Eigen::Vector3d point = object_from_rig * spot.point_mm.cast<double>();
       const Eigen::Vector3d normal = object_from_rig.linear() * spot.normal.cast<double>();
-      cloud.heights.push_back(point.z());
+      cloud.all.push_back(point);
       if (normal.z() > upright) cloud.level.push_back(point);
       sigmas.push_back(spot.sigma_mm);
     }
@@ -88,21 +88,30 @@ std::optional<double> lowest_level(const Cloud& cloud, std::size_t enough) {
   return std::nullopt;
 }
 
-/// Share of the directions about the axis that the outer half of the points fills.
-double roundness(const std::vector<Eigen::Vector3d>& points) {
-  std::vector<double> radii;
-  for (const auto& point : points)
-    radii.push_back(point.head<2>().norm());
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
+/// A disc about the axis: how far it reaches, and how much of a disc it is.
+struct Disc {
+  double radius_mm = 0.0;
+  double seen = 0.0;    ///< share of the directions about the axis in which it has a rim
+  double uneven = 1.0;  ///< by how much of the radius the rim varies, but for a tenth of it
+};
+
+Disc disc_of(const std::vector<Eigen::Vector3d>& points) {
   constexpr std::size_t kSectors = 36;
-  std::array<bool, kSectors> filled{};
+  std::array<double, kSectors> reach{};
   for (const auto& point : points) {
-    if (point.head<2>().norm() < *middle) continue;
     const double turn = std::atan2(point.y(), point.x()) / kTurn + 0.5;
-    filled[std::min(kSectors - 1, static_cast<std::size_t>(turn * kSectors))] = true;
+    double& sector = reach[std::min(kSectors - 1, static_cast<std::size_t>(turn * kSectors))];
+    sector = std::max(sector, point.head<2>().norm());
   }
-  return static_cast<double>(std::count(filled.begin(), filled.end(), true)) / kSectors;
+  std::sort(reach.begin(), reach.end());
+  Disc disc;
+  disc.radius_mm = reach[kSectors / 2];
+  const auto at_rim =
+      std::count_if(reach.begin(), reach.end(), [&](double r) { return r > 0.9 * disc.radius_mm; });
+  disc.seen = static_cast<double>(at_rim) / kSectors;
+  const std::size_t tenth = kSectors / 10;
+  disc.uneven = (reach[kSectors - 1 - tenth] - disc.radius_mm) / disc.radius_mm;
+  return disc;
 }
 
 }  // namespace
@@ -113,7 +122,7 @@ std::optional<Plane> find_platter(const ViewStore& views,
                                   const Run& run) {
   const Cloud cloud = gather(views, camera, options.max_tilt_rad, run);
   const auto enough =
-      static_cast<std::size_t>(options.min_share * static_cast<double>(cloud.heights.size()));
+      static_cast<std::size_t>(options.min_share * static_cast<double>(cloud.all.size()));
   const auto height = lowest_level(cloud, std::max<std::size_t>(enough, 50));
   if (!height) return std::nullopt;
   Plane plane(Eigen::Vector3d::UnitZ(), -*height);
@@ -123,15 +132,17 @@ std::optional<Plane> find_platter(const ViewStore& views,
     if (on_it.size() < std::max<std::size_t>(enough, 50)) return std::nullopt;
     plane = fit(on_it);
   }
-  const double below_mm =
-      plane.offset() / -plane.normal().z() - std::max(1.0, 6.0 * cloud.sigma_mm);
-  const auto below = std::count_if(
-      cloud.heights.begin(), cloud.heights.end(), [&](double z) { return z < below_mm; });
+  const Disc disc = disc_of(on_it);
+  const double margin_mm = std::max(1.0, 6.0 * cloud.sigma_mm);
+  const auto below =
+      std::count_if(cloud.all.begin(), cloud.all.end(), [&](const Eigen::Vector3d& p) {
+        return plane.signedDistance(p) < -margin_mm && p.head<2>().norm() < 0.9 * disc.radius_mm;
+      });
   const bool bottom =
       static_cast<double>(below) <= options.max_below * static_cast<double>(on_it.size());
   const bool level = plane.normal().z() > std::cos(options.max_tilt_rad);
-  if (!bottom || !level || roundness(on_it) < options.min_round) return std::nullopt;
-  return plane;
+  const bool round = disc.seen >= options.min_round && disc.uneven < options.max_uneven;
+  return bottom && level && round ? std::optional(plane) : std::nullopt;
 }
 
 }  // namespace frangia
