@@ -28,8 +28,19 @@ struct Questioner {
     float u = 0.0F;
     float v = 0.0F;
     lens.project(p.x(), p.y(), p.z(), u, v);
+    if (!(p.z() > 0.0F)) return;
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
-    if (quad == nullptr || !(p.z() > 0.0F)) return;
+    if (quad == nullptr) {
+      // Half a pixel beside the last quad, where that is not far on the surface.
+      constexpr float kRim = 0.25F;  // of the weight: what lies further in is better known
+      constexpr float kFlattest = 0.5F;
+      const LocalPlanes::Plane* pixel = view.pixel_at(u, v);
+      if (pixel != nullptr && pixel->window != WindowKind::Small &&
+          -pixel->normal.dot(p) > kFlattest * p.norm()) {
+        support(evidence, {p, pixel->normal, pixel->normal.dot(p) + pixel->through_mm, kRim * pixel->weight}, outward);
+      }
+      return;
+    }
     const float chord = (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
     if (chord < -2.0F * near_mm) return;  // hidden behind what the view saw
     const bool smooth = quad->kind == LocalPlanes::Kind::Smooth;
@@ -38,11 +49,7 @@ struct Questioner {
                : view.nearest_face(u, v, p);
     const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
-      const Eigen::Vector3f normal = rotation.transpose() * plane.normal;
-      const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];
-      if (along < kBack) return;
-      const float cosine = -plane.normal.dot(p) / p.norm();
-      add(face_for(evidence, normal), normal, distance, {quad->weight, cosine, p.z()});
+      support(evidence, {p, plane.normal, distance, quad->weight}, outward);
     } else if (distance > through_mm && is_clear(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
       evidence.against += quad->weight / (cosine * cosine);
@@ -74,29 +81,34 @@ struct Questioner {
     return evidence.faces[agreement(evidence.faces[1]) > first ? 1 : 0];
   }
 
-  struct Pixel {
+  /// What a view says about a point of the rig frame.
+  struct Word {
+    const Eigen::Vector3f& point;
+    const Eigen::Vector3f& normal;
+    float distance_mm;
     float weight;
-    float cosine;
-    float depth_mm;
   };
 
-  void add(Evidence::Face& face,
-           const Eigen::Vector3f& normal,
-           float distance,
-           const Pixel& pixel) const {
-    const float ratio = distance / near_mm;
+  void support(Evidence& evidence, const Word& word, int outward) const {
+    if (!(std::abs(word.distance_mm) < near_mm)) return;
+    const Eigen::Vector3f normal = rotation.transpose() * word.normal;
+    const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];
+    if (along < kBack) return;
+    const float ratio = word.distance_mm / near_mm;
     const float trust = (1.0F - ratio * ratio) * (1.0F - ratio * ratio);  // Tukey's biweight
-    const float w = pixel.weight * trust;
-    const float cosine2 = pixel.cosine * pixel.cosine;
+    const float w = word.weight * trust;
+    const float cosine = -word.normal.dot(word.point) / word.point.norm();
+    const float cosine2 = cosine * cosine;
     constexpr float kInterpolated = 4.0F / 9.0F;  // of a pixel's variance, after interpolation
-    const float variance = kInterpolated * cosine2 * cosine2 / pixel.weight;
+    const float variance = kInterpolated * cosine2 * cosine2 / word.weight;
+    Evidence::Face& face = face_for(evidence, normal);
     face.weight += w;
     face.weight_squared += w * w;
-    face.offset += w * distance;
-    face.offset_squared += w * distance * distance;
+    face.offset += w * word.distance_mm;
+    face.offset_squared += w * word.distance_mm * word.distance_mm;
     face.noise += w * variance;
     face.noise_squared += w * w * variance;
-    face.spacing += w * pixel.depth_mm * pixel_rad / std::sqrt(pixel.cosine);
+    face.spacing += w * word.point.z() * pixel_rad / std::sqrt(cosine);
     face.normal += w * normal;
     ++face.views;
   }

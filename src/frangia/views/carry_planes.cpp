@@ -38,6 +38,7 @@ void carry_on(LocalPlanes& view, int reach_px) {
       for (const auto& [dx, dy] : kBeside) {
         if (!view.has_plane(rim[i].x() + dx, rim[i].y() + dy)) continue;
         carried[i] = view.planes(rim[i].x() + dx, rim[i].y() + dy);
+        carried[i].weight = 0.0F;
         break;
       }
     }

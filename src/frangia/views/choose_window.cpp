@@ -59,13 +59,15 @@ ChosenWindow choose_window(const Image<float>& image,
   constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
   const float good = kFits * noise * noise;
   const WindowFit& centred = fits.at(at.x(), at.y());
-  if (centred.variance < good) return {centred, true};
+  if (centred.variance < good) return {centred, WindowKind::Centred};
+  const WindowFit close = small_fit(image, at.x(), at.y());
+  if (close.variance < good) return {close, WindowKind::Centred};
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
   const auto off = [&](const WindowFit& fit) { return std::abs(fit.mean - image(at.x(), at.y())); };
-  if (large.variance < good && off(large) < kFarthest * noise) return {large, false};
+  if (large.variance < good && off(large) < kFarthest * noise) return {large, WindowKind::Beside};
   const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
-  if (off(small) < kFarthest * noise) return {small, false};
-  return {kNoFit, false};
+  if (off(small) < kFarthest * noise) return {small, WindowKind::Small};
+  return {kNoFit, WindowKind::None};
 }
 
 }  // namespace frangia

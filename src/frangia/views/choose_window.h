@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Core>
 
 #include "frangia/views/fit_windows.h"
@@ -22,14 +24,18 @@ struct WindowRows {
   Image<WindowFit> fits;
 };
 
+/// About the pixel, so that its slope is that at the pixel, curved or not; beside it; or of 3 x 3
+/// pixels.
+enum class WindowKind : std::uint8_t { None, Centred, Beside, Small };
+
 struct ChosenWindow {
   WindowFit fit;
-  bool centred = false;  ///< about the pixel: its slope is that at the pixel, curved or not
+  WindowKind kind = WindowKind::None;
 };
 
-/// The plane that an image follows at a pixel, never rounded off by what lies across an edge: the
-/// window about the pixel when it fits as well as noise allows, else the best of those that hold
-/// the pixel, else the best of 3 x 3 pixels.
+/// The plane that an image follows at a pixel, never rounded off by what lies across an edge: that
+/// of the window about the pixel when it fits as well as noise allows, else of 3 x 3 pixels about
+/// it, else of the best window that holds the pixel, large or small.
 ///
 /// shape    one pixel, in one of the rows; `noise` is its standard deviation
 /// missing  NaN where the pixel lies off even the best plane: there the image is rougher than its

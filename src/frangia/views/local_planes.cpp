@@ -71,9 +71,15 @@ bool has(const Grid& grid, int x, int y, Link link) {
   return x >= 0 && y >= 0 && (grid.links(x, y) & link) != 0;
 }
 
+/// Inverse depth and its standard deviation.
+struct Pixel {
+  float q;
+  float noise;
+};
+
 /// The plane through a pixel's point, from q and its slope over the image.
 LocalPlanes::Plane plane_of(const ChosenWindow& chosen,
-                            float q,
+                            const Pixel& pixel,
                             const FastLens& lens,
                             const Eigen::Vector2f& ray) {
   const WindowFit& fit = chosen.fit;
@@ -81,7 +87,16 @@ LocalPlanes::Plane plane_of(const ChosenWindow& chosen,
       lens.jacobian(ray).transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
   const Eigen::Vector3f abc(ab.x(), ab.y(), fit.mean - ab.dot(ray));
   const float distance = 1.0F / abc.norm();
-  return {-distance * abc, distance, distance * (fit.mean / q), chosen.centred};
+  const float cosine = distance * pixel.q;
+  // Beside a rim or an edge neither slope nor pixel is what it is in the middle of a face.
+  constexpr float kDoubt = 2.0F;
+  const float doubt = chosen.kind == WindowKind::Centred ? 1.0F : kDoubt;
+  const float sigma_mm = doubt * pixel.noise / (pixel.q * pixel.q);
+  return {-distance * abc,
+          distance,
+          distance * (fit.mean / pixel.q),
+          cosine * cosine / (sigma_mm * sigma_mm),
+          chosen.kind};
 }
 
 /// The corners of quad (x, y).
@@ -133,21 +148,14 @@ LocalPlanes::Quad quad_of(const Grid& grid,
     return view.has_plane(corner.x(), corner.y());
   });
   if (!whole) return {};
-  float distance = 0.0F;
-  float q = 0.0F;
-  float variance = 0.0F;
+  LocalPlanes::Quad quad;
   for (const auto& corner : corners) {
-    const float noise = grid.noise(corner.x(), corner.y());
-    distance += 0.25F * view.planes(corner.x(), corner.y()).distance_mm;
-    q += 0.25F * grid.q(corner.x(), corner.y());
-    variance += 0.25F * noise * noise;
+    quad.distance_mm += 0.25F * view.planes(corner.x(), corner.y()).distance_mm;
+    quad.weight += 0.25F * view.planes(corner.x(), corner.y()).weight;
   }
-  const float cosine = q * distance;
-  const float sigma2 = variance / (q * q * q * q);
-  return {distance,
-          cosine * cosine / sigma2,
-          is_smooth(view.planes, x, y, crease_cosine) ? LocalPlanes::Kind::Smooth
-                                                      : crease_of(view, rays, x, y)};
+  quad.kind = is_smooth(view.planes, x, y, crease_cosine) ? LocalPlanes::Kind::Smooth
+                                                          : crease_of(view, rays, x, y);
+  return quad;
 }
 
 }  // namespace
@@ -177,7 +185,7 @@ LocalPlanes local_planes(const View& view,
         if (std::isnan(grid.q(x, y))) continue;
         const ChosenWindow chosen = choose_window(grid.q, fits, {x, y}, grid.noise(x, y));
         if (std::isnan(chosen.fit.mean)) continue;
-        out.planes(x, y) = plane_of(chosen, grid.q(x, y), lens, rays(x, y));
+        out.planes(x, y) = plane_of(chosen, {grid.q(x, y), grid.noise(x, y)}, lens, rays(x, y));
       }
     }
   });

@@ -8,6 +8,7 @@
 
 #include "frangia/core/image.h"
 #include "frangia/rig/lens.h"
+#include "frangia/views/choose_window.h"
 #include "frangia/views/view.h"
 
 namespace frangia {
@@ -37,7 +38,8 @@ struct LocalPlanes {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
     float distance_mm = 0.0F;                          ///< from the camera's centre
     float through_mm = 0.0F;  ///< the same of the parallel plane through the pixel's own point
-    bool centred = false;     ///< from a window about the pixel, not beside it
+    float weight = 0.0F;      ///< cos(incidence)^2 / sigma^2, in 1/mm^2; 0 of one carried on
+    WindowKind window = WindowKind::None;  ///< that it was fitted over
 
     [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
       return normal.dot(point) + distance_mm;
@@ -46,7 +48,7 @@ struct LocalPlanes {
   enum class Kind : std::uint8_t { Unseen, Beside, Smooth, Ridge, Valley };
   struct Quad {
     float distance_mm = 0.0F;  ///< of its plane from the camera's centre
-    float weight = 0.0F;       ///< cos(incidence)^2 / sigma^2, in 1/mm^2
+    float weight = 0.0F;       ///< mean of the corners'
     Kind kind = Kind::Unseen;
   };
 
@@ -73,6 +75,16 @@ struct LocalPlanes {
   [[nodiscard]] const Quad* quad_at(float u, float v) const {
     const Quad* quad = quad_or_beside(u, v);
     return quad != nullptr && quad->kind == Kind::Beside ? nullptr : quad;
+  }
+
+  /// The plane of the pixel whose square (u, v) falls into, when it has one of its own: what is
+  /// half a pixel beside the last quad was seen, too.
+  [[nodiscard]] const Plane* pixel_at(float u, float v) const {
+    const bool within = u > -0.5F && v > -0.5F && u < static_cast<float>(planes.width()) - 0.5F &&
+                        v < static_cast<float>(planes.height()) - 0.5F;
+    if (!within) return nullptr;
+    const Plane& plane = planes(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F));
+    return plane.weight > 0.0F ? &plane : nullptr;
   }
 
   /// Inverse depth between the pixels of a quad.

@@ -21,7 +21,7 @@ PlaneMap plane_map(const LocalPlanes& view, const CameraRays& camera, std::size_
       if (x >= view.quads.width() || y >= view.quads.height()) continue;
       const LocalPlanes::Quad& quad = view.quads(x, y);
       const LocalPlanes::Plane& plane = view.planes(x, y);
-      if (quad.kind != LocalPlanes::Kind::Smooth || !plane.centred) continue;
+      if (quad.kind != LocalPlanes::Kind::Smooth || plane.window != WindowKind::Centred) continue;
       const Eigen::Vector3f ray = camera.rays(x, y).homogeneous();
       const Eigen::Vector3f point = ray / view.inverse_depth(x, y);
       const float cosine = -plane.normal.dot(point) / point.norm();
