@@ -160,6 +160,39 @@ TEST(PasteViews, ClipsBelowAHeight) {
     EXPECT_GT(vertex.z(), 9.0F);
 }
 
+TEST(PasteViews, ClipsBeyondARadius) {
+  const Shape truth = testing::sphere(50.0);
+  const Mesh mesh = paste_views(snapshots(truth, small_lens(), all_around(8, kDistance)),
+                                small_lens(),
+                                {.max_radius_mm = 30.0});
+  ASSERT_FALSE(mesh.empty());
+  for (const auto& vertex : mesh.vertices_mm)
+    EXPECT_LT(vertex.head<2>().norm(), 31.0F);
+}
+
+TEST(PasteViews, RefusesToClipEverything) {
+  const ViewStore views = snapshots(testing::sphere(50.0), small_lens(), all_around(3, kDistance));
+  EXPECT_THROW(
+      static_cast<void>(paste_views(views, small_lens(), {.min_z_mm = 60.0, .clip_below = true})),
+      Error);
+}
+
+TEST(PasteViews, RefusesVoxelsThatDoNotFitAndNamesASizeThatDoes) {
+  const ViewStore views = snapshots(testing::sphere(50.0), small_lens(), all_around(3, kDistance));
+  double fits_mm = 0.0;
+  try {
+    static_cast<void>(paste_views(views, small_lens(), {.voxel_mm = 0.05, .max_memory_mb = 100}));
+    FAIL() << "0.05 mm voxels of a sphere of 50 mm do not fit into 100 MB";
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    ASSERT_NE(what.find("voxels of 0.05 mm need"), std::string::npos) << what;
+    fits_mm = std::stod(what.substr(what.rfind("voxels of ") + 10));
+  }
+  EXPECT_GT(fits_mm, 0.2);
+  const Mesh mesh = paste_views(views, small_lens(), {.voxel_mm = fits_mm, .max_memory_mb = 100});
+  EXPECT_GT(mesh.triangles.size(), 10000U);
+}
+
 TEST(PasteViews, DropsSmallParts) {
   const Shape scene = testing::both(testing::sphere(30.0), testing::sphere(4.0, {45.0, 0.0, 0.0}));
   const ViewStore views = snapshots(scene, small_lens(), all_around(8, kDistance));

@@ -37,7 +37,9 @@ struct Questioner {
       const LocalPlanes::Plane* pixel = view.pixel_at(u, v);
       if (pixel != nullptr && pixel->window != WindowKind::Small &&
           -pixel->normal.dot(p) > kFlattest * p.norm()) {
-        support(evidence, {p, pixel->normal, pixel->normal.dot(p) + pixel->through_mm, kRim * pixel->weight}, outward);
+        support(evidence,
+                {p, pixel->normal, pixel->normal.dot(p) + pixel->through_mm, kRim * pixel->weight},
+                outward);
       }
       return;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "frangia/surface/mesh_quads.h"
 #include "frangia/surface/place_vertices.h"
 #include "frangia/surface/tidy_mesh.h"
+#include "frangia/surface/voxel_budget.h"
 #include "frangia/views/local_planes.h"
 
 namespace frangia {
@@ -33,14 +35,21 @@ double choose_voxel(const Sampling& sampling, const PasteOptions& options, const
   return voxel_mm;
 }
 
-void clip(View& view, const CameraRays& camera, double min_z_mm) {
+bool clips(const PasteOptions& options) {
+  return options.clip_below || std::isfinite(options.max_radius_mm);
+}
+
+void clip(View& view, const CameraRays& camera, const PasteOptions& options) {
   const Eigen::Isometry3f object_from_rig = view.rig_from_object.inverse().cast<float>();
-  const auto lowest = static_cast<float>(min_z_mm);
+  const auto lowest = options.clip_below ? static_cast<float>(options.min_z_mm)
+                                         : -std::numeric_limits<float>::infinity();
+  const auto widest = static_cast<float>(options.max_radius_mm);
   Image<float>& depth = view.range.depth_mm;
   parallel_rows(depth.height(), [&](int y) {
     for (int x = 0; x < depth.width(); ++x) {
-      const Eigen::Vector3f point = depth(x, y) * camera.rays(x, y).homogeneous();
-      if ((object_from_rig * point).z() < lowest) depth(x, y) = kMissing;
+      const Eigen::Vector3f point =
+          object_from_rig * (depth(x, y) * camera.rays(x, y).homogeneous());
+      if (point.z() < lowest || point.head<2>().norm() > widest) depth(x, y) = kMissing;
     }
   });
 }
@@ -54,7 +63,7 @@ void for_each_view(const ViewStore& views,
   LocalPlanes planes;
   for (std::size_t i = 0; i < views.size(); ++i) {
     View view = views.load(i);
-    if (options.clip_below) clip(view, camera, options.min_z_mm);
+    if (clips(options)) clip(view, camera, options);
     planes = local_planes(view, camera, how, std::move(planes));
     use(planes);
   }
@@ -70,6 +79,8 @@ Mesh paste_views(const ViewStore& views,
   const Sampling sampling = measure_sampling(views, rays, run);
   require(sampling.points > 0, "no view holds a point: there is no surface to paste");
   const double voxel_mm = choose_voxel(sampling, options, run);
+  const VoxelBudget budget = voxel_budget(voxel_mm, options.max_memory_mb);
+  budget.check(sampling, views.size());
   const double noise_mm = 4.0 * sampling.sigma_mm;
   const Band band{
       voxel_mm, 3.0 * voxel_mm + noise_mm, 2.0 * voxel_mm + noise_mm, 0.5 * voxel_mm + noise_mm};
@@ -81,8 +92,11 @@ Mesh paste_views(const ViewStore& views,
   field.voxel_mm = voxel_mm;
   for_each_view(views, rays, options, {.reach_px = reach_px}, [&](const LocalPlanes& view) {
     add_view(field, view, rays, band);
+    budget.check(static_cast<double>(field.blocks.size()));
     run.report(done += step);
   });
+  require(!field.blocks.empty(),
+          "every point of the views is clipped: there is no surface to paste");
   const Crossings crossings = find_crossings(field);
   field = {};
 

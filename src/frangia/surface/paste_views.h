@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "frangia/core/run.h"
 #include "frangia/rig/lens.h"
@@ -15,6 +16,9 @@ struct PasteOptions {
   double min_z_mm =
       0.0;  ///< nothing below this height of the object frame, when `clip_below` is set
   bool clip_below = false;
+  double max_radius_mm =
+      std::numeric_limits<double>::infinity();  ///< nothing farther from the axis
+  std::size_t max_memory_mb = 0;  ///< of the surface while it is made; 0 is half of the machine's
   std::size_t min_part_triangles = 100;  ///< smaller parts, not joined to others, are dropped
 };
 
@@ -27,7 +31,9 @@ struct PasteOptions {
 /// Memory holds one view and the surface.
 /// units    mm, object frame
 /// missing  where no view saw the surface the mesh stays open: nothing is invented
-/// errors   Error(Input) when no view holds a point
+/// errors   Error(Input) when no view holds a point, when all of them are clipped, and when the
+/// voxels
+///          would need more memory than there is: then it names a size that fits
 /// source   signed distance in a hashed grid: Curless & Levoy 1996, Niessner et al. 2013; vertices:
 ///          Ju et al. 2002
 [[nodiscard]] Mesh paste_views(const ViewStore& views,
