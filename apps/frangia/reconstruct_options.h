@@ -9,7 +9,7 @@ namespace frangia {
 /// The options of `reconstruct` that `decode` has too.
 inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
   verb.add_option(
-          "--algorithm", options.algorithm, "phase-shift algorithm: auto, schwider, least-squares")
+          "--algorithm", options.algorithm, "phase-shift algorithm: auto, or one of `frangia algorithms`")
       ->capture_default_str();
   verb.add_option("--max-sigma",
                   options.wrap.max_sigma_rad,

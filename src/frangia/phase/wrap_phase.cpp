@@ -31,7 +31,8 @@ struct Tile {
   alignas(64) std::array<float, kTile> sine;
   alignas(64) std::array<float, kTile> cosine;
   alignas(64) std::array<float, kTile> mean;
-  alignas(64) std::array<float, kTile> top;  ///< brightest of the frames
+  alignas(64) std::array<float, kTile> top;    ///< brightest of the frames
+  alignas(64) std::array<float, kTile> outer;  ///< Carré's second difference
 };
 
 struct Weights {
@@ -59,6 +60,24 @@ FRANGIA_VECTORISED void add_frame(const T* counts, std::size_t n, Weights w, Til
     tile.cosine[i] += w.cosine * value;
     tile.mean[i] += w.mean * value;
     tile.top[i] = value > tile.top[i] ? value : tile.top[i];
+  }
+}
+
+template <typename T>
+FRANGIA_VECTORISED void add_outer(const T* counts, std::size_t n, float weight, Tile& tile) {
+  for (std::size_t i = 0; i < n; ++i)
+    tile.outer[i] += weight * static_cast<float>(counts[i]);
+}
+
+/// Carré's sine from its two differences, and both turned back by the angle of `c` and `s`.
+FRANGIA_VECTORISED void finish_carre(std::size_t n, float c, float s, Tile& tile) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float u = tile.sine[i];
+    const float square = (3.0F * u - tile.outer[i]) * (u + tile.outer[i]);
+    const float size = std::sqrt(square > 0.0F ? square : 0.0F);
+    const float sine = u < 0.0F ? -size : size;
+    tile.sine[i] = sine * c - tile.cosine[i] * s;
+    tile.cosine[i] = tile.cosine[i] * c + sine * s;
   }
 }
 
@@ -150,6 +169,10 @@ Finish finish_of(const FrameStack& stack,
     cosine_gain += algorithm.cosine[k] * algorithm.cosine[k];
     cross_gain += algorithm.sine[k] * algorithm.cosine[k];
   }
+  if (!algorithm.outer.empty()) {  // not linear: the mean over the fringe
+    sine_gain = cosine_gain = algorithm.noise_gain * algorithm.noise_gain;
+    cross_gain = 0.0;
+  }
   return {.white = static_cast<float>(stack.white_level),
           .variance_floor = static_cast<float>(noise.floor_counts2),
           .variance_slope = static_cast<float>(noise.slope_counts),
@@ -157,6 +180,23 @@ Finish finish_of(const FrameStack& stack,
           .cosine_gain = static_cast<float>(cosine_gain),
           .cross_gain = static_cast<float>(cross_gain),
           .max_sigma = options.max_sigma_rad};
+}
+
+void add_carre(const FrameStack& stack,
+               const PhaseAlgorithm& algorithm,
+               std::size_t at,
+               std::size_t n,
+               Tile& tile) {
+  tile.outer.fill(0.0F);
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    const auto weight = static_cast<float>(algorithm.outer[k]);
+    std::visit([&](const auto& image) { add_outer(image.pixels().data() + at, n, weight, tile); },
+               stack.frames[k]);
+  }
+  finish_carre(n,
+               static_cast<float>(std::cos(algorithm.turn_rad)),
+               static_cast<float>(std::sin(algorithm.turn_rad)),
+               tile);
 }
 
 }  // namespace
@@ -192,6 +232,7 @@ WrappedPhase wrap_phase(const FrameStack& stack,
             [&](const auto& image) { add_frame(image.pixels().data() + at, n, weights, tile); },
             stack.frames[k]);
       }
+      if (!algorithm.outer.empty()) add_carre(stack, algorithm, at, n, tile);
       finish_tile(tile,
                   n,
                   finish,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/fit_algorithm.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/phase_range.h"
 
@@ -60,8 +61,8 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   out.noise = rig.camera.noise ? *rig.camera.noise : estimate_noise(stacks);
   for (const FrameStack* stack : fringes) {
     run.check();
-    const PhaseAlgorithm algorithm = choose_algorithm(options.algorithm, stack->pattern);
-    out.wrapped.push_back(wrap_phase(*stack, algorithm, out.noise, options.wrap));
+    const FittedAlgorithm fitted = fit_algorithm(options.algorithm, *stack, out.noise, run);
+    out.wrapped.push_back(wrap_phase(*stack, fitted.algorithm, out.noise, options.wrap));
   }
   if (is_absolute(out.wrapped.front().pattern, rig.projector)) {
     out.phase = unwrap_in_time(out.wrapped, rig.projector, options.in_time);

@@ -22,7 +22,7 @@
 namespace frangia {
 
 struct DecodeOptions {
-  std::string algorithm = "auto";  ///< see `choose_algorithm`
+  std::string algorithm = "auto";  ///< see `fit_algorithm`
   WrapOptions wrap;
   TimeUnwrapOptions in_time;
   SpaceUnwrapOptions in_space;
