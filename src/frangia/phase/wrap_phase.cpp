@@ -14,15 +14,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-
-// A function for the newest instruction set that the machine has, chosen when the program starts.
-// Sanitizers run before the choice is made, so they get the plain one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define FRANGIA_VECTORISED __attribute__((target_clones("avx2", "default")))
-#else
-#define FRANGIA_VECTORISED
-#endif
+#include "frangia/core/vectorised.h"
 
 namespace frangia {
 namespace {
