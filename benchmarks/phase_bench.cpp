@@ -48,10 +48,8 @@ void unwrap_space(benchmark::State& state) {
   static_cast<void>(one_core());
   const auto side = static_cast<int>(std::sqrt(static_cast<double>(state.range(0)) * 1e6));
   const FrameStack stack = testing::benchmark_frames(side, side);
-  const WrappedPhase wrapped = wrap_phase(stack,
-                                          make_algorithm("schwider", stack.pattern.shifts_rad),
-                                          {0.5, 0.02},
-                                          {.max_sigma_rad = 0.5F});
+  const WrappedPhase wrapped =
+      wrap_phase(stack, make_algorithm("schwider", stack.pattern.shifts_rad), {0.5, 0.02});
   for (auto iteration : state) {
     static_cast<void>(iteration);
     state.PauseTiming();
