@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/recover_saturated.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/phase_range.h"
 
@@ -42,6 +46,22 @@ double crossing_distance(const Pattern& pattern, const Rig& rig) {
   return intersect({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
 }
 
+/// One pattern's frames to its wrapped phase, and what is to be said of them.
+void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
+  const FittedAlgorithm fitted = fit_algorithm(options.algorithm, taken, out.noise, run);
+  FrameStack recovered;
+  if (options.recover_saturated) {
+    recovered = taken;
+    const std::size_t pixels = recover_saturated(recovered);
+    run.note(fmt::format(
+        "pattern \"{}\": one saturated frame of {} pixels recovered", taken.pattern.name, pixels));
+  }
+  const FrameStack& stack = options.recover_saturated ? recovered : taken;
+  out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
+  out.verdicts.push_back(judge_frames(stack, fitted, out.wrapped.back(), out.noise));
+  run.note(in_words(out.verdicts.back()));
+}
+
 }  // namespace
 
 bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
@@ -60,8 +80,7 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   out.noise = rig.camera.noise ? *rig.camera.noise : estimate_noise(stacks);
   for (const FrameStack* stack : fringes) {
     run.check();
-    const PhaseAlgorithm algorithm = choose_algorithm(options.algorithm, stack->pattern);
-    out.wrapped.push_back(wrap_phase(*stack, algorithm, out.noise, options.wrap));
+    wrap(*stack, options, run, out);
   }
   if (is_absolute(out.wrapped.front().pattern, rig.projector)) {
     out.phase = unwrap_in_time(out.wrapped, rig.projector, options.in_time);
