@@ -59,7 +59,6 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
   const FrameStack& stack = options.recover_saturated ? recovered : taken;
   out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
   out.verdicts.push_back(judge_frames(stack, fitted, out.wrapped.back(), out.noise));
-  run.note(in_words(out.verdicts.back()));
 }
 
 }  // namespace
