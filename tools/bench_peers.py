@@ -80,6 +80,7 @@ def main(folder):
         cv2.setNumThreads(1)
         parameters = cv2.structured_light_SinusoidalPattern_Params()
         parameters.height, parameters.width = side, side
+        parameters.nbrOfPeriods, parameters.horizontal = 40, False
         parameters.methodId = cv2.structured_light.PSP
         parameters.setMarkers = False
         pattern = cv2.structured_light.SinusoidalPattern_create(parameters)

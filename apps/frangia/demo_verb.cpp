@@ -96,7 +96,7 @@ void measure(const Scan& scan, const Mesh& truth, Act& act, const Run& run) {
   act.error = surface_error(act.result.mesh, truth_scene, {}, run);
   act.coverage = surface_coverage(
       truth_scene, mesh_scene, SeenFrom{scan.rig, poses}, {.within_mm = kWithin_mm}, run);
-  ShadeOptions shade{.width_px = 900, .height_px = 900};
+  ShadeOptions shade{.width_px = 720, .height_px = 720, .samples_across = 3};
   act.pictures.push_back(shade_mesh(act.result.mesh, shade, run));
   shade.values = vertex_errors_mm(act.result.mesh, truth_scene, run);
   shade.value_min = -kErrorScale_mm;

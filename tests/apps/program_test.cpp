@@ -23,7 +23,7 @@ struct Answer {
 };
 
 Answer run_program(const std::string& arguments) {
-  const std::string command = fmt::format("{} {} 2>&1", FRANGIA_PROGRAM, arguments);
+  const std::string command = fmt::format("{{ {} {}; }} 2>&1", FRANGIA_PROGRAM, arguments);
   Answer answer;
   std::FILE* pipe = ::popen(command.c_str(), "r");  // NOLINT(cert-env33-c)
   std::array<char, 4096> buffer{};
@@ -65,8 +65,9 @@ TEST_F(Program, SimulatesAndReconstructsToEveryFormat) {
 
 TEST_F(Program, AnswersMachinesInJson) {
   simulate();
-  const Answer answer =
-      run_program("--json reconstruct " + quoted(scan()) + " -o " + quoted(out("a.ply")));
+  // Warnings go to standard error: whoever reads standard output gets JSON alone.
+  const Answer answer = run_program("--json reconstruct " + quoted(scan()) + " -o " +
+                                    quoted(out("a.ply")) + " 2>/dev/null");
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_EQ(answer.output.front(), '{') << answer.output;
   EXPECT_NE(answer.output.find("\"triangles\""), std::string::npos);
@@ -89,7 +90,7 @@ TEST_F(Program, SaysUsageErrorsWithTwo) {
 }
 
 TEST_F(Program, ShowsAnExampleInTheHelpOfEveryVerb) {
-  for (const char* verb : {"demo", "simulate", "reconstruct", "decode"}) {
+  for (const char* verb : {"demo", "simulate", "reconstruct", "decode", "inspect"}) {
     const Answer answer = run_program(fmt::format("{} --help", verb));
     EXPECT_EQ(answer.exit_code, 0);
     EXPECT_NE(answer.output.find(fmt::format("frangia {}", verb)), std::string::npos) << verb;

@@ -1,91 +1,193 @@
 #include "frangia/surface/paste_views.h"
 
 #include <cmath>
-#include <map>
+#include <cstring>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include "support/analytic_views.h"
+#include "support/mesh_checks.h"
 
 namespace frangia {
 namespace {
 
 using testing::all_around;
 using testing::around_table;
-using testing::both;
+using testing::Edges;
 using testing::Shape;
 using testing::small_lens;
+using testing::Snapshot;
 using testing::snapshots;
+using testing::VertexErrors;
 
-constexpr double kRadius = 50.0;
 constexpr double kDistance = 650.0;
 
-double rms(const Mesh& mesh, const Shape& truth) {
-  double sum = 0.0;
-  for (const auto& vertex : mesh.vertices_mm) {
-    const double error = truth(vertex.cast<double>());
-    sum += error * error;
-  }
-  return std::sqrt(sum / static_cast<double>(mesh.vertices_mm.size()));
-}
+/// A box turned so that nothing of it is along the grid.
+struct TurnedBox {
+  Eigen::Vector3d half_mm{24.0, 20.0, 16.0};
+  Eigen::Matrix3d box_from_object =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).matrix();
 
-double volume_of(const Mesh& mesh) {
-  double volume = 0.0;
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices_mm[t[0]].cast<double>();
-    const Eigen::Vector3d b = mesh.vertices_mm[t[1]].cast<double>();
-    volume += a.dot(b.cross(mesh.vertices_mm[t[2]].cast<double>())) / 6.0;
-  }
-  return volume;
-}
-
-/// How often each directed edge is used; in a manifold once, and once the other way unless at a
-/// rim.
-struct Edges {
-  std::size_t repeated = 0;
-  std::size_t open = 0;
-
-  explicit Edges(const Mesh& mesh) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;
-    for (const auto& t : mesh.triangles) {
-      for (std::size_t i = 0; i < 3; ++i)
-        ++count[{t[i], t[(i + 1) % 3]}];
-    }
-    for (const auto& [edge, times] : count) {
-      repeated += times > 1 ? 1U : 0U;
-      open += count.count({edge.second, edge.first}) == 0 ? 1U : 0U;
-    }
+  [[nodiscard]] Shape shape() const {
+    return [box = testing::box(half_mm), turn = box_from_object](const Eigen::Vector3d& p) {
+      return box(turn * p);
+    };
   }
 };
 
 TEST(PasteViews, MakesAClosedSphereMoreExactThanItsPoints) {
-  const Mesh mesh = paste_views(
-      snapshots(testing::sphere(kRadius), small_lens(), all_around(12, kDistance)), small_lens());
+  const Shape truth = testing::sphere(50.0);
+  const Mesh mesh =
+      paste_views(snapshots(truth, small_lens(), all_around(12, kDistance)), small_lens());
   const Edges edges(mesh);
   EXPECT_EQ(edges.repeated, 0U);
   EXPECT_EQ(edges.open, 0U);
-  EXPECT_NEAR(volume_of(mesh) / (4.0 / 3.0 * kPi * std::pow(kRadius, 3)), 1.0, 1e-3);
-  EXPECT_LT(rms(mesh, testing::sphere(kRadius)), 0.007);  // of points with 0.02 mm
+  EXPECT_NEAR(testing::volume_mm3(mesh) / (4.0 / 3.0 * kPi * std::pow(50.0, 3)), 1.0, 1e-3);
+  EXPECT_LT(VertexErrors(mesh, truth).rms_mm, 0.005);  // of points with 0.02 mm
 }
 
 TEST(PasteViews, StaysOpenWhereNothingWasSeen) {
-  const Mesh mesh = paste_views(
-      snapshots(testing::sphere(kRadius), small_lens(), around_table(6, 0.5, kDistance)),
-      small_lens());
+  const Shape truth = testing::sphere(50.0);
+  const Mesh mesh =
+      paste_views(snapshots(truth, small_lens(), around_table(6, 0.5, kDistance)), small_lens());
   const Edges edges(mesh);
   EXPECT_EQ(edges.repeated, 0U);
   EXPECT_GT(edges.open, 100U);
-  EXPECT_LT(rms(mesh, testing::sphere(kRadius)), 0.01);
+  EXPECT_LT(VertexErrors(mesh, truth).rms_mm, 0.01);
+}
+
+TEST(PasteViews, KeepsTheEdgesOfABoxSharp) {
+  const TurnedBox box;
+  const double voxel_mm = 0.6;
+  const Mesh mesh = paste_views(snapshots(box.shape(), small_lens(), all_around(16, kDistance)),
+                                small_lens(),
+                                {.voxel_mm = voxel_mm});
+  EXPECT_EQ(Edges(mesh).repeated, 0U);
+  int near = 0;
+  int all = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 4; ++side) {
+      for (double t = -0.95; t < 0.95; t += 0.06) {
+        Eigen::Vector3d place(t, t, t);
+        place[(axis + 1) % 3] = side % 2 == 0 ? -1.0 : 1.0;
+        place[(axis + 2) % 3] = side / 2 == 0 ? -1.0 : 1.0;
+        const Eigen::Vector3d edge =
+            box.box_from_object.transpose() * place.cwiseProduct(box.half_mm);
+        near += testing::mesh_distance(mesh, edge, 3.0 * voxel_mm) < 0.2 * voxel_mm ? 1 : 0;
+        ++all;
+      }
+    }
+  }
+  // Marching cubes rounds edges off by a third of a voxel and more.
+  EXPECT_GT(near, 0.95 * all) << near << " of " << all;
+}
+
+TEST(PasteViews, PredictsItsErrors) {
+  const Shape truth = testing::sphere(50.0);
+  const Mesh mesh =
+      paste_views(snapshots(truth, small_lens(), all_around(12, kDistance)), small_lens());
+  EXPECT_GT(VertexErrors(mesh, truth).rms_sigmas, 0.8);
+  EXPECT_LT(VertexErrors(mesh, truth).rms_sigmas, 1.25);
+}
+
+TEST(PasteViews, DoesNotAverageAwayWhatAWholeViewIsOffBy) {
+  const Shape truth = testing::sphere(50.0);
+  ViewStore views;
+  Snapshot how;
+  for (const auto& pose : all_around(12, kDistance)) {
+    View view = testing::snapshot(truth, small_lens(), pose, how);
+    const float off_mm = how.seed % 2 == 0 ? 0.03F : -0.03F;
+    for (float& depth : view.range.depth_mm.pixels())
+      depth += off_mm;
+    views.add(view);
+    ++how.seed;
+  }
+  const Mesh mesh = paste_views(views, small_lens());
+  EXPECT_GT(VertexErrors(mesh, truth).rms_sigmas, 0.6);
+  EXPECT_LT(VertexErrors(mesh, truth).rms_sigmas, 1.4);
+}
+
+TEST(PasteViews, SpinsNoWebAcrossADepthStep) {
+  const Shape scene =
+      testing::both(testing::sphere(12.0, {0.0, 0.0, 20.0}), testing::floor_at(0.0));
+  const Mesh mesh =
+      paste_views(snapshots(scene, small_lens(), around_table(6, 0.9, kDistance)), small_lens());
+  EXPECT_GT(mesh.triangles.size(), 10000U);
+  EXPECT_LT(VertexErrors(mesh, scene).max_mm, 0.3);
+}
+
+TEST(PasteViews, VotesOutAPatchThatOtherViewsSeeThrough) {
+  const Shape truth = testing::sphere(50.0);
+  ViewStore views = snapshots(truth, small_lens(), all_around(12, kDistance));
+  View lying = views.load(0);
+  for (int y = 120; y < 160; ++y) {
+    for (int x = 120; x < 160; ++x)
+      lying.range.depth_mm(x, y) -= 4.0F;  // a fringe off
+  }
+  views.replace(0, lying);
+  const Mesh mesh = paste_views(views, small_lens());
+  EXPECT_LT(VertexErrors(mesh, truth).max_mm, 0.3);
+  EXPECT_EQ(Edges(mesh).open, 0U);
+}
+
+TEST(PasteViews, GivesTheSameBytesForAnyNumberOfThreads) {
+  const ViewStore views = snapshots(TurnedBox{}.shape(), small_lens(), all_around(5, kDistance));
+  const auto paste = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return paste_views(views, small_lens());
+  };
+  const Mesh one = paste(1);
+  const Mesh two = paste(2);
+  EXPECT_EQ(one.triangles, two.triangles);
+  ASSERT_EQ(one.vertices_mm.size(), two.vertices_mm.size());
+  EXPECT_EQ(std::memcmp(one.vertices_mm.data(),
+                        two.vertices_mm.data(),
+                        one.vertices_mm.size() * sizeof(one.vertices_mm[0])),
+            0);
+  EXPECT_EQ(one.sigma_mm, two.sigma_mm);
+}
+
+TEST(PasteViews, ClipsBelowAHeight) {
+  const Shape truth = testing::sphere(50.0);
+  const Mesh mesh = paste_views(snapshots(truth, small_lens(), all_around(8, kDistance)),
+                                small_lens(),
+                                {.min_z_mm = 10.0, .clip_below = true});
+  ASSERT_FALSE(mesh.empty());
+  for (const auto& vertex : mesh.vertices_mm)
+    EXPECT_GT(vertex.z(), 9.0F);
+}
+
+TEST(PasteViews, DropsSmallParts) {
+  const Shape scene = testing::both(testing::sphere(30.0), testing::sphere(4.0, {45.0, 0.0, 0.0}));
+  const ViewStore views = snapshots(scene, small_lens(), all_around(8, kDistance));
+  const auto farthest = [&](std::size_t min_part_triangles) {
+    const Mesh mesh = paste_views(views, small_lens(), {.min_part_triangles = min_part_triangles});
+    float most = 0.0F;
+    for (const auto& vertex : mesh.vertices_mm)
+      most = std::max(most, vertex.x());
+    return most;
+  };
+  EXPECT_GT(farthest(0), 48.0F);
+  EXPECT_LT(farthest(2000), 31.0F);
+}
+
+TEST(PasteViews, NotesTheVoxelItChose) {
+  const ViewStore views = snapshots(testing::sphere(50.0), small_lens(), all_around(4, kDistance));
+  std::vector<std::string> notes;
+  frangia::Run run;
+  run.on_note = [&](const std::string& note) { notes.push_back(note); };
+  static_cast<void>(paste_views(views, small_lens(), {}, run));
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes[0].find("sampled every"), std::string::npos) << notes[0];
 }
 
 TEST(PasteViews, RefusesViewsWithoutAPoint) {
-  View empty{{Image<float>(300, 300, kMissing), Image<float>(300, 300, kMissing)}, {}};
-  ViewStore store;
-  store.add(empty);
-  EXPECT_THROW(static_cast<void>(paste_views(store, small_lens())), Error);
+  ViewStore views;
+  views.add({{Image<float>(300, 300, kMissing), Image<float>(300, 300, kMissing)}, {}});
+  EXPECT_THROW(static_cast<void>(paste_views(views, small_lens())), Error);
 }
 
 }  // namespace

@@ -5,59 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/missing.h"
-#include "frangia/range/fringe_ray.h"
-#include "frangia/rig/paper_rig.h"
+
+#include "views/ball_views.h"
 
 namespace frangia {
 namespace {
 
-const Pattern kPattern{.name = "fringe", .fringes_per_degree = 1.0};
-
-/// A ball on the turntable's axis, seen from several angles; what one view has of it may be loose.
-struct Ball {
-  Rig rig = make_paper_rig({.columns = 160, .rows = 160});
-  Image<Eigen::Vector2f> rays;
-  double radius_mm = 45.0;
-
-  Ball() {
-    rig.camera.lens.focal_px.setConstant(600.0);
-    rig.camera.lens.principal_point_px = {80.0, 80.0};
-    rig.turntable = Turntable{.point_mm = {0.0, 0.0, 490.0}, .axis = {0.0, -1.0, 0.0}};
-    rays = rays_of(rig.camera.lens);
-  }
-  [[nodiscard]] View view(double angle_rad) const {
-    View out;
-    out.rig_from_object = rig.rig_from_object(angle_rad);
-    out.range = {Image<float>(160, 160, kMissing), Image<float>(160, 160, kMissing)};
-    const Eigen::Vector3d centre = rig.turntable->point_mm;
-    for (std::size_t i = 0; i < rays.pixels().size(); ++i) {
-      const Eigen::Vector3d d(rays.pixels()[i].x(), rays.pixels()[i].y(), 1.0);
-      const double b = d.dot(centre) / d.squaredNorm();
-      const double c = (centre.squaredNorm() - radius_mm * radius_mm) / d.squaredNorm();
-      if (b * b < c * 1.0005) continue;
-      out.range.depth_mm.pixels()[i] = static_cast<float>(b - std::sqrt(b * b - c));
-      out.range.sigma_mm.pixels()[i] = 0.05F;
-    }
-    return out;
-  }
-  /// The whole of a view as a region with `fringes` too few, and an empty view in its place.
-  LoosePart loosen(View& view, std::size_t index, int fringes) const {
-    LoosePart part{.view = index};
-    for (std::size_t i = 0; i < rays.pixels().size(); ++i) {
-      float& depth = view.range.depth_mm.pixels()[i];
-      if (std::isnan(depth)) continue;
-      const Eigen::Vector3d point =
-          depth * Eigen::Vector3d(rays.pixels()[i].x(), rays.pixels()[i].y(), 1.0);
-      part.region.pixel.push_back(static_cast<std::uint32_t>(i));
-      part.region.phase_rad.push_back(
-          static_cast<float>(phase_at(point, kPattern, rig.projector) - kTurn * fringes));
-      part.region.sigma_rad.push_back(0.02F);
-      depth = kMissing;
-    }
-    return part;
-  }
-};
+using testing::Ball;
+using testing::kBallPattern;
 
 TEST(AnchorByViews, PutsALooseRegionWhereItsNeighboursSawIt) {
   const Ball ball;
@@ -68,7 +23,7 @@ TEST(AnchorByViews, PutsALooseRegionWhereItsNeighboursSawIt) {
     if (i == 2) loose.push_back(ball.loosen(view, 2, 4));
     views.add(view);
   }
-  const auto result = anchor_by_views(views, loose, kPattern, ball.rig, ball.rays);
+  const auto result = anchor_by_views(views, loose, kBallPattern, ball.rig, ball.rays);
   EXPECT_EQ(result.dropped_points, 0U);
   EXPECT_EQ(result.anchored_points, loose[0].region.pixel.size());
   const View anchored = views.load(2);
@@ -86,7 +41,7 @@ TEST(AnchorByViews, DropsWhatNoOtherViewConfirms) {
   View only = ball.view(0.0);
   const std::vector<LoosePart> loose = {ball.loosen(only, 0, 1)};
   views.add(only);
-  const auto result = anchor_by_views(views, loose, kPattern, ball.rig, ball.rays);
+  const auto result = anchor_by_views(views, loose, kBallPattern, ball.rig, ball.rays);
   EXPECT_EQ(result.anchored_points, 0U);
   EXPECT_EQ(result.dropped_points, loose[0].region.pixel.size());
 }
@@ -95,7 +50,7 @@ TEST(AnchorByViews, HasNothingToDoWithoutLooseRegions) {
   const Ball ball;
   ViewStore views;
   views.add(ball.view(0.0));
-  const auto result = anchor_by_views(views, {}, kPattern, ball.rig, ball.rays);
+  const auto result = anchor_by_views(views, {}, kBallPattern, ball.rig, ball.rays);
   EXPECT_EQ(result.anchored_points + result.dropped_points, 0U);
 }
 

@@ -44,7 +44,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   Reconstruction out;
   ViewStore views;
   std::vector<LoosePart> loose;
-  Pattern loose_pattern;
+  Pattern coarsest;
+  bool unwrapped_in_space = false;
   const auto rays = rays_of(scan.rig.camera.lens);
 
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
@@ -64,20 +65,28 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     }
     for (LooseRegion& region : decoded.loose)
       loose.push_back({views.size(), std::move(region)});
-    loose_pattern = decoded.wrapped.front().pattern;
+    coarsest = decoded.wrapped.front().pattern;
+    unwrapped_in_space = decoded.relative.has_value();
     views.add({std::move(range), scan.rig.rig_from_object(scan.views[i].angle_rad)});
     out.points += points;
   }
 
   run.stage("views");
   const auto anchored =
-      anchor_by_views(views, loose, loose_pattern, scan.rig, rays, options.anchor_by_views, run);
+      anchor_by_views(views, loose, coarsest, scan.rig, rays, options.anchor_by_views, run);
   out.points += anchored.anchored_points;
   if (anchored.dropped_points > 0) {
     run.warn(
         fmt::format("{} points lie in regions whose fringe neither the plane of light nor "
                     "another view tells, and are dropped",
                     anchored.dropped_points));
+  }
+  if (unwrapped_in_space) {
+    const std::size_t moved =
+        reconcile_views(views, coarsest, scan.rig, rays, options.reconcile, run);
+    if (moved > 0)
+      run.note(
+          fmt::format("{} points moved by whole fringes to where the other views agree", moved));
   }
   out.views = views.size();
   if (out.points == 0) {

@@ -9,6 +9,7 @@
 #include "frangia/surface/mesh.h"
 #include "frangia/surface/paste_views.h"
 #include "frangia/views/anchor_by_views.h"
+#include "frangia/views/reconcile_views.h"
 
 namespace frangia {
 
@@ -16,6 +17,7 @@ struct ReconstructOptions {
   DecodeOptions decode;
   EdgeOptions edges;
   AnchorByViewsOptions anchor_by_views;
+  ReconcileOptions reconcile;
   PasteOptions paste;
 };
 

@@ -27,7 +27,7 @@ void make_folder(const std::filesystem::path& folder) {
 /// Says in the folder that a simulation is under way, or was interrupted: only then are images that
 /// lie there already ours to replace.
 std::filesystem::path claim(const std::filesystem::path& folder) {
-  const std::filesystem::path mark = folder / "simulation-not-finished";
+  std::filesystem::path mark = folder / "simulation-not-finished";
   make_folder(folder);
   if (!std::filesystem::is_empty(folder) && !std::filesystem::exists(mark)) {
     throw Error(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace {
 
 std::vector<double> even_shifts(int count) {
   std::vector<double> shifts;
+  shifts.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     shifts.push_back(kTurn * i / count);
   return shifts;

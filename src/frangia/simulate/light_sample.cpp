@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far a shadow ray starts off the surface: more than the rounding of single precision.
-constexpr double kStepOff_mm = 2e-3;
+/// How far a shadow ray starts off the surface, mm: more than the rounding of single precision.
+constexpr double kStepOff = 2e-3;
 
 double lattice_value(const Eigen::Vector3i& cell) {
   std::uint64_t stream = 0x7E47;
@@ -95,7 +95,7 @@ LightSample sample_light(const SimulatedScene& scene,
   const Vector3d normal = side * shading_normal(scene, *hit);
   const double cosine = normal.dot(way);
   if (cosine <= 0.0 || side * hit->normal.dot(way) <= 0.0) return sample;
-  if (scene.surface.occluded(point + side * kStepOff_mm * hit->normal, light)) return sample;
+  if (scene.surface.occluded(point + side * kStepOff * hit->normal, light)) return sample;
 
   const double nearness = scene.working_distance_mm / distance;
   const double irradiance = nearness * nearness;

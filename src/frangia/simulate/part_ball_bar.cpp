@@ -15,7 +15,7 @@ constexpr int kRings = 180;  ///< from the post to the pole
 
 /// The post and the ball on it, above the base; returns the post's foot.
 Loop add_post_and_ball(SolidBuilder& solid, const Eigen::Vector3d& center) {
-  const Loop foot = circle({center.x(), center.y(), kBaseTop}, kPostRadius, kRound);
+  Loop foot = circle({center.x(), center.y(), kBaseTop}, kPostRadius, kRound);
   const double first = std::asin(kPostRadius / kBallRadius);  // polar angle, from below
   const auto ring = [&](int i) {
     const double polar = first + (kPi - first) * i / kRings;

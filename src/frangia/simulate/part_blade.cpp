@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -23,17 +26,17 @@ struct Corner {
 };
 
 /// One flank of the fir tree, from its foot up to the platform.
-constexpr Corner kFlank[] = {{5.0, 0.0, 1.2},
-                             {8.6, 3.4, 1.2},
-                             {8.6, 5.2, 1.2},
-                             {5.2, 8.4, 1.0},
-                             {5.2, 9.6, 1.0},
-                             {11.2, 13.4, 1.3},
-                             {11.2, 15.4, 1.3},
-                             {7.2, 18.8, 1.2},
-                             {7.2, 21.0, 2.0},
-                             {kHalfWidth, 24.0, 0.0},
-                             {kHalfWidth, kPlatformTop, 0.0}};
+constexpr std::array<Corner, 11> kFlank{{{5.0, 0.0, 1.2},
+                                         {8.6, 3.4, 1.2},
+                                         {8.6, 5.2, 1.2},
+                                         {5.2, 8.4, 1.0},
+                                         {5.2, 9.6, 1.0},
+                                         {11.2, 13.4, 1.3},
+                                         {11.2, 15.4, 1.3},
+                                         {7.2, 18.8, 1.2},
+                                         {7.2, 21.0, 2.0},
+                                         {kHalfWidth, 24.0, 0.0},
+                                         {kHalfWidth, kPlatformTop, 0.0}}};
 
 /// The arc that rounds the corner b between a and c.
 void append_rounded(std::vector<Eigen::Vector2d>& line,
@@ -59,7 +62,7 @@ void append_rounded(std::vector<Eigen::Vector2d>& line,
 
 /// The root's outline from the platform's edge at -y, round the foot, to the edge at +y.
 std::vector<Eigen::Vector2d> root_outline() {
-  constexpr std::size_t kLast = std::size(kFlank) - 1;
+  constexpr std::size_t kLast = kFlank.size() - 1;
   std::vector<Eigen::Vector2d> right;
   for (std::size_t i = 0; i <= kLast; ++i) {
     const Eigen::Vector2d before = i == 0 ? Eigen::Vector2d(-kFlank[0].y, kFlank[0].z)
@@ -67,9 +70,9 @@ std::vector<Eigen::Vector2d> root_outline() {
     const Corner& next = kFlank[std::min(i + 1, kLast)];
     append_rounded(right, before, kFlank[i], {next.y, next.z});
   }
-  std::vector<Eigen::Vector2d> line;
-  for (auto p = right.rbegin(); p != right.rend(); ++p)
-    line.emplace_back(-p->x(), p->y());
+  std::vector<Eigen::Vector2d> line(right.rbegin(), right.rend());
+  for (auto& p : line)
+    p.x() = -p.x();
   line.insert(line.end(), right.begin(), right.end());
   return line;
 }

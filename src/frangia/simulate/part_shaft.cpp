@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,17 +14,17 @@ struct Ring {
 };
 
 /// The turned outline below and above the seat of the key, with a chamfer at each edge.
-constexpr Ring kBelow[] = {{17, 0},
-                           {18, 1},
-                           {18, 18},
-                           {22, 18},
-                           {22, 21},
-                           {25, 21},
-                           {26, 22},
-                           {26, 37},
-                           {25, 38},
-                           {18, 38}};
-constexpr Ring kAbove[] = {{17, 80}, {13, 80}, {13, 83}, {14, 83}, {14, 99}, {13, 100}};
+constexpr std::array<Ring, 10> kBelow{{{17, 0},
+                                       {18, 1},
+                                       {18, 18},
+                                       {22, 18},
+                                       {22, 21},
+                                       {25, 21},
+                                       {26, 22},
+                                       {26, 37},
+                                       {25, 38},
+                                       {18, 38}}};
+constexpr std::array<Ring, 6> kAbove{{{17, 80}, {13, 80}, {13, 83}, {14, 83}, {14, 99}, {13, 100}}};
 constexpr double kSeatRadius = 18.0;
 constexpr double kSeatLow = 38.0;
 constexpr double kSeatHigh = 79.0;

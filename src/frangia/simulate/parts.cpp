@@ -24,6 +24,7 @@ constexpr std::array<std::pair<std::string_view, Maker>, 6> kParts{{{"shaft", ma
 
 std::vector<std::string> part_names() {
   std::vector<std::string> names;
+  names.reserve(kParts.size());
   for (const auto& part : kParts)
     names.emplace_back(part.first);
   return names;

@@ -18,7 +18,8 @@
 namespace frangia {
 namespace {
 
-enum Stream : std::uint64_t { kSpeckle = 11, kFrame };
+constexpr std::uint64_t kSpeckleStream = 11;
+constexpr std::uint64_t kFrameStream = 12;
 
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t value = 0;
@@ -57,7 +58,7 @@ std::vector<Shot> shots_of(const Pattern& pattern,
                            const SimulateOptions& options) {
   std::vector<Shot> shots(static_cast<std::size_t>(pattern.frame_count()));
   for (std::size_t i = 0; i < shots.size(); ++i) {
-    const std::uint64_t place = hash(hash(hash(options.seed, kFrame), view.index), i);
+    const std::uint64_t place = hash(hash(hash(options.seed, kFrameStream), view.index), i);
     shots[i].stream = hash(place, hash_of(pattern.name));
     if (pattern.kind == PatternKind::Line) continue;
     const double shift = pattern.shifts_rad[i] * (1.0 + options.step_error) +
@@ -103,24 +104,21 @@ class ViewRenderer {
       : scene_(scene),
         options_(scene.options),
         pose_(true_pose(scene, view)),
-        across_(static_cast<int>(std::ceil(std::sqrt(options_.samples_per_px)))) {
+        across_(static_cast<int>(std::ceil(std::sqrt(options_.samples_per_px)))),
+        samples_per_px_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_)) {
     if (options_.speckle > 0.0) {
       speckle_ =
           speckle_of(scene.rays.width(),
                      scene.rays.height(),
-                     hash(hash(options_.seed, kSpeckle), view.index),
+                     hash(hash(options_.seed, kSpeckleStream), view.index),
                      {options_.speckle, options_.speckle_grain_px, options_.speckle_correlation});
     }
-  }
-
-  [[nodiscard]] std::size_t samples_per_px() const {
-    return static_cast<std::size_t>(across_ * across_);
   }
 
   /// All samples of one row, those of a pixel together.
   [[nodiscard]] std::vector<LightSample> row_of_samples(int y) const {
     std::vector<LightSample> samples;
-    samples.reserve(static_cast<std::size_t>(scene_.rays.width()) * samples_per_px());
+    samples.reserve(static_cast<std::size_t>(scene_.rays.width()) * samples_per_px_);
     const Lens& lens = scene_.rig.camera.lens;
     for (int x = 0; x < scene_.rays.width(); ++x) {
       const Eigen::Vector2d center = scene_.rays(x, y).cast<double>();
@@ -130,10 +128,11 @@ class ViewRenderer {
         ray_from_px =
             lens.distort_jacobian(center).inverse() * lens.focal_px.cwiseInverse().asDiagonal();
       }
-      for (int i = 0; i < across_ * across_; ++i) {
-        const Eigen::Vector2d offset((i % across_ + 0.5) / across_ - 0.5,
-                                     (i / across_ + 0.5) / across_ - 0.5);
-        samples.push_back(sample_light(scene_, pose_, center + ray_from_px * offset));
+      for (int row = 0; row < across_; ++row) {
+        for (int column = 0; column < across_; ++column) {
+          const Eigen::Vector2d offset((column + 0.5) / across_ - 0.5, (row + 0.5) / across_ - 0.5);
+          samples.push_back(sample_light(scene_, pose_, center + ray_from_px * offset));
+        }
       }
     }
     return samples;
@@ -147,12 +146,9 @@ class ViewRenderer {
                 FrameStack& stack) const {
     std::vector<double> light(shots.size());
     for (int x = 0; x < scene_.rays.width(); ++x) {
-      const std::size_t first = static_cast<std::size_t>(x) * samples_per_px();
-      gather(stack.pattern,
-             {samples.data() + first, samples_per_px()},
-             shots,
-             speckle_at(x, y),
-             light);
+      const std::size_t first = static_cast<std::size_t>(x) * samples_per_px_;
+      gather(
+          stack.pattern, {samples.data() + first, samples_per_px_}, shots, speckle_at(x, y), light);
       const auto pixel = (static_cast<std::uint64_t>(y) << 32U) | static_cast<std::uint64_t>(x);
       for (std::size_t i = 0; i < shots.size(); ++i) {
         std::get<Image<T>>(stack.frames[i])(x, y) = static_cast<T>(
@@ -200,6 +196,7 @@ class ViewRenderer {
   const SimulateOptions& options_;
   Eigen::Isometry3d pose_;
   int across_;
+  std::size_t samples_per_px_;
   Image<Speckle> speckle_;
 };
 

@@ -13,6 +13,14 @@
 namespace frangia {
 namespace {
 
+/// The turntable's axis for a camera that looks down on the part, as one does to see its top;
+/// `forward` is where it looks, level.
+Eigen::Vector3d tilted_axis(const Eigen::Vector3d& forward) {
+  constexpr double kDown_rad = rad_from_deg(28.0);
+  const Eigen::Vector3d up = -std::cos(kDown_rad) * Eigen::Vector3d::UnitY();
+  return (up - std::sin(kDown_rad) * forward.normalized()).normalized();
+}
+
 Rig digital() {
   Rig rig;
   rig.camera.lens = {.width_px = 960,
@@ -28,7 +36,7 @@ Rig digital() {
   rig.projector.rotation << 0.931242779706, 0.0, -0.364399348581,  //
       -0.0147420196862, 0.999181334288, -0.0376740503092,          //
       0.364101027328, 0.0404556697031, 0.930480403172;
-  rig.turntable = Turntable{{3.5, 55.0, 496.0}, Eigen::Vector3d(0.008, -1.0, 0.011).normalized()};
+  rig.turntable = Turntable{{3.5, 50.0, 516.0}, tilted_axis({0.02, 0.0, 1.0})};
   return rig;
 }
 
@@ -69,7 +77,11 @@ Rig carducci() {
 Rig angular() {
   Rig rig = paper_rig(1000.0);
   rig.line = plane_of_light(rig.projector, rad_from_deg(20.5));
-  rig.turntable = Turntable{{3.5, 55.0, 496.0}, Eigen::Vector3d(0.008, -1.0, 0.011).normalized()};
+  // On the plane of light and leaning within it, so that the line crosses the part at every height.
+  const Eigen::Vector3d& normal = rig.line->normal;
+  const double z_mm = 516.0;
+  rig.turntable = Turntable{{(rig.line->offset_mm - normal.z() * z_mm) / normal.x(), 50.0, z_mm},
+                            tilted_axis(normal.cross(Eigen::Vector3d::UnitY()))};
   return rig;
 }
 
@@ -82,6 +94,7 @@ constexpr std::array<std::pair<std::string_view, Maker>, 3> kRigs{
 
 std::vector<std::string> rig_preset_names() {
   std::vector<std::string> names;
+  names.reserve(kRigs.size());
   for (const auto& rig : kRigs)
     names.emplace_back(rig.first);
   return names;

@@ -16,7 +16,8 @@
 namespace frangia {
 namespace {
 
-enum Stream : std::uint64_t { kAxis = 1, kAngle };
+constexpr std::uint64_t kAxisStream = 1;
+constexpr std::uint64_t kAngleStream = 2;
 
 /// The exposure keeps this share of white for the brightest diffuse pixel.
 constexpr double kBrightest = 0.8;
@@ -70,7 +71,7 @@ void check(const SimulateOptions& options, const Rig& rig) {
 /// The axis moved across itself and leaned, both in directions left to chance. Its point nearest to
 /// the given one is `point_mm`, as the scan format wants it of a refined axis.
 Turntable true_turntable(const Turntable& given, const SimulateOptions& options) {
-  const std::uint64_t stream = hash(options.seed, kAxis);
+  const std::uint64_t stream = hash(options.seed, kAxisStream);
   const Eigen::Vector3d u = given.axis.unitOrthogonal();
   const auto across = [](const Eigen::Vector3d& axis, const Eigen::Vector3d& from, double angle) {
     return Eigen::Vector3d(Eigen::AngleAxisd(angle, axis) * from);
@@ -124,7 +125,7 @@ double brightest_of(const SimulatedScene& scene, const SimulatedView& view) {
 
 Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view) {
   const double error = scene.options.angle_error_rad *
-                       normal_from(hash(hash(scene.options.seed, kAngle), view.index));
+                       normal_from(hash(hash(scene.options.seed, kAngleStream), view.index));
   return scene.rig.rig_from_object(view.angle_rad + error);
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 constexpr int kEdge = DistanceField::kEdge;
 
+/// Of a guess beside what was seen, in 1/mm^2: it counts where nobody knows better.
+constexpr float kBesideWeight = 1e-6F;
+
 /// Distance of a voxel from what a view saw, at the voxel's pixel.
 struct Sampler {
   const LocalPlanes& view;
@@ -27,17 +30,24 @@ struct Sampler {
         guess(static_cast<float>(band.guess_mm)) {}
 
   void add(DistanceField::Voxel& cell, float u, float v, const Eigen::Vector3f& point) const {
-    const LocalPlanes::Quad* quad = view.quad_at(u, v);
+    const LocalPlanes::Quad* quad = view.quad_or_beside(u, v);
     if (quad == nullptr || !(point.z() > 0.0F)) return;
-    float distance = (1.0F - point.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
-    if (quad->kind != LocalPlanes::Kind::Smooth)
+    float weight = quad->weight;
+    float distance = 0.0F;
+    if (quad->kind == LocalPlanes::Kind::Smooth) {
+      distance = (1.0F - point.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
+    } else if (quad->kind == LocalPlanes::Kind::Beside) {
+      distance = view.beside_mm(u, v, point);
+      weight = kBesideWeight;
+    } else {
       distance = view.nearest_face(u, v, point).in_front_mm(point);
+    }
     if (!(distance < front && distance > -back)) return;
     // Behind its surface a view can only guess: the object may be thin, or end beside the ray.
     const float depth = distance < 0.0F ? distance / guess : 0.0F;
     const float trust = 1.0F / ((1.0F + depth * depth) * (1.0F + depth * depth));
-    cell.weighted_mm += quad->weight * trust * distance;
-    cell.weight += quad->weight * trust;
+    cell.weighted_mm += weight * trust * distance;
+    cell.weight += weight * trust;
   }
 };
 
@@ -111,9 +121,9 @@ void add_box(KeySet& keys, const Eigen::Array3f& low, const Eigen::Array3f& high
   }
 }
 
-/// All blocks within a voxel of the segment.
+/// All blocks that hold the corners of cells around the segment.
 void add_along(KeySet& keys, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
-  constexpr float kMargin = 1.0F;
+  constexpr float kMargin = 1.75F;  // the corners of a cell are so far from a point in it
   const Eigen::Array3f low = from.cwiseMin(to).array() - kMargin;
   const Eigen::Array3f high = from.cwiseMax(to).array() + kMargin;
   const Eigen::Array3f block = (low * 0.125F).floor() * 8.0F;
@@ -166,7 +176,7 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
          y += stride) {
       for (int x = 0; x < view.quads.width(); x += stride) {
         const LocalPlanes::Quad& quad = view.quads(x, y);
-        if (quad.kind == LocalPlanes::Kind::Unseen) continue;
+        if (quad.kind <= LocalPlanes::Kind::Beside) continue;
         const float depth = 1.0F / view.inverse_depth(x, y);
         const Eigen::Vector3f ray(camera.rays(x, y).x(), camera.rays(x, y).y(), 1.0F);
         const Eigen::Vector3f point = origin + rotation * (depth * ray);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "frangia/core/parallel.h"
 #include "frangia/surface/fast_lens.h"
@@ -9,42 +10,13 @@
 namespace frangia {
 namespace {
 
-constexpr float kAgree = 0.8F;  // cosine between normals of one face
-constexpr float kBack = -0.3F;  // a normal that points so far inward is the back of a thin wall
-constexpr int kTile = 4;        // pixels; sight is clear when it is so over 3 x 3 tiles
-
-/// The nearest surface (largest inverse depth) within a tile of each pixel's tile and its
-/// neighbours.
-Image<float> nearest_of(const Image<float>& inverse_depth) {
-  const int width = (inverse_depth.width() + kTile - 1) / kTile;
-  const int height = (inverse_depth.height() + kTile - 1) / kTile;
-  Image<float> tiles(width, height);
-  parallel_rows(height, [&](int row) {
-    for (int y = row * kTile; y < std::min((row + 1) * kTile, inverse_depth.height()); ++y) {
-      for (int x = 0; x < inverse_depth.width(); ++x) {
-        tiles(x / kTile, row) = std::max(tiles(x / kTile, row), inverse_depth(x, y));
-      }
-    }
-  });
-  Image<float> nearest(width, height);
-  parallel_rows(height, [&](int row) {
-    for (int column = 0; column < width; ++column) {
-      float largest = 0.0F;
-      for (int y = std::max(0, row - 1); y <= std::min(height - 1, row + 1); ++y) {
-        for (int x = std::max(0, column - 1); x <= std::min(width - 1, column + 1); ++x) {
-          largest = std::max(largest, tiles(x, y));
-        }
-      }
-      nearest(column, row) = largest;
-    }
-  });
-  return nearest;
-}
+constexpr float kAgree = 0.8F;   // cosine between normals of one face
+constexpr float kBack = -0.3F;   // a normal that points so far inward is the back of a thin wall
+constexpr float kAround = 4.0F;  // pixels: sight is clear when it is so this far to all sides
 
 struct Questioner {
   const LocalPlanes& view;
   FastLens lens;
-  Image<float> nearest;
   Eigen::Matrix3f rotation;
   Eigen::Vector3f translation;
   float pixel_rad;
@@ -62,19 +34,32 @@ struct Questioner {
     const LocalPlanes::Plane& plane =
         smooth ? view.planes(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F))
                : view.nearest_face(u, v, p);
-    const float distance = smooth ? (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm
-                                  : plane.in_front_mm(p);
+    const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
       const Eigen::Vector3f normal = rotation.transpose() * plane.normal;
       const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];
       if (along < kBack) return;
       const float cosine = -plane.normal.dot(p) / p.norm();
       add(face_for(evidence, normal), normal, distance, {quad->weight, cosine, p.z()});
-    } else if (distance > through_mm) {
-      const float blocking = nearest(static_cast<int>(u) / kTile, static_cast<int>(v) / kTile);
-      if ((1.0F - p.z() * blocking) * quad->distance_mm > through_mm)
-        evidence.against += quad->weight;
+    } else if (distance > through_mm && is_clear(u, v, p)) {
+      const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
+      evidence.against += quad->weight / (cosine * cosine);
     }
+  }
+
+  /// Whether the point is as far in front of all that the view saw around it: beside a silhouette a
+  /// small error of the pose looks like sight through it.
+  [[nodiscard]] bool is_clear(float u, float v, const Eigen::Vector3f& point) const {
+    for (const auto& [right, down] :
+         {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}) {
+      const float x = u + kAround * static_cast<float>(right);
+      const float y = v + kAround * static_cast<float>(down);
+      const LocalPlanes::Quad* quad = view.quad_at(x, y);
+      if (quad == nullptr) continue;
+      const auto& plane = view.planes(static_cast<int>(x), static_cast<int>(y));
+      if (plane.in_front_mm(point) < 0.5F * through_mm) return false;
+    }
+    return true;
   }
 
   /// The face that slopes as the view says, or a new one.
@@ -131,7 +116,6 @@ void add_evidence(std::vector<Evidence>& evidence,
                   const EvidenceOptions& options) {
   const Questioner questioner{view,
                               FastLens(camera.lens),
-                              nearest_of(view.inverse_depth),
                               view.rig_from_object.linear().cast<float>(),
                               view.rig_from_object.translation().cast<float>(),
                               static_cast<float>(1.0 / camera.lens.focal_px.mean()),

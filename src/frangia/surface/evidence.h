@@ -32,7 +32,7 @@ struct Evidence {
   };
 
   std::array<Face, 2> faces;  ///< two where the point is near an edge of the object
-  float against = 0.0F;       ///< sum of w over the views that see through
+  float against = 0.0F;       ///< sum of 1/sigma^2 over the views that see through
   float common = 0.0F;        ///< variance that does not average away between neighbouring points
 
   [[nodiscard]] bool holds() const { return faces[0].weight + faces[1].weight > against; }

@@ -79,7 +79,6 @@ template <int kRadius>
 
 void fit_windows(const Image<float>& image, int radius, int first, Image<WindowFit>& fits) {
   require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
-  constexpr WindowFit kNone{kMissing, kMissing, kMissing, kMissing};
   const int width = image.width();
   RowOfFits found(width);
   for (int row = 0; row < fits.height(); ++row) {
@@ -93,7 +92,7 @@ void fit_windows(const Image<float>& image, int radius, int first, Image<WindowF
                                        found.slope_x[from],
                                        found.slope_y[from],
                                        found.variance[from]}
-                           : kNone;
+                           : kNoFit;
     }
   }
 }

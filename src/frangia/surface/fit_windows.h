@@ -1,6 +1,7 @@
 #pragma once
 
 #include "frangia/core/image.h"
+#include "frangia/core/missing.h"
 
 namespace frangia {
 
@@ -11,6 +12,9 @@ struct WindowFit {
   float slope_y = 0.0F;
   float variance = 0.0F;  ///< of the values about the plane
 };
+
+/// What a window has that cannot be fitted.
+inline constexpr WindowFit kNoFit{kMissing, kMissing, kMissing, kMissing};
 
 /// Least-squares planes over the (2 radius + 1)^2 window about each pixel of the rows from `first`
 /// on.

@@ -1,5 +1,6 @@
 #include "frangia/surface/local_planes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -7,8 +8,9 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/surface/carry_planes.h"
+#include "frangia/surface/choose_window.h"
 #include "frangia/surface/fast_lens.h"
-#include "frangia/surface/fit_windows.h"
 
 namespace frangia {
 namespace {
@@ -69,64 +71,16 @@ bool has(const Grid& grid, int x, int y, Link link) {
   return x >= 0 && y >= 0 && (grid.links(x, y) & link) != 0;
 }
 
-/// Mean of the linked differences to a pixel's two neighbours, NaN without any: for a pixel that no
-/// window holds.
-float slope_between(const Grid& grid, int x, int y, Link link) {
-  const int dx = link == kRight ? 1 : 0;
-  const int dy = 1 - dx;
-  float sum = 0.0F;
-  float count = 0.0F;
-  if (has(grid, x, y, link)) {
-    sum += grid.q(x + dx, y + dy) - grid.q(x, y);
-    ++count;
-  }
-  if (has(grid, x - dx, y - dy, link)) {
-    sum += grid.q(x, y) - grid.q(x - dx, y - dy);
-    ++count;
-  }
-  return sum / count;
-}
-
-/// The best window's plane at pixel (x, y), from fits that begin at row `first`.
-WindowFit choose_window(const Grid& grid,
-                        const Image<WindowFit>& fits,
-                        int first,
-                        int radius,
-                        const Eigen::Vector2i& at) {
-  constexpr float kNoiseFits = 2.0F;      // in variance: a centred window that fits so well is kept
-  constexpr float kClearlyBetter = 0.5F;  // than a centred one
-  const int x = at.x();
-  const int y = at.y();
-  const WindowFit& centred = fits(x, y - first);
-  const float noise = grid.noise(x, y);
-  if (centred.variance < kNoiseFits * noise * noise) return centred;
-  WindowFit best = centred;
-  float limit = std::isnan(centred.variance) ? 1e30F : kClearlyBetter * centred.variance;
-  for (const int dy : {-radius, 0, radius}) {
-    for (const int dx : {-radius, 0, radius}) {
-      if (x + dx < 0 || x + dx >= fits.width()) continue;
-      const WindowFit& shifted = fits(x + dx, y + dy - first);
-      if (!(shifted.variance < limit)) continue;
-      limit = shifted.variance;
-      best = shifted;
-      best.mean -=
-          static_cast<float>(dx) * shifted.slope_x + static_cast<float>(dy) * shifted.slope_y;
-    }
-  }
-  if (!std::isnan(best.mean)) return best;
-  return {
-      grid.q(x, y), slope_between(grid, x, y, kRight), slope_between(grid, x, y, kDown), kMissing};
-}
-
 /// The plane through a pixel's point, from q and its slope over the image.
 LocalPlanes::Plane plane_of(const WindowFit& fit,
+                            float q,
                             const FastLens& lens,
                             const Eigen::Vector2f& ray) {
   const Eigen::Vector2f ab =
       lens.jacobian(ray).transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
   const Eigen::Vector3f abc(ab.x(), ab.y(), fit.mean - ab.dot(ray));
   const float distance = 1.0F / abc.norm();
-  return {-distance * abc, distance};
+  return {-distance * abc, distance, distance * (fit.mean / q)};
 }
 
 /// The corners of quad (x, y).
@@ -173,10 +127,15 @@ LocalPlanes::Quad quad_of(const Grid& grid,
       !has(grid, x + 1, y, kDown)) {
     return {};
   }
+  const auto corners = corners_of(x, y);
+  const bool whole = std::all_of(corners.begin(), corners.end(), [&](const auto& corner) {
+    return view.has_plane(corner.x(), corner.y());
+  });
+  if (!whole) return {};
   float distance = 0.0F;
   float q = 0.0F;
   float variance = 0.0F;
-  for (const auto& corner : corners_of(x, y)) {
+  for (const auto& corner : corners) {
     const float noise = grid.noise(corner.x(), corner.y());
     distance += 0.25F * view.planes(corner.x(), corner.y()).distance_mm;
     q += 0.25F * grid.q(corner.x(), corner.y());
@@ -209,14 +168,15 @@ LocalPlanes local_planes(const View& view,
   const FastLens lens(camera.lens);
   constexpr std::size_t kRows = 32;
   parallel_chunks(static_cast<std::size_t>(height), kRows, [&](std::size_t begin, std::size_t end) {
-    const int first = static_cast<int>(begin) - options.radius;
-    Image<WindowFit> fits(width, static_cast<int>(end) + options.radius - first);
-    fit_windows(grid.q, options.radius, first, fits);
+    const WindowRows fits(
+        grid.q, options.radius, static_cast<int>(begin), static_cast<int>(end - begin));
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       for (int x = 0; x < width; ++x) {
+        out.planes(x, y) = {};
         if (std::isnan(grid.q(x, y))) continue;
-        const WindowFit fit = choose_window(grid, fits, first, options.radius, {x, y});
-        out.planes(x, y) = plane_of(fit, lens, rays(x, y));
+        const WindowFit fit = choose_window(grid.q, fits, {x, y}, grid.noise(x, y));
+        if (std::isnan(fit.mean)) continue;
+        out.planes(x, y) = plane_of(fit, grid.q(x, y), lens, rays(x, y));
       }
     }
   });
@@ -226,6 +186,7 @@ LocalPlanes local_planes(const View& view,
       out.quads(x, y) = quad_of(grid, out, rays, {x, y}, crease_cosine);
     }
   });
+  if (options.reach_px > 0) carry_planes(out, options.reach_px);
   return out;
 }
 

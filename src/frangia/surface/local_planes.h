@@ -1,7 +1,8 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -28,17 +29,20 @@ struct CameraRays {
 ///
 /// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
 /// units    mm, rig frame
-/// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Unseen
+/// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Beside what
+/// was
+///          seen, when a plane reaches there, or Unseen
 struct LocalPlanes {
   struct Plane {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
     float distance_mm = 0.0F;                          ///< from the camera's centre
+    float through_mm = 0.0F;  ///< the same of the parallel plane through the pixel's own point
 
     [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
       return normal.dot(point) + distance_mm;
     }
   };
-  enum class Kind : std::uint8_t { Unseen, Smooth, Ridge, Valley };
+  enum class Kind : std::uint8_t { Unseen, Beside, Smooth, Ridge, Valley };
   struct Quad {
     float distance_mm = 0.0F;  ///< of its plane from the camera's centre
     float weight = 0.0F;       ///< cos(incidence)^2 / sigma^2, in 1/mm^2
@@ -50,14 +54,24 @@ struct LocalPlanes {
   Image<Quad> quads;
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
 
-  /// The quad that pixel (u, v) falls into; null where it is unseen, outside the image, and for
-  /// NaN.
-  [[nodiscard]] const Quad* quad_at(float u, float v) const {
+  /// Whether (x, y) is a pixel with a plane.
+  [[nodiscard]] bool has_plane(int x, int y) const {
+    return x >= 0 && y >= 0 && x < planes.width() && y < planes.height() &&
+           planes(x, y).distance_mm > 0.0F;
+  }
+
+  /// The quad that pixel (u, v) falls into; null where nothing is, outside the image, and for NaN.
+  [[nodiscard]] const Quad* quad_or_beside(float u, float v) const {
     const bool within = u >= 0.0F && v >= 0.0F && u < static_cast<float>(quads.width()) &&
                         v < static_cast<float>(quads.height());
     if (!within) return nullptr;
     const Quad& quad = quads(static_cast<int>(u), static_cast<int>(v));
     return quad.kind == Kind::Unseen ? nullptr : &quad;
+  }
+  /// The same, null where nothing was seen.
+  [[nodiscard]] const Quad* quad_at(float u, float v) const {
+    const Quad* quad = quad_or_beside(u, v);
+    return quad != nullptr && quad->kind == Kind::Beside ? nullptr : quad;
   }
 
   /// Inverse depth between the pixels of a quad.
@@ -72,6 +86,25 @@ struct LocalPlanes {
     return upper + down * (lower - upper);
   }
 
+  /// A point's distance from the surface of a smooth quad, to second order: halfway between the
+  /// chords from corner to corner, which a curved surface leaves on one side, and the corners'
+  /// tangent planes, which it leaves as far on the other.
+  [[nodiscard]] float smooth_mm(float u, float v, const Eigen::Vector3f& point) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    const float right = u - static_cast<float>(x);
+    const float down = v - static_cast<float>(y);
+    const auto tangent = [&](const Plane& plane) {
+      return plane.normal.dot(point) + plane.through_mm;
+    };
+    const float upper = (1.0F - right) * tangent(planes(x, y)) + right * tangent(planes(x + 1, y));
+    const float lower =
+        (1.0F - right) * tangent(planes(x, y + 1)) + right * tangent(planes(x + 1, y + 1));
+    const float tangents = upper + down * (lower - upper);
+    const float chords = (1.0F - point.z() * inverse_depth_at(u, v)) * quads(x, y).distance_mm;
+    return 0.5F * (tangents + chords);
+  }
+
   /// Of a quad whose corners lie on several faces, the one that a point belongs to: the object is
   /// what all faces of a ridge have behind them, and what any face of a valley has.
   [[nodiscard]] const Plane& nearest_face(float u, float v, const Eigen::Vector3f& point) const {
@@ -84,11 +117,25 @@ struct LocalPlanes {
     }
     return *found;
   }
+
+  /// A point's distance from the nearest plane that reaches a quad beside what was seen.
+  [[nodiscard]] float beside_mm(float u, float v, const Eigen::Vector3f& point) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    float least = std::numeric_limits<float>::infinity();
+    for (const Plane* plane :
+         {&planes(x, y), &planes(x + 1, y), &planes(x, y + 1), &planes(x + 1, y + 1)}) {
+      const float distance = plane->in_front_mm(point);
+      if (plane->distance_mm > 0.0F && std::abs(distance) < std::abs(least)) least = distance;
+    }
+    return least;
+  }
 };
 
 struct LocalPlanesOptions {
   int radius = 2;           ///< of the windows, px
   double crease_rad = 0.3;  ///< neighbouring planes that differ by more belong to different faces
+  int reach_px = 0;         ///< how far planes are carried on beside what was seen
 };
 
 /// The local plane at each pixel, by least squares over a square window.

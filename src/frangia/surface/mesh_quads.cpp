@@ -11,9 +11,13 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/surface/cell_loops.h"
+#include "frangia/surface/collapse_slivers.h"
+#include "frangia/surface/flip_caps.h"
 
 namespace frangia {
 namespace {
+
+constexpr float kSliver = 0.1F;  // voxels: shorter edges are not worth their triangles
 
 /// The quad around one crossing. Side i lies between corners i and i + 1, on a face between two
 /// cells.
@@ -125,6 +129,7 @@ std::vector<Quad> find_quads(const Crossings& crossings, std::span<const Evidenc
 struct Cut {
   std::array<Mesh::Triangle, 2> triangles{};
   bool upright = true;   ///< neither triangle faces inward
+  bool folded = false;   ///< one does, and is more than a sliver
   float away_mm = 0.0F;  ///< of the cut's middle from the surface at the crossing
   float length_mm = 0.0F;
 };
@@ -133,6 +138,7 @@ struct Cut {
 struct Surface {
   Eigen::Hyperplane<float, 3> plane;
   Eigen::Vector3f outward;
+  float voxel_mm = 0.0F;
 };
 
 Surface surface_at(const Crossings& crossings, const Evidence& evidence, std::uint32_t crossing) {
@@ -141,7 +147,8 @@ Surface surface_at(const Crossings& crossings, const Evidence& evidence, std::ui
   const int axis = std::abs(crossings.outward[crossing]) - 1;
   const float sign = crossings.outward[crossing] > 0 ? 1.0F : -1.0F;
   return {{normal, crossings.points_mm[crossing] - normal * face.distance_mm()},
-          sign * Eigen::Vector3f::Unit(axis)};
+          sign * Eigen::Vector3f::Unit(axis),
+          static_cast<float>(crossings.voxel_mm)};
 }
 
 Cut cut_quad(const Mesh& mesh,
@@ -161,8 +168,9 @@ Cut cut_quad(const Mesh& mesh,
     const Eigen::Vector3f cross =
         (mesh.vertices_mm[triangle[1]] - origin).cross(mesh.vertices_mm[triangle[2]] - origin);
     // Against the edge of the grid, which a triangle within the cells never is, or the plane.
-    cut.upright = cut.upright &&
-                  (cross.dot(surface.outward) > 0.0F || cross.dot(surface.plane.normal()) > 0.0F);
+    const float facing = std::max(cross.dot(surface.outward), cross.dot(surface.plane.normal()));
+    cut.upright = cut.upright && facing > 0.0F;
+    cut.folded = cut.folded || facing < -kSliver * surface.voxel_mm * surface.voxel_mm;
   }
   return cut;
 }
@@ -172,6 +180,7 @@ Cut best_cut(const Mesh& mesh, const std::array<std::uint32_t, 4>& ring, const S
   const Cut one = cut_quad(mesh, ring, 0, surface);
   const Cut other = cut_quad(mesh, ring, 1, surface);
   constexpr float kAlike = 0.02F;  // of the cut's length
+  if (one.folded != other.folded) return one.folded ? other : one;
   if (one.upright != other.upright) return one.upright ? one : other;
   if (std::abs(one.away_mm - other.away_mm) > kAlike * (one.length_mm + other.length_mm)) {
     return one.away_mm < other.away_mm ? one : other;
@@ -246,7 +255,7 @@ Mesh mesh_quads(PlacedVertices vertices,
   for (int round = 0; round < kRounds; ++round) {
     bool folded = false;
     for (std::size_t i = 0; i < quads.size(); ++i) {
-      if (cuts[i].upright && quads[i].pinched == 0) continue;
+      if (!cuts[i].folded && quads[i].pinched == 0) continue;
       folded = true;
       for (const std::uint32_t v : quads[i].ring)
         mesh.vertices_mm[v] = vertices.within_mm[v];
@@ -261,6 +270,11 @@ Mesh mesh_quads(PlacedVertices vertices,
       mesh.triangles.push_back(triangle);
   }
   add_pinched(mesh, crossings, quads);
+  const auto sliver_mm = kSliver * static_cast<float>(crossings.voxel_mm);
+  for (int round = 0; round < kRounds; ++round) {
+    collapse_slivers(mesh, vertices.sharp, 2.0F * sliver_mm);
+    flip_caps(mesh, sliver_mm);
+  }
   return std::move(vertices.mesh);
 }
 

@@ -1,6 +1,7 @@
 #include "frangia/surface/paste_views.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -48,12 +49,13 @@ void clip(View& view, const CameraRays& camera, double min_z_mm) {
 void for_each_view(const ViewStore& views,
                    const CameraRays& camera,
                    const PasteOptions& options,
+                   const LocalPlanesOptions& how,
                    const std::function<void(const LocalPlanes&)>& use) {
   LocalPlanes planes;
   for (std::size_t i = 0; i < views.size(); ++i) {
     View view = views.load(i);
     if (options.clip_below) clip(view, camera, options.min_z_mm);
-    planes = local_planes(view, camera, {}, std::move(planes));
+    planes = local_planes(view, camera, how, std::move(planes));
     use(planes);
   }
 }
@@ -71,12 +73,13 @@ Mesh paste_views(const ViewStore& views,
   const double noise_mm = 4.0 * sampling.sigma_mm;
   const Band band{
       voxel_mm, 3.0 * voxel_mm + noise_mm, 2.0 * voxel_mm + noise_mm, 0.5 * voxel_mm + noise_mm};
+  const int reach_px = static_cast<int>(std::ceil(2.0 * voxel_mm / sampling.spacing_mm));
   const double step = 0.4 / static_cast<double>(views.size());
   double done = 0.0;
 
   DistanceField field;
   field.voxel_mm = voxel_mm;
-  for_each_view(views, rays, options, [&](const LocalPlanes& view) {
+  for_each_view(views, rays, options, {.reach_px = reach_px}, [&](const LocalPlanes& view) {
     add_view(field, view, rays, band);
     run.report(done += step);
   });
@@ -84,7 +87,7 @@ Mesh paste_views(const ViewStore& views,
   field = {};
 
   std::vector<Evidence> evidence(crossings.points_mm.size());
-  for_each_view(views, rays, options, [&](const LocalPlanes& view) {
+  for_each_view(views, rays, options, {}, [&](const LocalPlanes& view) {
     add_evidence(
         evidence, crossings, view, rays, {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
     run.report(done += step);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -135,18 +134,24 @@ struct Meeting {
   }
 };
 
+/// Whether the planes through the crossings are as good as parallel.
+bool is_flat(const Loop& loop) {
+  constexpr float kParallel = 0.97F;  // cosine: the second eigenvalue would be below kFlat
+  const Eigen::Vector3f normal = loop.normal();
+  return std::all_of(loop.planes.begin(),
+                     loop.planes.begin() + static_cast<std::ptrdiff_t>(loop.count),
+                     [&](const Plane& plane) { return plane.normal.dot(normal) > kParallel; });
+}
+
 /// The middle of planes that are as good as parallel, moved onto them.
 ///
 /// The plane through a point of a curved surface leaves it on one side, the point itself lies on
 /// the other side of the plane here: the mean of both normals makes up for the curvature.
-std::optional<Eigen::Vector3f> flat_place(const Loop& loop) {
-  constexpr float kParallel = 0.97F;  // cosine: the eigenvalues would be below kFlat
+Eigen::Vector3f flat_place(const Loop& loop) {
   const Eigen::Vector3f normal = loop.normal();
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < loop.count; ++i) {
-    if (loop.planes[i].normal.dot(normal) < kParallel) return std::nullopt;
+  for (std::size_t i = 0; i < loop.count; ++i)
     middle += loop.planes[i].point;
-  }
   middle /= static_cast<float>(loop.count);
   float offset = 0.0F;
   for (std::size_t i = 0; i < loop.count; ++i) {
@@ -165,8 +170,10 @@ Eigen::Vector3f place(Loop& loop, const Cell& cell) {
     const Eigen::Vector3f point = meeting.at(meeting.rank());
     if (cell.holds(point)) return point;
   }
-  const auto flat = flat_place(loop);
-  if (flat && cell.holds(*flat)) return *flat;
+  if (is_flat(loop)) {
+    const Eigen::Vector3f point = flat_place(loop);
+    if (cell.holds(point)) return point;
+  }
   const Meeting meeting(loop, loop.count);
   for (int rank = meeting.rank(); rank > 0; --rank) {
     const Eigen::Vector3f point = meeting.at(rank);
@@ -214,6 +221,7 @@ void place_in_block(PlacedVertices& placed,
       const std::size_t vertex = cells.first_vertex[cell] + loop;
       const Eigen::Vector3f low = voxel.cast<float>() * edge_mm;
       mesh.vertices_mm[vertex] = place(found, Cell(low, edge_mm, kRoam * edge_mm));
+      placed.sharp[vertex] = is_flat(found) ? 0 : 1;
       const Cell strict(low, edge_mm, -kRim * edge_mm);
       const bool within = strict.holds(mesh.vertices_mm[vertex]);
       placed.within_mm[vertex] = within ? mesh.vertices_mm[vertex] : place(found, strict);
@@ -232,6 +240,7 @@ PlacedVertices place_vertices(const Crossings& crossings, std::span<const Eviden
   placed.mesh.normals.assign(crossings.vertices, Eigen::Vector3f::Zero());
   placed.mesh.sigma_mm.assign(crossings.vertices, 0.0F);
   placed.mesh.views.assign(crossings.vertices, 0);
+  placed.sharp.assign(crossings.vertices, 0);
   placed.within_mm = placed.mesh.vertices_mm;
   parallel_chunks(crossings.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {

@@ -1,0 +1,57 @@
+#include "frangia/surface/tidy_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include "support/mesh_truths.h"
+
+namespace frangia {
+namespace {
+
+/// Two boxes; the second one's triangles come last.
+Mesh two_boxes() {
+  Mesh mesh = testing::box({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F});
+  const Mesh other = testing::box({5.0F, 0.0F, 0.0F}, {6.0F, 1.0F, 1.0F});
+  for (const auto& vertex : other.vertices_mm)
+    mesh.vertices_mm.push_back(vertex);
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({a + 8, b + 8, c + 8});
+  return mesh;
+}
+
+TEST(TidyMesh, DropsPartsThatAreTooSmallAndTheirVertices) {
+  Mesh mesh = two_boxes();
+  mesh.triangles.pop_back();
+  drop_small_parts(mesh, 12);
+  drop_unused_vertices(mesh);
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+  EXPECT_EQ(mesh.vertices_mm.size(), 8U);
+  EXPECT_NEAR(testing::volume_mm3(mesh), 1.0, 1e-6);
+}
+
+TEST(TidyMesh, KeepsPartsThatAreLargeEnough) {
+  Mesh mesh = two_boxes();
+  drop_small_parts(mesh, 12);
+  EXPECT_EQ(mesh.triangles.size(), 24U);
+}
+
+TEST(TidyMesh, SplitsAVertexWhereTwoFansMeet) {
+  Mesh mesh;
+  mesh.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+  split_bow_ties(mesh);
+  EXPECT_EQ(mesh.vertices_mm.size(), 6U);
+  EXPECT_EQ(mesh.triangles[0][0], 0U);
+  EXPECT_EQ(mesh.triangles[1][0], 5U);
+  EXPECT_EQ(mesh.vertices_mm[5], mesh.vertices_mm[0]);
+}
+
+TEST(TidyMesh, LeavesAVertexWithOneFanAlone) {
+  Mesh mesh;
+  mesh.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  mesh.triangles = {{0, 2, 3}, {0, 1, 2}};
+  split_bow_ties(mesh);
+  EXPECT_EQ(mesh.vertices_mm.size(), 4U);
+}
+
+}  // namespace
+}  // namespace frangia

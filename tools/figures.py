@@ -1,0 +1,211 @@
+"""Measures the figures of docs/figures.md anew: python3 tools/figures.py PROGRAM docs/figures.md
+
+The scans of ../shared are measured where they are; simulated ones are made here. Each figure is printed
+beside the command that reproduces it.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+REPORT = pathlib.Path(sys.argv[2])
+SHARED = pathlib.Path(__file__).resolve().parent.parent.parent / "shared" / "scans"
+WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-figures-"))
+
+lines = []
+
+
+def tell(text=""):
+    print(text, flush=True)
+    lines.append(text)
+
+
+def run(*arguments):
+    """The program's JSON answer."""
+    result = subprocess.run([PROGRAM, "--json", *map(str, arguments)], check=True, capture_output=True, text=True)
+    return json.loads(result.stdout)
+
+
+def read_ply(path):
+    """Columns of the vertices, by name, and the triangles, of a PLY that the program wrote."""
+    raw = path.read_bytes()
+    end = raw.index(b"end_header\n") + len(b"end_header\n")
+    types = {"float": "<f4", "uchar": "u1", "ushort": "<u2", "int": "<i4", "uint": "<u4"}
+    columns, counts, element = [], {}, None
+    for line in raw[:end].decode().splitlines():
+        words = line.split()
+        if words[0] == "element":
+            element = words[1]
+            counts[element] = int(words[2])
+        if words[0] == "property" and element == "vertex":
+            columns.append((words[2], types[words[1]]))
+    vertex_type = numpy.dtype(columns)
+    vertices = numpy.frombuffer(raw, vertex_type, counts["vertex"], end)
+    return vertices
+
+
+def points_of(vertices):
+    return numpy.stack([vertices[axis].astype(float) for axis in "xyz"], axis=1)
+
+
+def fit_sphere(points, centre, radius):
+    for _ in range(30):
+        away = points - centre
+        distance = numpy.linalg.norm(away, axis=1)
+        jacobian = numpy.c_[-away / distance[:, None], -numpy.ones(len(points))]
+        step = numpy.linalg.lstsq(jacobian, radius - distance, rcond=None)[0]
+        centre, radius = centre + step[:3], radius + step[3]
+    return centre, radius, numpy.sqrt(numpy.mean((distance - radius) ** 2))
+
+
+def box(p, low, high):
+    low, high = numpy.array(low, float), numpy.array(high, float)
+    q = numpy.abs(p - (low + high) / 2) - (high - low) / 2
+    return numpy.linalg.norm(numpy.maximum(q, 0), axis=1) + numpy.minimum(q.max(axis=1), 0)
+
+
+def cylinder(p, x, y, radius, low, high):
+    q = numpy.stack([numpy.hypot(p[:, 0] - x, p[:, 1] - y) - radius, numpy.abs(p[:, 2] - (low + high) / 2) - (high - low) / 2], axis=1)
+    return numpy.linalg.norm(numpy.maximum(q, 0), axis=1) + numpy.minimum(q.max(axis=1), 0)
+
+
+def block(p):
+    body = numpy.maximum(box(p, [-35, -22, 0], [35, 22, 50]), -box(p, [8, -14, 36], [28, 14, 99]))
+    return numpy.minimum(body, cylinder(p, -12, 0, 12, 50, 75))
+
+
+def seconds(answer):
+    return ", ".join(f"{stage} {time:.2f}" for stage, time in answer["seconds"].items())
+
+
+def skull():
+    tell("## A real scan: the skull")
+    if not (SHARED / "skull").exists():
+        tell("Skipped: the shared scans are not on this machine.\n")
+        return
+    mesh = WORK / "skull.ply"
+    answer = run("reconstruct", SHARED / "skull", "-o", mesh)
+    raw = (SHARED / "skull" / "reference.ply").read_bytes()
+    reference = numpy.frombuffer(raw, "<f4", offset=raw.index(b"end_header\n") + 11).reshape(-1, 3)
+    from scipy.spatial import cKDTree
+
+    distance = cKDTree(reference).query(points_of(read_ply(mesh)))[0]
+    tell("`frangia reconstruct ../shared/scans/skull -o skull.ply`; distances to the nearest point of its `reference.ply`, which is coarse itself.\n")
+    tell("| | measured | wanted |\n|---|---|---|")
+    tell(f"| points | {answer['points']} | at least 300 000 |")
+    tell(f"| vertices, triangles | {answer['vertices']}, {answer['triangles']} | |")
+    tell(f"| median distance of a vertex, mm | {numpy.median(distance):.3f} | at most 0.40 |")
+    tell(f"\nSeconds: {seconds(answer)}; peak {answer['peak_memory_mb']:.0f} MB.\n")
+
+
+def balls():
+    tell("## The ball bar")
+    if not (SHARED / "balls").exists():
+        tell("Skipped: the shared scans are not on this machine.\n")
+        return
+    mesh = WORK / "balls.ply"
+    answer = run("reconstruct", SHARED / "balls", "-o", mesh)
+    points = points_of(read_ply(mesh))
+    tell("`frangia reconstruct ../shared/scans/balls -o balls.ply`; spheres fitted by least squares to the mesh's vertices above z = 47 mm and within 0.5 mm of them.\n")
+    tell("| | measured | wanted |\n|---|---|---|")
+    centres = []
+    for side in (-35.0, 35.0):
+        from_centre = numpy.linalg.norm(points - [0.0, side, 60.0], axis=1)
+        near = points[(points[:, 2] > 47) & (numpy.abs(from_centre - 20) < 0.5)]
+        centre, radius, rms = fit_sphere(near, numpy.array([0.0, side, 60.0]), 20.0)
+        centres.append(centre)
+        tell(f"| sphere at y = {side:.0f}: diameter, mm | {2 * radius:.4f} | 40 within 0.02 |")
+        tell(f"| its vertices about it, RMS mm | {rms:.4f} | at most 0.02 |")
+    tell(f"| spacing, mm | {numpy.linalg.norm(centres[0] - centres[1]):.4f} | 70 within 0.02 |")
+    tell(f"\nSeconds: {seconds(answer)}; peak {answer['peak_memory_mb']:.0f} MB.\n")
+
+
+def paper_block():
+    tell("## The paper's rig: the block, numbered by the plane of light alone")
+    if not (SHARED / "block").exists():
+        tell("Skipped: the shared scans are not on this machine.\n")
+        return
+    mesh = WORK / "block.ply"
+    answer = run("reconstruct", SHARED / "block", "-o", mesh)
+    vertices = read_ply(mesh)
+    distance = block(points_of(vertices))
+    tell("`frangia reconstruct ../shared/scans/block -o block.ply`; distances of the vertices to the block's formula. A fringe is 28 mm deep.\n")
+    tell("| | measured | wanted |\n|---|---|---|")
+    tell(f"| RMS, mm | {numpy.sqrt(numpy.mean(distance**2)):.4f} | at most 0.08 |")
+    tell(f"| 99 %, mm | {numpy.percentile(numpy.abs(distance), 99):.4f} | |")
+    tell(f"| farthest, mm | {numpy.abs(distance).max():.4f} | less than a fringe |")
+    tell(f"| RMS of error over its predicted sigma | {numpy.sqrt(numpy.mean((distance / vertices['sigma_mm']) ** 2)):.2f} | 1 |")
+    tell(f"\nSeconds for 8 views of 512 x 512: {seconds(answer)}; peak {answer['peak_memory_mb']:.0f} MB.\n")
+
+
+def simulated():
+    tell("## Simulated scans against their truth")
+    tell("`frangia simulate PART --rig RIG --samples 4 -o SCAN`, `frangia reconstruct SCAN -o MESH.ply`, `frangia inspect MESH.ply --reference SCAN/truth.ply --scan SCAN`. Covered: of what a view could measure (camera and projector within 75 degrees, neither hidden), the share with mesh within 0.2 mm. The carducci rig is the paper's: f 12.5 mm, 20 degrees, camera at 490 mm, projector at 1000 mm, 1 fringe a degree, 512 x 512, 8 views.\n")
+    tell("| part | rig | points | RMS mm | 99 % mm | farthest mm | covered |\n|---|---|---|---|---|---|---|")
+    for part, rig in [
+        ("bust", "carducci"),
+        ("bust", "digital"),
+        ("blade", "digital"),
+        ("bracket", "digital"),
+        ("shaft", "digital"),
+        ("ball-bar", "digital"),
+        ("bust", "angular"),
+        ("blade", "angular"),
+        ("bracket", "angular"),
+        ("shaft", "angular"),
+    ]:
+        scan, mesh = WORK / f"{part}-{rig}", WORK / f"{part}-{rig}.ply"
+        run("simulate", part, "--rig", rig, "--samples", 4, "-o", scan)
+        answer = run("reconstruct", scan, "-o", mesh)
+        error = run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan)
+        tell(f"| {part} | {rig} | {answer['points']} | {error['rms_mm']:.4f} | {error['p99_mm']:.4f} | {error['max_mm']:.3f} | {100 * error['covered']:.1f} % |")
+    tell()
+
+
+RIG_5MPX = """format = "frangia-rig"
+version = 1
+[camera]
+size_px = [2560, 2048]
+focal_px = [4800.0, 4800.0]
+principal_point_px = [1308.7, 1007.1]
+distortion = [-0.09, 0.05, 4e-4, -3e-4, 0.0]
+white_level = 255
+[projector]
+model = "pinhole"
+position_mm = [-180.0, -20.0, 30.0]
+rotation = [[0.931242779706, 0, -0.364399348581], [-0.0147420196862, 0.999181334288, -0.0376740503092], [0.364101027328, 0.0404556697031, 0.930480403172]]
+size_px = [1280, 800]
+focal_px = [1900.0, 1900.0]
+principal_point_px = [639.5, 399.5]
+[turntable]
+point_mm = [3.5, 50.0, 516.0]
+axis = [-0.0094, -0.8829, -0.4694]
+"""
+
+
+def large():
+    tell("## Ten views of 5 Mpx with 12 frames each")
+    rig, scan, mesh = WORK / "rig.toml", WORK / "large", WORK / "large.ply"
+    rig.write_text(RIG_5MPX)
+    run("simulate", "bust", "--rig", rig, "--views", 10, "-o", scan)
+    answer = run("reconstruct", scan, "-o", mesh)
+    tell("The bust, a digital projector, three periods of four frames: `frangia reconstruct large -o large.ply`.\n")
+    tell("| stage | s |\n|---|---|")
+    for stage, time in answer["seconds"].items():
+        tell(f"| {stage} | {time:.2f} |")
+    tell(f"\n{answer['points']} points, {answer['triangles']} triangles, peak {answer['peak_memory_mb']:.0f} MB.\n")
+
+
+tell("# Figures\n\nMeasured by `./run figures`, which writes this file; not edited by hand. Times are of a machine with two cores.\n")
+skull()
+balls()
+paper_block()
+simulated()
+large()
+temporary = REPORT.with_suffix(".tmp")
+temporary.write_text("\n".join(lines).rstrip() + "\n")
+temporary.replace(REPORT)
