@@ -1,5 +1,10 @@
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -23,6 +28,35 @@ const tbb::global_control& one_core() {
 void per_pixel(benchmark::State& state, double pixels) {
   state.counters["ns_per_px"] = benchmark::Counter(
       pixels * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+template <typename T>
+void write_raw(const std::filesystem::path& path, const Image<T>& image) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(image.pixels().data()),  // NOLINT: bytes of pixels
+             static_cast<std::streamsize>(image.pixels().size() * sizeof(T)));
+}
+
+/// For tools/bench_peers.py: frames, wrapped, unwrapped and true phase as raw files in the folder
+/// that FRANGIA_BENCH_DATA names.
+void write_for_peers(const FrameStack& stack, const WrappedPhase& wrapped) {
+  const char* folder = std::getenv("FRANGIA_BENCH_DATA");
+  if (folder == nullptr) return;
+  const std::filesystem::path path(folder);
+  const int side = wrapped.phase_rad.width();
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    write_raw(path / ("frame-" + std::to_string(k) + ".u8"),
+              std::get<Image<std::uint8_t>>(stack.frames[k]));
+  }
+  write_raw(path / "wrapped.f32", wrapped.phase_rad);
+  write_raw(path / "unwrapped.f32", unwrap_in_space(wrapped).phase_rad);
+  Image<float> truth(side, side);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x)
+      truth(x, y) =
+          static_cast<float>(testing::benchmark_phase((x + 0.5) / side, (y + 0.5) / side));
+  }
+  write_raw(path / "truth.f32", truth);
 }
 
 void decode(benchmark::State& state, const char* name) {
@@ -50,6 +84,7 @@ void unwrap_space(benchmark::State& state) {
   const FrameStack stack = testing::benchmark_frames(side, side);
   const WrappedPhase wrapped =
       wrap_phase(stack, make_algorithm("schwider", stack.pattern.shifts_rad), {0.5, 0.02});
+  if (state.range(0) == 20) write_for_peers(stack, wrapped);
   for (auto iteration : state) {
     static_cast<void>(iteration);
     state.PauseTiming();

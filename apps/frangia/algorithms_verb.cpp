@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +10,18 @@
 
 namespace frangia {
 namespace {
+
+/// Ripple at step errors of -10 to 10 %, for plots.
+std::vector<double> ripples(const PublishedAlgorithm& published, bool finds_step) {
+  const auto shifts = example_shifts(published);
+  std::vector<double> values;
+  for (int percent = -10; percent <= 10; ++percent) {
+    const double error = 0.01 * percent;
+    values.push_back(
+        ripple(make_algorithm(published.name, shifts, finds_step ? error : 0.0), shifts, error));
+  }
+  return values;
+}
 
 void print_algorithms(const Terminal& terminal) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -31,6 +45,7 @@ void print_algorithms(const Terminal& terminal) {
       json.push_back({{"name", published.name},
                       {"frames", frames_in_words(published)},
                       {"ripple_rad", errors.ripple_rad},
+                      {"ripple_by_percent", ripples(published, finds_step)},
                       {"noise_gain", errors.noise_gain},
                       {"second_harmonic", errors.second_harmonic},
                       {"third_harmonic", errors.third_harmonic},

@@ -91,7 +91,7 @@ FrameVerdict judge_frames(const FrameStack& stack,
                           const FittedAlgorithm& fitted,
                           const WrappedPhase& map,
                           const NoiseModel& noise) {
-  FrameVerdict verdict{.pattern = stack.pattern.name};
+  FrameVerdict verdict{.pattern = stack.pattern.name, .algorithm = fitted.algorithm.name};
   std::vector<double> shifts = stack.pattern.shifts_rad;
   if (fitted.step.found) {
     verdict.nominal_deg = deg_from_rad(fitted.step.nominal_rad);
@@ -110,7 +110,7 @@ FrameVerdict judge_frames(const FrameStack& stack,
 }
 
 std::string in_words(const FrameVerdict& verdict) {
-  std::string text = fmt::format("pattern \"{}\": ", verdict.pattern);
+  std::string text = fmt::format("pattern \"{}\" by {}: ", verdict.pattern, verdict.algorithm);
   if (verdict.nominal_deg != 0.0) {
     text += fmt::format("steps of {:.3f} +- {:.3f} degrees for {:g}, ",
                         verdict.step_deg,

@@ -12,6 +12,7 @@ namespace frangia {
 /// How good the frames of one pattern are, in numbers.
 struct FrameVerdict {
   std::string pattern;
+  std::string algorithm;
   double nominal_deg = 0.0;  ///< step asked for; 0 when it was not looked at
   double step_deg = 0.0;     ///< step found
   double step_sigma_deg = 0.0;
