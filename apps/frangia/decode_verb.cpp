@@ -38,6 +38,10 @@ void print_result(const DecodedView& decoded,
     if (count == 0 || terminal.json || terminal.quiet) continue;
     fmt::print("{:>10} pixels {} ({} in mask.png)\n", count, entry.meaning, entry.color_name);
   }
+  for (const FrameVerdict& verdict : decoded.verdicts) {
+    json["verdicts"].push_back(in_words(verdict));
+    if (!terminal.json && !terminal.quiet) fmt::print("{}\n", in_words(verdict));
+  }
   json["files"] = files;
   if (terminal.json) fmt::print("{}\n", json.dump(2));
   if (!terminal.json && !terminal.quiet) {

@@ -59,6 +59,8 @@ int run_program(int argc, char** argv) {
   add_reconstruct_verb(program, terminal);
   add_decode_verb(program, terminal);
   add_inspect_verb(program, terminal);
+  add_algorithms_verb(program, terminal);
+  add_plan_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

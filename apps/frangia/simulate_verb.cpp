@@ -62,6 +62,12 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                   "an angular projector's finest fringes")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  verb.add_option("--sequence",
+                  arguments.patterns.sequence,
+                  "instead: doubling, negative-exponential or heterodyne, up to --fringes");
+  verb.add_option("--fringes", arguments.patterns.fringes, "over the field, of the --sequence")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   verb.add_option("--seed", arguments.options.seed, "another seed, other noise")
       ->capture_default_str();
   verb.add_option("--samples", arguments.options.samples_per_px, "rays a pixel; 4 mix its edges")

@@ -40,7 +40,11 @@ Run Terminal::run() {
     say("warning: " + sentence);
   };
   run.on_note = [this](const std::string& sentence) {
-    if (!quiet && !json) say(sentence);
+    // What holds for every view alike is said once.
+    const bool known = std::find(notes_.begin(), notes_.end(), sentence) != notes_.end();
+    if (known || quiet || json) return;
+    notes_.push_back(sentence);
+    say(sentence);
   };
   return run;
 }

@@ -35,6 +35,7 @@ class Terminal {
 
   std::vector<std::pair<std::string, double>> seconds_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> notes_;
   std::string stage_;
   Clock::time_point stage_begin_;
   Clock::time_point last_drawn_;

@@ -6,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/phase/published_algorithms.h"
 
 #include "support/synthetic_fringes.h"
 
@@ -15,55 +16,46 @@ namespace {
 using testing::equal_shifts;
 using testing::quarter_steps;
 
-/// The phase that an algorithm finds for frames A + B cos(phi + shift), of any waveform.
-template <typename Waveform>
-double found_phase(const PhaseAlgorithm& algorithm,
-                   const std::vector<double>& true_shifts,
-                   double phi,
-                   const Waveform& waveform) {
-  double sine = 0.0;
-  double cosine = 0.0;
-  for (std::size_t k = 0; k < true_shifts.size(); ++k) {
-    const double counts = 3.0 + waveform(phi + true_shifts[k]);
-    sine += algorithm.sine[k] * counts;
-    cosine += algorithm.cosine[k] * counts;
-  }
-  return std::atan2(sine, cosine);
+/// Frames 3 + 2 cos(phi + shift) of one pixel.
+std::vector<double> frames_of(double phi, const std::vector<double>& shifts) {
+  std::vector<double> counts;
+  for (const double shift : shifts)
+    counts.push_back(3.0 + 2.0 * std::cos(phi + shift));
+  return counts;
 }
 
-double cosine_wave(double angle) {
-  return 2.0 * std::cos(angle);
+std::vector<double> scaled(std::vector<double> shifts, double factor, double first = 0.0) {
+  for (double& shift : shifts)
+    shift = factor * shift + first;
+  return shifts;
 }
 
-/// Peak-to-valley phase error over a fringe when every step is `error` too long.
-double ripple(const PhaseAlgorithm& algorithm, const std::vector<double>& shifts, double error) {
-  std::vector<double> made = shifts;
-  for (double& shift : made)
-    shift *= 1.0 + error;
-  double low = 1e9;
-  double high = -1e9;
-  for (double phi = -kPi; phi < kPi; phi += 0.001) {
-    const double off = wrap_rad(found_phase(algorithm, made, phi, cosine_wave) - phi);
-    low = std::min(low, off);
-    high = std::max(high, off);
-  }
-  return high - low;
-}
-
-TEST(PhaseAlgorithm, FindsThePhaseForRisingFallingAndLateStartingSteps) {
-  for (const double first : {0.0, 0.4, -2.0}) {
-    for (const double step : {0.5 * kPi, -0.5 * kPi}) {
-      std::vector<double> shifts = equal_shifts(4, step);
-      for (double& shift : shifts)
-        shift += first;
-      for (double phi = -3.0; phi < 3.0; phi += 0.37) {
-        EXPECT_NEAR(
-            wrap_rad(found_phase(schwider(shifts), shifts, phi, cosine_wave) - phi), 0.0, 1e-12);
-        EXPECT_NEAR(wrap_rad(found_phase(least_squares(shifts), shifts, phi, cosine_wave) - phi),
-                    0.0,
-                    1e-12);
+TEST(PhaseAlgorithm, EveryOneFindsThePhaseAtShiftZeroForRisingFallingAndLateStartingSteps) {
+  for (const PublishedAlgorithm& published : published_algorithms()) {
+    for (const double first : {0.0, 0.4, -2.0}) {
+      for (const double direction : {1.0, -1.0}) {
+        const auto shifts = scaled(example_shifts(published), direction, first);
+        const PhaseAlgorithm algorithm = make_algorithm(published.name, shifts);
+        for (double phi = -3.0; phi < 3.0; phi += 0.37) {
+          EXPECT_NEAR(wrap_rad(phase_of(algorithm, frames_of(phi, shifts)) - phi), 0.0, 1e-9)
+              << published.name << " from " << first;
+        }
       }
     }
+  }
+}
+
+TEST(PhaseAlgorithm, AKnownGainErrorLeavesNoConstantInAnyOfThem) {
+  // 5 % of four 90 degree steps would move the phase by 0.118 rad.
+  for (const PublishedAlgorithm& published : published_algorithms()) {
+    const auto shifts = example_shifts(published);
+    const PhaseAlgorithm algorithm = make_algorithm(published.name, shifts, 0.05);
+    double sum = 0.0;
+    for (int i = 0; i < 360; ++i) {
+      const double phi = rad_from_deg(i + 0.5);
+      sum += wrap_rad(phase_of(algorithm, frames_of(phi, scaled(shifts, 1.05))) - phi);
+    }
+    EXPECT_NEAR(sum / 360.0, 0.0, 5e-4) << published.name;
   }
 }
 
@@ -71,56 +63,56 @@ TEST(PhaseAlgorithm, LeastSquaresFindsThePhaseOfUnequalShifts) {
   const std::vector<double> shifts = {0.0, 1.1, 1.9, 4.0, 5.2};
   for (double phi = -3.0; phi < 3.0; phi += 0.37)
     EXPECT_NEAR(
-        wrap_rad(found_phase(least_squares(shifts), shifts, phi, cosine_wave) - phi), 0.0, 1e-12);
+        wrap_rad(phase_of(least_squares(shifts), frames_of(phi, shifts)) - phi), 0.0, 1e-12);
 }
 
-TEST(PhaseAlgorithm, SchwiderCompensatesAStepErrorThatThePlainOneDoesNot) {
+TEST(PhaseAlgorithm, CarreFindsThePhaseInTheMiddleForAnyStep) {
   const auto shifts = equal_shifts(4, 0.5 * kPi);
-  EXPECT_NEAR(ripple(schwider(shifts), shifts, 0.05), 0.0031, 0.0001);
-  EXPECT_NEAR(ripple(schwider(shifts), shifts, -0.05), 0.0031, 0.0001);
-  EXPECT_NEAR(ripple(least_squares(shifts), shifts, 0.05), 0.0786, 0.0002);
-}
-
-TEST(PhaseAlgorithm, NoiseGainIsThePublishedOne) {
-  EXPECT_NEAR(schwider(equal_shifts(4, 0.5 * kPi)).noise_gain(), 0.866, 0.001);
-  for (const int frames : {3, 4, 6, 9}) {
-    const double gain = least_squares(equal_shifts(frames, kTurn / frames)).noise_gain();
-    EXPECT_NEAR(gain, std::sqrt(2.0 / frames), 1e-12);
+  for (const double error : {-0.2, 0.1, 0.3}) {
+    const PhaseAlgorithm algorithm = make_algorithm("carre", shifts, error);
+    for (double phi = -3.0; phi < 3.0; phi += 0.37) {
+      const auto counts = frames_of(phi, scaled(shifts, 1.0 + error));
+      EXPECT_NEAR(wrap_rad(phase_of(algorithm, counts) - phi), 0.0, 1e-9);
+    }
   }
 }
 
-TEST(PhaseAlgorithm, SchwiderLetsTheSecondHarmonicInAndThePlainFourFramesKeepItOut) {
-  const auto shifts = equal_shifts(4, 0.5 * kPi);
-  const auto wave = [](double angle) { return std::cos(angle) + 0.01 * std::cos(2.0 * angle); };
-  double worst_schwider = 0.0;
-  double worst_plain = 0.0;
-  for (double phi = -kPi; phi < kPi; phi += 0.01) {
-    worst_schwider = std::max(
-        worst_schwider, std::abs(wrap_rad(found_phase(schwider(shifts), shifts, phi, wave) - phi)));
-    worst_plain =
-        std::max(worst_plain,
-                 std::abs(wrap_rad(found_phase(least_squares(shifts), shifts, phi, wave) - phi)));
-  }
-  EXPECT_NEAR(worst_schwider, 0.011, 0.001);
-  EXPECT_LT(worst_plain, 1e-12);
+TEST(PhaseAlgorithm, DefaultCompensatesStepsForAnInterferometerAndHarmonicsForADisplay) {
+  const auto chosen = [](int frames, double step_rad, bool angular) {
+    Pattern pattern = quarter_steps(angular ? 1.0 : 0.0);
+    pattern.shifts_rad = equal_shifts(frames, step_rad);
+    return default_algorithm(pattern);
+  };
+  EXPECT_EQ(chosen(4, 0.5 * kPi, true), "schwider");
+  EXPECT_EQ(chosen(5, 0.5 * kPi, true), "hariharan");
+  EXPECT_EQ(chosen(6, 0.5 * kPi, true), "schmit-creath");
+  EXPECT_EQ(chosen(7, 0.5 * kPi, true), "de-groot");
+  EXPECT_EQ(chosen(7, kTurn / 6.0, true), "larkin-oreb");
+  EXPECT_EQ(chosen(6, kTurn / 6.0, true), "global-carre");
+  EXPECT_EQ(chosen(3, kTurn / 3.0, true), "least-squares");
+  for (const int frames : {3, 4, 5, 6, 7})
+    EXPECT_EQ(chosen(frames, 0.5 * kPi, false), "least-squares");
 }
 
-TEST(PhaseAlgorithm, AutoIsSchwiderForAnInterferometerAndLeastSquaresForADisplay) {
-  EXPECT_EQ(choose_algorithm("auto", quarter_steps()).name, "schwider");
-  Pattern display = quarter_steps(0.0);
-  display.period_px = 20.0;
-  EXPECT_EQ(choose_algorithm("auto", display).name, "least-squares");
-  Pattern three = quarter_steps();
-  three.shifts_rad = equal_shifts(3, kTurn / 3.0);
-  EXPECT_EQ(choose_algorithm("auto", three).name, "least-squares");
+TEST(PhaseAlgorithm, AWrongNumberOfFramesNamesTheAlgorithmsThatFit) {
+  try {
+    static_cast<void>(make_algorithm("de-groot", equal_shifts(4, 0.5 * kPi)));
+    FAIL() << "seven frames are needed";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "the algorithm \"de-groot\" takes 7 frames 90 degrees apart, which these 4 shifts "
+                 "are not; use 4-step, schwider, carre, least-squares, global-carre");
+  }
 }
 
 TEST(PhaseAlgorithm, RefusesShiftsThatDoNotDetermineThePhase) {
   EXPECT_THROW(static_cast<void>(least_squares({0.0, 1.0})), Error);
   EXPECT_THROW(static_cast<void>(least_squares({0.0, kTurn, 2.0 * kTurn})), Error);
   EXPECT_THROW(static_cast<void>(least_squares({0.0, kPi, 0.0, kPi})), Error);
-  EXPECT_THROW(static_cast<void>(schwider({0.0, 1.0, 2.0, 3.0})), Error);
-  EXPECT_THROW(static_cast<void>(choose_algorithm("magic", quarter_steps())), Error);
+  EXPECT_THROW(static_cast<void>(make_algorithm("schwider", {0.0, 1.0, 2.0, 3.0})), Error);
+  EXPECT_THROW(static_cast<void>(make_algorithm("magic", equal_shifts(4, 0.5 * kPi))), Error);
+  EXPECT_THROW(static_cast<void>(make_algorithm("carre", {0.0, kPi, kTurn, 3.0 * kPi})), Error);
+  EXPECT_THROW(static_cast<void>(least_squares({0.0, 1.0, std::nan("")})), Error);
 }
 
 }  // namespace

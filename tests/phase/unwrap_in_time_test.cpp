@@ -7,6 +7,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/phase/published_algorithms.h"
 #include "frangia/phase/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
@@ -33,7 +34,7 @@ WrappedPhase level(const Scene& scene, double period_px) {
   const auto stack =
       photograph(scene, columns(period_px), [&](int x, int) { return kTurn * x / period_px; });
   return wrap_phase(stack,
-                    choose_algorithm("auto", stack.pattern),
+                    make_algorithm(default_algorithm(stack.pattern), stack.pattern.shifts_rad),
                     {.floor_counts2 = scene.noise_counts * scene.noise_counts + 1.0},
                     {.max_sigma_rad = 0.5F});
 }

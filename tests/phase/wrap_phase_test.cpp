@@ -6,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/phase/published_algorithms.h"
 
 #include "support/synthetic_fringes.h"
 
@@ -23,7 +24,7 @@ double ramp(int x, int /*y*/) {
 
 WrappedPhase decode(const FrameStack& stack, double noise_counts = 1.0) {
   return wrap_phase(stack,
-                    choose_algorithm("auto", stack.pattern),
+                    make_algorithm(default_algorithm(stack.pattern), stack.pattern.shifts_rad),
                     {.floor_counts2 = noise_counts * noise_counts});
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/core/missing.h"
+#include "frangia/phase/link_runs.h"
 
 namespace frangia {
 namespace {
@@ -36,21 +37,6 @@ class Frontier {
   std::array<std::vector<std::uint32_t>, kLevels> buckets_;
   std::size_t best_ = 0;
 };
-
-/// The pixel of largest modulation in each region.
-std::vector<std::uint32_t> best_pixels(const WrappedPhase& phase, const Regions& regions) {
-  constexpr std::uint32_t kNone = 0xffffffff;
-  std::vector<std::uint32_t> best(static_cast<std::size_t>(regions.count), kNone);
-  const auto modulation = phase.modulation_counts.pixels();
-  const auto labels = regions.label.pixels();
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] < 0) continue;
-    std::uint32_t& leader = best[static_cast<std::size_t>(labels[i])];
-    if (leader == kNone || modulation[i] > modulation[leader])
-      leader = static_cast<std::uint32_t>(i);
-  }
-  return best;
-}
 
 }  // namespace
 
@@ -83,7 +69,8 @@ RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions) {
     const float product = std::sqrt(std::max(0.0F, modulation[from] * modulation[to]));
     frontier.push(static_cast<std::size_t>(product * scale), static_cast<std::uint32_t>(to));
   };
-  for (const std::uint32_t seed : best_pixels(phase, regions)) {
+  for (const std::uint32_t seed :
+       best_pixels(phase.modulation_counts, regions.label, regions.count)) {
     unwrapped[seed] = wrapped[seed];
     std::uint32_t pixel = seed;
     do {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/core/parallel.h"
+
 namespace frangia {
 namespace {
 
@@ -48,45 +50,53 @@ class Forest {
   std::vector<int> fringes_;
 };
 
-struct Side {
-  int x;
-  int y;
+/// Two neighbouring pixels of different regions.
+struct Contact {
+  int a;        ///< region of the left or upper one
+  int b;        ///< region of the other
+  int fringes;  ///< to add to b for the smallest jump
+  bool smooth;
 };
 
-void look_across(const RelativePhase& phase,
-                 const Forest& forest,
-                 Side a,
-                 Side b,
-                 bool smooth,
-                 Borders& borders) {
-  const int label_a = phase.region(a.x, a.y);
-  const int label_b = phase.region(b.x, b.y);
-  if (label_a < 0 || label_b < 0 || label_a == label_b) return;
-  auto [root_a, fringes_a] = forest.root(label_a);
-  auto [root_b, fringes_b] = forest.root(label_b);
-  if (root_a == root_b) return;
-  const double jump = phase.phase_rad(a.x, a.y) - phase.phase_rad(b.x, b.y);
-  int asked = static_cast<int>(std::lround(jump / kTurnRad)) + fringes_a - fringes_b;
-  if (root_a > root_b) {
-    std::swap(root_a, root_b);
-    asked = -asked;
-  }
-  Border& border = borders[{root_a, root_b}];
-  ++border.length;
-  if (smooth) ++border.votes[asked];
+/// Row by row; a border is a small part of an image, and is walked several times.
+std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& regions) {
+  const int width = phase.region.width();
+  const int height = phase.region.height();
+  std::vector<std::vector<Contact>> rows(static_cast<std::size_t>(height));
+  parallel_rows(height, [&](int y) {
+    const auto look = [&](int x, int u, int v, bool smooth) {
+      const int a = phase.region(x, y);
+      const int b = phase.region(u, v);
+      if (a == b || a < 0 || b < 0) return;
+      const double jump = phase.phase_rad(x, y) - phase.phase_rad(u, v);
+      const int fringes = static_cast<int>(std::lround(jump / kTurnRad));
+      rows[static_cast<std::size_t>(y)].push_back({a, b, fringes, smooth});
+    };
+    for (int x = 0; x < width; ++x) {
+      if (x + 1 < width) look(x, x + 1, y, regions.smooth_right(x, y) != 0);
+      if (y + 1 < height) look(x, x, y + 1, regions.smooth_below(x, y) != 0);
+    }
+  });
+  std::vector<Contact> all;
+  for (const auto& row : rows)
+    all.insert(all.end(), row.begin(), row.end());
+  return all;
 }
 
-Borders all_borders(const RelativePhase& phase, const Regions& regions, const Forest& forest) {
+Borders all_borders(const std::vector<Contact>& contacts, const Forest& forest) {
   Borders borders;
-  for (int y = 0; y < phase.region.height(); ++y) {
-    for (int x = 0; x < phase.region.width(); ++x) {
-      if (x + 1 < phase.region.width()) {
-        look_across(phase, forest, {x, y}, {x + 1, y}, regions.smooth_right(x, y) != 0, borders);
-      }
-      if (y + 1 < phase.region.height()) {
-        look_across(phase, forest, {x, y}, {x, y + 1}, regions.smooth_below(x, y) != 0, borders);
-      }
+  for (const Contact& contact : contacts) {
+    auto [root_a, fringes_a] = forest.root(contact.a);
+    auto [root_b, fringes_b] = forest.root(contact.b);
+    if (root_a == root_b) continue;
+    int asked = contact.fringes + fringes_a - fringes_b;
+    if (root_a > root_b) {
+      std::swap(root_a, root_b);
+      asked = -asked;
     }
+    Border& border = borders[{root_a, root_b}];
+    ++border.length;
+    if (contact.smooth) ++border.votes[asked];
   }
   return borders;
 }
@@ -158,7 +168,8 @@ void relabel_from_largest(RelativePhase& phase, const Forest& forest) {
 
 void join_regions(RelativePhase& phase, const Regions& regions, const JoinOptions& options) {
   Forest forest(phase.region_count);
-  while (merge_safe(all_borders(phase, regions, forest), options.min_agreement, forest) > 0) {
+  const std::vector<Contact> contacts = all_contacts(phase, regions);
+  while (merge_safe(all_borders(contacts, forest), options.min_agreement, forest) > 0) {
   }
   relabel_from_largest(phase, forest);
 }

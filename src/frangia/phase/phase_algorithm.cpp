@@ -1,58 +1,148 @@
 #include "frangia/phase/phase_algorithm.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/phase/algorithm_errors.h"
+#include "frangia/phase/published_algorithms.h"
 
 namespace frangia {
 namespace {
 
-/// How far a shift may lie from its place before an algorithm made for equal steps is refused.
-constexpr double kStepTolerance_rad = 1e-3;
-
 /// Below this the shifts are as good as singular: noise would be amplified a thousandfold.
 constexpr double kLeastEigenvalueShare = 1e-6;
 
-/// +1 or -1 for four steps of +90 or -90 degrees, 0 for any others.
-int quarter_step_sign(const std::vector<double>& shifts_rad) {
-  if (shifts_rad.size() != 4) return 0;
-  for (const int sign : {1, -1}) {
-    bool fits = true;
-    for (std::size_t k = 1; k < shifts_rad.size(); ++k) {
-      const double expected = shifts_rad[0] + sign * 0.5 * kPi * static_cast<double>(k);
-      fits = fits && std::abs(wrap_rad(shifts_rad[k] - expected)) < kStepTolerance_rad;
-    }
-    if (fits) return sign;
-  }
-  return 0;
+double weighted(const std::vector<double>& weights, std::span<const double> counts) {
+  return std::inner_product(weights.begin(), weights.end(), counts.begin(), 0.0);
 }
 
-/// An algorithm published for shifts 0, step, 2 step ... referred to the shifts of these frames.
-PhaseAlgorithm refer_to_shift(PhaseAlgorithm published, double first_rad, int sign) {
-  // The published phase is sign * (phi + first): rotate it back, then undo the sign.
-  const double c = std::cos(first_rad);
-  const double s = std::sin(first_rad);
-  for (std::size_t k = 0; k < published.sine.size(); ++k) {
-    const double sine = sign * published.sine[k];
-    const double cosine = published.cosine[k];
-    published.sine[k] = sine * c - cosine * s;
-    published.cosine[k] = cosine * c + sine * s;
+/// Larkin and Oreb's: N + 1 frames over a whole turn, the ends at half weight.
+void larkin_oreb(std::size_t frames, PhaseAlgorithm& out) {
+  const double step = kTurn / static_cast<double>(frames - 1);
+  for (std::size_t j = 0; j < frames; ++j) {
+    const bool end = j == 0 || j + 1 == frames;
+    const double angle = step * static_cast<double>(j);
+    out.sine.push_back(end ? (j == 0 ? 0.5 : -0.5) / std::tan(step) : -std::sin(angle));
+    out.cosine.push_back(end ? 0.5 : std::cos(angle));
   }
-  return published;
+}
+
+/// Surrel's: a triangular window over two turns less one frame.
+void surrel(std::size_t frames, PhaseAlgorithm& out) {
+  const double n = static_cast<double>(frames + 1) / 2.0;
+  for (std::size_t k = 0; k < frames; ++k) {
+    const double place = static_cast<double>(k);
+    const double weight = n - std::abs(place - (n - 1.0));
+    out.sine.push_back(-weight * std::sin(kTurn / n * place));
+    out.cosine.push_back(weight * std::cos(kTurn / n * place));
+  }
+}
+
+/// Numerator and denominator as printed, for shifts 0, step, 2 step ...
+PhaseAlgorithm as_printed(const std::string& name, std::size_t frames) {
+  PhaseAlgorithm out{.name = name};
+  const auto set = [&](std::vector<double> sine, std::vector<double> cosine) {
+    out.sine = std::move(sine);
+    out.cosine = std::move(cosine);
+  };
+  if (name == "3-step-90") set({0, -1, 1}, {1, -1, 0});
+  if (name == "4-step") set({0, -1, 0, 1}, {1, 0, -1, 0});
+  if (name == "schwider") set({1, -3, 1, 1}, {1, 1, -3, 1});
+  if (name == "hariharan") set({0, 2, 0, -2, 0}, {-1, 0, 2, 0, -1});
+  if (name == "schmit-creath") set({1, 0, -4, 0, 3, 0}, {0, 3, 0, -4, 0, 1});
+  if (name == "de-groot") set({-1, 0, 7, 0, -7, 0, 1}, {0, -4, 0, 8, 0, -4, 0});
+  if (name == "larkin-oreb") larkin_oreb(frames, out);
+  if (name == "surrel") surrel(frames, out);
+  if (name == "carre") {
+    set({0, 1, -1, 0}, {-1, 1, 1, -1});
+    out.outer = {1, 0, 0, -1};
+  }
+  return out;
+}
+
+/// Takes `angle_rad` off the phase that the algorithm finds.
+void turn_back(double angle_rad, PhaseAlgorithm& algorithm) {
+  if (!algorithm.outer.empty()) {
+    algorithm.turn_rad += angle_rad;
+    return;
+  }
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  for (std::size_t k = 0; k < algorithm.frames(); ++k) {
+    const double sine = algorithm.sine[k];
+    algorithm.sine[k] = sine * c - algorithm.cosine[k] * s;
+    algorithm.cosine[k] = algorithm.cosine[k] * c + sine * s;
+  }
+}
+
+struct Wave {
+  double sine;
+  double cosine;
+};
+
+/// B sin(phi), B cos(phi) of a pixel, before the turn.
+Wave wave_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
+  Wave wave{weighted(algorithm.sine, counts), weighted(algorithm.cosine, counts)};
+  if (!algorithm.outer.empty()) {
+    const double u = wave.sine;
+    const double v = weighted(algorithm.outer, counts);
+    wave.sine = std::copysign(std::sqrt(std::max(0.0, (3.0 * u - v) * (u + v))), u);
+  }
+  return wave;
+}
+
+/// From the printed formula to B sin and B cos of the phase at shift zero: what the formula makes
+/// of a known phase says by how much its own is off, and how large it comes out.
+void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& algorithm) {
+  constexpr double kProbe_rad = 0.5;
+  const double step = common_step(shifts_rad);
+  std::vector<double> counts;
+  for (std::size_t k = 0; k < shifts_rad.size(); ++k)
+    counts.push_back(std::cos(kProbe_rad + std::abs(step) * static_cast<double>(k)));
+  const Wave wave = wave_of(algorithm, counts);
+  const double size = std::hypot(wave.sine, wave.cosine);
+  for (auto* weights : {&algorithm.sine, &algorithm.cosine, &algorithm.outer}) {
+    for (double& weight : *weights)
+      weight /= size;
+  }
+  turn_back(std::atan2(wave.sine, wave.cosine) - kProbe_rad, algorithm);
+  if (step < 0.0) {  // the frames of falling shifts are those of -phi
+    for (auto* weights : {&algorithm.sine, &algorithm.outer}) {
+      for (double& weight : *weights)
+        weight = -weight;
+    }
+    algorithm.turn_rad = -algorithm.turn_rad;
+  }
+  turn_back(shifts_rad.front(), algorithm);
+}
+
+[[noreturn]] void refuse(const PublishedAlgorithm& wanted, const std::vector<double>& shifts_rad) {
+  std::vector<std::string> others;
+  for (const PublishedAlgorithm& other : published_algorithms()) {
+    if (fits(other, shifts_rad)) others.push_back(other.name);
+  }
+  throw Error(ErrorKind::Input,
+              fmt::format("the algorithm \"{}\" takes {}, which these {} shifts are not; {}",
+                          wanted.name,
+                          frames_in_words(wanted),
+                          shifts_rad.size(),
+                          others.empty() ? "give at least 3"
+                                         : fmt::format("use {}", fmt::join(others, ", "))));
 }
 
 }  // namespace
 
-double PhaseAlgorithm::noise_gain() const {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < sine.size(); ++k)
-    sum += sine[k] * sine[k] + cosine[k] * cosine[k];
-  return std::sqrt(0.5 * sum);
+double phase_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
+  const Wave wave = wave_of(algorithm, counts);
+  return wrap_rad(std::atan2(wave.sine, wave.cosine) - algorithm.turn_rad);
 }
 
 PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
@@ -83,35 +173,47 @@ PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
     algorithm.cosine.push_back(weights(1));
     algorithm.sine.push_back(weights(2));
   }
+  algorithm.noise_gain = noise_gain(algorithm, shifts_rad);
   return algorithm;
 }
 
-PhaseAlgorithm schwider(const std::vector<double>& shifts_rad) {
-  const int sign = quarter_step_sign(shifts_rad);
-  if (sign == 0) {
-    throw Error(ErrorKind::Input,
-                "the algorithm \"schwider\" needs four shifts that are 90 degrees apart; use "
-                "\"least-squares\" for these");
-  }
-  return refer_to_shift({.name = "schwider",
-                         .sine = {0.25, -0.75, 0.25, 0.25},
-                         .cosine = {0.25, 0.25, -0.75, 0.25},
-                         .mean = {0.25, 0.25, 0.25, 0.25}},
-                        shifts_rad.front(),
-                        sign);
-}
-
-PhaseAlgorithm choose_algorithm(const std::string& name, const Pattern& pattern) {
-  if (name == "schwider") return schwider(pattern.shifts_rad);
-  if (name == "least-squares") return least_squares(pattern.shifts_rad);
-  if (name != "auto") {
+PhaseAlgorithm make_algorithm(const std::string& name,
+                              const std::vector<double>& shifts_rad,
+                              double gain_error) {
+  const auto& all = published_algorithms();
+  const auto published = std::find_if(
+      all.begin(), all.end(), [&](const PublishedAlgorithm& one) { return one.name == name; });
+  if (published == all.end()) {
+    std::vector<std::string> names = {"auto"};
+    for (const PublishedAlgorithm& one : all)
+      names.push_back(one.name);
     throw Error(
         ErrorKind::Input,
-        fmt::format("there is no algorithm \"{}\"; choose auto, schwider or least-squares", name));
+        fmt::format("there is no algorithm \"{}\"; choose from {}", name, fmt::join(names, ", ")));
   }
-  const bool angular = pattern.fringes_per_degree > 0.0;
-  return angular && quarter_step_sign(pattern.shifts_rad) != 0 ? schwider(pattern.shifts_rad)
-                                                               : least_squares(pattern.shifts_rad);
+  if (!fits(*published, shifts_rad)) refuse(*published, shifts_rad);
+
+  PhaseAlgorithm algorithm = as_printed(name, shifts_rad.size());
+  const double mean_shift = std::accumulate(shifts_rad.begin(), shifts_rad.end(), 0.0) /
+                            static_cast<double>(shifts_rad.size());
+  if (name == "global-carre" || name == "aia") {  // the shifts themselves are put right
+    std::vector<double> made = shifts_rad;
+    for (double& shift : made)
+      shift *= 1.0 + gain_error;
+    algorithm = least_squares(made);
+    algorithm.name = name;
+    return algorithm;
+  }
+  if (algorithm.sine.empty()) {
+    algorithm = least_squares(shifts_rad);
+    algorithm.name = name;
+  } else {
+    algorithm.mean = least_squares(shifts_rad).mean;
+    refer_to_shift_zero(shifts_rad, algorithm);
+  }
+  turn_back(gain_error * mean_shift, algorithm);
+  algorithm.noise_gain = noise_gain(algorithm, shifts_rad);
+  return algorithm;
 }
 
 }  // namespace frangia

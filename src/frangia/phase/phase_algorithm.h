@@ -1,24 +1,32 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
-#include "frangia/pattern/pattern.h"
-
 namespace frangia {
 
-/// A phase-shift algorithm that is linear in the frames:
+/// A phase-shift algorithm with the shifts of its frames already in its coefficients:
 /// B sin(phi) = sum sine[k] I_k,  B cos(phi) = sum cosine[k] I_k,  A = sum mean[k] I_k.
-/// The shifts of the frames are already in the coefficients.
+///
+/// The phase is that at shift zero, whatever the algorithm: swapping them leaves no constant.
 struct PhaseAlgorithm {
   std::string name;
   std::vector<double> sine;
   std::vector<double> cosine;
   std::vector<double> mean;
-
+  /// Carré's alone, which is not linear: with u of `sine` and v of `outer`,
+  /// B sin(phi + turn) = sgn(u) sqrt((3u - v)(u + v)). Empty for all others.
+  std::vector<double> outer;
+  double turn_rad = 0.0;  ///< taken off the phase at the end; 0 where `outer` is empty
   /// c of sigma_phi = c sigma_I / B, root mean square over phi.
-  [[nodiscard]] double noise_gain() const;
+  double noise_gain = 0.0;
+
+  [[nodiscard]] std::size_t frames() const { return sine.size(); }
 };
+
+/// The phase that an algorithm finds in the frames of one pixel, in (-pi, pi].
+[[nodiscard]] double phase_of(const PhaseAlgorithm& algorithm, std::span<const double> counts);
 
 /// Least squares for any list of shifts that determines the phase.
 ///
@@ -26,17 +34,14 @@ struct PhaseAlgorithm {
 /// source   Greivenkamp 1984
 [[nodiscard]] PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad);
 
-/// The four-frame algorithm that compensates errors of the step.
+/// A published algorithm for these shifts.
 ///
-/// errors   Error(Input) unless there are four shifts 90 degrees apart, rising or falling
-/// source   Schwider et al. 1993, reference [33] of the paper
-[[nodiscard]] PhaseAlgorithm schwider(const std::vector<double>& shifts_rad);
-
-/// The algorithm by its name, "least-squares" or "schwider"; for "auto" Schwider's for an angular
-/// projector with four 90 degree steps, least squares otherwise (it keeps even harmonics out, which
-/// a display's response makes).
-///
-/// errors   Error(Input) for an unknown name, or shifts that do not fit
-[[nodiscard]] PhaseAlgorithm choose_algorithm(const std::string& name, const Pattern& pattern);
+/// `gain_error` says that the shifts really made are `shifts_rad * (1 + gain_error)`. An algorithm
+/// finds the phase in the middle of its frames, which then lies `gain_error` times their mean shift
+/// from where it should: that constant is taken off.
+/// errors   Error(Input) for an unknown name, or shifts that do not fit, naming those that do
+[[nodiscard]] PhaseAlgorithm make_algorithm(const std::string& name,
+                                            const std::vector<double>& shifts_rad,
+                                            double gain_error = 0.0);
 
 }  // namespace frangia

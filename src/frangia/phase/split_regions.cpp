@@ -8,46 +8,61 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/vectorised.h"
+#include "frangia/phase/pixel_runs.h"
 
 namespace frangia {
 namespace {
 
-float wrapped_jump(float a, float b) {
-  const float difference = b - a;
-  return difference - 6.28318531F * std::round(difference / 6.28318531F);
+using Mask = Image<std::uint8_t>;
+
+/// Wrapped jumps between two rows, or a row and itself one pixel on; NaN where an end is missing.
+FRANGIA_VECTORISED void find_jumps(const float* from, const float* to, int count, float* jump) {
+  for (int x = 0; x < count; ++x) {
+    const float difference = to[x] - from[x];
+    const float down = difference > 3.14159265F ? 6.28318531F : 0.0F;
+    const float up = difference < -3.14159265F ? 6.28318531F : 0.0F;
+    jump[x] = difference - down + up;
+  }
 }
 
-/// Wrapped jumps along x (dx = 1, dy = 0) or y; NaN where one end is missing.
-Image<float> jumps(const Image<float>& phase, int dx, int dy) {
-  Image<float> out(phase.width(), phase.height(), kMissing);
-  parallel_rows(phase.height() - dy, [&](int y) {
-    for (int x = 0; x + dx < phase.width(); ++x)
-      out(x, y) = wrapped_jump(phase(x, y), phase(x + dx, y + dy));
-  });
-  return out;
+struct Limits {
+  float departure;  ///< from the jumps before and behind
+  float jump;
+};
+
+/// Whether each jump is smooth: small, and not far outside the ones before and behind it. One that
+/// is missing is passed over, and a lone jump has no departure.
+FRANGIA_VECTORISED void judge_jumps(const float* before,
+                                    const float* here,
+                                    const float* behind,
+                                    int count,
+                                    Limits limits,
+                                    std::uint8_t* smooth) {
+  for (int x = 0; x < count; ++x) {
+    const float jump = here[x];
+    const float one = before[x] == before[x] ? before[x] : behind[x];
+    const float two = behind[x] == behind[x] ? behind[x] : before[x];
+    const float low = one < two ? one : two;
+    const float high = one < two ? two : one;
+    const std::int32_t below = low - jump > limits.departure ? 1 : 0;
+    const std::int32_t above = jump - high > limits.departure ? 1 : 0;
+    const std::int32_t small = std::fabs(jump) <= limits.jump ? 1 : 0;
+    smooth[x] = static_cast<std::uint8_t>(small & ~(below | above) & 1);
+  }
 }
 
-/// How far a jump lies outside those before and behind it; NaN when neither is known.
-float departure(const Image<float>& jump, int x, int y, int dx, int dy) {
-  const float here = jump(x, y);
-  const bool has_before = x >= dx && y >= dy;
-  const bool has_behind = x + dx < jump.width() && y + dy < jump.height();
-  const float before = has_before ? jump(x - dx, y - dy) : kMissing;
-  const float behind = has_behind ? jump(x + dx, y + dy) : kMissing;
-  // fmin and fmax pass over the one that is missing.
-  const float low = std::fmin(before, behind);
-  const float high = std::fmax(before, behind);
-  return std::fmax(0.0F, std::fmax(low - here, here - high));
-}
-
-/// Standard deviation of the jumps' noise: from the differences of neighbouring ones.
-float jump_noise(const Image<float>& jump, int dx, int dy) {
+/// Standard deviation of the jumps' noise along x (dx = 1) or y, from the differences of
+/// neighbouring ones, in some rows of the image.
+float jump_noise(const Image<float>& phase, int dx, int dy) {
+  constexpr int kSamples = 400'000;
   std::vector<float> differences;
-  const int stride = std::max(1, static_cast<int>(jump.pixels().size() / 400'000));
-  for (int y = dy; y < jump.height(); y += stride) {
-    for (int x = dx; x < jump.width(); ++x) {
-      const float difference = jump(x, y) - jump(x - dx, y - dy);
-      if (!std::isnan(difference)) differences.push_back(std::abs(difference));
+  const int stride = std::max(1, static_cast<int>(phase.pixels().size() / kSamples));
+  for (int y = dy; y + dy < phase.height(); y += stride) {
+    for (int x = dx; x + dx < phase.width(); ++x) {
+      const float bend = phase(x - dx, y - dy) - 2.0F * phase(x, y) + phase(x + dx, y + dy);
+      if (std::isnan(bend)) continue;
+      differences.push_back(std::fabs(bend - 6.28318531F * std::round(bend / 6.28318531F)));
     }
   }
   if (differences.empty()) return 0.0F;
@@ -57,68 +72,117 @@ float jump_noise(const Image<float>& jump, int dx, int dy) {
   return *middle / 0.6745F / std::sqrt(3.0F);
 }
 
-Image<std::uint8_t> smooth_jumps(const Image<float>& phase,
-                                 int dx,
-                                 int dy,
-                                 const SplitOptions& options) {
-  const Image<float> jump = jumps(phase, dx, dy);
-  const float limit = options.slack_rad + 5.0F * jump_noise(jump, dx, dy);
-  Image<std::uint8_t> smooth(phase.width(), phase.height(), 0);
+Mask smooth_right(const Image<float>& phase, const SplitOptions& options) {
+  const int width = phase.width();
+  const auto row = static_cast<std::size_t>(width);
+  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase, 1, 0), options.max_jump_rad};
+  Mask smooth(width, phase.height(), Unfilled{});
   parallel_rows(phase.height(), [&](int y) {
-    for (int x = 0; x < phase.width(); ++x) {
-      const float here = jump(x, y);
-      if (std::isnan(here) || std::abs(here) > options.max_jump_rad) continue;
-      const float away = departure(jump, x, y, dx, dy);
-      smooth(x, y) = away <= limit ? 1 : 0;  // a lone pair has no departure: fmax passes the NaN
+    std::vector<float> jump(row + 2, kMissing);  // one more at each end
+    const float* from = phase.pixels().data() + static_cast<std::size_t>(y) * row;
+    find_jumps(from, from + 1, width - 1, jump.data() + 1);
+    judge_jumps(jump.data(), jump.data() + 1, jump.data() + 2, width, limits, &smooth(0, y));
+  });
+  return smooth;
+}
+
+Mask smooth_below(const Image<float>& phase, const SplitOptions& options) {
+  constexpr int kBand = 32;  // rows that share their jumps
+  const int width = phase.width();
+  const int height = phase.height();
+  const auto row = static_cast<std::size_t>(width);
+  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase, 0, 1), options.max_jump_rad};
+  Mask smooth(width, height, Unfilled{});
+  parallel_rows((height + kBand - 1) / kBand, [&](int band) {
+    std::vector<float> before(row);
+    std::vector<float> here(row);
+    std::vector<float> behind(row);
+    const auto jumps_below = [&](int y, std::vector<float>& jump) {
+      if (y < 0 || y + 1 >= height) {
+        std::fill(jump.begin(), jump.end(), kMissing);
+        return;
+      }
+      const float* from = phase.pixels().data() + static_cast<std::size_t>(y) * row;
+      find_jumps(from, from + row, width, jump.data());
+    };
+    jumps_below(band * kBand - 1, before);
+    jumps_below(band * kBand, here);
+    for (int y = band * kBand; y < std::min(height, (band + 1) * kBand); ++y) {
+      jumps_below(y + 1, behind);
+      judge_jumps(before.data(), here.data(), behind.data(), width, limits, &smooth(0, y));
+      std::swap(before, here);
+      std::swap(here, behind);
     }
   });
   return smooth;
 }
 
+/// 1 where a pixel and its neighbour are both measured but their jump is not smooth.
+FRANGIA_VECTORISED void mark_broken(const float* a,
+                                    const float* b,
+                                    const std::uint8_t* smooth,
+                                    int count,
+                                    std::uint8_t* broken_a,
+                                    std::uint8_t* broken_b) {
+  for (int x = 0; x < count; ++x) {
+    const float both = a[x] + b[x];
+    const auto cut = static_cast<std::uint8_t>((both == both ? 1 : 0) & (smooth[x] ^ 1));
+    broken_a[x] = static_cast<std::uint8_t>(broken_a[x] | cut);
+    if (broken_b != nullptr) broken_b[x] = static_cast<std::uint8_t>(broken_b[x] | cut);
+  }
+}
+
 /// Pixels with a measured neighbour across a jump that is not smooth.
-Image<std::uint8_t> broken_pixels(const Image<float>& phase, const Regions& regions) {
-  Image<std::uint8_t> broken(phase.width(), phase.height(), 0);
-  for (int y = 0; y < phase.height(); ++y) {
-    for (int x = 0; x < phase.width(); ++x) {
-      if (std::isnan(phase(x, y))) continue;
-      if (x + 1 < phase.width() && !std::isnan(phase(x + 1, y)) &&
-          regions.smooth_right(x, y) == 0) {
-        broken(x, y) = broken(x + 1, y) = 1;
-      }
-      if (y + 1 < phase.height() && !std::isnan(phase(x, y + 1)) &&
-          regions.smooth_below(x, y) == 0) {
-        broken(x, y) = broken(x, y + 1) = 1;
-      }
+Mask broken_pixels(const Image<float>& phase, const Regions& regions) {
+  const int width = phase.width();
+  const int height = phase.height();
+  Mask broken(width, height, 0);
+  std::vector<std::uint8_t> right(static_cast<std::size_t>(width));
+  for (int y = 0; y < height; ++y) {
+    const float* row = &phase.pixels()[static_cast<std::size_t>(y) * right.size()];
+    std::fill(right.begin(), right.end(), std::uint8_t{0});
+    mark_broken(row, row + 1, &regions.smooth_right(0, y), width - 1, right.data(), nullptr);
+    for (int x = 0; x + 1 < width; ++x) {
+      if (right[static_cast<std::size_t>(x)] != 0) broken(x, y) = broken(x + 1, y) = 1;
     }
+    if (y + 1 == height) break;
+    mark_broken(
+        row, row + width, &regions.smooth_below(0, y), width, &broken(0, y), &broken(0, y + 1));
   }
   return broken;
 }
 
-/// Steps of a chess king from each pixel to the nearest broken one, up to `limit`.
-Image<std::int32_t> distance_to(const Image<std::uint8_t>& broken, int limit) {
-  const int width = broken.width();
-  const int height = broken.height();
-  Image<std::int32_t> distance(width, height, limit);
-  const auto relax = [&](int x, int y, int u, int v) {
-    if (u < 0 || v < 0 || u >= width || v >= height) return;
-    distance(x, y) = std::min(distance(x, y), distance(u, v) + 1);
-  };
-  for (int y = 0; y < height; ++y) {
+FRANGIA_VECTORISED void widen(std::uint8_t* __restrict into,
+                              const std::uint8_t* __restrict from,
+                              std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    into[i] = into[i] > from[i] ? into[i] : from[i];
+}
+
+/// 1 within `radius` of a 1, both across and down: a square, one direction at a time.
+void dilate(int radius, Mask& mask) {
+  const int width = mask.width();
+  const int height = mask.height();
+  parallel_rows(height, [&](int y) {
+    int last = -2 * radius - width;
+    std::vector<int> before;
     for (int x = 0; x < width; ++x) {
-      if (broken(x, y) != 0) distance(x, y) = 0;
-      relax(x, y, x - 1, y);
-      for (int u = x - 1; u <= x + 1; ++u)
-        relax(x, y, u, y - 1);
+      if (mask(x, y) != 0) before.push_back(x);
     }
-  }
-  for (int y = height - 1; y >= 0; --y) {
-    for (int x = width - 1; x >= 0; --x) {
-      relax(x, y, x + 1, y);
-      for (int u = x - 1; u <= x + 1; ++u)
-        relax(x, y, u, y + 1);
+    for (const int x : before) {
+      for (int u = std::max({0, x - radius, last + 1}); u <= std::min(width - 1, x + radius); ++u)
+        mask(u, y) = 1;
+      last = std::min(width - 1, x + radius);
     }
-  }
-  return distance;
+  });
+  if (height < 2) return;
+  const auto row = static_cast<std::size_t>(width);
+  const Mask across = mask;
+  parallel_rows(height, [&](int y) {
+    for (int v = std::max(0, y - radius); v <= std::min(height - 1, y + radius); ++v) {
+      if (v != y) widen(&mask(0, y), &across(0, v), row);
+    }
+  });
 }
 
 struct Pixel {
@@ -144,21 +208,56 @@ void spread(std::vector<Pixel>& front, Regions& regions, const Allowed& allowed)
   }
 }
 
-/// Gives each connected set of admitted pixels the next label; returns them all, label by label.
+/// Gives each connected set of admitted, unlabelled pixels the next label.
 template <typename Allowed>
-std::vector<Pixel> label_all(Regions& regions, const Allowed& allowed) {
-  std::vector<Pixel> labelled;
+void label_all(Regions& regions, const Allowed& allowed) {
+  const int height = regions.label.height();
+  const PixelRuns all = find_runs(
+      regions.label.width(),
+      height,
+      [&](int x, int y) { return regions.label(x, y) < 0 && allowed(x, y); },
+      [&](int x, int y) { return regions.smooth_right(x, y) != 0; });
+  RunForest forest(all.runs.size());
+  for (int y = 1; y < height; ++y) {
+    meet_row_above(all, y, [&](std::size_t a, std::size_t b, std::int32_t begin, std::int32_t end) {
+      for (std::int32_t x = begin; x < end; ++x) {
+        if (regions.smooth_below(x, y - 1) == 0) continue;
+        forest.join(a, b, 0);
+        return;
+      }
+    });
+  }
+  // A root is the first run of its set.
+  std::vector<std::int32_t> label(all.runs.size());
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    const std::size_t root = forest.root(i).run;
+    label[i] = root == i ? regions.count++ : label[root];
+  }
+  parallel_rows(height, [&](int y) {
+    const auto row = static_cast<std::size_t>(y);
+    for (std::size_t i = all.first[row]; i < all.first[row + 1]; ++i) {
+      std::fill(&regions.label(all.runs[i].begin, y),
+                &regions.label(all.runs[i].begin, y) + (all.runs[i].end - all.runs[i].begin),
+                label[i]);
+    }
+  });
+}
+
+/// Labelled pixels beside measured ones that have no label yet.
+std::vector<Pixel> rims(const Image<float>& phase, const Image<std::int32_t>& label) {
   std::vector<Pixel> front;
-  for (int y = 0; y < regions.label.height(); ++y) {
-    for (int x = 0; x < regions.label.width(); ++x) {
-      if (regions.label(x, y) >= 0 || !allowed(x, y)) continue;
-      regions.label(x, y) = regions.count++;
-      front.assign(1, {x, y});
-      spread(front, regions, allowed);
-      labelled.insert(labelled.end(), front.begin(), front.end());
+  const auto waits = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < label.width() && y < label.height() && label(x, y) < 0 &&
+           !std::isnan(phase(x, y));
+  };
+  for (int y = 0; y < label.height(); ++y) {
+    for (int x = 0; x < label.width(); ++x) {
+      if (label(x, y) < 0) continue;
+      if (waits(x - 1, y) || waits(x + 1, y) || waits(x, y - 1) || waits(x, y + 1))
+        front.push_back({x, y});
     }
   }
-  return labelled;
+  return front;
 }
 
 }  // namespace
@@ -167,15 +266,15 @@ Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options) 
   const Image<float>& phase = wrapped.phase_rad;
   Regions regions{.label = Image<std::int32_t>(phase.width(), phase.height(), -1),
                   .count = 0,
-                  .smooth_right = smooth_jumps(phase, 1, 0, options),
-                  .smooth_below = smooth_jumps(phase, 0, 1, options)};
-  const int limit = options.neck_radius_px + 1;
-  const auto distance = distance_to(broken_pixels(phase, regions), limit);
+                  .smooth_right = smooth_right(phase, options),
+                  .smooth_below = smooth_below(phase, options)};
+  Mask near_cut = broken_pixels(phase, regions);
+  dilate(options.neck_radius_px, near_cut);
   const auto measured = [&](int x, int y) { return !std::isnan(phase(x, y)); };
-  std::vector<Pixel> front =
-      label_all(regions, [&](int x, int y) { return measured(x, y) && distance(x, y) == limit; });
-  spread(front, regions, measured);                 // the rims around the cores
-  static_cast<void>(label_all(regions, measured));  // what no core reaches
+  label_all(regions, [&](int x, int y) { return measured(x, y) && near_cut(x, y) == 0; });
+  std::vector<Pixel> front = rims(phase, regions.label);
+  spread(front, regions, measured);  // the rims around the cores
+  label_all(regions, measured);      // what no core reaches
   return regions;
 }
 

@@ -6,13 +6,20 @@
 
 namespace frangia {
 
+/// How the pixels of a region are put in order.
+enum class SpaceMethod {
+  Runs,      ///< runs of rows, see `link_runs`: the fast one
+  TakedaAbe  ///< growth along the largest product of modulations, the paper's, see `grow_phase`
+};
+
 struct SpaceUnwrapOptions {
+  SpaceMethod method = SpaceMethod::Runs;
   SplitOptions split;
   JoinOptions join;
 };
 
 /// Phase that is continuous within each region: residues discarded, regions split where a step may
-/// hide, each grown along the largest product of modulations, and joined again where that is safe.
+/// hide, each unwrapped, and joined again where that is safe.
 ///
 /// shape    w x h in and out
 /// missing  pixels that were missing, and residues

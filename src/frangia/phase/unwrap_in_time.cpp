@@ -13,10 +13,6 @@
 
 namespace frangia {
 
-double wrong_order_chance(double sigma_rad) {
-  return std::erfc(kPi / (sigma_rad * std::numbers::sqrt2));
-}
-
 namespace {
 
 constexpr std::size_t kChunk = 1 << 16;

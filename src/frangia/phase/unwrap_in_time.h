@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "frangia/pattern/fringe_sequence.h"
 #include "frangia/phase/phase_map.h"
 #include "frangia/rig/projector.h"
 
@@ -14,9 +15,6 @@ struct TimeUnwrapOptions {
   /// the neighbours this far that agree with it within their noise. 0 leaves it as it is.
   int smooth_radius_px = 2;
 };
-
-/// The chance that a phase of this sigma is more than half a fringe off.
-[[nodiscard]] double wrong_order_chance(double sigma_rad);
 
 /// Absolute phase of the finest fringes, each level lifted by the coarser one before it.
 ///

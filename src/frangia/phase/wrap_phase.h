@@ -15,6 +15,8 @@ struct WrapOptions {
 
 /// Phase, modulation, mean and expected phase noise of every pixel.
 ///
+/// `lent` is a map that is no longer needed: of the same size, its memory is written over, since
+/// touching new memory for the first time costs more than all the rest.
 /// shape    N frames of w x h in, w x h out
 /// units    counts in; rad and counts out
 /// missing  a pixel that is saturated in any frame, or unmodulated, has no phase and says why
@@ -23,6 +25,7 @@ struct WrapOptions {
 [[nodiscard]] WrappedPhase wrap_phase(const FrameStack& stack,
                                       const PhaseAlgorithm& algorithm,
                                       const NoiseModel& noise,
-                                      const WrapOptions& options = {});
+                                      const WrapOptions& options = {},
+                                      WrappedPhase lent = {});
 
 }  // namespace frangia

@@ -83,6 +83,11 @@ std::optional<Crossing> cross(const RelativePhase& phase,
   if (x < 0 || y < 0 || u >= phase.region.width() || v >= phase.region.height()) return {};
   const int region = phase.region(x, y);
   if (region < 0 || phase.region(u, v) != region) return {};
+  // Near another region the light may lie on that one's surface.
+  const auto row = static_cast<std::size_t>(phase.region.width());
+  if (at_border(phase.region, static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x))) {
+    return {};
+  }
   // The line runs along one axis of the scan, so one of fx and fy is zero.
   const double share = fx + fy;
   const double here = (1.0 - share) * phase.phase_rad(x, y) + share * phase.phase_rad(u, v);

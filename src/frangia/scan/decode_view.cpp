@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/recover_saturated.h"
+#include "frangia/phase/unwrap_sequence.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/phase_range.h"
 
@@ -42,12 +47,44 @@ double crossing_distance(const Pattern& pattern, const Rig& rig) {
   return intersect({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
 }
 
+/// Whether beats of the patterns make up for an absolute one that is not there.
+bool has_ladder(std::span<const WrappedPhase> maps, const Projector& projector) {
+  std::vector<Pattern> patterns;
+  for (const WrappedPhase& map : maps)
+    patterns.push_back(map.pattern);
+  return maps.size() > 1 && !find_ladder(patterns, projector).empty();
+}
+
+/// One pattern's frames to its wrapped phase, and what is to be said of them.
+void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
+  Run warnings = run;  // the verdict tells the algorithm: one sentence a pattern is enough
+  warnings.on_note = nullptr;
+  const FittedAlgorithm fitted = fit_algorithm(options.algorithm, taken, out.noise, warnings);
+  FrameStack recovered;
+  if (options.recover_saturated) {
+    recovered = taken;
+    const std::size_t pixels = recover_saturated(recovered);
+    run.note(fmt::format(
+        "pattern \"{}\": one saturated frame of {} pixels recovered", taken.pattern.name, pixels));
+  }
+  const FrameStack& stack = options.recover_saturated ? recovered : taken;
+  out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
+  out.verdicts.push_back(judge_frames(stack, fitted, out.wrapped.back(), out.noise));
+}
+
 }  // namespace
 
 bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
-  return std::any_of(patterns.begin(), patterns.end(), [&](const Pattern& pattern) {
-    return pattern.kind == PatternKind::Line || is_absolute(pattern, projector);
+  std::vector<Pattern> fringes;
+  for (const Pattern& pattern : patterns) {
+    if (pattern.kind == PatternKind::Line || is_absolute(pattern, projector)) return true;
+    if (fringes.empty() || pattern.direction == fringes.front().direction)
+      fringes.push_back(pattern);
+  }
+  std::stable_sort(fringes.begin(), fringes.end(), [](const Pattern& a, const Pattern& b) {
+    return a.fringes_per_unit() < b.fringes_per_unit();
   });
+  return !find_ladder(fringes, projector).empty();
 }
 
 DecodedView decode_view(std::span<const FrameStack> stacks,
@@ -60,11 +97,12 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   out.noise = rig.camera.noise ? *rig.camera.noise : estimate_noise(stacks);
   for (const FrameStack* stack : fringes) {
     run.check();
-    const PhaseAlgorithm algorithm = choose_algorithm(options.algorithm, stack->pattern);
-    out.wrapped.push_back(wrap_phase(*stack, algorithm, out.noise, options.wrap));
+    wrap(*stack, options, run, out);
   }
   if (is_absolute(out.wrapped.front().pattern, rig.projector)) {
     out.phase = unwrap_in_time(out.wrapped, rig.projector, options.in_time);
+  } else if (has_ladder(out.wrapped, rig.projector)) {
+    out.phase = unwrap_sequence(out.wrapped, rig.projector, options.in_time);
   } else {
     out.relative = unwrap_in_space(out.wrapped.front(), options.in_space);
     const FrameStack* line = line_of(stacks);

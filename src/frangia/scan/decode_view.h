@@ -11,6 +11,7 @@
 #include "frangia/core/run.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/phase/fill_enclosed.h"
+#include "frangia/phase/judge_frames.h"
 #include "frangia/phase/phase_map.h"
 #include "frangia/phase/unwrap_in_space.h"
 #include "frangia/phase/unwrap_in_time.h"
@@ -22,7 +23,9 @@
 namespace frangia {
 
 struct DecodeOptions {
-  std::string algorithm = "auto";  ///< see `choose_algorithm`
+  std::string algorithm = "auto";  ///< see `fit_algorithm`
+  /// Recover the one saturated frame of four, instead of discarding the pixel as the paper does.
+  bool recover_saturated = false;
   WrapOptions wrap;
   TimeUnwrapOptions in_time;
   SpaceUnwrapOptions in_space;
@@ -35,6 +38,7 @@ struct DecodeOptions {
 struct DecodedView {
   NoiseModel noise;
   std::vector<WrappedPhase> wrapped;      ///< coarse to fine
+  std::vector<FrameVerdict> verdicts;     ///< of the frames, one a wrapped phase
   std::optional<RelativePhase> relative;  ///< of a scan that is unwrapped in space
   std::vector<ProfilePoint> profile;      ///< of a scan with the plane of light
   AbsolutePhase phase;                    ///< of the finest fringes

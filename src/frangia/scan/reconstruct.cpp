@@ -33,6 +33,21 @@ std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelFate>
       share(fate, PixelFate::Saturated));
 }
 
+/// The first view's verdicts stand for all; of the others only what is suspect is worth a sentence.
+void tell_verdicts(const Scan& scan,
+                   std::size_t view,
+                   const std::vector<FrameVerdict>& verdicts,
+                   const Run& run) {
+  for (const FrameVerdict& verdict : verdicts) {
+    const std::string folder = scan.views[view].folder.string();
+    if (verdict.vibration_suspected) {
+      run.warn(fmt::format("{}: {}", folder, in_words(verdict)));
+    } else if (view == 0) {
+      run.note(fmt::format("{}: {}", folder, in_words(verdict)));
+    }
+  }
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
@@ -54,6 +69,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     const auto frames = read_frames(scan, i, run);
     run.stage("phase");
     DecodedView decoded = decode_view(frames, scan.rig, rays, options.decode, run);
+    tell_verdicts(scan, i, decoded.verdicts, run);
     run.stage("range");
     RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
     drop_mixed_edges(range, rays, decoded.phase.fate, options.edges);

@@ -9,6 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/pattern/fringe_sequence.h"
 
 namespace frangia {
 namespace {
@@ -69,10 +70,30 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& lens, const PatternPla
   return patterns;
 }
 
+/// A sequence of fringes over the whole field of either projector.
+std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) {
+  const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+  std::vector<Pattern> patterns;
+  for (const double fringes : fringe_sequence(plan.sequence, plan.fringes)) {
+    const std::string name = fmt::format("f{:g}", fringes);
+    if (lens != nullptr) {
+      Pattern pattern{.name = name, .period_px = lens->width_px / fringes};
+      pattern.shifts_rad = even_shifts(plan.shifts);
+      patterns.push_back(pattern);
+      continue;
+    }
+    const auto& field = std::get<AngularModel>(rig.projector.model);
+    const double field_deg = deg_from_rad(field.field_max_rad - field.field_min_rad);
+    patterns.push_back(angular_pattern(name, fringes / field_deg, plan.shifts));
+  }
+  return patterns;
+}
+
 }  // namespace
 
 std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
   require(plan.shifts >= 3, "a phase needs at least three shifts");
+  if (!plan.sequence.empty()) return sequence_patterns(rig, plan);
   const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
   return lens != nullptr ? pinhole_patterns(*lens, plan) : angular_patterns(rig, plan);
 }

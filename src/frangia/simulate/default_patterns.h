@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "frangia/pattern/pattern.h"
@@ -10,7 +11,10 @@ namespace frangia {
 struct PatternPlan {
   double fringes_per_degree = 1.0;  ///< angular projector: of the finest pattern
   std::vector<double> periods_px;   ///< pinhole projector; empty: the width, its 8th and its 64th
-  int shifts = 4;                   ///< frames a fringe pattern, evenly over a turn
+  /// Instead of the above, a sequence of `fringe_sequence` that ends with `fringes` over the field.
+  std::string sequence;
+  double fringes = 64.0;
+  int shifts = 4;  ///< frames a fringe pattern, evenly over a turn
 };
 
 /// Patterns that give a rig absolute phase.

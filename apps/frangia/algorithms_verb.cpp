@@ -1,0 +1,83 @@
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/phase/algorithm_errors.h"
+#include "frangia/phase/published_algorithms.h"
+
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+/// Ripple at step errors of -10 to 10 %, for plots.
+std::vector<double> ripples(const PublishedAlgorithm& published, bool finds_step) {
+  const auto shifts = example_shifts(published);
+  std::vector<double> values;
+  for (int percent = -10; percent <= 10; ++percent) {
+    const double error = 0.01 * percent;
+    values.push_back(
+        ripple(make_algorithm(published.name, shifts, finds_step ? error : 0.0), shifts, error));
+  }
+  return values;
+}
+
+void print_algorithms(const Terminal& terminal) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  if (!terminal.json) {
+    fmt::print("{:<14}{:<36}{:>11}{:>8}{:>7}{:>7}  {}\n",
+               "algorithm",
+               "frames",
+               "ripple/rad",
+               "noise",
+               "h2",
+               "h3",
+               "source");
+  }
+  for (const PublishedAlgorithm& published : published_algorithms()) {
+    const auto shifts = example_shifts(published);
+    const bool finds_step =
+        published.rule == ShiftRule::ManyEqual || published.rule == ShiftRule::ManyUneven;
+    const AlgorithmErrors errors =
+        algorithm_errors(make_algorithm(published.name, shifts), shifts, finds_step);
+    if (terminal.json) {
+      json.push_back({{"name", published.name},
+                      {"frames", frames_in_words(published)},
+                      {"ripple_rad", errors.ripple_rad},
+                      {"ripple_by_percent", ripples(published, finds_step)},
+                      {"noise_gain", errors.noise_gain},
+                      {"second_harmonic", errors.second_harmonic},
+                      {"third_harmonic", errors.third_harmonic},
+                      {"source", published.source}});
+      continue;
+    }
+    fmt::print("{:<14}{:<36}{:>11.6f}{:>8.3f}{:>7.2f}{:>7.2f}  {}\n",
+               published.name,
+               frames_in_words(published),
+               errors.ripple_rad,
+               errors.noise_gain,
+               errors.second_harmonic,
+               errors.third_harmonic,
+               published.source);
+  }
+  if (terminal.json) {
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print(
+      "\nripple: peak to valley, a step 5 % long or short; noise: c of sigma_phi = c sigma_I / B;\n"
+      "h2, h3: phase error for a second or third harmonic, over its share of B. N = 6 where N may\n"
+      "be chosen, 4 frames for global-carre.\n");
+}
+
+}  // namespace
+
+void add_algorithms_verb(CLI::App& program, Terminal& terminal) {
+  CLI::App* verb =
+      program.add_subcommand("algorithms", "the phase-shift algorithms and their errors");
+  verb->footer("example:\n  frangia algorithms");
+  verb->callback([&terminal] { print_algorithms(terminal); });
+}
+
+}  // namespace frangia

@@ -1,0 +1,75 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+#include "frangia/pattern/fringe_sequence.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/simulate/rig_presets.h"
+
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+struct PlanArguments {
+  std::string rig = "digital";
+  double fringes = 64.0;
+  double sigma_rad = 0.1;
+  double max_wrong_order = 1e-6;
+};
+
+void plan(const PlanArguments& arguments, Terminal& terminal) {
+  const Rig rig = std::filesystem::path(arguments.rig).has_extension()
+                      ? read_rig(arguments.rig, terminal.run())
+                      : rig_preset(arguments.rig);
+  const SequencePlan found =
+      plan_sequence(arguments.fringes, arguments.sigma_rad, arguments.max_wrong_order);
+  const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+  std::vector<double> values;
+  for (const double fringes : found.fringes) {
+    if (lens != nullptr) {
+      values.push_back(lens->width_px / fringes);
+    } else {
+      const auto& field = std::get<AngularModel>(rig.projector.model);
+      values.push_back(fringes / deg_from_rad(field.field_max_rad - field.field_min_rad));
+    }
+  }
+  const std::string key = lens != nullptr ? "period_px" : "fringes_per_degree";
+  if (terminal.json) {
+    const nlohmann::ordered_json json{
+        {"fringes", found.fringes}, {key, values}, {"wrong_order", found.wrong_order}};
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print(
+      "{} patterns, {} = {:.6g}\nfringes over the field: {:.4g}\nwrong order: {:.1e} a pixel\n",
+      values.size(),
+      key,
+      fmt::join(values, ", "),
+      fmt::join(found.fringes, ", "),
+      found.wrong_order);
+}
+
+}  // namespace
+
+void add_plan_verb(CLI::App& program, Terminal& terminal) {
+  CLI::App* verb = program.add_subcommand("plan", "the shortest sequence of patterns for a noise");
+  verb->footer("example:\n  frangia plan --rig digital --fringes 64 --sigma 0.1");
+  auto arguments = std::make_shared<PlanArguments>();
+  verb->add_option("--rig", arguments->rig, "a rig's name, or a rig.toml")->capture_default_str();
+  verb->add_option("--fringes", arguments->fringes, "over the field, of the finest pattern")
+      ->capture_default_str();
+  verb->add_option("--sigma", arguments->sigma_rad, "noise of one phase map, rad")
+      ->capture_default_str();
+  verb->add_option("--max-wrong-order", arguments->max_wrong_order, "chance allowed a pixel")
+      ->check(CLI::Range(1e-15, 0.5))
+      ->capture_default_str();
+  verb->callback([arguments, &terminal] { plan(*arguments, terminal); });
+}
+
+}  // namespace frangia

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace frangia {
+
+/// Memory for `bytes`, never null; large ones on huge pages where the system has them, because
+/// touching 20 million pixels for the first time costs more than computing them.
+[[nodiscard]] void* allocate_pixels(std::size_t bytes);
+void free_pixels(void* memory) noexcept;
+
+/// The allocator of an Image: elements made without a value stay uninitialised.
+template <typename T>
+struct PixelAllocator {
+  using value_type = T;
+
+  PixelAllocator() = default;
+  template <typename U>
+  explicit PixelAllocator(const PixelAllocator<U>& /*other*/) noexcept {}
+
+  [[nodiscard]] T* allocate(std::size_t count) {
+    return static_cast<T*>(allocate_pixels(count * sizeof(T)));
+  }
+  void deallocate(T* memory, std::size_t /*count*/) noexcept { free_pixels(memory); }
+
+  template <typename U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <typename U, typename... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+  friend bool operator==(const PixelAllocator&, const PixelAllocator&) { return true; }
+};
+
+}  // namespace frangia

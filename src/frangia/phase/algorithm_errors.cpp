@@ -1,0 +1,91 @@
+#include "frangia/phase/algorithm_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kPhases = 1440;
+constexpr double kSmall = 1e-5;
+
+struct Wave {
+  int harmonic = 2;
+  double share = 0.0;  ///< of the harmonic, in units of B
+};
+
+std::vector<double> frames_of(double phi, const std::vector<double>& shifts, Wave wave = {}) {
+  std::vector<double> counts;
+  for (const double shift : shifts)
+    counts.push_back(std::cos(phi + shift) + wave.share * std::cos(wave.harmonic * (phi + shift)));
+  return counts;
+}
+
+/// Calls `use(phi)` for phases all over the fringe, none of them where a formula divides by zero.
+template <typename Use>
+void over_the_fringe(const Use& use) {
+  for (int i = 0; i < kPhases; ++i)
+    use(kTurn * (i + 0.37) / kPhases);
+}
+
+double harmonic_error(const PhaseAlgorithm& algorithm,
+                      const std::vector<double>& shifts,
+                      int harmonic) {
+  double worst = 0.0;
+  over_the_fringe([&](double phi) {
+    const double found = phase_of(algorithm, frames_of(phi, shifts, {harmonic, kSmall}));
+    worst = std::max(worst, std::abs(wrap_rad(found - phi)) / kSmall);
+  });
+  return worst;
+}
+
+}  // namespace
+
+double noise_gain(const PhaseAlgorithm& algorithm, const std::vector<double>& shifts_rad) {
+  double sum = 0.0;
+  over_the_fringe([&](double phi) {
+    for (std::size_t k = 0; k < shifts_rad.size(); ++k) {
+      auto counts = frames_of(phi, shifts_rad);
+      counts[k] += kSmall;
+      const double above = phase_of(algorithm, counts);
+      counts[k] -= 2.0 * kSmall;
+      const double slope = wrap_rad(above - phase_of(algorithm, counts)) / (2.0 * kSmall);
+      sum += slope * slope;
+    }
+  });
+  return std::sqrt(sum / kPhases);
+}
+
+double ripple(const PhaseAlgorithm& algorithm,
+              const std::vector<double>& shifts_rad,
+              double error) {
+  std::vector<double> made = shifts_rad;
+  for (double& shift : made)
+    shift *= 1.0 + error;
+  double low = kTurn;
+  double high = -kTurn;
+  over_the_fringe([&](double phi) {
+    const double off = wrap_rad(phase_of(algorithm, frames_of(phi, made)) - phi);
+    low = std::min(low, off);
+    high = std::max(high, off);
+  });
+  return high - low;
+}
+
+AlgorithmErrors algorithm_errors(const PhaseAlgorithm& algorithm,
+                                 const std::vector<double>& shifts_rad,
+                                 bool finds_step) {
+  const auto at = [&](double error) {
+    return ripple(finds_step ? make_algorithm(algorithm.name, shifts_rad, error) : algorithm,
+                  shifts_rad,
+                  error);
+  };
+  return {.ripple_rad = 0.5 * (at(0.05) + at(-0.05)),
+          .noise_gain = noise_gain(algorithm, shifts_rad),
+          .second_harmonic = harmonic_error(algorithm, shifts_rad, 2),
+          .third_harmonic = harmonic_error(algorithm, shifts_rad, 3)};
+}
+
+}  // namespace frangia

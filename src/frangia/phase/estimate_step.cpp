@@ -1,0 +1,78 @@
+#include "frangia/phase/estimate_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/core/angles.h"
+#include "frangia/phase/frame_samples.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kSamples = 400'000;
+constexpr Eigen::Index kEnough = 100;
+
+/// The scatter along the line must stand out from that across it by this factor.
+constexpr double kMinSignal = 4.0;
+
+/// A phase shifter is never off by more; what says so is no step.
+constexpr double kMaxGainError = 0.25;
+
+/// The step between the shifts as they are asked for, not wrapped: a shifter makes 270 degrees as
+/// 270, and is off in proportion. 0 when they are not equally spaced.
+double asked_step(const std::vector<double>& shifts_rad) {
+  const double step = shifts_rad[1] - shifts_rad[0];
+  for (std::size_t k = 2; k < shifts_rad.size(); ++k) {
+    if (std::abs(shifts_rad[k] - shifts_rad[k - 1] - step) > 1e-6) return 0.0;
+  }
+  return step;
+}
+
+/// The angle nearest to `nominal` whose cosine is `cosine`.
+double nearest_angle(double cosine, double nominal) {
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double up = nominal + wrap_rad(angle - nominal);
+  const double down = nominal + wrap_rad(-angle - nominal);
+  return std::abs(up - nominal) < std::abs(down - nominal) ? up : down;
+}
+
+}  // namespace
+
+StepEstimate estimate_step(const FrameStack& stack) {
+  StepEstimate out;
+  if (stack.frames.size() < 4 || stack.pattern.shifts_rad.size() != stack.frames.size()) return out;
+  out.nominal_rad = out.step_rad = asked_step(stack.pattern.shifts_rad);
+  if (std::abs(std::sin(out.nominal_rad)) < 0.1) return out;
+  const Eigen::ArrayXXf counts = sample_frames(stack, kSamples);
+  if (counts.rows() < kEnough) return out;
+  out.mean_counts = static_cast<double>(counts.mean());
+
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (Eigen::Index k = 0; k + 3 < counts.cols(); ++k) {
+    const Eigen::ArrayXd x = (counts.col(k + 1) - counts.col(k + 2)).cast<double>();
+    const Eigen::ArrayXd y = (counts.col(k) - counts.col(k + 3)).cast<double>();
+    xx += x.square().sum();
+    xy += (x * y).sum();
+    yy += y.square().sum();
+  }
+  const double n = static_cast<double>(counts.rows() * (counts.cols() - 3));
+  const double half_spread = 0.5 * std::hypot(xx - yy, 2.0 * xy);
+  const double along = 0.5 * (xx + yy) + half_spread;
+  const double across = std::max(0.5 * (xx + yy) - half_spread, 0.0);
+  out.residual_counts2 = across / n / 2.0;  // each difference holds two frames' noise
+  if (!(along > kMinSignal * across)) return out;
+
+  const double line = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const double slope = std::tan(line);
+  const double step = nearest_angle(0.5 * (slope - 1.0), out.nominal_rad);
+  if (!(std::abs(step / out.nominal_rad - 1.0) < kMaxGainError)) return out;
+  const double line_sigma = std::sqrt(along * across / n) / (along - across);
+  out.step_rad = step;
+  out.sigma_rad = line_sigma * (1.0 + slope * slope) / (2.0 * std::abs(std::sin(step)));
+  out.found = true;
+  return out;
+}
+
+}  // namespace frangia

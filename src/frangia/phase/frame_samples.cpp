@@ -1,0 +1,43 @@
+#include "frangia/phase/frame_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace frangia {
+
+Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted) {
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  const double all = static_cast<double>(width) * height;
+  // A stride along both, so that no direction of the fringes is preferred.
+  const int stride = std::max(
+      1, static_cast<int>(std::sqrt(all / static_cast<double>(std::max<std::size_t>(wanted, 1)))));
+  const auto frames = static_cast<Eigen::Index>(stack.frames.size());
+  const Eigen::Index most =
+      Eigen::Index{(width + stride - 1) / stride} * ((height + stride - 1) / stride);
+  Eigen::ArrayXXf counts(most, frames);
+  Eigen::Array<bool, Eigen::Dynamic, 1> kept =
+      Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(most, true);
+  for (Eigen::Index k = 0; k < frames; ++k) {
+    std::visit(
+        [&](const auto& image) {
+          Eigen::Index row = 0;
+          for (int y = 0; y < height; y += stride) {
+            for (int x = 0; x < width; x += stride, ++row) {
+              counts(row, k) = static_cast<float>(image(x, y));
+              kept(row) = kept(row) && image(x, y) < stack.white_level;
+            }
+          }
+        },
+        stack.frames[static_cast<std::size_t>(k)]);
+  }
+  Eigen::Index rows = 0;
+  for (Eigen::Index row = 0; row < most; ++row) {
+    if (kept(row)) counts.row(rows++) = counts.row(row);
+  }
+  counts.conservativeResize(rows, frames);
+  return counts;
+}
+
+}  // namespace frangia

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "frangia/phase/phase_map.h"
+#include "frangia/phase/unwrap_in_time.h"
+#include "frangia/rig/projector.h"
+
+namespace frangia {
+
+/// One step from a coarse phase to a finer one: a map of its own, or the beat of two.
+struct LadderStep {
+  std::size_t map = 0;    ///< index of the map
+  int less = -1;          ///< index of the map taken off it; -1 for none
+  double per_unit = 0.0;  ///< fringes per degree or projector pixel
+};
+
+/// The way from one fringe over the field, of a map or of a beat of two, to the finest map, each
+/// step as fine as noise `sigma_rad` in every map allows. Empty when there is none.
+[[nodiscard]] std::vector<LadderStep> find_ladder(std::span<const Pattern> patterns,
+                                                  const Projector& projector,
+                                                  double sigma_rad = 0.05);
+
+/// Absolute phase of the finest fringes from maps of any ratios: doubling, heterodyne, negative
+/// exponential. All maps take part in the result, by the least-squares slope of phase over
+/// frequency, each weighted by its own sigma.
+///
+/// shape    coarse to fine, all w x h
+/// missing  a pixel missing in any map, or whose chance of a wrong order, summed over the steps, is
+///          over the limit, is NaN and says why
+/// errors   Error(Input) when empty, of different size, or when no map and no beat of two holds one
+///          fringe or less over the field
+/// source   Huntley and Saldner 1997 for the slope; Reich, Ritter and Thesing 1997 for beats
+[[nodiscard]] AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
+                                            const Projector& projector,
+                                            const TimeUnwrapOptions& options = {});
+
+}  // namespace frangia

@@ -1,0 +1,83 @@
+#include "frangia/phase/fit_algorithm.h"
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/phase/published_algorithms.h"
+#include "frangia/phase/wrap_phase.h"
+
+#include "support/synthetic_fringes.h"
+
+namespace frangia {
+namespace {
+
+using testing::photograph;
+using testing::quarter_steps;
+using testing::Scene;
+
+double tilted(int x, int y) {
+  return 0.09 * x + 0.11 * y;
+}
+
+/// Error of every pixel of a map: its mean, and its spread about it.
+struct Offset {
+  double mean = 0.0;
+  double rms = 0.0;
+};
+Offset offset_of(const WrappedPhase& map) {
+  double sum = 0.0;
+  double square = 0.0;
+  for (int y = 0; y < map.phase_rad.height(); ++y) {
+    for (int x = 0; x < map.phase_rad.width(); ++x) {
+      const double error = wrap_rad(map.phase_rad(x, y) - tilted(x, y));
+      sum += error;
+      square += error * error;
+    }
+  }
+  const auto n = static_cast<double>(map.phase_rad.pixels().size());
+  return {sum / n, std::sqrt(square / n)};
+}
+
+TEST(FitAlgorithm, SwappingAlgorithmsLeavesNoConstantWhenTheShiftersGainIsOff) {
+  for (const PublishedAlgorithm& published : published_algorithms()) {
+    Pattern pattern = quarter_steps();
+    pattern.shifts_rad = example_shifts(published);
+    // Three frames do not show their step: those of a true shifter.
+    const double error = pattern.shifts_rad.size() > 3 ? 0.05 : 0.0;
+    const Scene scene{.height = 300, .noise_counts = 100.0, .step_error = error};
+    const FrameStack stack = photograph(scene, pattern, tilted);
+    const NoiseModel noise{.floor_counts2 = 1e4};
+    const FittedAlgorithm fitted = fit_algorithm(published.name, stack, noise);
+    const Offset offset = offset_of(wrap_phase(stack, fitted.algorithm, noise));
+    EXPECT_NEAR(offset.mean, 0.0, 6e-4) << published.name;
+    EXPECT_LT(offset.rms, 0.04) << published.name;
+  }
+}
+
+TEST(FitAlgorithm, TellsWhatItChose) {
+  std::string told;
+  frangia::Run run;
+  run.on_note = [&](const std::string& sentence) { told = sentence; };
+  const FrameStack stack = photograph({}, quarter_steps(), tilted);
+  EXPECT_EQ(fit_algorithm("auto", stack, {}, run).algorithm.name, "schwider");
+  EXPECT_EQ(told, "pattern \"fringe\": algorithm schwider, for 4 frames of an interferometer");
+}
+
+TEST(FitAlgorithm, WarnsWhenIteratedShiftsDoNotExplainTheFrames) {
+  Pattern pattern = quarter_steps();
+  pattern.shifts_rad = testing::equal_shifts(8, 0.25 * kPi);
+  const FrameStack stack = photograph({.height = 50, .noise_counts = 2000.0}, pattern, tilted);
+  std::string told;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { told = sentence; };
+  const NoiseModel far_too_small{.floor_counts2 = 1e4};
+  const PhaseAlgorithm algorithm = fit_algorithm("aia", stack, far_too_small, run).algorithm;
+  EXPECT_NE(told.find("no set of shifts explains the frames"), std::string::npos);
+  EXPECT_EQ(algorithm.sine, least_squares(pattern.shifts_rad).sine);
+}
+
+}  // namespace
+}  // namespace frangia

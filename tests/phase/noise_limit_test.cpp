@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/random.h"
+#include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/judge_frames.h"
+#include "frangia/phase/wrap_phase.h"
+
+#include "support/synthetic_fringes.h"
+
+namespace frangia {
+namespace {
+
+using testing::quarter_steps;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 300;
+const NoiseModel kCamera = NoiseModel::from_camera(40.0, 30.0);
+
+double tilted(int x, int y) {
+  return 0.09 * x + 0.11 * y;
+}
+
+/// Frames with shot and read noise of an 8-bit camera.
+FrameStack noisy_frames(double exposure, double step_error, double flicker_rad = 0.0) {
+  FrameStack stack{.pattern = quarter_steps(), .frames = {}, .white_level = 255};
+  for (std::size_t k = 0; k < 4; ++k) {
+    Image<std::uint8_t> image(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const double shift = stack.pattern.shifts_rad[k] * (1.0 + step_error) +
+                             (k == 2 ? flicker_rad * std::sin(0.05 * y) : 0.0);
+        const double light = 120.0 * exposure * (1.0 + 0.8 * std::cos(tilted(x, y) + shift));
+        const std::uint64_t place =
+            hash(hash(k + 5, static_cast<std::uint64_t>(y)), static_cast<std::uint64_t>(x));
+        const double sigma = std::sqrt(kCamera.variance(light) - 1.0 / 12.0);
+        image(x, y) = static_cast<std::uint8_t>(
+            std::lround(std::clamp(light + sigma * normal_from(place), 0.0, 255.0)));
+      }
+    }
+    stack.frames.emplace_back(std::move(image));
+  }
+  return stack;
+}
+
+struct Decoded {
+  double rms_rad = 0.0;
+  double chi_square = 0.0;
+  double limit_rad = 0.0;  ///< Cramér and Rao's, for a frame's mean variance
+};
+
+Decoded decode(const std::string& name, double exposure, double step_error, NoiseModel noise) {
+  const FrameStack stack = noisy_frames(exposure, step_error);
+  const FittedAlgorithm fitted = fit_algorithm(name, stack, noise);
+  const WrappedPhase map = wrap_phase(stack, fitted.algorithm, noise, {.max_sigma_rad = 1.0F});
+  Decoded out;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double error = wrap_rad(map.phase_rad(x, y) - tilted(x, y));
+      out.rms_rad += error * error / (kWidth * kHeight);
+      out.chi_square += std::pow(error / map.sigma_rad(x, y), 2) / (kWidth * kHeight);
+    }
+  }
+  out.rms_rad = std::sqrt(out.rms_rad);
+  out.limit_rad = std::sqrt(0.5 * kCamera.variance(120.0 * exposure)) / (96.0 * exposure);
+  return out;
+}
+
+TEST(NoiseLimit, LeastSquaresAndGlobalCarreReachItWithAndWithoutAStepError) {
+  for (const double error : {-0.05, 0.0, 0.05}) {
+    const Decoded global = decode("global-carre", 0.9, error, kCamera);
+    EXPECT_NEAR(global.rms_rad / global.limit_rad, 1.0, 0.05) << error;
+  }
+  const Decoded plain = decode("least-squares", 0.9, 0.0, kCamera);
+  EXPECT_NEAR(plain.rms_rad / plain.limit_rad, 1.0, 0.05);
+  EXPECT_GT(decode("least-squares", 0.9, 0.05, kCamera).rms_rad, 0.025);
+}
+
+TEST(NoiseLimit, SigmaIsTrueOverExposures) {
+  for (const double exposure : {0.15, 0.3, 0.6, 1.0}) {
+    for (const auto* name : {"least-squares", "schwider", "carre", "global-carre"}) {
+      const double chi_square = decode(name, exposure, 0.0, kCamera).chi_square;
+      EXPECT_GT(chi_square, 0.9) << name << " at " << exposure;
+      EXPECT_LT(chi_square, 1.1) << name << " at " << exposure;
+    }
+  }
+}
+
+TEST(NoiseLimit, SigmaIsTrueWhenTheNoiseIsEstimatedFromTheFrames) {
+  for (const double exposure : {0.15, 0.3, 0.6, 1.0}) {
+    const FrameStack stack = noisy_frames(exposure, 0.0);
+    const NoiseModel noise = estimate_noise({&stack, 1});
+    const double chi_square = decode("least-squares", exposure, 0.0, noise).chi_square;
+    EXPECT_GT(chi_square, 0.9) << exposure;
+    EXPECT_LT(chi_square, 1.1) << exposure;
+  }
+}
+
+FrameVerdict verdict_of(const FrameStack& stack) {
+  const FittedAlgorithm fitted = fit_algorithm("auto", stack, kCamera);
+  const WrappedPhase map = wrap_phase(stack, fitted.algorithm, kCamera);
+  return judge_frames(stack, fitted, map, kCamera);
+}
+
+TEST(JudgeFrames, FindsStepAndContrastAndNothingWrongInGoodFrames) {
+  const FrameVerdict verdict = verdict_of(noisy_frames(0.9, 0.03));
+  EXPECT_NEAR(verdict.step_deg, 92.7, 5.0 * verdict.step_sigma_deg);
+  EXPECT_NEAR(verdict.contrast, 0.8, 0.02);
+  EXPECT_NEAR(verdict.residual_ratio, 1.0, 0.1);
+  EXPECT_FALSE(verdict.vibration_suspected);
+  EXPECT_NE(in_words(verdict).find("frames consistent"), std::string::npos);
+}
+
+TEST(JudgeFrames, SuspectsVibrationWhenAFrameMoved) {
+  const FrameVerdict verdict = verdict_of(noisy_frames(0.9, 0.0, 0.2));
+  EXPECT_TRUE(verdict.vibration_suspected);
+  EXPECT_GT(verdict.residual_ratio, 2.0);
+}
+
+TEST(JudgeFrames, OfSaturatedFramesIsThatNothingWasMeasured) {
+  const FrameVerdict verdict = verdict_of(noisy_frames(30.0, 0.0));
+  EXPECT_GT(verdict.saturated_share, 0.9);
+  EXPECT_LT(verdict.measured_share, 0.05);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,57 @@
+#include "frangia/phase/recover_saturated.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/wrap_phase.h"
+
+#include "support/synthetic_fringes.h"
+
+namespace frangia {
+namespace {
+
+using testing::photograph;
+using testing::quarter_steps;
+
+double ramp(int x, int /*y*/) {
+  return 0.05 * x;
+}
+
+TEST(RecoverSaturated, FindsTheOneSaturatedFrameFromTheThreeOthers) {
+  // The crests are cut off at 45000 of 50000 counts.
+  FrameStack stack = photograph({.white_level = 45000}, quarter_steps(), ramp);
+  const FrameStack cut = stack;
+  const PhaseAlgorithm algorithm = make_algorithm("4-step", stack.pattern.shifts_rad);
+  const WrappedPhase before = wrap_phase(cut, algorithm, {});
+  EXPECT_GT(recover_saturated(stack), 500U);
+  const WrappedPhase after = wrap_phase(stack, algorithm, {});
+  for (int x = 0; x < 640; ++x) {
+    EXPECT_EQ(after.fate(x, 1), PixelFate::Measured);
+    EXPECT_NEAR(wrap_rad(after.phase_rad(x, 1) - ramp(x, 1)), 0.0, 2e-4);
+  }
+  EXPECT_GT(
+      std::count(before.fate.pixels().begin(), before.fate.pixels().end(), PixelFate::Saturated),
+      500);
+}
+
+TEST(RecoverSaturated, LeavesPixelsWithTwoSaturatedFramesSaturated) {
+  FrameStack stack = photograph({.white_level = 35000}, quarter_steps(), [](int, int) {
+    return -0.25 * kPi;  // frames 1 and 2 are equally bright
+  });
+  EXPECT_EQ(recover_saturated(stack), 0U);
+  const auto map = wrap_phase(stack, make_algorithm("4-step", stack.pattern.shifts_rad), {});
+  EXPECT_EQ(map.fate(3, 1), PixelFate::Saturated);
+}
+
+TEST(RecoverSaturated, IsForFourQuarterStepsOnly) {
+  Pattern three = quarter_steps();
+  three.shifts_rad = testing::equal_shifts(3, 0.5 * kPi);
+  FrameStack stack = photograph({}, three, ramp);
+  EXPECT_THROW(recover_saturated(stack), Error);
+}
+
+}  // namespace
+}  // namespace frangia

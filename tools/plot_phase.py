@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""The plots of docs/phase.md, from the program's own figures. Debian: python3-matplotlib.
+
+usage: plot_phase.py PROGRAM BENCH_FOLDER OUTPUT_FOLDER
+"""
+
+import json
+import math
+import os
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+
+def chart(folder, name, title, x_label, y_label, draw):
+    figure, axes = plt.subplots(figsize=(6.4, 4.0))
+    draw(axes)
+    axes.set_title(title)
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    axes.grid(True, which="both", alpha=0.3)
+    axes.legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(os.path.join(folder, name), metadata={"Date": None})
+    plt.close(figure)
+
+
+def main(program, bench, folder):
+    os.makedirs(folder, exist_ok=True)
+    table = json.loads(subprocess.run([program, "--json", "algorithms"], check=True,
+                                      capture_output=True, text=True).stdout)
+
+    def ripple(axes):
+        for row in table:
+            if row["ripple_by_percent"] and max(row["ripple_by_percent"]) > 1e-9:
+                axes.semilogy(range(-10, 11), [max(value, 1e-8) for value in row["ripple_by_percent"]],
+                              label=row["name"])
+
+    chart(folder, "ripple.svg", "Ripple against step error", "step error, %",
+          "peak-to-valley phase error, rad", ripple)
+
+    def noise(axes):
+        sigma = [0.001 * 1.2**i for i in range(30)]
+        for row in table:
+            if row["name"] in ("4-step", "schwider", "hariharan", "surrel"):
+                axes.loglog(sigma, [row["noise_gain"] * s for s in sigma], label=row["name"])
+        for frames, style in ((4, "k--"), (11, "k:")):
+            axes.loglog(sigma, [math.sqrt(2 / frames) * s for s in sigma], style,
+                        label=f"Cramér-Rao bound, {frames} frames")
+
+    chart(folder, "noise.svg", "Phase error against noise", "sigma_I / B", "sigma_phi, rad", noise)
+
+    def failure(axes):
+        sigma = [0.02 + 0.005 * i for i in range(100)]
+        for ratio in (2, 4, 8, 16):
+            axes.semilogy(sigma, [max(1e-12, math.erfc(math.pi / (s * math.sqrt(2 * (1 + ratio**2)))))
+                                  for s in sigma], label=f"ratio {ratio}")
+        axes.axhline(1e-6, color="k", linestyle=":", label="1e-6")
+
+    chart(folder, "wrong-order.svg", "Chance of a wrong order against sigma",
+          "sigma of each map, rad", "chance a pixel and step", failure)
+    path = os.path.join(bench, "phase.json")
+    if not os.path.exists(path):
+        print(f"{path} is absent: run ./run bench for the plot of speed")
+        return
+    with open(path, encoding="utf-8") as file:
+        runs = json.load(file)["benchmarks"]
+
+    def speed(axes):
+        for start in ("decode/schwider", "unwrap_space"):
+            some = [run for run in runs if run["name"].startswith(start + "/")]
+            sizes = [int(run["name"].rsplit("/", 1)[1]) for run in some]
+            axes.loglog(sizes, [run["cpu_time"] / size for run, size in zip(some, sizes)], "o-",
+                        label=start)
+
+    chart(folder, "speed.svg", "Speed against size, one core", "Mpx", "ns a pixel", speed)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
