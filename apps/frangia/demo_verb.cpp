@@ -42,8 +42,8 @@ struct Act {
 };
 
 constexpr int kViews = 8;
-constexpr double kWithin_mm = 0.2;
-constexpr float kErrorScale_mm = 0.1F;
+constexpr double kWithinMm = 0.2;
+constexpr float kErrorScaleMm = 0.1F;
 
 Scan plan_of(const Act& act, const std::filesystem::path& folder) {
   Scan plan;
@@ -95,12 +95,12 @@ void measure(const Scan& scan, const Mesh& truth, Act& act, const Run& run) {
     poses.push_back(scan.rig.rig_from_object(view.angle_rad));
   act.error = surface_error(act.result.mesh, truth_scene, {}, run);
   act.coverage = surface_coverage(
-      truth_scene, mesh_scene, SeenFrom{scan.rig, poses}, {.within_mm = kWithin_mm}, run);
+      truth_scene, mesh_scene, SeenFrom{scan.rig, poses}, {.within_mm = kWithinMm}, run);
   ShadeOptions shade{.width_px = 720, .height_px = 720, .samples_across = 3};
   act.pictures.push_back(shade_mesh(act.result.mesh, shade, run));
   shade.values = vertex_errors_mm(act.result.mesh, truth_scene, run);
-  shade.value_min = -kErrorScale_mm;
-  shade.value_max = kErrorScale_mm;
+  shade.value_min = -kErrorScaleMm;
+  shade.value_max = kErrorScaleMm;
   shade.color_map = ColorMap::Diverging;
   act.pictures.push_back(shade_mesh(act.result.mesh, shade, run));
 }
@@ -158,7 +158,7 @@ void print_table(const std::vector<Act>& acts, Terminal& terminal) {
                act.error.p99_mm,
                100.0 * act.coverage.share);
   }
-  fmt::print("(covered: of what a view could measure, has mesh within {} mm)\n\n", kWithin_mm);
+  fmt::print("(covered: of what a view could measure, has mesh within {} mm)\n\n", kWithinMm);
   for (const auto& [stage, seconds] : terminal.stage_seconds())
     fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
 }

@@ -12,21 +12,21 @@
 namespace frangia {
 namespace {
 
-enum ExitCode { kUsage = 2, kBadInput = 3, kDevice = 4, kNumeric = 5, kInterrupted = 130 };
+enum ExitCode { Usage = 2, BadInput = 3, DeviceFault = 4, NumericFault = 5, Interrupted = 130 };
 
 int exit_code_of(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::Input:
     case ErrorKind::File:
-      return kBadInput;
+      return BadInput;
     case ErrorKind::Device:
-      return kDevice;
+      return DeviceFault;
     case ErrorKind::Numeric:
-      return kNumeric;
+      return NumericFault;
     case ErrorKind::Cancelled:
-      return kInterrupted;
+      return Interrupted;
   }
-  return kNumeric;
+  return NumericFault;
 }
 
 int complain(Terminal& terminal, const std::string& sentence, int code) {
@@ -64,14 +64,14 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(kUsage);
+    return program.exit(error) == 0 ? 0 : static_cast<int>(Usage);
   } catch (const Error& error) {
     return complain(terminal, error.what(), exit_code_of(error.kind()));
   } catch (const std::bad_alloc&) {
     return complain(
-        terminal, "the machine's memory does not hold this; try a larger voxel", kNumeric);
+        terminal, "the machine's memory does not hold this; try a larger voxel", NumericFault);
   } catch (const std::exception& error) {
-    return complain(terminal, error.what(), kNumeric);
+    return complain(terminal, error.what(), NumericFault);
   }
   terminal.finish();
   return 0;

@@ -9,7 +9,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kSpeck_px = 4;
+constexpr std::size_t kSpeckPx = 4;
 constexpr int kSweeps = 200;
 
 struct Pixel {
@@ -120,7 +120,7 @@ std::size_t fill_enclosed(AbsolutePhase& phase, const FillOptions& options) {
       if (seen(x, y) != 0 || !is_discarded(phase.fate(x, y))) continue;
       const Hole hole = collect(phase.fate, {x, y}, seen);
       const bool may_be_true =
-          2 * hole.unmodulated > hole.inside.size() && hole.inside.size() > kSpeck_px;
+          2 * hole.unmodulated > hole.inside.size() && hole.inside.size() > kSpeckPx;
       if (hole.open || may_be_true || hole.rim.empty() || hole.inside.size() > options.max_px)
         continue;
       const Plane plane = fit_plane(phase, hole.rim);

@@ -17,7 +17,7 @@ namespace {
 using Orders = std::vector<std::optional<int>>;
 
 /// How near to a pixel another region may come: two pixels of a border may each see both sides.
-constexpr int kRim_px = 2;
+constexpr int kRimPx = 2;
 
 /// Whether a pixel lies so near to another region that it may see that one's surface too.
 bool at_border(const Image<std::int32_t>& region, std::size_t i) {
@@ -25,8 +25,8 @@ bool at_border(const Image<std::int32_t>& region, std::size_t i) {
   const int x = static_cast<int>(i % row);
   const int y = static_cast<int>(i / row);
   const std::int32_t own = region(x, y);
-  for (int v = std::max(0, y - kRim_px); v <= std::min(region.height() - 1, y + kRim_px); ++v) {
-    for (int u = std::max(0, x - kRim_px); u <= std::min(region.width() - 1, x + kRim_px); ++u) {
+  for (int v = std::max(0, y - kRimPx); v <= std::min(region.height() - 1, y + kRimPx); ++v) {
+    for (int u = std::max(0, x - kRimPx); u <= std::min(region.width() - 1, x + kRimPx); ++u) {
       if (region(u, v) >= 0 && region(u, v) != own) return true;
     }
   }

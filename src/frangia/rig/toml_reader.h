@@ -103,7 +103,7 @@ class TomlReader {
   /// Warns of each key that nothing has asked for.
   void warn_of_the_rest(const Run& run) const {
     for (const auto& [key, value] : *table_) {
-      if (used_.count(std::string(key.str())) == 0) {
+      if (!used_.contains(std::string(key.str()))) {
         run.warn(fmt::format("{}: {} is not known and ignored", file_.string(), name(key.str())));
       }
     }

@@ -26,7 +26,9 @@ constexpr double kBlocksPerFlatOne = 2.8;
 
 void VoxelBudget::check(double blocks) const {
   if (blocks <= static_cast<double>(max_blocks)) return;
-  constexpr double kSpare = 1.1;
+  // Blocks finer than the points are apart leave gaps that coarser ones fill: the size named must
+  // fit.
+  constexpr double kSpare = 2.4;
   const double needed_gb = blocks * kBytesPerBlock * 1e-9;
   throw Error(
       ErrorKind::Input,
