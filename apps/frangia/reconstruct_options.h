@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include <CLI/CLI.hpp>
 
 #include "frangia/scan/reconstruct.h"
@@ -12,6 +15,15 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
                   options.algorithm,
                   "phase-shift algorithm: auto, or one of `frangia algorithms`")
       ->capture_default_str();
+  static const std::map<std::string, SpaceMethod> kMethods = {
+      {"default", SpaceMethod::Runs},
+      {"takeda-abe", SpaceMethod::TakedaAbe},
+      {"herraez", SpaceMethod::Herraez}};
+  verb.add_option("--unwrap",
+                  options.in_space.method,
+                  "how a phase is unwrapped in space: default, takeda-abe (the paper's growth) or "
+                  "herraez (sorted by reliability)")
+      ->transform(CLI::CheckedTransformer(kMethods).description(""));
   verb.add_flag("--recover-saturated",
                 options.recover_saturated,
                 "recover the one saturated frame of four, 90 degrees apart, from the others");

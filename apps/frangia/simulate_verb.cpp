@@ -64,7 +64,16 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--sequence",
                   arguments.patterns.sequence,
-                  "instead: doubling, negative-exponential or heterodyne, up to --fringes");
+                  "instead: doubling, negative-exponential, heterodyne or gray, up to --fringes");
+  verb.add_option("--exposures",
+                  arguments.patterns.exposures_ms,
+                  "take each frame at these exposures in ms, such as 2,8; the first is --exposure")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--ramp",
+                  arguments.patterns.ramp,
+                  "levels of a grey ramp, to measure the projector's response by; 0 for none")
+      ->check(CLI::Range(0, 256));
   verb.add_option("--fringes", arguments.patterns.fringes, "over the field, of the --sequence")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -89,6 +89,57 @@ TEST(UnwrapInSpace, GivesEveryConnectedPieceItsOwnRegion) {
   EXPECT_TRUE(is_true_but_for_turns(found, islands, 1e-4));
 }
 
+/// Share of the measured pixels whose fringe is not that of most of their region.
+template <typename PhaseOf>
+double wrong_share(const RelativePhase& found, const PhaseOf& truth) {
+  std::map<int, std::map<int, int>> votes;
+  for (int y = 0; y < found.phase_rad.height(); ++y) {
+    for (int x = 0; x < found.phase_rad.width(); ++x) {
+      if (found.region(x, y) < 0) continue;
+      const double off = (found.phase_rad(x, y) - truth(x, y)) / kTurn;
+      ++votes[found.region(x, y)][static_cast<int>(std::lround(off))];
+    }
+  }
+  double all = 0.0;
+  double right = 0.0;
+  for (const auto& [region, orders] : votes) {
+    int most = 0;
+    for (const auto& [order, count] : orders) {
+      all += count;
+      most = std::max(most, count);
+    }
+    right += most;
+  }
+  return 1.0 - right / all;
+}
+
+TEST(UnwrapInSpace, TheDefaultErrsNoMoreThanTheBetterOfThePublishedMethods) {
+  // Noise with which one jump in some hundreds is of more than half a fringe.
+  const auto truth = [](int x, int y) {
+    return 0.0006 * ((x - 300) * (x - 300) + (y - 200) * (y - 200));
+  };
+  const WrappedPhase map = wrapped_map(600, 400, truth, 0.6);
+  const auto share = [&](SpaceMethod method) {
+    return wrong_share(unwrap_in_space(map, {.method = method}), truth);
+  };
+  const double runs = share(SpaceMethod::Runs);
+  const double grown = share(SpaceMethod::TakedaAbe);
+  const double sorted = share(SpaceMethod::Herraez);
+  EXPECT_LE(runs, std::min(grown, sorted) + 1e-4)
+      << "default " << runs << ", takeda-abe " << grown << ", herraez " << sorted;
+  EXPECT_LT(sorted, 0.01);
+}
+
+TEST(UnwrapInSpace, EveryMethodRecoversASmoothSurface) {
+  for (const SpaceMethod method :
+       {SpaceMethod::Runs, SpaceMethod::TakedaAbe, SpaceMethod::Herraez}) {
+    const RelativePhase found =
+        unwrap_in_space(wrapped_map(180, 140, dome, 0.05), {.method = method});
+    EXPECT_EQ(found.region_count, 1);
+    EXPECT_TRUE(is_true_but_for_turns(found, dome, 0.4));
+  }
+}
+
 TEST(UnwrapInSpace, NumbersRegionsFromTheLargest) {
   const auto sizes = [](int x, int) { return x < 20 ? 1.0 : x < 30 ? std::nan("") : 2.0; };
   const RelativePhase found = unwrap_in_space(wrapped_map(150, 40, sizes));

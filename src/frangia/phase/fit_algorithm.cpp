@@ -10,6 +10,25 @@
 namespace frangia {
 namespace {
 
+/// The residual about equal steps may exceed the noise by this factor, which is known to some 10 %.
+constexpr double kMaxExcess = 1.3;
+
+/// The step, unless the frames say that there is no one step: errors that differ from frame to
+/// frame would be taken for a gain, and the constant that it adds to the phase be made up.
+StepEstimate trusted_step(const FrameStack& stack, const NoiseModel& noise, const Run& run) {
+  StepEstimate step = estimate_step(stack);
+  const double expected = noise.variance(step.mean_counts);
+  if (!step.found || step.residual_counts2 < kMaxExcess * expected) return step;
+  step.found = false;
+  run.note(
+      fmt::format("pattern \"{}\": its steps are not equal ({:.3g} counts squared left, {:.3g} "
+                  "expected), so those of scan.toml are used",
+                  stack.pattern.name,
+                  step.residual_counts2,
+                  expected));
+  return step;
+}
+
 PhaseAlgorithm iterated(const FrameStack& stack, const NoiseModel& noise, const Run& run) {
   static_cast<void>(make_algorithm("aia", stack.pattern.shifts_rad));  // refuses too few frames
   const ShiftEstimate shifts = estimate_shifts(stack, noise);
@@ -44,7 +63,8 @@ FittedAlgorithm fit_algorithm(const std::string& name,
   }
   if (chosen == "aia") return {iterated(stack, noise, run), {}};
   FittedAlgorithm out;
-  if (angular || chosen == "carre" || chosen == "global-carre") out.step = estimate_step(stack);
+  if (angular || chosen == "carre" || chosen == "global-carre")
+    out.step = trusted_step(stack, noise, run);
   out.algorithm = make_algorithm(chosen, pattern.shifts_rad, out.step.gain_error());
   return out;
 }

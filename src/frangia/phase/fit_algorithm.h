@@ -19,8 +19,8 @@ struct FittedAlgorithm {
 /// An algorithm by its name, or for "auto" the one that suits the projector and the frames.
 ///
 /// A phase shifter's steps are as long as the frames say: the constant that a wrong step adds to
-/// the phase is taken off. A digital projector's shifts are exact and not looked at, but for
-/// "global-carre", "carre" and "aia", which ask for it.
+/// the phase is taken off, if the frames fit one step to within their noise. A digital projector's
+/// shifts are exact and not looked at, but for "global-carre", "carre" and "aia", which ask for it.
 /// errors   Error(Input) for an unknown name, or shifts that do not fit, naming those that do
 [[nodiscard]] FittedAlgorithm fit_algorithm(const std::string& name,
                                             const FrameStack& stack,

@@ -5,15 +5,25 @@
 #include "frangia/phase/discard_residues.h"
 #include "frangia/phase/grow_phase.h"
 #include "frangia/phase/link_runs.h"
+#include "frangia/phase/sort_phase.h"
 
 namespace frangia {
 
 RelativePhase unwrap_in_space(WrappedPhase phase, const SpaceUnwrapOptions& options) {
   discard_residues(phase);
   Regions regions = split_regions(phase, options.split);
-  RelativePhase relative = options.method == SpaceMethod::Runs
-                               ? link_runs(std::move(phase), regions)
-                               : grow_phase(phase, regions);
+  RelativePhase relative;
+  switch (options.method) {
+    case SpaceMethod::Runs:
+      relative = link_runs(std::move(phase), regions);
+      break;
+    case SpaceMethod::TakedaAbe:
+      relative = grow_phase(phase, regions);
+      break;
+    case SpaceMethod::Herraez:
+      relative = sort_phase(phase, regions);
+      break;
+  }
   join_regions(relative, regions, options.join);
   return relative;
 }

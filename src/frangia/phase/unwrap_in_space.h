@@ -8,8 +8,9 @@ namespace frangia {
 
 /// How the pixels of a region are put in order.
 enum class SpaceMethod {
-  Runs,      ///< runs of rows, see `link_runs`: the fast one
-  TakedaAbe  ///< growth along the largest product of modulations, the paper's, see `grow_phase`
+  Runs,       ///< runs of rows, see `link_runs`: the fast one
+  TakedaAbe,  ///< growth along the largest product of modulations, the paper's, see `grow_phase`
+  Herraez     ///< edges sorted by reliability, see `sort_phase`
 };
 
 struct SpaceUnwrapOptions {

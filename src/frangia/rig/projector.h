@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include <Eigen/Core>
 
 #include "frangia/rig/lens.h"
+#include "frangia/rig/response_curve.h"
 
 namespace frangia {
 
@@ -21,6 +23,9 @@ struct Projector {
   std::variant<AngularModel, PinholeModel> model;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();   ///< in the rig frame
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< projector_from_rig
+
+  /// What patterns are corrected for before they are shown; none is shown as it is.
+  std::optional<ResponseCurve> response = std::nullopt;
 
   [[nodiscard]] bool is_angular() const { return std::holds_alternative<AngularModel>(model); }
   /// A point of the rig frame in the projector's own.

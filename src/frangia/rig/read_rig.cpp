@@ -105,6 +105,15 @@ Projector read_projector(TomlReader reader, const Run& run) {
   } else {
     reader.fail("model", fmt::format("is \"{}\"; it must be \"angular\" or \"pinhole\"", model));
   }
+  if (reader.has("response")) {
+    TomlReader response = reader.table("response");
+    const auto light = response.numbers("light");
+    const bool rises = std::is_sorted(light.begin(), light.end());
+    if (light.size() < 2 || light.front() != 0.0 || light.back() != 1.0 || !rises)
+      response.fail("light", "must rise from 0 to 1, a number for each of evenly spaced levels");
+    projector.response = ResponseCurve{light};
+    response.warn_of_the_rest(run);
+  }
   if (projector.position_mm.norm() == 0.0) {
     reader.fail("position_mm",
                 "is the camera's own centre; without a baseline nothing is measured");
@@ -145,6 +154,10 @@ std::string toml_of(const Projector& projector) {
                         deg_from_rad(angular->field_max_rad));
   } else {
     text += toml_of(std::get<PinholeModel>(projector.model));
+  }
+  if (projector.response) {
+    text += fmt::format("\n[projector.response]\nlight = [{:.6g}]\n",
+                        fmt::join(projector.response->light, ", "));
   }
   return text;
 }

@@ -44,6 +44,11 @@ class TomlReader {
     }
     return static_cast<int>(*value);
   }
+  [[nodiscard]] bool boolean(std::string_view key) {
+    const auto value = node(key).value_exact<bool>();
+    if (!value) fail(key, "must be true or false");
+    return *value;
+  }
   [[nodiscard]] std::string text(std::string_view key) {
     const auto value = node(key).value_exact<std::string>();
     if (!value) fail(key, "must be a text in quotes");

@@ -7,6 +7,8 @@
 
 #include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/merge_exposures.h"
+#include "frangia/phase/number_by_gray.h"
 #include "frangia/phase/recover_saturated.h"
 #include "frangia/phase/unwrap_sequence.h"
 #include "frangia/range/fringe_ray.h"
@@ -21,7 +23,9 @@ std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks) {
   std::vector<const FrameStack*> fringes;
   for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
     for (const FrameStack& stack : stacks) {
-      if (stack.pattern.kind == PatternKind::Fringe && stack.pattern.direction == direction) {
+      const bool first = stack.exposure == 0;
+      if (first && stack.pattern.kind == PatternKind::Fringe &&
+          stack.pattern.direction == direction) {
         fringes.push_back(&stack);
       }
     }
@@ -39,6 +43,20 @@ const FrameStack* line_of(std::span<const FrameStack> stacks) {
     return stack.pattern.kind == PatternKind::Line;
   });
   return found == stacks.end() ? nullptr : &*found;
+}
+
+/// All exposures of the pattern whose first one is `stack`.
+std::span<const FrameStack> exposures_of(const FrameStack* stack) {
+  return {stack, static_cast<std::size_t>(stack->pattern.exposure_count())};
+}
+
+/// Gray code that runs as the fringes do, at all its exposures.
+std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDirection direction) {
+  for (const FrameStack& stack : stacks) {
+    if (stack.pattern.kind == PatternKind::Gray && stack.pattern.direction == direction)
+      return exposures_of(&stack);
+  }
+  return {};
 }
 
 /// Distance at which the camera's axis meets the middle of the lit field: the paper's x0.
@@ -60,6 +78,14 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
   Run warnings = run;  // the verdict tells the algorithm: one sentence a pattern is enough
   warnings.on_note = nullptr;
   const FittedAlgorithm fitted = fit_algorithm(options.algorithm, taken, out.noise, warnings);
+  if (taken.pattern.exposure_count() > 1) {
+    std::vector<double> shifts = taken.pattern.shifts_rad;
+    for (double& shift : shifts)
+      shift *= 1.0 + fitted.step.gain_error();
+    out.wrapped.push_back(merge_exposures(exposures_of(&taken), shifts, out.noise, options.wrap));
+    out.verdicts.push_back(judge_frames(taken, fitted, out.wrapped.back(), out.noise));
+    return;
+  }
   FrameStack recovered;
   if (options.recover_saturated) {
     recovered = taken;
@@ -77,7 +103,10 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
 bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
   std::vector<Pattern> fringes;
   for (const Pattern& pattern : patterns) {
-    if (pattern.kind == PatternKind::Line || is_absolute(pattern, projector)) return true;
+    if (pattern.kind == PatternKind::Line || pattern.kind == PatternKind::Gray ||
+        is_absolute(pattern, projector))
+      return true;
+    if (pattern.kind != PatternKind::Fringe) continue;
     if (fringes.empty() || pattern.direction == fringes.front().direction)
       fringes.push_back(pattern);
   }
@@ -99,7 +128,12 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
     run.check();
     wrap(*stack, options, run, out);
   }
-  if (is_absolute(out.wrapped.front().pattern, rig.projector)) {
+  const auto gray = gray_of(stacks, out.wrapped.front().pattern.direction);
+  if (!gray.empty()) {
+    out.phase = lift_in_time(number_by_gray(gray, out.wrapped.front(), out.noise, options.in_time),
+                             std::span(out.wrapped).subspan(1),
+                             options.in_time);
+  } else if (is_absolute(out.wrapped.front().pattern, rig.projector)) {
     out.phase = unwrap_in_time(out.wrapped, rig.projector, options.in_time);
   } else if (has_ladder(out.wrapped, rig.projector)) {
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.in_time);

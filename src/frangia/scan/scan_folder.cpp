@@ -1,7 +1,10 @@
 #include "frangia/scan/scan_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
+#include <functional>
 #include <set>
 #include <string_view>
 
@@ -47,9 +50,63 @@ void read_fringes(TomlReader& reader, const Rig& rig, Pattern& pattern) {
   }
 }
 
+void read_gray(TomlReader& reader, const Rig& rig, Pattern& pattern) {
+  constexpr int kMaxBits = 24;
+  pattern.kind = PatternKind::Gray;
+  const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+  if (lens == nullptr) reader.fail("kind", "is \"gray\", which an angular projector cannot show");
+  pattern.bits = reader.integer("bits", 1, kMaxBits);
+  if (reader.has("inverted")) pattern.inverted = reader.boolean("inverted");
+  if (reader.has("stripe_px")) pattern.stripe_px = reader.positive("stripe_px");
+  const bool rows = pattern.direction == FringeDirection::Horizontal;
+  const int side = rows ? lens->height_px : lens->width_px;
+  if (std::ldexp(pattern.stripe_px, pattern.bits) < side * (1.0 - 1e-9)) {
+    reader.fail("bits",
+                fmt::format("is {}, which numbers fewer than the projector's {} {}",
+                            pattern.bits,
+                            side,
+                            rows ? "rows" : "columns"));
+  }
+}
+
+void read_ramp(TomlReader& reader, Pattern& pattern) {
+  pattern.kind = PatternKind::Ramp;
+  pattern.levels = reader.numbers("levels");
+  const bool rises =
+      std::is_sorted(pattern.levels.begin(), pattern.levels.end(), std::less_equal<>());
+  if (pattern.levels.size() < 3 || !rises || pattern.levels.front() != 0.0 ||
+      pattern.levels.back() != 1.0)
+    reader.fail("levels", "must be three rising shares of full light or more, from 0 to 1");
+}
+
+void read_exposures(TomlReader& reader, Pattern& pattern) {
+  if (!reader.has("exposures_ms")) return;
+  pattern.exposures_ms = reader.numbers("exposures_ms");
+  const bool positive = std::all_of(pattern.exposures_ms.begin(),
+                                    pattern.exposures_ms.end(),
+                                    [](double exposure) { return exposure > 0.0; });
+  if (pattern.exposures_ms.empty() || !positive)
+    reader.fail("exposures_ms", "must be one exposure or more, each above 0");
+  if (pattern.kind != PatternKind::Fringe && pattern.kind != PatternKind::Gray)
+    reader.fail("exposures_ms", "is for patterns of kind \"fringe\" and \"gray\" only");
+}
+
+void read_direction(TomlReader& reader, const Rig& rig, Pattern& pattern) {
+  if (!reader.has("direction")) return;
+  const std::string direction = reader.text("direction");
+  if (direction == "horizontal" && rig.projector.is_angular())
+    reader.fail("direction", "is \"horizontal\", but an angular projector's fringes are vertical");
+  if (direction != "vertical" && direction != "horizontal") {
+    reader.fail("direction",
+                fmt::format("is \"{}\"; it must be \"vertical\" or \"horizontal\"", direction));
+  }
+  if (direction == "horizontal") pattern.direction = FringeDirection::Horizontal;
+}
+
 Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
   Pattern pattern;
   pattern.name = file_name_part(reader, "name");
+  read_direction(reader, rig, pattern);
   const std::string kind = reader.text("kind");
   if (kind == "fringe") {
     read_fringes(reader, rig, pattern);
@@ -57,21 +114,16 @@ Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
     pattern.kind = PatternKind::Line;
     if (!rig.line)
       reader.fail("kind", "is \"line\", but rig.toml has no [line] that says where it is");
+  } else if (kind == "gray") {
+    read_gray(reader, rig, pattern);
+  } else if (kind == "ramp") {
+    read_ramp(reader, pattern);
   } else {
-    reader.fail("kind", fmt::format("is \"{}\"; it must be \"fringe\" or \"line\"", kind));
+    reader.fail(
+        "kind",
+        fmt::format("is \"{}\"; it must be \"fringe\", \"line\", \"gray\" or \"ramp\"", kind));
   }
-  if (reader.has("direction")) {
-    const std::string direction = reader.text("direction");
-    if (direction == "horizontal" && rig.projector.is_angular()) {
-      reader.fail("direction",
-                  "is \"horizontal\", but an angular projector's fringes are vertical");
-    }
-    if (direction != "vertical" && direction != "horizontal") {
-      reader.fail("direction",
-                  fmt::format("is \"{}\"; it must be \"vertical\" or \"horizontal\"", direction));
-    }
-    if (direction == "horizontal") pattern.direction = FringeDirection::Horizontal;
-  }
+  read_exposures(reader, pattern);
   reader.warn_of_the_rest(run);
   return pattern;
 }
@@ -86,14 +138,16 @@ ScanView read_view(TomlReader reader, bool has_turntable, const Run& run) {
   return view;
 }
 
-/// The frame number in "NAME-12.png", or -1.
+/// The frame number in "NAME-12.png" or "NAME-12@1.png", or -1.
 int frame_number(const std::string& file, const std::string& pattern_name) {
   const std::string_view ending = ".png";
   const std::size_t begin = pattern_name.size() + 1;
-  if (file.size() <= begin + ending.size() || file.size() > begin + ending.size() + 6) return -1;
+  if (file.size() <= begin + ending.size() || file.size() > begin + ending.size() + 9) return -1;
   if (file.compare(0, begin, pattern_name + "-") != 0) return -1;
   if (file.compare(file.size() - ending.size(), ending.size(), ending) != 0) return -1;
-  const std::string digits = file.substr(begin, file.size() - begin - ending.size());
+  std::string digits = file.substr(begin, file.size() - begin - ending.size());
+  digits.resize(std::min(digits.size(), digits.find('@')));
+  if (digits.empty()) return -1;
   const bool all_digits = std::all_of(
       digits.begin(), digits.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
   return all_digits ? std::stoi(digits) : -1;
@@ -107,7 +161,7 @@ void refuse_extra_frames(const std::filesystem::path& folder,
       if (frame_number(file, pattern.name) < pattern.frame_count()) continue;
       throw Error(ErrorKind::Input,
                   fmt::format("{}: is one frame too many: pattern \"{}\" has {} in scan.toml; take "
-                              "the file away or correct shifts_deg",
+                              "the file away or correct scan.toml",
                               entry.path().string(),
                               pattern.name,
                               pattern.frame_count()));
@@ -164,10 +218,22 @@ std::string quoted(const std::string& text) {
 }
 
 std::string toml_of(const Pattern& pattern) {
+  static constexpr std::array kKinds = {"fringe", "line", "gray", "ramp"};
   std::string text = fmt::format("\n[[pattern]]\nname = {}\nkind = \"{}\"\n",
                                  quoted(pattern.name),
-                                 pattern.kind == PatternKind::Line ? "line" : "fringe");
-  if (pattern.kind == PatternKind::Line) return text;
+                                 kKinds.at(static_cast<std::size_t>(pattern.kind)));
+  if (pattern.direction == FringeDirection::Horizontal) text += "direction = \"horizontal\"\n";
+  if (!pattern.exposures_ms.empty())
+    text += fmt::format("exposures_ms = [{}]\n", fmt::join(pattern.exposures_ms, ", "));
+  if (pattern.kind == PatternKind::Ramp)
+    text += fmt::format("levels = [{}]\n", fmt::join(pattern.levels, ", "));
+  if (pattern.kind == PatternKind::Gray) {
+    text += fmt::format("bits = {}\nstripe_px = {}\ninverted = {}\n",
+                        pattern.bits,
+                        pattern.stripe_px,
+                        pattern.inverted);
+  }
+  if (pattern.kind != PatternKind::Fringe) return text;
   if (pattern.fringes_per_degree > 0.0) {
     text += fmt::format("fringes_per_degree = {}\n", pattern.fringes_per_degree);
   } else {
@@ -177,13 +243,14 @@ std::string toml_of(const Pattern& pattern) {
   for (const double shift_rad : pattern.shifts_rad)
     shifts_deg.push_back(deg_from_rad(shift_rad));
   text += fmt::format("shifts_deg = [{:.10g}]\n", fmt::join(shifts_deg, ", "));
-  if (pattern.direction == FringeDirection::Horizontal) text += "direction = \"horizontal\"\n";
   return text;
 }
 
 }  // namespace
 
-std::string frame_file_name(const Pattern& pattern, int frame) {
+std::string frame_file_name(const Pattern& pattern, int frame, int exposure) {
+  if (!pattern.exposures_ms.empty())
+    return fmt::format("{}-{}@{}.png", pattern.name, frame, exposure);
   return fmt::format("{}-{}.png", pattern.name, frame);
 }
 
@@ -246,15 +313,20 @@ std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Ru
   refuse_extra_frames(folder, scan.patterns);
   std::vector<FrameStack> stacks;
   for (const Pattern& pattern : scan.patterns) {
-    FrameStack stack{.pattern = pattern, .frames = {}, .white_level = scan.rig.camera.white_level};
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      run.check();
-      const std::filesystem::path path = folder / frame_file_name(pattern, frame);
-      stack.frames.push_back(read_png(path));
-      const Frame& first = stacks.empty() ? stack.frames.front() : stacks.front().frames.front();
-      check_frame(stack.frames.back(), first, scan.rig.camera, path);
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      FrameStack stack{.pattern = pattern,
+                       .frames = {},
+                       .white_level = scan.rig.camera.white_level,
+                       .exposure = exposure};
+      for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+        run.check();
+        const std::filesystem::path path = folder / frame_file_name(pattern, frame, exposure);
+        stack.frames.push_back(read_png(path));
+        const Frame& first = stacks.empty() ? stack.frames.front() : stacks.front().frames.front();
+        check_frame(stack.frames.back(), first, scan.rig.camera, path);
+      }
+      stacks.push_back(std::move(stack));
     }
-    stacks.push_back(std::move(stack));
   }
   return stacks;
 }

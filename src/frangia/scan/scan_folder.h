@@ -34,7 +34,7 @@ struct Scan {
 /// Writes scan.toml and rig.toml into `scan.folder`.
 void write_scan(const Scan& scan);
 
-/// The frames of every pattern of one view, in the order of `scan.patterns`.
+/// The frames of every pattern of one view, in the order of `scan.patterns`, a stack an exposure.
 ///
 /// errors   Error(Input) that names the file: missing, one too many, of another size than the
 ///          rig's camera, of another depth than the first, or above the rig's white level
@@ -42,7 +42,7 @@ void write_scan(const Scan& scan);
                                                   std::size_t view,
                                                   const Run& run = {});
 
-/// PATTERN-FRAME.png
-[[nodiscard]] std::string frame_file_name(const Pattern& pattern, int frame);
+/// PATTERN-FRAME.png, or PATTERN-FRAME@EXPOSURE.png of a pattern that is taken at several.
+[[nodiscard]] std::string frame_file_name(const Pattern& pattern, int frame, int exposure = 0);
 
 }  // namespace frangia

@@ -49,8 +49,8 @@ void write_frames(const std::filesystem::path& folder, const std::vector<FrameSt
   std::vector<FrameFile> files;
   for (const FrameStack& stack : stacks) {
     for (std::size_t i = 0; i < stack.frames.size(); ++i) {
-      files.push_back(
-          {folder / frame_file_name(stack.pattern, static_cast<int>(i)), &stack.frames[i]});
+      files.push_back({folder / frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure),
+                       &stack.frames[i]});
     }
   }
   parallel_chunks(files.size(), 1, [&](std::size_t begin, std::size_t) {

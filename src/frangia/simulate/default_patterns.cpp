@@ -10,6 +10,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
+#include "frangia/pattern/gray_code.h"
 
 namespace frangia {
 namespace {
@@ -74,7 +75,10 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& lens, const PatternPla
 std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) {
   const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns;
-  for (const double fringes : fringe_sequence(plan.sequence, plan.fringes)) {
+  const bool gray = plan.sequence == "gray";
+  require(!gray || lens != nullptr, "Gray code is for a digital projector; the rig's is angular");
+  for (const double fringes :
+       gray ? std::vector<double>{plan.fringes} : fringe_sequence(plan.sequence, plan.fringes)) {
     const std::string name = fmt::format("f{:g}", fringes);
     if (lens != nullptr) {
       Pattern pattern{.name = name, .period_px = lens->width_px / fringes};
@@ -86,6 +90,7 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
     const double field_deg = deg_from_rad(field.field_max_rad - field.field_min_rad);
     patterns.push_back(angular_pattern(name, fringes / field_deg, plan.shifts));
   }
+  if (gray) patterns.push_back(gray_for_fringes(patterns.front(), lens->width_px, plan.inverted));
   return patterns;
 }
 
@@ -93,9 +98,20 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
 
 std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
   require(plan.shifts >= 3, "a phase needs at least three shifts");
-  if (!plan.sequence.empty()) return sequence_patterns(rig, plan);
   const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
-  return lens != nullptr ? pinhole_patterns(*lens, plan) : angular_patterns(rig, plan);
+  std::vector<Pattern> patterns = !plan.sequence.empty() ? sequence_patterns(rig, plan)
+                                  : lens != nullptr      ? pinhole_patterns(*lens, plan)
+                                                         : angular_patterns(rig, plan);
+  for (Pattern& pattern : patterns)
+    if (pattern.kind != PatternKind::Line) pattern.exposures_ms = plan.exposures_ms;
+  if (plan.ramp > 0) {
+    require(plan.ramp >= 3, "a grey ramp needs three levels or more");
+    Pattern ramp{.name = "ramp", .kind = PatternKind::Ramp};
+    for (int i = 0; i < plan.ramp; ++i)
+      ramp.levels.push_back(static_cast<double>(i) / (plan.ramp - 1));
+    patterns.push_back(ramp);
+  }
+  return patterns;
 }
 
 }  // namespace frangia

@@ -13,8 +13,12 @@ struct PatternPlan {
   std::vector<double> periods_px;   ///< pinhole projector; empty: the width, its 8th and its 64th
   /// Instead of the above, a sequence of `fringe_sequence` that ends with `fringes` over the field.
   std::string sequence;
+  /// "gray": the finest fringes alone, numbered by Gray code.
   double fringes = 64.0;
-  int shifts = 4;  ///< frames a fringe pattern, evenly over a turn
+  int shifts = 4;                    ///< frames a fringe pattern, evenly over a turn
+  bool inverted = true;              ///< Gray code: each frame again, inverted
+  std::vector<double> exposures_ms;  ///< of fringes and Gray code; empty: one, not told
+  int ramp = 0;                      ///< levels of a grey ramp shown as well; 0 for none
 };
 
 /// Patterns that give a rig absolute phase.

@@ -12,6 +12,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
+#include "frangia/pattern/gray_code.h"
 #include "frangia/simulate/light_sample.h"
 #include "frangia/simulate/speckle.h"
 
@@ -34,6 +35,12 @@ void check(const Pattern& pattern, const Rig& rig) {
   };
   if (pattern.kind == PatternKind::Line) {
     if (!rig.line) fail("is a line, but the rig has no [line]");
+    return;
+  }
+  if (pattern.kind == PatternKind::Ramp) return;
+  if (pattern.kind == PatternKind::Gray) {
+    if (rig.projector.is_angular()) fail("is Gray code, which an angular projector cannot show");
+    if (pattern.bits < 1 || !(pattern.stripe_px > 0.0)) fail("needs bits and stripes above 0");
     return;
   }
   if (rig.projector.is_angular()) {
@@ -60,7 +67,7 @@ std::vector<Shot> shots_of(const Pattern& pattern,
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const std::uint64_t place = hash(hash(hash(options.seed, kFrameStream), view.index), i);
     shots[i].stream = hash(place, hash_of(pattern.name));
-    if (pattern.kind == PatternKind::Line) continue;
+    if (pattern.kind != PatternKind::Fringe) continue;
     const double shift = pattern.shifts_rad[i] * (1.0 + options.step_error) +
                          options.step_jitter_rad * normal_from(hash(shots[i].stream, 1));
     shots[i].cos_shift = std::cos(shift);
@@ -78,13 +85,25 @@ double phase_at(const Pattern& pattern, const LightSample& sample) {
   return kTurn * static_cast<double>(vertical ? sample.u : sample.v) / pattern.period_px;
 }
 
-/// What the projector makes of a fringe's cosine: 1 + gamma0 cos, bent by the display's gamma about
-/// the brightest value.
-double shown(double cosine, const SimulateOptions& options) {
-  const double linear = 1.0 + options.contrast * cosine;
-  if (options.display_gamma == 1.0) return linear;
-  const double peak = 1.0 + options.contrast;
-  return peak * std::pow(std::max(linear, 0.0) / peak, options.display_gamma);
+/// What the projector makes of light that is asked of it: corrected by the rig's look-up table,
+/// then bent by the display's gamma about the brightest value.
+double shown(double linear, const SimulatedScene& scene) {
+  const auto& response = scene.rig.projector.response;
+  if (scene.options.display_gamma == 1.0 && !response) return linear;
+  const double peak = 1.0 + scene.options.contrast;
+  double level = std::max(linear, 0.0) / peak;
+  if (response) level = response->level_of(level);
+  return peak * std::pow(level, scene.options.display_gamma);
+}
+
+/// The light asked for in one frame that is no fringe.
+double asked(const Pattern& pattern, int frame, const LightSample& sample, double contrast) {
+  if (pattern.kind == PatternKind::Ramp)
+    return (1.0 + contrast) * pattern.levels[static_cast<std::size_t>(frame)];
+  const bool vertical = pattern.direction == FringeDirection::Vertical;
+  return is_lit(pattern, frame, static_cast<double>(vertical ? sample.u : sample.v))
+             ? 1.0 + contrast
+             : 1.0 - contrast;
 }
 
 /// A share of white as the camera counts it.
@@ -151,8 +170,8 @@ class ViewRenderer {
           stack.pattern, {samples.data() + first, samples_per_px_}, shots, speckle_at(x, y), light);
       const auto pixel = (static_cast<std::uint64_t>(y) << 32U) | static_cast<std::uint64_t>(x);
       for (std::size_t i = 0; i < shots.size(); ++i) {
-        std::get<Image<T>>(stack.frames[i])(x, y) = static_cast<T>(
-            counts_of(light[i], stack.white_level, hash(shots[i].stream, pixel), options_));
+        std::get<Image<T>>(stack.frames[i])(x, y) = static_cast<T>(counts_of(
+            light[i] * stack.gain(), stack.white_level, hash(shots[i].stream, pixel), options_));
       }
     }
   }
@@ -179,13 +198,20 @@ class ViewRenderer {
             other + lit * peak * std::max(static_cast<double>(sample.line), options_.line_spill);
         continue;
       }
+      if (pattern.kind != PatternKind::Fringe) {
+        for (std::size_t i = 0; i < light.size(); ++i)
+          light[i] +=
+              other +
+              lit * shown(asked(pattern, static_cast<int>(i), sample, options_.contrast), scene_);
+        continue;
+      }
       const double phase = phase_at(pattern, sample);
       const std::complex<double> fringe = std::complex<double>(speckle.fringe) *
                                           std::complex<double>(std::cos(phase), std::sin(phase));
       for (std::size_t i = 0; i < shots.size(); ++i) {
         const double cosine =
             fringe.real() * shots[i].cos_shift - fringe.imag() * shots[i].sin_shift;
-        light[i] += other + lit * shown(cosine, options_);
+        light[i] += other + lit * shown(1.0 + options_.contrast * cosine, scene_);
       }
     }
     for (double& value : light)
@@ -200,8 +226,8 @@ class ViewRenderer {
   Image<Speckle> speckle_;
 };
 
-FrameStack empty_stack(const Pattern& pattern, const SimulatedScene& scene) {
-  FrameStack stack{pattern, {}, scene.known_rig.camera.white_level};
+FrameStack empty_stack(const Pattern& pattern, int exposure, const SimulatedScene& scene) {
+  FrameStack stack{pattern, {}, scene.known_rig.camera.white_level, exposure};
   const int width = scene.rays.width();
   const int height = scene.rays.height();
   for (int i = 0; i < pattern.frame_count(); ++i) {
@@ -224,8 +250,12 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
   std::vector<std::vector<Shot>> shots;
   for (const Pattern& pattern : patterns) {
     check(pattern, scene.rig);
-    stacks.push_back(empty_stack(pattern, scene));
-    shots.push_back(shots_of(pattern, view, scene.options));
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      stacks.push_back(empty_stack(pattern, exposure, scene));
+      shots.push_back(shots_of(pattern, view, scene.options));
+      for (Shot& shot : shots.back())
+        if (exposure > 0) shot.stream = hash(shot.stream, static_cast<std::uint64_t>(exposure));
+    }
   }
   const ViewRenderer renderer(scene, view);
   constexpr int kBand = 64;  // rows between two looks at whether to stop

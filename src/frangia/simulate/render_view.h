@@ -14,8 +14,9 @@ namespace frangia {
 ///
 /// Noise depends on the seed, the view, the pattern's name, the frame and the pixel only: the same
 /// frames for any number of threads, and for any choice of patterns.
-/// shape    a stack a pattern, in their order; frames of the camera's size, 8 bit or 16 bit
-/// errors   Error(Input) when a pattern does not suit the rig: its projector cannot show it, or a
+/// shape    a stack a pattern and exposure, in their order; frames of the camera's size, 8 bit or
+/// 16 bit errors   Error(Input) when a pattern does not suit the rig: its projector cannot show it,
+/// or a
 ///          line where the rig has none
 [[nodiscard]] std::vector<FrameStack> render_view(const SimulatedScene& scene,
                                                   std::span<const Pattern> patterns,
