@@ -49,7 +49,9 @@ void write_for_peers(const FrameStack& stack, const WrappedPhase& wrapped) {
               std::get<Image<std::uint8_t>>(stack.frames[k]));
   }
   write_raw(path / "wrapped.f32", wrapped.phase_rad);
-  write_raw(path / "unwrapped.f32", unwrap_in_space(wrapped).phase_rad);
+  const RelativePhase unwrapped = unwrap_in_space(wrapped);
+  write_raw(path / "unwrapped.f32", unwrapped.phase_rad);
+  write_raw(path / "region.i32", unwrapped.region);
   Image<float> truth(side, side);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x)

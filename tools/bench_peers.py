@@ -34,11 +34,27 @@ def seconds(work):
     return best, result
 
 
-def wrong_share(np, phase, truth):
-    """Share of the pixels whose fringe is not that of most pixels of their connected piece."""
+def connected_pieces(np, phase):
+    """Pieces of a phase whose author tells none, numbered from 1; 0 where it is missing."""
     from scipy import ndimage
 
-    pieces, count = ndimage.label(np.isfinite(phase))
+    return ndimage.label(np.isfinite(phase))[0]
+
+
+def apart_share(np, pieces, phase):
+    """Share of the pixels that hang together with others but were kept apart as regions."""
+    whole = connected_pieces(np, phase)
+    known = pieces > 0
+    span = int(pieces.max()) + 1
+    pairs, sizes = np.unique(whole[known] * np.int64(span) + pieces[known], return_counts=True)
+    largest = np.zeros(int(whole.max()) + 1, np.int64)
+    np.maximum.at(largest, pairs // span, sizes)
+    return 1.0 - largest.sum() / known.sum()
+
+
+def wrong_share(np, pieces, phase, truth):
+    """Share of the pixels whose fringe is not that of most pixels of their piece."""
+    count = int(pieces.max())
     known = pieces > 0
     orders = np.rint((phase[known] - truth[known]) / (2 * np.pi)).astype(np.int64)
     orders -= orders.min()
@@ -103,11 +119,16 @@ def main(folder):
         masked = np.ma.array(np.nan_to_num(wrapped), mask=np.isnan(wrapped))
         taken, unwrapped = seconds(lambda: unwrap_phase(masked))
         tell("unwrap in space", "scikit-image", taken, times["unwrap_space/20"])
-        truth_share = wrong_share(np, load("unwrapped.f32", np.float32), truth)
+        mine = load("unwrapped.f32", np.float32)
+        regions = load("region.i32", np.int32) + 1
+        truth_share = wrong_share(np, regions, mine, truth)
         results["wrong share, ours"] = truth_share
-        theirs = wrong_share(np, np.ma.filled(unwrapped, np.nan), truth)
+        results["share kept apart, ours"] = apart_share(np, regions, mine)
+        other = np.ma.filled(unwrapped, np.nan)
+        theirs = wrong_share(np, connected_pieces(np, other), other, truth)
         results["wrong share, scikit-image"] = theirs
-        print(f"wrong fringe, share of pixels: scikit-image {theirs:.2e}, ours {truth_share:.2e}")
+        print(f"wrong fringe, share of pixels: scikit-image {theirs:.2e}, ours {truth_share:.2e}; "
+              f"kept apart by ours {results['share kept apart, ours']:.2e}")
     except ImportError:
         print("scikit-image is absent (python3-skimage)")
     with open(os.path.join(folder, "peers.json"), "w", encoding="utf-8") as file:

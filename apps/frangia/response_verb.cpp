@@ -1,0 +1,63 @@
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/phase/measure_response.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/scan/scan_folder.h"
+
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+struct ResponseArguments {
+  std::filesystem::path scan;
+  std::filesystem::path output;
+};
+
+void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  const Scan scan = read_scan(arguments.scan, run);
+  std::vector<FrameStack> ramps;
+  for (std::size_t i = 0; i < scan.views.size(); ++i) {
+    for (FrameStack& stack : read_frames(scan, i, run)) {
+      if (stack.pattern.kind == PatternKind::Ramp) ramps.push_back(std::move(stack));
+    }
+  }
+  const ResponseCurve left = measure_response(ramps);
+  Rig rig = scan.rig;
+  auto& response = rig.projector.response;
+  response = response ? compose(*response, left) : left;
+  write_rig(arguments.output, rig);
+  terminal.finish();
+  if (terminal.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"light", response->light}}.dump(2));
+  } else if (!terminal.quiet) {
+    fmt::print("half of the drive gives {:.1f} % of the light\nwrote {}\n",
+               100.0 * response->light_of(0.5),
+               arguments.output.string());
+  }
+}
+
+}  // namespace
+
+void add_response_verb(CLI::App& program, Terminal& terminal) {
+  auto arguments = std::make_shared<ResponseArguments>();
+  CLI::App* verb =
+      program.add_subcommand("response", "measure a projector's response from a grey ramp");
+  verb->footer(
+      "example:\n  frangia simulate plate --display-gamma 2.2 --ramp 17 -o ramp\n"
+      "  frangia response ramp -o rig.toml");
+  verb->add_option("SCAN", arguments->scan, "a scan that holds a pattern of kind \"ramp\"")
+      ->required();
+  verb->add_option("-o,--output", arguments->output, "the rig.toml to write, with the response")
+      ->required();
+  verb->callback([arguments, &terminal] { response_verb(*arguments, terminal); });
+}
+
+}  // namespace frangia
