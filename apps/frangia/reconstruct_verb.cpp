@@ -54,6 +54,7 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
   json["angles_deg"] = nlohmann::ordered_json::array();
   for (const double angle : report.angles_rad)
     json["angles_deg"].push_back(deg_from_rad(angle));
+  json["kept_rig"] = report.kept_rig;
   json["not_determined"] = report.open;
   json["left_out"] = report.outliers;
   return json;

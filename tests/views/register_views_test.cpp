@@ -85,6 +85,16 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   EXPECT_GT(std::abs(report.closure_before_rad), 3.0 * std::abs(report.closure_after_rad));
 }
 
+TEST(RegisterViews, KeepsARigThatFitsAsWell) {
+  Table table(6, 0.0);
+  table.given = table.truth;
+  ViewStore views = table.take(knobbly);
+  const auto report = register_views(views, small_lens(), table.given, table.stops());
+  EXPECT_TRUE(report.kept_rig) << report.text();
+  EXPECT_EQ(report.axis_moved_mm(), 0.0);
+  EXPECT_EQ(report.largest_turn_rad(), 0.0);
+}
+
 TEST(RegisterViews, PutsTheViewsInTheRefinedFrame) {
   const Table table(6);
   ViewStore views = table.take(knobbly);

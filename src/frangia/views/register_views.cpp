@@ -164,6 +164,17 @@ Turntable nearest_to(const Turntable& given, Turntable refined) {
   return refined;
 }
 
+/// Whether the given state fits the views as well as the one found, within what a view is off by
+/// itself: then the rig, which was calibrated, knows better.
+bool fits_as_well(const Bundle& bundle, const Spots& spots, const BundleSums& found) {
+  constexpr double kAsWell = 1.02;
+  Bundle as_given = bundle;
+  as_given.state = bundle.given;
+  const BundleSums given = sum(as_given, spots);
+  return given.distances_mm.size() >= found.distances_mm.size() / 100 * 99 &&
+         median(given.distances_mm) < kAsWell * median(found.distances_mm);
+}
+
 void leave_out(Bundle& bundle,
                ViewStore& views,
                std::span<const RegisteredView> stops,
@@ -270,6 +281,13 @@ RegistrationReport register_views(ViewStore& views,
                 return s.size();
               })));
   report.iterations = bundle.iterations;
+  report.kept_rig = fits_as_well(bundle, spots, after);
+  if (report.kept_rig) {
+    bundle.state = bundle.given;
+    const BundleSums kept = sum(bundle, spots);
+    report.rms_after_mm = rms_of(kept.distances_mm);
+    report.closure_after_rad = closure_rad(kept);
+  }
   judge(report, bundle, after);
   report.table = nearest_to(given, bundle.state.table);
   report.angles_rad = bundle.state.angles_rad;
@@ -280,6 +298,14 @@ RegistrationReport register_views(ViewStore& views,
 }
 
 std::string RegistrationReport::text() const {
+  if (kept_rig) {
+    return fmt::format(
+        "views agree to {:.4f} mm RMS with the rig's own axis and angles, which are kept: others "
+        "fit "
+        "no better; {:.0f} % of their points overlap",
+        rms_after_mm,
+        100.0 * overlap);
+  }
   std::string words = fmt::format(
       "views agree to {:.4f} mm RMS (before: {:.3g} mm), {:.0f} % of their points overlap; the "
       "axis "

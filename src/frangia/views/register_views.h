@@ -48,6 +48,7 @@ struct RegistrationReport {
   std::vector<std::string> open;      ///< what the part does not determine
   std::vector<std::size_t> outliers;  ///< views that fit no other, emptied
   int iterations = 0;
+  bool kept_rig = false;  ///< the given axis and angles fit as well, and stay
 
   [[nodiscard]] double axis_moved_mm() const;
   [[nodiscard]] double axis_turned_rad() const;
