@@ -62,6 +62,7 @@ int run_program(int argc, char** argv) {
   add_algorithms_verb(program, terminal);
   add_plan_verb(program, terminal);
   add_response_verb(program, terminal);
+  add_edit_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

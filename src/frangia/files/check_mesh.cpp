@@ -45,6 +45,13 @@ void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   check_count(mesh.normals.size(), "normals");
   check_count(mesh.sigma_mm.size(), "values of sigma_mm");
   check_count(mesh.views.size(), "counts of views");
+  check_count(mesh.vertex_marks.size(), "marks");
+  if (!mesh.triangle_marks.empty() && mesh.triangle_marks.size() != mesh.triangles.size()) {
+    fail(path,
+         fmt::format("{} marks for {} triangles; there must be one each, or none",
+                     mesh.triangle_marks.size(),
+                     mesh.triangles.size()));
+  }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       if (corner < count) continue;

@@ -15,9 +15,10 @@
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 8> kKept{
-    "x", "y", "z", "nx", "ny", "nz", "sigma_mm", "views"};
+constexpr std::array<std::string_view, 9> kKept{
+    "x", "y", "z", "nx", "ny", "nz", "sigma_mm", "views", "mark"};
 constexpr std::size_t kViews = 7;
+constexpr std::size_t kMark = 8;
 
 /// For each property of a vertex its place in kKept; the size of kKept for one that is skipped.
 std::vector<std::size_t> slots_of(const PlyElement& element) {
@@ -25,7 +26,8 @@ std::vector<std::size_t> slots_of(const PlyElement& element) {
   for (const PlyProperty& property : element.properties) {
     const auto* const found = std::find(kKept.begin(), kKept.end(), property.name);
     const bool kept = !property.count_type &&
-                      (property.name != kKept[kViews] || property.type == PlyType::Uint16);
+                      (property.name != kKept[kViews] || property.type == PlyType::Uint16) &&
+                      (property.name != kKept[kMark] || property.type == PlyType::Uint8);
     slots.push_back(kept ? static_cast<std::size_t>(found - kKept.begin()) : kKept.size());
   }
   return slots;
@@ -53,12 +55,18 @@ void skip(Source& source, const PlyProperty& property) {
     static_cast<void>(source.value(property.type));
 }
 
+/// A mark of another program's making is taken for none.
+Mark mark_from(double value) {
+  return value == 1.0 ? Mark::Moved : value == 2.0 ? Mark::Invented : Mark::Measured;
+}
+
 template <typename Source>
 void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
   const std::vector<std::size_t> slots = slots_of(element);
   const bool has_normals = has(slots, 3, 3);
   const bool has_sigma = has(slots, 6, 1);
   const bool has_views = has(slots, kViews, 1);
+  const bool has_marks = has(slots, kMark, 1);
   if (!has(slots, 0, 3)) source.fail("its vertices lack an x, y or z");
   mesh.vertices_mm.reserve(element.count);
   std::array<float, kKept.size()> kept{};
@@ -73,6 +81,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
     mesh.vertices_mm.emplace_back(kept[0], kept[1], kept[2]);
     if (has_sigma) mesh.sigma_mm.push_back(kept[6]);
     if (has_views) mesh.views.push_back(static_cast<std::uint16_t>(kept[kViews]));
+    if (has_marks) mesh.vertex_marks.push_back(mark_from(static_cast<double>(kept[kMark])));
     if (!has_normals) continue;
     const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
     mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
@@ -103,18 +112,27 @@ bool is_corner_list(const PlyProperty& property) {
          (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
+bool is_mark(const PlyProperty& property) {
+  return !property.count_type && property.name == kKept[kMark] && property.type == PlyType::Uint8;
+}
+
 template <typename Source>
 void read_faces(Source& source, const PlyElement& element, Mesh& mesh) {
   std::vector<std::uint32_t> corners;
   mesh.triangles.reserve(element.count);
+  const bool has_marks = std::any_of(element.properties.begin(), element.properties.end(), is_mark);
   for (std::uint64_t i = 0; i < element.count; ++i) {
+    Mark mark = Mark::Measured;
     for (const PlyProperty& property : element.properties) {
       if (is_corner_list(property)) {
         read_polygon(source, property, corners, mesh);
+      } else if (is_mark(property)) {
+        mark = mark_from(source.value(property.type));
       } else {
         skip(source, property);
       }
     }
+    if (has_marks) mesh.triangle_marks.resize(mesh.triangles.size(), mark);
   }
 }
 

@@ -16,8 +16,11 @@ void write_header(FileWriter& file, const Mesh& mesh) {
   }
   if (!mesh.sigma_mm.empty()) file.text("property float sigma_mm\n");
   if (!mesh.views.empty()) file.text("property ushort views\n");
+  if (!mesh.vertex_marks.empty()) file.text("property uchar mark\n");
   file.text(fmt::format("element face {}\n", mesh.triangles.size()));
-  file.text("property list uchar int vertex_indices\nend_header\n");
+  file.text("property list uchar int vertex_indices\n");
+  if (!mesh.triangle_marks.empty()) file.text("property uchar mark\n");
+  file.text("end_header\n");
 }
 
 }  // namespace
@@ -35,11 +38,15 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
     }
     if (!mesh.sigma_mm.empty()) file.binary(mesh.sigma_mm[i]);
     if (!mesh.views.empty()) file.binary(mesh.views[i]);
+    if (!mesh.vertex_marks.empty()) file.binary(static_cast<std::uint8_t>(mesh.vertex_marks[i]));
   }
-  for (const Mesh::Triangle& triangle : mesh.triangles) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     file.binary(std::uint8_t{3});
-    for (const std::uint32_t corner : triangle)
+    for (const std::uint32_t corner : mesh.triangles[i])
       file.binary(corner);
+    if (!mesh.triangle_marks.empty()) {
+      file.binary(static_cast<std::uint8_t>(mesh.triangle_marks[i]));
+    }
   }
   file.commit();
 }

@@ -8,7 +8,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/simulate/triangulate_polygon.h"
+#include "frangia/mesh/triangulate_polygon.h"
 
 namespace frangia {
 

@@ -91,8 +91,14 @@ void drop_small_parts(Mesh& mesh, std::size_t min_triangles) {
   const auto small = [&](const Mesh::Triangle& t) {
     return sizes[parts.find(t[0])] < min_triangles;
   };
-  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), small),
-                       mesh.triangles.end());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (small(mesh.triangles[i])) continue;
+    if (!mesh.triangle_marks.empty()) mesh.triangle_marks[kept] = mesh.triangle_marks[i];
+    mesh.triangles[kept++] = mesh.triangles[i];
+  }
+  mesh.triangles.resize(kept);
+  if (!mesh.triangle_marks.empty()) mesh.triangle_marks.resize(kept);
 }
 
 void split_bow_ties(Mesh& mesh) {
@@ -118,6 +124,7 @@ void split_bow_ties(Mesh& mesh) {
       repeat(mesh.normals, around[0].vertex);
       repeat(mesh.sigma_mm, around[0].vertex);
       repeat(mesh.views, around[0].vertex);
+      repeat(mesh.vertex_marks, around[0].vertex);
       for (std::size_t i = 0; i < fans.size(); ++i) {
         if (fans[i] == fan) mesh.triangles[around[i].triangle][around[i].index] = fresh;
       }
@@ -148,6 +155,7 @@ void drop_unused_vertices(Mesh& mesh) {
   keep(mesh.normals);
   keep(mesh.sigma_mm);
   keep(mesh.views);
+  keep(mesh.vertex_marks);
   for (auto& t : mesh.triangles) {
     for (std::uint32_t& vertex : t)
       vertex = renamed[vertex];

@@ -1,4 +1,4 @@
-#include "frangia/simulate/triangulate_polygon.h"
+#include "frangia/mesh/triangulate_polygon.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,119 @@
+#include "frangia/mesh/connected_parts.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/error.h"
+#include "frangia/mesh/vertex_data.h"
+
+namespace frangia {
+namespace {
+
+/// Disjoint sets of vertices; each is known by its smallest member.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i)
+      i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Parts by area, the largest first; ties go to the earlier.
+std::vector<std::size_t> by_area(const std::vector<MeshPart>& parts) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return parts[a].area_mm2 > parts[b].area_mm2;
+  });
+  return order;
+}
+
+Mesh keep_parts(Mesh mesh, const ConnectedParts& parts, const std::vector<std::uint8_t>& keep) {
+  Selection kept(mesh.triangles.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    kept[i] = keep[parts.part_of[i]];
+  if (count_of(kept) < kept.size()) keep_triangles(mesh, kept);
+  return mesh;
+}
+
+}  // namespace
+
+ConnectedParts connected_parts(const Mesh& mesh) {
+  constexpr std::uint32_t kUnnumbered = 0xFFFFFFFF;
+  Sets sets(mesh.vertices_mm.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sets.join(a, b);
+    sets.join(a, c);
+  }
+  ConnectedParts found;
+  found.part_of.resize(mesh.triangles.size());
+  std::vector<std::uint32_t> number(mesh.vertices_mm.size(), kUnnumbered);
+  std::vector<Eigen::AlignedBox3f> boxes;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    std::uint32_t& part = number[sets.find(a)];
+    if (part == kUnnumbered) {
+      part = static_cast<std::uint32_t>(found.parts.size());
+      found.parts.emplace_back();
+      boxes.emplace_back();
+    }
+    found.part_of[i] = part;
+    MeshPart& known = found.parts[part];
+    ++known.triangles;
+    const Eigen::Vector3f& p = mesh.vertices_mm[a];
+    const Eigen::Vector3f cross = (mesh.vertices_mm[b] - p).cross(mesh.vertices_mm[c] - p);
+    known.area_mm2 += 0.5 * static_cast<double>(cross.norm());
+    boxes[part].extend(p);
+    boxes[part].extend(mesh.vertices_mm[b]);
+    boxes[part].extend(mesh.vertices_mm[c]);
+  }
+  for (std::size_t part = 0; part < boxes.size(); ++part)
+    found.parts[part].size_mm = static_cast<double>(boxes[part].diagonal().norm());
+  return found;
+}
+
+Selection select_part(const Mesh& mesh, std::size_t triangle) {
+  require(triangle < mesh.triangles.size(), "select_part: the mesh has no such triangle");
+  const ConnectedParts parts = connected_parts(mesh);
+  Selection selection(mesh.triangles.size());
+  for (std::size_t i = 0; i < selection.size(); ++i)
+    selection[i] = parts.part_of[i] == parts.part_of[triangle] ? 1 : 0;
+  return selection;
+}
+
+Mesh keep_largest_parts(Mesh mesh, std::size_t count) {
+  require(count > 0, "keep_largest_parts: at least one part must be kept");
+  const ConnectedParts parts = connected_parts(mesh);
+  std::vector<std::size_t> order = by_area(parts.parts);
+  order.resize(std::min(order.size(), count));
+  std::vector<std::uint8_t> keep(parts.parts.size());
+  for (const std::size_t part : order)
+    keep[part] = 1;
+  return keep_parts(std::move(mesh), parts, keep);
+}
+
+Mesh remove_islands(Mesh mesh, double up_to_mm) {
+  if (mesh.empty()) return mesh;
+  const ConnectedParts parts = connected_parts(mesh);
+  std::vector<std::uint8_t> keep(parts.parts.size());
+  for (std::size_t part = 0; part < keep.size(); ++part)
+    keep[part] = parts.parts[part].size_mm > up_to_mm ? 1 : 0;
+  keep[by_area(parts.parts).front()] = 1;
+  return keep_parts(std::move(mesh), parts, keep);
+}
+
+}  // namespace frangia

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/surface/mesh.h"
+
+namespace frangia {
+
+enum class HoleFill {
+  Flat,   ///< triangles between the corners of the rim alone
+  Smooth  ///< as dense as the surface around, and curved on as it is
+};
+
+struct FillHolesOptions {
+  double up_to_mm = std::numeric_limits<double>::infinity();  ///< a loop's size_mm, at most
+  HoleFill kind = HoleFill::Smooth;
+  std::vector<std::size_t> only;  ///< numbers of boundary_loops to fill; empty: all up to the size
+};
+
+/// The mesh with holes filled. All that is put in is marked as invented, and has no views.
+///
+/// A hole that cannot be filled smoothly, or whose flat filling would make the mesh non-manifold,
+/// gets a fan about its middle; a note of `run` says so. errors   Error(Input) when Smooth is asked
+/// of a build without CGAL, or there is no such loop source   CGAL, Polygon Mesh Processing:
+/// triangulate_refine_and_fair_hole (Liepa 2003, Botsch 2004)
+[[nodiscard]] Mesh fill_holes(Mesh mesh, const FillHolesOptions& options = {}, const Run& run = {});
+
+}  // namespace frangia

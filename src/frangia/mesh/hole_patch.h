@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frangia/mesh/boundary_loops.h"
+#include "frangia/mesh/half_edges.h"
+#include "frangia/surface/mesh.h"
+
+namespace frangia {
+
+/// What closes a hole. Corners below the mesh's count of vertices are the mesh's own; the others
+/// are counted on from there, in the order of `places_mm`.
+struct HolePatch {
+  std::vector<Eigen::Vector3f> places_mm;
+  std::vector<Mesh::Triangle> triangles;  ///< none: there is no such patch
+};
+
+/// The triangulation of the rim's corners with the least area; of larger holes that of its shadow
+/// on the plane that fits it best. None when the shadow crosses itself.
+[[nodiscard]] HolePatch flat_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim);
+
+/// A fan about the mean of the rim's corners: always there.
+[[nodiscard]] HolePatch fan_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim);
+
+/// As dense as the surface around the rim and curvature-continuous with it; none where CGAL has
+/// none.
+///
+/// errors   Error(Input) in a build without CGAL
+[[nodiscard]] HolePatch smooth_patch(const Mesh& mesh,
+                                     const HalfEdges& edges,
+                                     const std::vector<std::uint32_t>& rim);
+
+}  // namespace frangia

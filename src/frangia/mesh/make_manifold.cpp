@@ -1,0 +1,182 @@
+#include "frangia/mesh/make_manifold.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "frangia/mesh/half_edges.h"
+#include "frangia/mesh/selection.h"
+#include "frangia/mesh/vertex_data.h"
+#include "frangia/surface/tidy_mesh.h"
+
+namespace frangia {
+namespace {
+
+using Triangle = Mesh::Triangle;
+
+bool is_whole(const Mesh& mesh, const Triangle& t) {
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
+  return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+    return v < mesh.vertices_mm.size() && mesh.vertices_mm[v].allFinite();
+  });
+}
+
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+/// Drops what is no triangle, and all but the first of those with the same corners.
+void drop_broken(Mesh& mesh) {
+  Selection keep(mesh.triangles.size());
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    keep[i] = is_whole(mesh, mesh.triangles[i]) ? 1 : 0;
+    if (keep[i] != 0) order.push_back(i);
+  }
+  // By their smallest corner first: few share it, so that only these must be compared.
+  std::vector<std::uint32_t> first(mesh.vertices_mm.size() + 1, 0);
+  const auto least = [&](std::uint32_t i) {
+    const Triangle& t = mesh.triangles[i];
+    return std::min({t[0], t[1], t[2]});
+  };
+  for (const std::uint32_t i : order)
+    ++first[least(i) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> sorted_by(order.size());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (const std::uint32_t i : order)
+    sorted_by[next[least(i)]++] = i;
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    for (std::uint32_t a = first[v]; a < first[v + 1]; ++a) {
+      for (std::uint32_t b = a + 1; b < first[v + 1]; ++b) {
+        const bool same =
+            sorted(mesh.triangles[sorted_by[a]]) == sorted(mesh.triangles[sorted_by[b]]);
+        if (same) keep[sorted_by[b]] = 0;
+      }
+    }
+  }
+  keep_triangles(mesh, keep);
+}
+
+/// Disjoint sets of corners: those of one set are one vertex in the end.
+class Corners {
+ public:
+  explicit Corners(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i)
+      i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+Eigen::Vector3d normal_of(const Mesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Eigen::Vector3d p = mesh.vertices_mm[a].cast<double>();
+  return (mesh.vertices_mm[b].cast<double>() - p)
+      .cross(mesh.vertices_mm[c].cast<double>() - p)
+      .stableNormalized();
+}
+
+struct Pair {
+  double straightness;
+  std::uint32_t out;
+  std::uint32_t back;
+};
+
+/// Joins the half-edges of one crowded edge in pairs, the straightest first.
+void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, Corners& corners) {
+  const std::uint32_t from = from_of(mesh, edge);
+  const std::uint32_t to = to_of(mesh, edge);
+  std::vector<Pair> pairs;
+  for (const std::uint32_t out : edges.leaving(from)) {
+    if (to_of(mesh, out) != to) continue;
+    for (const std::uint32_t back : edges.leaving(to)) {
+      if (to_of(mesh, back) != from) continue;
+      pairs.push_back({normal_of(mesh, out / 3).dot(normal_of(mesh, back / 3)), out, back});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.straightness > b.straightness;
+  });
+  std::vector<std::uint32_t> taken;
+  const auto is_taken = [&](std::uint32_t e) {
+    return std::find(taken.begin(), taken.end(), e) != taken.end();
+  };
+  for (const Pair& pair : pairs) {
+    if (is_taken(pair.out) || is_taken(pair.back)) continue;
+    taken.push_back(pair.out);
+    taken.push_back(pair.back);
+    corners.join(pair.out, HalfEdges::next(pair.back));
+    corners.join(HalfEdges::next(pair.out), pair.back);
+  }
+}
+
+/// Parts the triangles at crowded edges and at vertices with several fans.
+void part_fans(Mesh& mesh) {
+  const HalfEdges edges(mesh);
+  Corners corners(edges.count());
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
+    if (edges.has_twin(edge)) {
+      corners.join(edge, HalfEdges::next(edges.twin(edge)));
+    } else if (!edges.is_boundary(edge)) {
+      // Of each direction once: the lowest half-edge does it for all.
+      const auto others = edges.leaving(from_of(mesh, edge));
+      const bool lowest = std::all_of(others.begin(), others.end(), [&](std::uint32_t e) {
+        return e >= edge || to_of(mesh, e) != to_of(mesh, edge);
+      });
+      if (lowest && from_of(mesh, edge) < to_of(mesh, edge)) pair_up(mesh, edges, edge, corners);
+    }
+  }
+  constexpr std::uint32_t kFree = 0xFFFFFFFF;
+  std::vector<std::uint32_t> owner(mesh.vertices_mm.size(), kFree);  // the fan that keeps a vertex
+  std::vector<std::uint32_t> fresh(edges.count(), kFree);
+  std::vector<Triangle> renamed = mesh.triangles;
+  for (std::uint32_t corner = 0; corner < edges.count(); ++corner) {
+    const std::uint32_t fan = corners.find(corner);
+    const std::uint32_t vertex = from_of(mesh, corner);
+    if (owner[vertex] == kFree) owner[vertex] = fan;
+    if (owner[vertex] == fan) continue;
+    if (fresh[fan] == kFree) fresh[fan] = copy_vertex(mesh, vertex);
+    renamed[corner / 3][corner % 3] = fresh[fan];
+  }
+  mesh.triangles = std::move(renamed);
+}
+
+}  // namespace
+
+Mesh make_manifold(Mesh mesh) {
+  drop_broken(mesh);
+  part_fans(mesh);
+  return mesh;
+}
+
+std::size_t count_non_manifold_edges(const Mesh& mesh) {
+  const HalfEdges edges(mesh);
+  std::size_t count = 0;
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
+    if (edges.has_twin(edge) || edges.is_boundary(edge)) continue;
+    // Once an edge: by the lowest of its half-edges, which leave either end.
+    const std::uint32_t from = from_of(mesh, edge);
+    const std::uint32_t to = to_of(mesh, edge);
+    bool lowest = true;
+    for (const std::uint32_t e : edges.leaving(from))
+      lowest = lowest && (e >= edge || to_of(mesh, e) != to);
+    for (const std::uint32_t e : edges.leaving(to))
+      lowest = lowest && (e >= edge || to_of(mesh, e) != from);
+    if (lowest) ++count;
+  }
+  return count;
+}
+
+}  // namespace frangia

@@ -1,0 +1,274 @@
+// Truths of the mesh's edits, on shapes whose every figure is known.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/random.h"
+#include "frangia/mesh/boundary_loops.h"
+#include "frangia/mesh/change_selection.h"
+#include "frangia/mesh/connected_parts.h"
+#include "frangia/mesh/decimate.h"
+#include "frangia/mesh/fill_holes.h"
+#include "frangia/mesh/make_manifold.h"
+#include "frangia/mesh/offset_mesh.h"
+#include "frangia/mesh/orient.h"
+#include "frangia/mesh/remove_spikes.h"
+#include "frangia/mesh/select_by_place.h"
+#include "frangia/mesh/select_by_vertices.h"
+#include "frangia/mesh/smooth.h"
+#include "frangia/mesh/stitch.h"
+#include "frangia/mesh/transform_mesh.h"
+#include "frangia/mesh/vertex_data.h"
+
+#include "support/mesh_truths.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+using testing::box;
+using testing::open_edges;
+using testing::sphere;
+using testing::volume_mm3;
+
+constexpr double kRadius = 20.0;
+
+Mesh ball() {
+  return sphere(Vector3d::Zero(), kRadius, 40);
+}
+
+/// The ball with a hole of 20 mm about its pole, off the poles of its own meridians.
+Mesh holed_ball() {
+  const Mesh mesh = ball();
+  return delete_selected(mesh, select_by_ball(mesh, {kRadius, 0.0, 0.0}, 10.0));
+}
+
+double farthest_from_ball(const Mesh& mesh) {
+  double farthest = 0.0;
+  for (const auto& vertex : mesh.vertices_mm)
+    farthest = std::max(farthest, std::abs(vertex.cast<double>().norm() - kRadius));
+  return farthest;
+}
+
+double rms_from_ball(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const auto& vertex : mesh.vertices_mm)
+    sum += std::pow(vertex.cast<double>().norm() - kRadius, 2);
+  return std::sqrt(sum / static_cast<double>(mesh.vertices_mm.size()));
+}
+
+Mesh noisy(Mesh mesh, double sigma_mm) {
+  mesh.normals = vertex_normals(mesh);
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
+    mesh.vertices_mm[i] += mesh.normals[i] * static_cast<float>(sigma_mm * normal_from(hash(i)));
+  mesh.normals.clear();
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), static_cast<float>(sigma_mm));
+  return mesh;
+}
+
+TEST(HalfEdges, TwinsRunTheOtherWayAndAClosedMeshHasNoBoundary) {
+  const Mesh mesh = ball();
+  const HalfEdges edges(mesh);
+  for (std::uint32_t e = 0; e < edges.count(); ++e) {
+    ASSERT_TRUE(edges.has_twin(e));
+    EXPECT_EQ(edges.twin(edges.twin(e)), e);
+    EXPECT_EQ(from_of(mesh, edges.twin(e)), to_of(mesh, e));
+  }
+}
+
+TEST(BoundaryLoops, FindTheRimOfAHoleWithItsSize) {
+  const auto loops = boundary_loops(holed_ball());
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_NEAR(loops[0].size_mm, 19.5, 1.5);
+  EXPECT_NEAR(loops[0].length_mm, kPi * 19.4, 15.0);
+  EXPECT_TRUE(boundary_loops(ball()).empty());
+}
+
+TEST(FillHoles, ClosesAHoleInASphereAsTheSphereRunsWithin150Micrometres) {
+  const Mesh open = holed_ball();
+  const Mesh filled = fill_holes(open);
+  EXPECT_EQ(open_edges(filled), 0U);
+  EXPECT_LT(farthest_from_ball(filled), 0.15);
+  EXPECT_NEAR(volume_mm3(filled) / volume_mm3(ball()), 1.0, 0.001);
+}
+
+TEST(FillHoles, MarksWhatItInventsAndLeavesTheMeasuredAsItWas) {
+  const Mesh open = holed_ball();
+  for (const HoleFill kind : {HoleFill::Flat, HoleFill::Smooth}) {
+    const Mesh filled = fill_holes(open, {.kind = kind});
+    EXPECT_EQ(open_edges(filled), 0U);
+    for (std::size_t i = 0; i < open.triangles.size(); ++i) {
+      ASSERT_EQ(filled.triangles[i], open.triangles[i]);
+      ASSERT_EQ(mark_of(filled, i), Mark::Measured);
+    }
+    for (std::size_t i = open.triangles.size(); i < filled.triangles.size(); ++i)
+      ASSERT_EQ(mark_of(filled, i), Mark::Invented);
+  }
+}
+
+TEST(FillHoles, LeavesHolesAboveTheSize) {
+  EXPECT_EQ(boundary_loops(fill_holes(holed_ball(), {.up_to_mm = 10.0})).size(), 1U);
+}
+
+TEST(FillHoles, ClosesABoxFlatToItsExactVolume) {
+  Mesh mesh = box({0, 0, 0}, {10, 20, 30});
+  mesh = delete_selected(mesh, select_by_normal(mesh, {0, 0, 1}, 0.1));
+  EXPECT_NEAR(volume_mm3(fill_holes(mesh, {.kind = HoleFill::Flat})), 6000.0, 1e-3);
+}
+
+TEST(Islands, GoBySizeAndTheLargestStays) {
+  Mesh mesh = ball();
+  append_mesh(mesh, sphere({50, 0, 0}, 1.0, 6));
+  append_mesh(mesh, sphere({60, 0, 0}, 4.0, 6));
+  EXPECT_EQ(connected_parts(mesh).parts.size(), 3U);
+  EXPECT_EQ(connected_parts(remove_islands(mesh, 5.0)).parts.size(), 2U);
+  EXPECT_EQ(connected_parts(remove_islands(mesh, 1e9)).parts.size(), 1U);
+  EXPECT_EQ(keep_largest_parts(mesh).triangles, ball().triangles);
+}
+
+TEST(Decimate, KeepsASphereClosedOutwardAndNear) {
+  const Mesh mesh = sphere(Vector3d::Zero(), kRadius, 80);
+  const Mesh few = decimate(mesh, {.triangles = mesh.triangles.size() / 10});
+  EXPECT_LE(few.triangles.size(), mesh.triangles.size() / 10);
+  EXPECT_EQ(open_edges(few), 0U);
+  EXPECT_NEAR(volume_mm3(few) / volume_mm3(mesh), 1.0, 0.003);
+  EXPECT_LT(farthest_from_ball(few), 0.1);
+}
+
+TEST(Decimate, KeepsTheBoxItIsWhateverItsTriangles) {
+  Mesh mesh = box({0, 0, 0}, {10, 20, 30});
+  for (int round = 0; round < 3; ++round) {  // each triangle into four
+    Mesh finer = mesh;
+    finer.triangles.clear();
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::uint32_t ab = blend_vertices(finer, a, b, 0.5F);
+      const std::uint32_t bc = blend_vertices(finer, b, c, 0.5F);
+      const std::uint32_t ca = blend_vertices(finer, c, a, 0.5F);
+      for (const auto& t : {Mesh::Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+        finer.triangles.push_back(t);
+    }
+    // Midpoints were made once for each triangle: join them again.
+    mesh = stitch(finer, 1e-4);
+  }
+  ASSERT_EQ(open_edges(mesh), 0U);
+  const Mesh few = decimate(mesh, {.triangles = 0, .max_rms_mm = 1e-3});
+  EXPECT_LT(few.triangles.size(), 40U);
+  EXPECT_NEAR(volume_mm3(few), 6000.0, 1.0);
+}
+
+TEST(Decimate, LeavesTheRimOfAHoleInPlace) {
+  const Mesh few = decimate(holed_ball(), {.triangles = 1000});
+  ASSERT_EQ(boundary_loops(few).size(), 1U);
+  EXPECT_NEAR(boundary_loops(few)[0].size_mm, boundary_loops(holed_ball())[0].size_mm, 0.5);
+}
+
+TEST(Smooth, HalvesTheNoiseOfASphereAndMovesNothingBeyondItsSigmas) {
+  const Mesh mesh = noisy(ball(), 0.05);
+  for (const Mesh& smooth : {smooth_taubin(mesh), smooth_keeping_edges(mesh)}) {
+    EXPECT_LT(rms_from_ball(smooth), 0.5 * rms_from_ball(mesh));
+    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
+      ASSERT_LE((smooth.vertices_mm[i] - mesh.vertices_mm[i]).norm(), 0.1501F);
+  }
+}
+
+TEST(Smooth, MarksWhatMovedBeyondItsSigmaAndNothingElse) {
+  const Mesh mesh = noisy(ball(), 0.05);
+  const Mesh smooth = smooth_taubin(mesh);
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    const bool moved = (smooth.vertices_mm[i] - mesh.vertices_mm[i]).norm() > 0.05F;
+    ASSERT_EQ(smooth.vertex_marks[i] == Mark::Moved, moved);
+  }
+}
+
+TEST(RemoveSpikes, SetsATipDownAndLeavesTheRest) {
+  Mesh mesh = ball();
+  mesh.vertices_mm[1000] *= 2.0F;
+  const Mesh flat = remove_spikes(mesh);
+  EXPECT_LT(farthest_from_ball(flat), 0.2);
+  EXPECT_EQ(flat.vertex_marks[1000], Mark::Moved);
+  EXPECT_EQ(remove_spikes(box({0, 0, 0}, {1, 1, 1})).vertices_mm,
+            box({0, 0, 0}, {1, 1, 1}).vertices_mm);
+}
+
+TEST(Stitch, ClosesABallOfLooseTriangles) {
+  const Mesh whole = ball();
+  Mesh loose;
+  for (const auto& triangle : whole.triangles) {
+    const auto first = static_cast<std::uint32_t>(loose.vertices_mm.size());
+    for (const std::uint32_t vertex : triangle)
+      loose.vertices_mm.push_back(whole.vertices_mm[vertex]);
+    loose.triangles.push_back({first, first + 1, first + 2});
+  }
+  const Mesh joined = stitch(loose);
+  EXPECT_EQ(open_edges(joined), 0U);
+  EXPECT_EQ(joined.vertices_mm.size(), whole.vertices_mm.size());
+}
+
+TEST(MakeManifold, PartsTwoBoxesThatShareAnEdgeAndDropsRepeatedTriangles) {
+  Mesh mesh = box({0, 0, 0}, {1, 1, 1});
+  append_mesh(mesh, box({1, 1, 0}, {2, 2, 1}));
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& vertex : triangle)  // the second box's edge is the first one's
+      vertex = vertex == 8 ? 3 : vertex == 12 ? 7 : vertex;
+  }
+  mesh.triangles.push_back(mesh.triangles[5]);
+  EXPECT_GT(count_non_manifold_edges(mesh), 0U);
+  const Mesh parted = make_manifold(mesh);
+  EXPECT_EQ(count_non_manifold_edges(parted), 0U);
+  EXPECT_EQ(open_edges(parted), 0U);
+  EXPECT_NEAR(volume_mm3(parted), 2.0, 1e-6);
+}
+
+TEST(Orient, TurnsWhatRunsAgainstTheRestAndClosedPartsOutwards) {
+  Mesh mesh = turn_inside_out(ball());
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+    std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
+  const Mesh turned = orient(mesh);
+  EXPECT_EQ(open_edges(turned), 0U);
+  EXPECT_NEAR(volume_mm3(turned), volume_mm3(ball()), 1e-3);
+}
+
+TEST(OffsetMesh, MovesTheFacesOfABoxAndKeepsItABox) {
+  EXPECT_NEAR(volume_mm3(offset_mesh(box({0, 0, 0}, {10, 20, 30}), 1.0)), 12.0 * 22.0 * 32.0, 0.01);
+}
+
+TEST(MirrorMesh, KeepsTheVolumeAndFacesOutwards) {
+  const Mesh mirrored = mirror_mesh(box({0, 0, 0}, {1, 2, 3}), {Vector3d::UnitX(), 0.0});
+  EXPECT_NEAR(volume_mm3(mirrored), 6.0, 1e-6);
+  EXPECT_EQ(mirrored.vertices_mm[1].x(), -1.0F);
+}
+
+TEST(AlignFaces, PutsATurnedBoxIntoTheCornerOfTheAxes) {
+  const Mesh square = box({0, 0, 0}, {10, 20, 30});
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.translate(Vector3d(5, -7, 11));
+  turn.rotate(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+  const Mesh mesh = transform_mesh(square, turn);
+  const auto face = [&](const Vector3d& picked) {
+    return fit_plane(mesh, select_face(mesh, turn * picked));
+  };
+  const Mesh back =
+      transform_mesh(mesh, align_faces(face({5, 10, 0}), face({0, 10, 15}), face({5, 0, 15})));
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_LT((back.vertices_mm[i] - square.vertices_mm[i]).norm(), 1e-4F);
+}
+
+TEST(Curvature, OfASphereIsOneOverItsRadius) {
+  const Mesh mesh = ball();
+  const auto curvature = mean_curvature_per_mm(mesh);
+  for (std::size_t i = 400; i < 2800; ++i)
+    ASSERT_NEAR(curvature[i], 1.0 / kRadius, 0.003);
+}
+
+TEST(Selection, GrowsShrinksAndInverts) {
+  const Mesh mesh = ball();
+  const Selection cap = select_by_ball(mesh, {kRadius, 0, 0}, 8.0);
+  const Selection larger = grow_selection(mesh, cap);
+  EXPECT_GT(count_of(larger), count_of(cap));
+  EXPECT_LE(count_of(shrink_selection(mesh, larger)), count_of(larger));
+  EXPECT_EQ(count_of(invert_selection(cap)), mesh.triangles.size() - count_of(cap));
+}
+
+}  // namespace
+}  // namespace frangia
