@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/devices/board_switch.h"
 #include "frangia/devices/open_transport.h"
 
 #include "support/emulated_boards.h"
@@ -31,6 +32,17 @@ FirmwareSettings quick() {
   return settings;
 }
 
+/// A board that has greeted.
+std::shared_ptr<TableFirmware> ready(std::unique_ptr<TableFirmware> board) {
+  board->connect(soon());
+  return board;
+}
+
+void start(StepperTable& table) {
+  table.enable(true, soon());
+  table.home(soon());
+}
+
 StepperTableOptions options_with(double backlash_deg) {
   StepperTableOptions options;
   options.backlash_deg = backlash_deg;
@@ -45,9 +57,8 @@ std::unique_ptr<TableFirmware> grbl_at(const EmulatedPort& port) {
 TEST(GrblTable, StandsStillAtTheAngleWhenAMoveReturns) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 10.0; });
-  StepperTable table(grbl_at(port), options_with(0.0));
-  table.connect(soon());
-  table.home(soon());
+  StepperTable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
   table.move_to(rad_from_deg(45.0), soon());
   port.with<EmulatedGrbl>([](auto& grbl) {
     EXPECT_FALSE(grbl.moving());
@@ -58,9 +69,8 @@ TEST(GrblTable, StandsStillAtTheAngleWhenAMoveReturns) {
 
 TEST(GrblTable, EveryStopIsReachedFromBelow) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
-  StepperTable table(grbl_at(port), options_with(2.0));
-  table.connect(soon());
-  table.home(soon());
+  StepperTable table(ready(grbl_at(port)), options_with(2.0));
+  start(table);
   for (const double angle_deg : {0.0, 30.0, 31.0, 10.0}) {
     table.move_to(rad_from_deg(angle_deg), soon());
   }
@@ -70,9 +80,8 @@ TEST(GrblTable, EveryStopIsReachedFromBelow) {
 
 TEST(GrblTable, AResetInMotionLosesTheAngleAndItDoesNotGoOnUntilHomed) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
-  StepperTable table(grbl_at(port), options_with(0.0));
-  table.connect(soon());
-  table.home(soon());
+  StepperTable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.reset_in_next_move = true; });
   EXPECT_NE(error_of([&] { table.move_to(1.0, soon()); }).find("home the table again"),
             std::string::npos);
@@ -89,11 +98,10 @@ TEST(GrblTable, BoundsTheTurnByItsOwnLimitsAndByTheBoards) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.travel = 100.0; });
   StepperTableOptions options = options_with(0.0);
-  options.least_deg = 0.0;
-  options.most_deg = 170.0;
-  StepperTable table(grbl_at(port), options);
-  table.connect(soon());
-  table.home(soon());
+  options.info.min_rad = 0.0;
+  options.info.max_rad = rad_from_deg(170.0);
+  StepperTable table(ready(grbl_at(port)), options);
+  start(table);
   EXPECT_NE(error_of([&] { table.move_to(rad_from_deg(171.0), soon()); }).find("0 to 170"),
             std::string::npos);
   EXPECT_THROW(table.move_to(std::nan(""), soon()), Error);
@@ -106,9 +114,8 @@ TEST(GrblTable, BoundsTheTurnByItsOwnLimitsAndByTheBoards) {
 TEST(GrblTable, AMoveThatOutlastsItsDeadlineIsStopped) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
-  StepperTable table(grbl_at(port), options_with(0.0));
-  table.connect(soon());
-  table.home(soon());
+  StepperTable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
   const auto begun = Deadline::Clock::now();
   EXPECT_NE(error_of([&] { table.move_to(1.0, Deadline::in(0.2)); }).find("no answer within 0.2 s"),
             std::string::npos);
@@ -119,9 +126,8 @@ TEST(GrblTable, AMoveThatOutlastsItsDeadlineIsStopped) {
 TEST(GrblTable, AStopFromOutsideEndsTheWait) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
-  StepperTable table(grbl_at(port), options_with(0.0));
-  table.connect(soon());
-  table.home(soon());
+  StepperTable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
   std::stop_source stop;
   const std::jthread user([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -135,13 +141,27 @@ TEST(GrblTable, AStopFromOutsideEndsTheWait) {
 TEST(GrblTable, LampsAndLasersAreOffAfterwards) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   {
-    StepperTable table(grbl_at(port), options_with(0.0));
-    table.connect(soon());
-    table.firmware().command("M3 S1000", soon());
-    table.firmware().command("M8", soon());
+    const auto board = ready(grbl_at(port));
+    BoardSwitch laser(board, "M3 S1000", "M5");
+    BoardSwitch lamp(board, "M8", "M9");
+    laser.set(true, soon());
+    lamp.set(true, soon());
     port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_TRUE(grbl.spindle && grbl.coolant); });
   }
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle || grbl.coolant); });
+}
+
+TEST(GrblTable, AFaultOfTheTablePutsTheLaserOutAndItKnows) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  const auto board = ready(grbl_at(port));
+  StepperTable table(board, options_with(0.0));
+  BoardSwitch laser(board, "M3 S1000", "M5");
+  start(table);
+  laser.set(true, soon());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.reset_in_next_move = true; });
+  EXPECT_THROW(table.move_to(1.0, soon()), Error);
+  EXPECT_FALSE(laser.is_on());
+  port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle); });
 }
 
 TEST(GrblTable, StepsAreWrittenWhereTheyDifferAndNothingIsLostMeanwhile) {
@@ -189,9 +209,8 @@ TEST(GrblTable, SilenceAndGarbageAreOneSentenceWithinTheDeadline) {
 
 TEST(MarlinTable, BusyIsWaitedForAndBrokenLinesAreSentAgain) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
-  StepperTable table(make_marlin(open_serial({port.path()}), quick()), options_with(0.0));
-  table.connect(soon());
-  table.home(soon());
+  StepperTable table(ready(make_marlin(open_serial({port.path()}), quick())), options_with(0.0));
+  start(table);
   port.with<EmulatedMarlin>([](auto& marlin) { marlin.lines_to_break = 2; });
   table.move_to(rad_from_deg(90.0), soon());
   port.with<EmulatedMarlin>([](auto& marlin) {
@@ -202,9 +221,8 @@ TEST(MarlinTable, BusyIsWaitedForAndBrokenLinesAreSentAgain) {
 
 TEST(MarlinTable, ABoardThatHaltsItselfLosesTheAngle) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
-  StepperTable table(make_marlin(open_serial({port.path()}), quick()), options_with(0.0));
-  table.connect(soon());
-  table.home(soon());
+  StepperTable table(ready(make_marlin(open_serial({port.path()}), quick())), options_with(0.0));
+  start(table);
   port.with<EmulatedMarlin>([](auto& marlin) { marlin.kill_in_next_move = true; });
   EXPECT_NE(error_of([&] { table.move_to(1.0, soon()); }).find("halted"), std::string::npos);
   EXPECT_FALSE(table.angle_rad().has_value());
@@ -221,18 +239,15 @@ TEST(MarlinTable, ALineThatNeverArrivesWholeIsGivenUp) {
 TEST(HorusTable, TurnsAndSwitchesItsLasersOff) {
   EmulatedPort port(std::make_unique<EmulatedHorus>());
   {
-    StepperTable table(make_horus(open_serial({port.path()}), quick()), options_with(0.0));
-    table.connect(soon());
-    port.with<EmulatedHorus>([](auto& horus) {
-      EXPECT_FALSE(horus.lasers[0] || horus.lasers[1]);
-      EXPECT_TRUE(horus.motor);
-    });
-    table.home(soon());
+    const auto board = ready(make_horus(open_serial({port.path()}), quick()));
+    StepperTable table(board, options_with(0.0));
+    port.with<EmulatedHorus>([](auto& horus) { EXPECT_FALSE(horus.lasers[0] || horus.lasers[1]); });
+    start(table);
     const auto begun = Deadline::Clock::now();
     table.move_to(rad_from_deg(-9.0), soon());
     EXPECT_GE(Deadline::Clock::now() - begun, std::chrono::milliseconds(100))
         << "the way takes that";
-    table.firmware().command("M71T1", soon());
+    board->command("M71T1", soon());
     port.with<EmulatedHorus>([](auto& horus) { EXPECT_DOUBLE_EQ(horus.position, -9.0); });
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -142,8 +142,10 @@ class EmulatedGrbl : public EmulatedDevice {
     if (equals == std::string::npos) return "error:3\r\n";
     settings[std::stoi(line.substr(1))] = std::stod(line.substr(equals + 1));
     ++settings_written;
+    // The answer comes when the memory is written; what is sent before that is lost.
     deaf_until_ = Clock::now() + std::chrono::milliseconds(20);
-    return "ok\r\n";
+    enqueue({last_target(), std::chrono::milliseconds(20), "ok\r\n"});
+    return {};
   }
   std::string gcode(const std::string& line) {
     if (line == "M3" || line.rfind("M3 ", 0) == 0) spindle = true;

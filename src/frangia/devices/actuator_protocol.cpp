@@ -6,14 +6,13 @@
 
 namespace frangia {
 
-ActuatorProtocol scpi_protocol(const std::string& set) {
+ActuatorProtocol scpi_protocol() {
   ActuatorProtocol protocol;
   protocol.start = {"*CLS", "OUTP ON"};
-  protocol.set = set;
+  protocol.set = "VOLT:OFFS {value:.6f}";
   protocol.settled_query = "*OPC?";
   protocol.settled_answer = "1";
-  protocol.error_query = "SYST:ERR?";
-  protocol.no_error = "0";
+  protocol.language = {"SYST:ERR?", "0", "\n", "*IDN?"};
   protocol.stop = {"OUTP OFF"};
   return protocol;
 }
@@ -24,8 +23,7 @@ ActuatorProtocol gcs2_protocol(const std::string& axis) {
   protocol.set = "MOV " + axis + " {value:.5f}";
   protocol.settled_query = "ONT? " + axis;
   protocol.settled_answer = axis + "=1";
-  protocol.error_query = "ERR?";
-  protocol.no_error = "0";
+  protocol.language = {"ERR?", "0", "\n", "*IDN?"};
   protocol.stop = {"STP " + axis};
   return protocol;
 }

@@ -3,25 +3,25 @@
 #include <string>
 #include <vector>
 
+#include "frangia/devices/line_instrument.h"
+
 namespace frangia {
 
 /// How an instrument that holds a voltage, or a piezo's position, is spoken to. All of it is text
 /// from its manual, so that an instrument which is not thought of here needs no program.
 /// In `set`, {value} stands for the number, with a format where one is needed: "VOLT {value:.3f}".
 struct ActuatorProtocol {
+  LineInstrument::Language language;
   std::vector<std::string> start;  ///< sent once, before anything else
   std::string set;                 ///< puts the value out
-  std::string settled_query;       ///< asked until it answers `settled_answer`; empty: never asked
+  std::string settled_query;       ///< asked until it answers `settled_answer`; empty: never
   std::string settled_answer;
-  std::string error_query;        ///< asked after each command; empty: never asked
-  std::string no_error;           ///< how an answer begins that tells of no error
   std::vector<std::string> stop;  ///< sent at the end and after a fault
-  std::string end = "\n";         ///< of each line
 };
 
 /// A function generator or supply that speaks SCPI: `set` its offset, or another quantity.
 /// source   IEEE 488.2 (*OPC?), SCPI-99 (SYSTem:ERRor?, OUTPut)
-[[nodiscard]] ActuatorProtocol scpi_protocol(const std::string& set = "VOLT:OFFS {value:.6f}");
+[[nodiscard]] ActuatorProtocol scpi_protocol();
 
 /// A controller of Physik Instrumente in closed loop.
 /// source   PI GCS 2.0 Commands Manual: SVO, MOV, ONT?, ERR?

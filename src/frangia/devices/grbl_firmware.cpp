@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kReset = "\x18";
 constexpr const char* kHold = "!";
+constexpr double kQuiet_s = 0.05;
 
 const char* meaning_of_alarm(int code) {
   switch (code) {
@@ -80,6 +81,19 @@ class Grbl final : public TableFirmware {
     if (settings_.steps_per_unit > 0.0) set_steps(deadline);
   }
 
+  [[nodiscard]] std::string identify(const Deadline& deadline) override {
+    transport_->write("?", deadline);
+    for (;;) {
+      const std::string answer = read_line(*transport_, deadline);
+      if (!answer.empty() && answer.front() == '<') return "GRBL, " + printable(answer);
+    }
+  }
+
+  // GRBL holds its motor as long as $1 says; there is no command for it.
+  void hold_motor(bool /*on*/, const Deadline& deadline) override {
+    static_cast<void>(identify(deadline));
+  }
+
   void find_home(const Deadline& deadline) override {
     command("$H", deadline);
     set_zero(deadline);
@@ -107,12 +121,16 @@ class Grbl final : public TableFirmware {
   }
 
   void stop() noexcept override {
+    count_stop();
     try {
       const Deadline soon = Deadline::in(1.0);
       transport_->write(kHold, soon);
       // Reset turns spindle and coolant off, which is where lasers hang.
       transport_->write(kReset, soon);
-      if (wait_for_greeting(soon)) transport_->discard_input();
+      if (!wait_for_greeting(soon)) return;
+      // Answers to what was given up may still be on their way.
+      while (transport_->try_read('\n', Deadline::in(kQuiet_s))) {
+      }
     } catch (
         const Error&) {  // NOLINT(bugprone-empty-catch) the line is dead: nothing more can be done
     }

@@ -25,7 +25,15 @@ class Horus final : public TableFirmware {
     transport_->discard_input();
     command("M70T1", deadline);
     command("M70T2", deadline);
-    command("M17", deadline);
+  }
+
+  [[nodiscard]] std::string identify(const Deadline& deadline) override {
+    command("M70T1", deadline);
+    return "Horus 0.2, ready";
+  }
+
+  void hold_motor(bool on, const Deadline& deadline) override {
+    command(on ? "M17" : "M18", deadline);
   }
 
   void find_home(const Deadline& /*deadline*/) override {
@@ -73,6 +81,7 @@ class Horus final : public TableFirmware {
   }
 
   void stop() noexcept override {
+    count_stop();
     try {
       transport_->write("!\x18", Deadline::in(1.0));  // hold, then reset: lasers and motor go off
     } catch (

@@ -36,6 +36,15 @@ class Marlin final : public TableFirmware {
     command("G90", deadline);
   }
 
+  [[nodiscard]] std::string identify(const Deadline& deadline) override {
+    command("M400", deadline);
+    return "Marlin, ready";
+  }
+
+  void hold_motor(bool on, const Deadline& deadline) override {
+    command(fmt::format("{} {}", on ? "M17" : "M18", settings_.axis), deadline);
+  }
+
   void find_home(const Deadline& deadline) override {
     command(fmt::format("G28 {}", settings_.axis), deadline);
     set_zero(deadline);
@@ -74,6 +83,7 @@ class Marlin final : public TableFirmware {
   }
 
   void stop() noexcept override {
+    count_stop();
     try {
       const Deadline soon = Deadline::in(1.0);
       transport_->write("M410\nM107\nM5\n", soon);  // quick stop, and what may shine goes off

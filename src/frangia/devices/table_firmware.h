@@ -21,6 +21,10 @@ class TableFirmware {
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// Waits for the board to be up, its outputs off and its motor still.
   virtual void connect(const Deadline& deadline) = 0;
+  /// What the board says of itself, without moving anything.
+  [[nodiscard]] virtual std::string identify(const Deadline& deadline) = 0;
+  /// Lets the motor hold, or lets go of it, on boards that can.
+  virtual void hold_motor(bool on, const Deadline& deadline) = 0;
   /// Runs to the home switch; the axis is at 0 afterwards.
   virtual void find_home(const Deadline& deadline) = 0;
   /// Calls the place where the axis stands 0.
@@ -31,6 +35,14 @@ class TableFirmware {
   virtual void command(const std::string& line, const Deadline& deadline) = 0;
   /// Motion and outputs end at once. Never throws: it is called when all else has failed.
   virtual void stop() noexcept = 0;
+  /// How often it was stopped: what was known of positions and outputs before is void.
+  [[nodiscard]] int stops() const { return stops_; }
+
+ protected:
+  void count_stop() noexcept { ++stops_; }
+
+ private:
+  int stops_ = 0;
 };
 
 struct FirmwareSettings {
