@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/scan/reconstruct.h"
@@ -21,7 +23,7 @@ struct ReconstructArguments {
   std::filesystem::path scan;
   std::vector<std::filesystem::path> outputs;
   std::string dxf = "faces";
-  double clip_below_mm = 0.0;
+  bool no_register = false;
   ReconstructOptions options;
   WriteOptions write;
 };
@@ -30,6 +32,31 @@ double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+nlohmann::ordered_json json_of(const RegistrationReport& report) {
+  const auto number = [](double value) {  // JSON has no NaN
+    return std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
+  };
+  nlohmann::ordered_json json;
+  json["rms_before_mm"] = report.rms_before_mm;
+  json["rms_after_mm"] = report.rms_after_mm;
+  json["closure_before_deg"] = number(deg_from_rad(report.closure_before_rad));
+  json["closure_after_deg"] = number(deg_from_rad(report.closure_after_rad));
+  json["overlap"] = report.overlap;
+  json["condition"] = report.condition;
+  json["weakest"] = report.weakest;
+  json["axis"] = {report.table.axis.x(), report.table.axis.y(), report.table.axis.z()};
+  json["point_mm"] = {
+      report.table.point_mm.x(), report.table.point_mm.y(), report.table.point_mm.z()};
+  json["axis_moved_mm"] = report.axis_moved_mm();
+  json["axis_turned_deg"] = deg_from_rad(report.axis_turned_rad());
+  json["angles_deg"] = nlohmann::ordered_json::array();
+  for (const double angle : report.angles_rad)
+    json["angles_deg"].push_back(deg_from_rad(angle));
+  json["not_determined"] = report.open;
+  json["left_out"] = report.outliers;
+  return json;
 }
 
 void print_result(const Reconstruction& result,
@@ -42,6 +69,8 @@ void print_result(const Reconstruction& result,
     json["views"] = result.views;
     json["vertices"] = result.mesh.vertices_mm.size();
     json["triangles"] = result.mesh.triangles.size();
+    if (result.registration) json["registration"] = json_of(*result.registration);
+    if (!std::isnan(result.platter_height_mm)) json["platter_height_mm"] = result.platter_height_mm;
     for (const auto& [stage, seconds] : stages)
       json["seconds"][stage] = seconds;
     json["peak_memory_mb"] = peak_memory_mb();
@@ -79,6 +108,22 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   print_result(result, arguments, terminal);
 }
 
+void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
+  verb.add_option("--clip-below",
+                  arguments.options.clip_below_mm,
+                  "leave out what lies below this height above the turntable's origin, in mm");
+  verb.add_option("--clip-radius",
+                  arguments.options.clip_radius_mm,
+                  "leave out what lies farther from the turntable's axis, in mm")
+      ->check(CLI::PositiveNumber);
+  verb.add_flag("--keep-platter",
+                arguments.options.keep_platter,
+                "do not look for the top of the turntable and leave it out");
+  verb.add_flag("--no-register",
+                arguments.no_register,
+                "take the turntable's axis and angles as the rig and the scan say");
+}
+
 }  // namespace
 
 void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
@@ -96,17 +141,14 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--dxf", arguments->dxf, "DXF variant: faces (3DFACE) or polyface (POLYLINE)")
       ->check(CLI::IsMember({"faces", "polyface"}))
       ->capture_default_str();
-  auto* clip =
-      verb->add_option("--clip-below",
-                       arguments->options.paste.min_z_mm,
-                       "leave out what lies below this height above the turntable's origin, in mm");
+  add_views_options(*verb, *arguments);
   verb->add_option("--voxel",
                    arguments->options.paste.voxel_mm,
                    "sampling of the surface in mm; chosen from the data when not given")
       ->check(CLI::PositiveNumber);
   add_decode_options(*verb, arguments->options.decode);
-  verb->callback([arguments, clip, &terminal] {
-    arguments->options.paste.clip_below = clip->count() > 0;
+  verb->callback([arguments, &terminal] {
+    arguments->options.register_views = !arguments->no_register;
     reconstruct_verb(*arguments, terminal);
   });
 }

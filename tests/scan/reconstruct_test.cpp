@@ -60,6 +60,50 @@ TEST(Reconstruct, GivesTheSameBytesOnOneThreadAndOnTwo) {
   EXPECT_EQ(meshes[0].sigma_mm, meshes[1].sigma_mm);
 }
 
+TEST(Reconstruct, MeasuresAsWellWithTheAxisAndTheAnglesOff) {
+  for (const char* part : {"bust", "bracket"}) {
+    const TemporaryFolder exact;
+    const TemporaryFolder off;
+    SimulateOptions faults{.samples_per_px = 4};
+    faults.axis_offset_mm = 0.5;
+    faults.axis_tilt_rad = rad_from_deg(0.3);
+    faults.angle_error_rad = rad_from_deg(0.15);
+    const Reconstruction wanted = reconstruct(small_scan(exact.path(), part, "digital", 6));
+    const Reconstruction found = reconstruct(small_scan(off.path(), part, "digital", 6, faults));
+    EXPECT_LT(error_of(found, part).rms_mm, 1.15 * error_of(wanted, part).rms_mm) << part;
+    ASSERT_TRUE(found.registration);
+    EXPECT_NEAR(found.registration->axis_moved_mm(), 0.5, 0.01);
+    EXPECT_NEAR(found.registration->axis_turned_rad(), rad_from_deg(0.3), rad_from_deg(0.02));
+  }
+}
+
+TEST(Reconstruct, LeavesThePlatterOut) {
+  const TemporaryFolder folder;
+  SimulateOptions faults{.samples_per_px = 4};
+  faults.platter_radius_mm = 70.0;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 4, faults);
+  const Reconstruction result = reconstruct(scan);
+  EXPECT_NEAR(result.platter_height_mm, 0.0, 0.1);
+  EXPECT_LT(error_of(result, "bracket").max_mm, 2.0);
+  ReconstructOptions keep;
+  keep.keep_platter = true;
+  EXPECT_GT(error_of(reconstruct(scan, keep), "bracket").max_mm, 10.0);
+}
+
+TEST(Reconstruct, ClipsBelowAHeightAndBeyondARadius) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 3);
+  ReconstructOptions options;
+  options.clip_below_mm = 10.0;
+  options.clip_radius_mm = 30.0;
+  for (const auto& vertex : reconstruct(scan, options).mesh.vertices_mm) {
+    EXPECT_GT(vertex.z(), 9.0F);
+    EXPECT_LT(vertex.head<2>().norm(), 31.0F);
+  }
+  options.clip_below_mm = 1000.0;
+  EXPECT_THROW(static_cast<void>(reconstruct(scan, options)), Error);
+}
+
 void darken(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     Frame frame = read_png(entry.path());

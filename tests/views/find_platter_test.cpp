@@ -56,6 +56,16 @@ TEST(FindPlatter, TakesNoRoundShelfForOne) {
   EXPECT_FALSE(find_platter(look_at(testing::both(disc(30.0, 10.0), post)), small_lens()));
 }
 
+TEST(FindPlatter, TakesTheBaseOfABustForThePart) {
+  const Shape head = testing::sphere(24.0, {0.0, 0.0, 34.0});
+  EXPECT_FALSE(find_platter(look_at(testing::both(disc(30.0, 8.0), head)), small_lens()));
+}
+
+TEST(FindPlatter, FindsAHighOneThatIsMuchWiderThanThePart) {
+  const Shape ball = testing::sphere(12.0, {0.0, 0.0, 20.0});
+  EXPECT_TRUE(find_platter(look_at(testing::both(disc(45.0, 8.0), ball)), small_lens()));
+}
+
 TEST(FindPlatter, FindsNoneUnderASphere) {
   EXPECT_FALSE(find_platter(look_at(testing::sphere(30.0)), small_lens()));
 }

@@ -37,6 +37,12 @@ struct Table {
     given.axis = Eigen::AngleAxisd(rad_from_deg(0.3), Eigen::Vector3d::UnitX()) * truth.axis;
     given.point_mm += Eigen::Vector3d(0.4, 0.2, 0.2);
   }
+  [[nodiscard]] std::vector<RegisteredView> stops() const {
+    std::vector<RegisteredView> all;
+    for (const double angle : angles_rad)
+      all.push_back({angle, ""});
+    return all;
+  }
   [[nodiscard]] ViewStore take(const Shape& shape) const {
     std::vector<Eigen::Isometry3d> poses;
     for (const double angle : true_angles_rad)
@@ -63,7 +69,7 @@ double shift_mm(const Turntable& one, const Turntable& other) {
 TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   const Table table(8);
   ViewStore views = table.take(knobbly);
-  const auto report = register_views(views, small_lens(), table.given, table.angles_rad);
+  const auto report = register_views(views, small_lens(), table.given, table.stops());
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
   EXPECT_LT(shift_mm(report.table, table.truth), 0.01);
   EXPECT_EQ(report.angles_rad[0], table.angles_rad[0]);
@@ -75,12 +81,14 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   EXPECT_GT(report.overlap, 0.5);
   EXPECT_TRUE(report.open.empty()) << report.text();
   EXPECT_TRUE(report.outliers.empty());
+  EXPECT_LT(std::abs(report.closure_after_rad), rad_from_deg(0.02));
+  EXPECT_GT(std::abs(report.closure_before_rad), 3.0 * std::abs(report.closure_after_rad));
 }
 
 TEST(RegisterViews, PutsTheViewsInTheRefinedFrame) {
   const Table table(6);
   ViewStore views = table.take(knobbly);
-  const auto report = register_views(views, small_lens(), table.given, table.angles_rad);
+  const auto report = register_views(views, small_lens(), table.given, table.stops());
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto expected = report.table.rig_from_object(report.angles_rad[i]);
     EXPECT_TRUE(views.rig_from_object(i).isApprox(expected));
@@ -96,7 +104,7 @@ TEST(RegisterViews, LeavesWhatARoundPartDoesNotTellToThePrior) {
     return 0.8 * std::max(std::hypot(p.x(), p.y()) - wide, std::abs(p.z()) - 30.0);
   };
   ViewStore views = table.take(vase);
-  const auto report = register_views(views, small_lens(), table.given, table.angles_rad);
+  const auto report = register_views(views, small_lens(), table.given, table.stops());
   ASSERT_EQ(report.open.size(), 1U) << report.text();
   EXPECT_EQ(report.open[0], "the angles of the views");
   for (std::size_t i = 0; i < report.angles_rad.size(); ++i) {
@@ -117,7 +125,7 @@ TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
   std::vector<std::string> warnings;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  const auto report = register_views(views, small_lens(), table.given, table.angles_rad, {}, run);
+  const auto report = register_views(views, small_lens(), table.given, table.stops(), {}, run);
   ASSERT_EQ(report.outliers.size(), 1U);
   EXPECT_EQ(report.outliers[0], 3U);
   ASSERT_EQ(warnings.size(), 1U);
@@ -134,7 +142,7 @@ TEST(RegisterViews, KeepsTheRigWithOneView) {
   int warnings = 0;
   frangia::Run run;
   run.on_warning = [&](const std::string&) { ++warnings; };
-  const auto report = register_views(views, small_lens(), table.given, table.angles_rad, {}, run);
+  const auto report = register_views(views, small_lens(), table.given, table.stops(), {}, run);
   EXPECT_EQ(warnings, 1);
   EXPECT_EQ(report.table.point_mm, table.given.point_mm);
 }
@@ -149,7 +157,7 @@ TEST(RegisterViews, KeepsTheRigWhenViewsDoNotOverlap) {
   int warnings = 0;
   frangia::Run run;
   run.on_warning = [&](const std::string&) { ++warnings; };
-  const auto report = register_views(views, small_lens(), table.given, table.angles_rad, {}, run);
+  const auto report = register_views(views, small_lens(), table.given, table.stops(), {}, run);
   EXPECT_EQ(warnings, 1);
   EXPECT_EQ(report.angles_rad, table.angles_rad);
 }
@@ -159,7 +167,7 @@ TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
   const auto find = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     ViewStore views = table.take(knobbly);
-    return register_views(views, small_lens(), table.given, table.angles_rad);
+    return register_views(views, small_lens(), table.given, table.stops());
   };
   const auto one = find(1);
   const auto two = find(2);
@@ -170,7 +178,7 @@ TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
 TEST(RegisterViews, RefusesTooFewAngles) {
   const Table table(2);
   ViewStore views = table.take(knobbly);
-  const std::vector<double> angles{0.0};
+  const std::vector<RegisteredView> angles(1);
   EXPECT_THROW(static_cast<void>(register_views(views, small_lens(), table.given, angles)), Error);
 }
 

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/missing.h"
 #include "frangia/range/triangulate.h"
+#include "frangia/views/clip_views.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -48,6 +50,47 @@ void tell_verdicts(const Scan& scan,
   }
 }
 
+/// Leaves out what is not the part: what the user says, and the platter.
+void clip(ViewStore& views, const Lens& camera, const ReconstructOptions& options, const Run& run) {
+  if (std::isinf(options.clip_below_mm) && std::isinf(options.clip_radius_mm)) return;
+  Clip clip{.max_radius_mm = options.clip_radius_mm};
+  clip.floor.offset() = -options.clip_below_mm;
+  clip_views(views, camera, clip, run);
+}
+
+/// Leaves the platter out, and what is less than a little above it. Returns its height.
+double clip_platter(ViewStore& views,
+                    const Lens& camera,
+                    const ReconstructOptions& options,
+                    const Run& run) {
+  const auto platter = find_platter(views, camera, options.platter, run);
+  if (!platter) return kMissing;
+  constexpr double kAbove_mm = 0.5;  // what is nearer is the platter, or mixed with it
+  Clip clip;
+  clip.floor = {platter->normal(), platter->offset() - kAbove_mm};
+  const std::size_t dropped = clip_views(views, camera, clip, run);
+  const double height_mm = -platter->offset() / platter->normal().z();
+  run.note(fmt::format(
+      "the platter, at a height of {:.2f} mm, is left out with {} points; --keep-platter "
+      "keeps it",
+      height_mm,
+      dropped));
+  return height_mm;
+}
+
+/// Refines the turntable by what the views saw.
+void register_all(ViewStore& views,
+                  const Scan& scan,
+                  const std::vector<RegisteredView>& stops,
+                  const ReconstructOptions& options,
+                  const Run& run,
+                  Reconstruction& out) {
+  if (!options.register_views || !scan.rig.turntable) return;
+  out.registration = register_views(
+      views, scan.rig.camera.lens, *scan.rig.turntable, stops, options.registration, run);
+  if (out.registration->iterations > 0) run.note(out.registration->text());
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
@@ -59,6 +102,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   Reconstruction out;
   ViewStore views;
   std::vector<LoosePart> loose;
+  std::vector<RegisteredView> stops;
   Pattern coarsest;
   bool unwrapped_in_space = false;
   const auto rays = rays_of(scan.rig.camera.lens);
@@ -83,6 +127,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
       loose.push_back({views.size(), std::move(region)});
     coarsest = decoded.wrapped.front().pattern;
     unwrapped_in_space = decoded.relative.has_value();
+    stops.push_back({scan.views[i].angle_rad, scan.views[i].folder.string()});
     views.add({std::move(range), scan.rig.rig_from_object(scan.views[i].angle_rad)});
     out.points += points;
   }
@@ -110,6 +155,12 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
                 fmt::format("{}: no view has a lit pixel; check light, exposure and white_level",
                             scan.folder.string()));
   }
+  const Lens& camera = scan.rig.camera.lens;
+  clip(views, camera, options, run);
+  if (!options.keep_platter && scan.rig.turntable)
+    out.platter_height_mm = clip_platter(views, camera, options, run);
+  register_all(views, scan, stops, options, run, out);
+  clip(views, camera, options, run);  // again, in the frame of the refined axis
   run.stage("surface");
   out.mesh = paste_views(views, scan.rig.camera.lens, options.paste, run);
   return out;

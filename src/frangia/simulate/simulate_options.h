@@ -36,7 +36,8 @@ struct SimulateOptions {
       1.0;  ///< of the two interfering beams' speckle; below 1 it moves phase
 
   // The turntable.
-  double angle_error_rad = 0.0;    ///< rms, another error for each view
+  double angle_error_rad =
+      0.0;  ///< rms, another for each view but the first, which says how the part stands
   double axis_offset_mm = 0.0;     ///< how far the true axis is from the one rig.toml gives
   double axis_tilt_rad = 0.0;      ///< and how much it leans from it
   double platter_radius_mm = 0.0;  ///< a disc with its top at z = 0; 0 for none

@@ -124,8 +124,11 @@ double brightest_of(const SimulatedScene& scene, const SimulatedView& view) {
 }  // namespace
 
 Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view) {
-  const double error = scene.options.angle_error_rad *
-                       normal_from(hash(hash(scene.options.seed, kAngleStream), view.index));
+  // The first view's angle is what the object frame is told by: it has no error.
+  const double error =
+      view.index == 0 ? 0.0
+                      : scene.options.angle_error_rad *
+                            normal_from(hash(hash(scene.options.seed, kAngleStream), view.index));
   return scene.rig.rig_from_object(view.angle_rad + error);
 }
 

@@ -114,6 +114,20 @@ Disc disc_of(const std::vector<Eigen::Vector3d>& points) {
   return disc;
 }
 
+/// How far from the axis what stands above the plane reaches, but for a hundredth of it.
+double reach_above(const std::vector<Eigen::Vector3d>& points,
+                   const Plane& plane,
+                   double margin_mm) {
+  std::vector<double> reach;
+  for (const auto& point : points) {
+    if (plane.signedDistance(point) > margin_mm) reach.push_back(point.head<2>().norm());
+  }
+  if (reach.empty()) return 0.0;
+  const auto most = reach.begin() + static_cast<std::ptrdiff_t>(reach.size() * 99 / 100);
+  std::nth_element(reach.begin(), most, reach.end());
+  return *most;
+}
+
 }  // namespace
 
 std::optional<Plane> find_platter(const ViewStore& views,
@@ -142,7 +156,9 @@ std::optional<Plane> find_platter(const ViewStore& views,
       static_cast<double>(below) <= options.max_below * static_cast<double>(on_it.size());
   const bool level = plane.normal().z() > std::cos(options.max_tilt_rad);
   const bool round = disc.seen >= options.min_round && disc.uneven < options.max_uneven;
-  return bottom && level && round ? std::optional(plane) : std::nullopt;
+  const bool expected = std::abs(plane.offset() / plane.normal().z()) < options.max_height_mm ||
+                        disc.radius_mm > options.wide * reach_above(cloud.all, plane, margin_mm);
+  return bottom && level && round && expected ? std::optional(plane) : std::nullopt;
 }
 
 }  // namespace frangia

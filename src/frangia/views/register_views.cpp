@@ -66,6 +66,10 @@ double rms_of(const std::vector<float>& distances) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, distances.size())));
 }
 
+double closure_rad(const BundleSums& sums) {
+  return sums.closing_weight > 0.0 ? -sums.closing_pull / sums.closing_weight : kMissing;
+}
+
 using Spots = std::vector<std::vector<PlaneMap::Spot>>;
 
 Spots pick_all(const std::vector<PlaneMap>& maps, std::size_t count) {
@@ -137,6 +141,8 @@ void judge(RegistrationReport& report, const Bundle& bundle, const BundleSums& s
       (bundle.prior_sigma.asDiagonal() * sums.hessian * bundle.prior_sigma.asDiagonal());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gain);
   report.weakest = std::sqrt(1.0 + std::max(0.0, solver.eigenvalues()[0]));
+  report.condition = std::sqrt((1.0 + solver.eigenvalues().tail<1>()[0]) /
+                               (1.0 + std::max(0.0, solver.eigenvalues()[0])));
   constexpr double kKnown = 9.0;  // three times better than before
   std::array<double, 3> open{};   // tilt, shift, angles
   for (Eigen::Index i = 0; i < solver.eigenvalues().size() && solver.eigenvalues()[i] < kKnown;
@@ -160,10 +166,12 @@ Turntable nearest_to(const Turntable& given, Turntable refined) {
 
 void leave_out(Bundle& bundle,
                ViewStore& views,
+               std::span<const RegisteredView> stops,
                const std::vector<std::size_t>& outliers,
                const Run& run) {
   for (const std::size_t view : outliers) {
-    run.warn(fmt::format("view {} fits no other view and is left out: was the part moved?", view));
+    run.warn(fmt::format("view {} fits no other view and is left out: was the part moved?",
+                         stops[view].name.empty() ? std::to_string(view) : stops[view].name));
     View empty = views.load(view);
     for (float& depth : empty.range.depth_mm.pixels())
       depth = kMissing;
@@ -208,16 +216,17 @@ Bundle make_bundle(const ViewStore& views,
 RegistrationReport register_views(ViewStore& views,
                                   const Lens& camera,
                                   const Turntable& given,
-                                  std::span<const double> angles_rad,
+                                  std::span<const RegisteredView> stops,
                                   const RegisterOptions& options,
                                   const Run& run) {
-  require(angles_rad.size() == views.size(), "register_views: each view needs its table angle");
+  require(stops.size() == views.size(), "register_views: each view needs its table angle");
   RegistrationReport report;
-  report.table = given;
-  report.angles_rad.assign(angles_rad.begin(), angles_rad.end());
+  report.table = report.given = given;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    views.set_rig_from_object(i, given.rig_from_object(angles_rad[i]));
+    report.angles_rad.push_back(stops[i].angle_rad);
+    views.set_rig_from_object(i, given.rig_from_object(stops[i].angle_rad));
   }
+  report.given_angles_rad = report.angles_rad;
   if (views.size() < 2) {
     run.warn("one view alone cannot be registered: the rig's turntable is taken as it is");
     return report;
@@ -228,6 +237,7 @@ RegistrationReport register_views(ViewStore& views,
   Spots spots = pick_all(bundle.maps, kFew);
   const BundleSums before = sum(bundle, spots);
   report.rms_before_mm = rms_of(before.distances_mm);
+  report.closure_before_rad = closure_rad(before);
   const std::size_t all = std::transform_reduce(
       spots.begin(), spots.end(), std::size_t{0}, std::plus<>(), [](const auto& s) {
         return s.size();
@@ -240,7 +250,7 @@ RegistrationReport register_views(ViewStore& views,
   run.report(0.7);
   report.outliers = find_outliers(sum(bundle, spots));
   if (!report.outliers.empty()) {
-    leave_out(bundle, views, report.outliers, run);
+    leave_out(bundle, views, stops, report.outliers, run);
     bundle.state = bundle.given;
     bundle.gate_mm = options.reach_mm;
     settle(bundle, pick_all(bundle.maps, kFew), options.max_iterations, run);
@@ -250,6 +260,7 @@ RegistrationReport register_views(ViewStore& views,
   run.report(0.9);
   const BundleSums after = sum(bundle, spots);
   report.rms_after_mm = rms_of(after.distances_mm);
+  report.closure_after_rad = closure_rad(after);
   report.overlap =
       static_cast<double>(total(after.met)) /
       static_cast<double>(std::max<std::size_t>(
@@ -270,14 +281,39 @@ RegistrationReport register_views(ViewStore& views,
 
 std::string RegistrationReport::text() const {
   std::string words = fmt::format(
-      "views agree to {:.4f} mm RMS (before: {:.3g} mm), {:.0f} % of their points overlap",
+      "views agree to {:.4f} mm RMS (before: {:.3g} mm), {:.0f} % of their points overlap; the "
+      "axis "
+      "moved by {:.3f} mm and {:.3f} degrees, the angles by up to {:.3f} degrees",
       rms_after_mm,
       rms_before_mm,
-      100.0 * overlap);
+      100.0 * overlap,
+      axis_moved_mm(),
+      deg_from_rad(axis_turned_rad()),
+      deg_from_rad(largest_turn_rad()));
+  if (!std::isnan(closure_after_rad)) {
+    words += fmt::format("; the turn closes to {:.4f} degrees (before: {:.4f})",
+                         std::abs(deg_from_rad(closure_after_rad)),
+                         std::abs(deg_from_rad(closure_before_rad)));
+  }
   for (const std::string& unknown : open) {
     words += fmt::format("; the part does not determine {}, which stays as the rig says", unknown);
   }
   return words;
+}
+
+double RegistrationReport::axis_moved_mm() const {
+  return (table.point_mm - given.point_mm).norm();
+}
+
+double RegistrationReport::axis_turned_rad() const {
+  return std::asin(std::min(1.0, given.axis.cross(table.axis).norm()));
+}
+
+double RegistrationReport::largest_turn_rad() const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < angles_rad.size(); ++i)
+    largest = std::max(largest, std::abs(angles_rad[i] - given_angles_rad[i]));
+  return largest;
 }
 
 }  // namespace frangia

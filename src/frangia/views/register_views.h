@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/rig/rig.h"
 #include "frangia/views/view_store.h"
@@ -24,17 +25,33 @@ struct RegisterOptions {
   int max_iterations = 30;
 };
 
+/// One stop of the turntable.
+struct RegisteredView {
+  double angle_rad = 0.0;  ///< commanded
+  std::string name;        ///< for warnings; empty is its number
+};
+
 struct RegistrationReport {
-  Turntable table;                 ///< refined; its point is the one nearest to the given one
+  Turntable table;  ///< refined; its point is the one nearest to the given one
+  Turntable given;
   std::vector<double> angles_rad;  ///< refined; the first is held
-  double rms_before_mm = 0.0;      ///< between the surfaces of different views, along the normal
+  std::vector<double> given_angles_rad;
+  double rms_before_mm = 0.0;  ///< between the surfaces of different views, along the normal
   double rms_after_mm = 0.0;
-  double overlap = 0.0;  ///< share of the points that another view saw, too
-  double weakest = 0.0;  ///< how many times better the weakest unknown is known than before
+  /// By how much the last view would have to be turned on to meet the first one: a turntable that
+  /// turns too far at each step shows here first. NaN when they do not overlap.
+  double closure_before_rad = kMissing;
+  double closure_after_rad = kMissing;
+  double overlap = 0.0;    ///< share of the points that another view saw, too
+  double condition = 0.0;  ///< of the equations, the prior among them
+  double weakest = 0.0;    ///< how many times better the weakest unknown is known than before
   std::vector<std::string> open;      ///< what the part does not determine
-  std::vector<std::size_t> outliers;  ///< views that fit no other, and were emptied
+  std::vector<std::size_t> outliers;  ///< views that fit no other, emptied
   int iterations = 0;
 
+  [[nodiscard]] double axis_moved_mm() const;
+  [[nodiscard]] double axis_turned_rad() const;
+  [[nodiscard]] double largest_turn_rad() const;  ///< of a view
   /// One or more sentences with the figures.
   [[nodiscard]] std::string text() const;
 };
@@ -45,12 +62,12 @@ struct RegistrationReport {
 ///
 /// A view that fits no other, as when the part was moved, is named, warned of and emptied. One view
 /// alone, or views that do not overlap, keep the poses of the rig, with a warning. shape
-/// `angles_rad`: one a view errors   Error(Input) when there are not as many angles as views source
+/// `stops`: one a view errors   Error(Input) when there are not as many stops as views source
 /// bundle of projective point-to-plane distances, by Gauss-Newton
 [[nodiscard]] RegistrationReport register_views(ViewStore& views,
                                                 const Lens& camera,
                                                 const Turntable& given,
-                                                std::span<const double> angles_rad,
+                                                std::span<const RegisteredView> stops,
                                                 const RegisterOptions& options = {},
                                                 const Run& run = {});
 

@@ -116,7 +116,14 @@ struct Summer {
     const double trust = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
     const double weight = trust / (std::pow(static_cast<double>(spot.sigma_mm), 2) +
                                    std::pow(static_cast<double>(target.sigma_mm), 2));
-    add_row(turn.slope(normal, spot.point_mm.cast<double>()), weight, distance, from, to);
+    const Eigen::Matrix<double, 1, 5> slope = turn.slope(normal, spot.point_mm.cast<double>());
+    add_row(slope, weight, distance, from, to);
+    const std::size_t last = maps.size() - 1;
+    if (last > 1 && std::min(from, to) == 0 && std::max(from, to) == last) {
+      const double by_last = to == last ? slope[4] : -slope[4];
+      sums.closing_weight += weight * by_last * by_last;
+      sums.closing_pull += weight * by_last * distance;
+    }
     sums.squares += weight * distance * distance;
     sums.distances_mm.push_back(static_cast<float>(std::abs(distance)));
     return std::abs(distance);
@@ -182,6 +189,8 @@ BundleSums sum_bundle(std::span<const std::vector<PlaneMap::Spot>> spots,
     all.hessian += part.hessian;
     all.gradient += part.gradient;
     all.squares += part.squares;
+    all.closing_weight += part.closing_weight;
+    all.closing_pull += part.closing_pull;
     all.distances_mm.insert(
         all.distances_mm.end(), part.distances_mm.begin(), part.distances_mm.end());
     for (std::size_t view = 0; view < maps.size(); ++view) {
