@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "frangia/core/error.h"
+
+namespace frangia {
+
+/// Until when a device may take, and whether somebody asked to stop. Every call to a device has
+/// one: nothing waits for ever.
+struct Deadline {
+  using Clock = std::chrono::steady_clock;
+
+  Clock::time_point at;
+  double given_s = 0.0;  ///< as it was at the start, for the sentence that tells of it
+  std::stop_token stop;
+
+  [[nodiscard]] static Deadline in(double seconds, std::stop_token stop = {}) {
+    const auto span = std::chrono::duration<double>(seconds);
+    return {
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(span), seconds, std::move(stop)};
+  }
+  /// The earlier of this one and `seconds` from now.
+  [[nodiscard]] Deadline at_most(double seconds) const {
+    Deadline sooner = in(seconds, stop);
+    return sooner.at < at ? sooner : *this;
+  }
+  [[nodiscard]] bool passed() const { return Clock::now() >= at; }
+  /// Throws Error(Cancelled) once a stop was asked for.
+  void check() const {
+    if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "stopped by the user");
+  }
+  /// Sleeps in short pieces, so that a stop is heard. Ends early when the deadline does.
+  void sleep(double seconds) const {
+    const Deadline until = at_most(seconds);
+    while (!until.passed()) {
+      check();
+      const auto piece = Clock::duration(std::chrono::milliseconds(10));
+      std::this_thread::sleep_for(std::min(piece, until.at - Clock::now()));
+    }
+  }
+};
+
+}  // namespace frangia

@@ -1,0 +1,40 @@
+#include "frangia/devices/driver.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace frangia {
+
+std::string table_of(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::Camera:
+      return "camera";
+    case DeviceKind::PhaseShifter:
+    case DeviceKind::PatternDisplay:
+      return "fringes";
+    case DeviceKind::Line:
+      return "line";
+    case DeviceKind::Light:
+      return "light";
+    case DeviceKind::Turntable:
+      return "turntable";
+  }
+  return {};
+}
+
+const Driver& driver_for(DeviceSettings& settings, const std::vector<Driver>& drivers) {
+  const std::string wanted = settings.driver();
+  std::vector<std::string> names;
+  for (const Driver& driver : drivers) {
+    if (table_of(driver.kind) != settings.device()) continue;
+    if (driver.name == wanted) return driver;
+    names.push_back(driver.name);
+  }
+  settings.fail("driver",
+                fmt::format("is \"{}\"; for [devices.{}] there are {}",
+                            wanted,
+                            settings.device(),
+                            fmt::join(names, ", ")));
+}
+
+}  // namespace frangia

@@ -1,0 +1,20 @@
+#include "frangia/devices/hardware_drivers.h"
+
+#include <iterator>
+#include <utility>
+
+#include "frangia/devices/aravis_driver.h"
+#include "frangia/devices/board_drivers.h"
+#include "frangia/devices/line_drivers.h"
+
+namespace frangia {
+
+std::vector<Driver> hardware_drivers() {
+  std::vector<Driver> drivers;
+  drivers.push_back(aravis_driver());
+  for (auto more : {board_drivers(), line_drivers()})
+    std::move(more.begin(), more.end(), std::back_inserter(drivers));
+  return drivers;
+}
+
+}  // namespace frangia

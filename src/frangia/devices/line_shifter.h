@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "frangia/devices/actuator_protocol.h"
+#include "frangia/devices/phase_shifter.h"
+
+namespace frangia {
+
+/// A piezo behind any instrument of one value. Nothing beyond `info`'s range is ever sent.
+class LineShifter final : public PhaseShifter {
+ public:
+  /// errors   Error(Device) when the instrument does not take its `start`
+  LineShifter(std::unique_ptr<Transport> transport,
+              ActuatorProtocol protocol,
+              ShifterInfo info,
+              double settle_s,
+              const Deadline& deadline);
+  LineShifter(const LineShifter&) = delete;
+  LineShifter& operator=(const LineShifter&) = delete;
+  LineShifter(LineShifter&&) = delete;
+  LineShifter& operator=(LineShifter&&) = delete;
+  ~LineShifter() override;
+
+  [[nodiscard]] std::string name() const override { return "phase shifter at " + line_.name(); }
+  [[nodiscard]] std::string test(const Deadline& deadline) override;
+  void make_safe() noexcept override;
+  [[nodiscard]] const ShifterInfo& info() const override { return info_; }
+  void drive(double command, const Deadline& deadline) override;
+
+ private:
+  void start(const Deadline& deadline);
+  void wait_until_settled(const Deadline& deadline);
+
+  LineInstrument line_;
+  ActuatorProtocol protocol_;
+  ShifterInfo info_;
+  double settle_s_ = 0.0;  ///< after the instrument says that it is there
+  bool started_ = false;
+};
+
+}  // namespace frangia

@@ -1,0 +1,83 @@
+#include "frangia/devices/phase_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+/// The place of x on the broken line through (xs, ys); xs rise.
+double along(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  const auto above = std::upper_bound(xs.begin() + 1, xs.end() - 1, x);
+  const auto i = static_cast<std::size_t>(above - xs.begin());
+  const double share = std::clamp((x - xs[i - 1]) / (xs[i] - xs[i - 1]), 0.0, 1.0);
+  return ys[i - 1] + share * (ys[i] - ys[i - 1]);
+}
+
+bool rises(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
+}
+
+}  // namespace
+
+void PhaseCurve::check(const std::string& whose) const {
+  const std::vector<double> back(phases_rad.rbegin(), phases_rad.rend());
+  if (commands.size() >= 2 && commands.size() == phases_rad.size() && rises(commands) &&
+      (rises(phases_rad) || rises(back))) {
+    return;
+  }
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: a phase curve needs two points or more, rising commands and as many "
+                          "phases that only rise or only fall; run frangia calibrate piezo anew",
+                          whose));
+}
+
+double PhaseCurve::phase_at(double command) const {
+  return along(commands, phases_rad, command);
+}
+
+double PhaseCurve::command_for(double phase_rad) const {
+  const bool rising = phases_rad.front() < phases_rad.back();
+  const double low = std::min(phases_rad.front(), phases_rad.back());
+  const double high = std::max(phases_rad.front(), phases_rad.back());
+  double phase = phase_rad;
+  if (phase < low) phase += kTurn * std::ceil((low - phase) / kTurn);
+  if (phase > high) phase -= kTurn * std::ceil((phase - high) / kTurn);
+  if (phase < low) {
+    throw Error(ErrorKind::Input,
+                fmt::format("the phase curve spans {:.1f} degrees, which do not hold a shift of "
+                            "{:.1f}; widen the range of the phase shifter",
+                            deg_from_rad(high - low),
+                            deg_from_rad(phase_rad)));
+  }
+  if (rising) return along(phases_rad, commands, phase);
+  const std::vector<double> phases(phases_rad.rbegin(), phases_rad.rend());
+  const std::vector<double> reversed(commands.rbegin(), commands.rend());
+  return along(phases, reversed, phase);
+}
+
+PhaseCurve read_phase_curve(DeviceSettings& settings, double min_command, double max_command) {
+  PhaseCurve curve;
+  if (settings.has("curve_commands")) {
+    curve.commands = settings.numbers("curve_commands");
+    for (const double phase_deg : settings.numbers("curve_phases_deg"))
+      curve.phases_rad.push_back(rad_from_deg(phase_deg));
+  } else {
+    const double per_turn = settings.number("command_per_turn");
+    if (per_turn == 0.0)
+      settings.fail("command_per_turn", "is 0; it must be the command of a turn");
+    curve.commands = {min_command, max_command};
+    curve.phases_rad = {0.0, kTurn * (max_command - min_command) / per_turn};
+  }
+  curve.check(fmt::format("{}: devices.{}", settings.file().string(), settings.device()));
+  return curve;
+}
+
+}  // namespace frangia

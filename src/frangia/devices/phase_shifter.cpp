@@ -1,0 +1,19 @@
+#include "frangia/devices/phase_shifter.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace frangia {
+
+void PhaseShifter::set_pitch(double fringes_per_degree, const Deadline& /*deadline*/) {
+  const double own = info().fringes_per_degree;
+  if (own == 0.0 || std::abs(fringes_per_degree / own - 1.0) < 1e-6) return;
+  device_fault(*this,
+               fmt::format("its fringes are {:g} a degree and the pattern asks for {:g}; scan with "
+                           "patterns of its own pitch",
+                           own,
+                           fringes_per_degree));
+}
+
+}  // namespace frangia

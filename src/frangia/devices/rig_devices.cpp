@@ -1,0 +1,109 @@
+#include "frangia/devices/rig_devices.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace frangia {
+namespace {
+
+/// The device as the class that its kind promises.
+template <typename T>
+void take_as(std::unique_ptr<Device> device, std::unique_ptr<T>& place) {
+  auto* as = dynamic_cast<T*>(device.get());
+  if (as == nullptr) device_fault(*device, "its driver opened a device of another kind");
+  static_cast<void>(device.release());
+  place.reset(as);
+}
+
+void put(std::unique_ptr<Device> device, DeviceKind kind, RigDevices& devices) {
+  switch (kind) {
+    case DeviceKind::Camera:
+      return take_as(std::move(device), devices.camera);
+    case DeviceKind::PhaseShifter:
+      return take_as(std::move(device), devices.shifter);
+    case DeviceKind::PatternDisplay:
+      return take_as(std::move(device), devices.display);
+    case DeviceKind::Line:
+      return take_as(std::move(device), devices.line);
+    case DeviceKind::Light:
+      return take_as(std::move(device), devices.light);
+    case DeviceKind::Turntable:
+      return take_as(std::move(device), devices.turntable);
+  }
+}
+
+void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDevices& devices) {
+  const auto refuse = [&](const Device& device, int width, int height, const std::string& key) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: {} is not the {} x {} pixels of {}; correct the rig or the "
+                            "device's region",
+                            file.string(),
+                            key,
+                            width,
+                            height,
+                            device.name()));
+  };
+  if (devices.camera) {
+    const CameraInfo& info = devices.camera->info();
+    const Lens& lens = rig.camera.lens;
+    if (info.width_px != lens.width_px || info.height_px != lens.height_px)
+      refuse(*devices.camera, info.width_px, info.height_px, "camera.size_px");
+    if (info.white_level != rig.camera.white_level) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: camera.white_level is {}, but {} is saturated at {}",
+                              file.string(),
+                              rig.camera.white_level,
+                              devices.camera->name(),
+                              info.white_level));
+    }
+  }
+  if (devices.display) {
+    const DisplayInfo& info = devices.display->info();
+    const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+    if (lens == nullptr || info.width_px != lens->width_px || info.height_px != lens->height_px)
+      refuse(*devices.display, info.width_px, info.height_px, "projector.size_px");
+  }
+  if (devices.shifter && !rig.projector.is_angular()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: [devices.fringes] shifts an interferometer's fringes, but "
+                            "projector.model is \"pinhole\"",
+                            file.string()));
+  }
+}
+
+}  // namespace
+
+std::vector<Device*> RigDevices::all() const {
+  std::vector<Device*> devices;
+  for (Device* device : std::initializer_list<Device*>{
+           light.get(), line.get(), display.get(), turntable.get(), shifter.get(), camera.get()}) {
+    if (device != nullptr) devices.push_back(device);
+  }
+  return devices;
+}
+
+void RigDevices::make_safe() noexcept {
+  for (Device* device : std::initializer_list<Device*>{
+           light.get(), line.get(), display.get(), turntable.get(), shifter.get(), camera.get()}) {
+    if (device != nullptr) device->make_safe();
+  }
+}
+
+RigDevices open_devices(const std::filesystem::path& rig_file,
+                        const Rig& rig,
+                        const std::vector<Driver>& drivers,
+                        const Deadline& deadline,
+                        const Run& run) {
+  RigDevices devices;
+  for (DeviceSettings& settings : read_device_settings(rig_file)) {
+    const Driver& driver = driver_for(settings, drivers);
+    std::unique_ptr<Device> device = driver.open(settings, rig, deadline);
+    settings.warn_of_the_rest(run);
+    put(std::move(device), driver.kind, devices);
+  }
+  check_sizes(rig_file, rig, devices);
+  return devices;
+}
+
+}  // namespace frangia

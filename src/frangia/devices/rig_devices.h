@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/devices/camera_device.h"
+#include "frangia/devices/driver.h"
+#include "frangia/devices/pattern_display.h"
+#include "frangia/devices/phase_shifter.h"
+#include "frangia/devices/switch_device.h"
+#include "frangia/devices/turntable_device.h"
+
+namespace frangia {
+
+/// The devices of a rig, each null where the rig has none. When destroyed, or on any fault, all of
+/// them are made safe: light first, then motion.
+struct RigDevices {
+  RigDevices() = default;
+  RigDevices(const RigDevices&) = delete;
+  RigDevices& operator=(const RigDevices&) = delete;
+  RigDevices(RigDevices&&) = default;
+  RigDevices& operator=(RigDevices&&) = delete;
+  ~RigDevices() { make_safe(); }
+
+  std::unique_ptr<CameraDevice> camera;
+  std::unique_ptr<PhaseShifter> shifter;    ///< the fringes of an interferometer ...
+  std::unique_ptr<PatternDisplay> display;  ///< ... or those of a digital projector
+  std::unique_ptr<LineSource> line;
+  std::unique_ptr<SwitchDevice> light;
+  std::unique_ptr<TurntableDevice> turntable;
+
+  /// All that there are, light first.
+  [[nodiscard]] std::vector<Device*> all() const;
+  void make_safe() noexcept;
+};
+
+/// Opens the devices that the `[devices.*]` tables of a rig.toml describe.
+///
+/// errors   Error(Input) that names file and key: an unknown driver, a table that is none, a
+///          setting that is missing or wrong, a camera or display of another size than the rig
+///          says; Error(Device) when one does not answer by the deadline
+[[nodiscard]] RigDevices open_devices(const std::filesystem::path& rig_file,
+                                      const Rig& rig,
+                                      const std::vector<Driver>& drivers,
+                                      const Deadline& deadline,
+                                      const Run& run = {});
+
+}  // namespace frangia

@@ -1,0 +1,105 @@
+#include "frangia/devices/hardware_drivers.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "frangia/devices/rig_devices.h"
+#include "frangia/rig/read_rig.h"
+
+#include "support/emulated_boards.h"
+#include "support/emulated_grbl.h"
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::EmulatedGrbl;
+using testing::EmulatedPort;
+using testing::EmulatedScpi;
+using testing::error_of;
+
+class HardwareDrivers : public ::testing::Test {
+ protected:
+  [[nodiscard]] RigDevices open(const std::string& devices, double seconds = 3.0) {
+    const auto file = folder_.path() / "rig.toml";
+    std::ofstream(file) << "format = \"frangia-rig\"\nversion = 1\n" << devices;
+    return open_devices(file, Rig{}, hardware_drivers(), Deadline::in(seconds));
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(HardwareDrivers, ATableAndALaserShareTheirBoard) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  const std::string line = "driver = \"grbl\"\nport = \"" + port.path() + "\"\nboot_s = 0.3\n";
+  RigDevices devices = open("[devices.light]\n" + line + "[devices.line]\n" + line +
+                            "on = \"M8\"\noff = \"M9\"\n[devices.turntable]\n" + line +
+                            "backlash_deg = 1.0\nmin_deg = -10\nmax_deg = 370\n");
+  const Deadline deadline = Deadline::in(3.0);
+  devices.light->set(true, deadline);
+  devices.turntable->enable(true, deadline);
+  devices.turntable->home(deadline);
+  devices.turntable->move_to(0.5, deadline);
+  devices.line->set(true, deadline);
+  port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_TRUE(grbl.spindle && grbl.coolant); });
+  devices.light->set(false, deadline);
+  EXPECT_NEAR(devices.turntable->angle_rad().value(), 0.5, 1e-12);
+  devices.make_safe();
+  port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle || grbl.coolant); });
+}
+
+TEST_F(HardwareDrivers, APortThatIsNotThereIsNamed) {
+  const std::string sentence = error_of([&] {
+    static_cast<void>(open("[devices.turntable]\ndriver = \"marlin\"\nport = \"/dev/x\"\n"));
+  });
+  EXPECT_EQ(sentence.find("/dev/x: cannot be opened"), 0U) << sentence;
+}
+
+TEST_F(HardwareDrivers, ALightSpokenToByCommandsOfOnesOwnIsOffWhenOpenedAndAtTheEnd) {
+  EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
+  port.with<EmulatedScpi>([](auto& supply) { supply.output = true; });
+  {
+    RigDevices devices = open(
+        "[devices.light]\ndriver = \"commands\"\nhost = \"127.0.0.1\"\n"
+        "tcp_port = " +
+        std::to_string(port.tcp_port()) +
+        "\non = [\"OUTP ON\"]\noff = [\"OUTP OFF\"]\n"
+        "error_query = \"SYST:ERR?\"\nno_error = \"0\"\n");
+    port.with<EmulatedScpi>([](auto& supply) { EXPECT_FALSE(supply.output); });
+    devices.light->set(true, Deadline::in(1.0));
+    port.with<EmulatedScpi>([](auto& supply) { EXPECT_TRUE(supply.output); });
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  port.with<EmulatedScpi>([](auto& supply) { EXPECT_FALSE(supply.output); });
+}
+
+TEST_F(HardwareDrivers, AMissingKeyIsNamed) {
+  EXPECT_NE(
+      error_of([&] {
+        static_cast<void>(open("[devices.fringes]\ndriver = \"commands\"\nport = \"/dev/x\"\n"));
+      }).find("devices.fringes.set"),
+      std::string::npos);
+}
+
+TEST(ExampleRigs, AreReadAndNameDriversThatThereAre) {
+  const auto drivers = hardware_drivers();
+  int rigs = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(FRANGIA_SOURCE_DIR) + "/examples")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++rigs;
+    EXPECT_GT(read_rig(entry.path()).camera.lens.width_px, 0) << entry.path();
+    auto tables = read_device_settings(entry.path());
+    EXPECT_FALSE(tables.empty()) << entry.path();
+    for (DeviceSettings& settings : tables)
+      EXPECT_NO_THROW(static_cast<void>(driver_for(settings, drivers))) << entry.path();
+  }
+  EXPECT_GT(rigs, 0);
+}
+
+}  // namespace
+}  // namespace frangia

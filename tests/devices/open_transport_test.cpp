@@ -1,0 +1,87 @@
+#include "frangia/devices/open_transport.h"
+
+#include <gtest/gtest.h>
+
+#include "support/emulated_boards.h"
+#include "support/error_of.h"
+
+namespace frangia {
+namespace {
+
+using testing::EmulatedPort;
+using testing::EmulatedScpi;
+using testing::error_of;
+
+TEST(OpenTransport, APortThatIsNotThereIsNamed) {
+  EXPECT_EQ(error_of([] {
+              static_cast<void>(open_serial({"/dev/ttyNONE9"}));
+            }).find("/dev/ttyNONE9: cannot be opened"),
+            0U);
+}
+
+TEST(OpenTransport, APortIsForOneProgramAtATime) {
+  EmulatedPort port(std::make_unique<EmulatedScpi>());
+  const auto first = open_serial({port.path()});
+  EXPECT_NE(error_of([&] { static_cast<void>(open_serial({port.path()})); }).find("in use"),
+            std::string::npos);
+}
+
+TEST(OpenTransport, AWrongTcpPortIsNamed) {
+  int closed = 0;
+  {
+    const EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
+    closed = port.tcp_port();
+  }
+  const std::string sentence =
+      error_of([&] { static_cast<void>(open_tcp("127.0.0.1", closed, Deadline::in(1.0))); });
+  EXPECT_EQ(sentence.find("127.0.0.1:" + std::to_string(closed) + ": no connection"), 0U);
+}
+
+TEST(OpenTransport, LinesComeWholeAndInOrderOverBoth) {
+  for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
+    EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
+    const Deadline deadline = Deadline::in(3.0);
+    const auto line = kind == EmulatedPort::Kind::Tcp
+                          ? open_tcp("127.0.0.1", port.tcp_port(), deadline)
+                          : open_serial({port.path()});
+    line->write("*IDN?\n*OPC?\n", deadline);
+    EXPECT_EQ(read_line(*line, deadline), "Frangia,Emulated generator,0,1");
+    EXPECT_EQ(read_line(*line, deadline), "1");
+    EXPECT_FALSE(line->try_read('\n', Deadline::in(0.02)).has_value());
+  }
+}
+
+TEST(OpenTransport, WhatWasGivenUpIsDiscarded) {
+  EmulatedPort port(std::make_unique<EmulatedScpi>());
+  const auto line = open_serial({port.path()});
+  line->write("*IDN?\n", Deadline::in(1.0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  line->discard_input();
+  line->write("*OPC?\n", Deadline::in(1.0));
+  EXPECT_EQ(read_line(*line, Deadline::in(1.0)), "1");
+}
+
+TEST(OpenTransport, AnUnpluggedDeviceIsAnErrorAndNoWait) {
+  for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
+    EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
+    const auto line = kind == EmulatedPort::Kind::Tcp
+                          ? open_tcp("127.0.0.1", port.tcp_port(), Deadline::in(1.0))
+                          : open_serial({port.path()});
+    line->write("*OPC?\n", Deadline::in(1.0));
+    static_cast<void>(read_line(*line, Deadline::in(1.0)));
+    port.unplug();
+    const auto begun = Deadline::Clock::now();
+    EXPECT_NE(error_of([&] {
+                static_cast<void>(read_line(*line, Deadline::in(5.0)));
+              }).find("is it plugged in?"),
+              std::string::npos);
+    EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(1));
+  }
+}
+
+TEST(OpenTransport, WhatCannotBePrintedIsTold) {
+  EXPECT_EQ(printable("ok\r\xff"), "ok\\x0d\\xff");
+}
+
+}  // namespace
+}  // namespace frangia

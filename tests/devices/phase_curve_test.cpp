@@ -1,0 +1,43 @@
+#include "frangia/devices/phase_curve.h"
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+TEST(PhaseCurve, GivesTheCommandWhosePhaseItIs) {
+  const PhaseCurve rising{{0.0, 2.0, 10.0}, {0.1, 3.0, 8.0}};
+  const PhaseCurve falling{{0.0, 2.0, 10.0}, {0.1, -3.0, -8.0}};
+  for (double command = 0.0; command <= 10.0; command += 0.5) {
+    // A phase comes back a whole number of turns off where the curve spans more than a turn.
+    for (const PhaseCurve& curve : {rising, falling}) {
+      const double phase = curve.phase_at(command);
+      EXPECT_NEAR(wrap_rad(curve.phase_at(curve.command_for(phase)) - phase), 0.0, 1e-12);
+      EXPECT_NEAR(curve.command_for(phase), command, 1e-9);
+    }
+  }
+}
+
+TEST(PhaseCurve, BringsAPhaseBeyondItsEndsIntoThemByWholeTurns) {
+  const PhaseCurve curve{{0.0, 10.0}, {0.0, 1.2 * kTurn}};
+  EXPECT_NEAR(curve.command_for(2.5 * kTurn), 10.0 * 0.5 / 1.2, 1e-9);
+  EXPECT_NEAR(curve.command_for(-0.25 * kTurn), 10.0 * 0.75 / 1.2, 1e-9);
+}
+
+TEST(PhaseCurve, RefusesAShiftThatItsRangeDoesNotHold) {
+  const PhaseCurve half{{0.0, 5.0}, {0.0, 0.5 * kTurn}};
+  EXPECT_THROW(static_cast<void>(half.command_for(0.75 * kTurn)), Error);
+}
+
+TEST(PhaseCurve, MustRiseInItsCommandsAndNotTurnBackInItsPhases) {
+  EXPECT_THROW((PhaseCurve{{0.0, 0.0}, {0.0, 1.0}}.check("rig.toml")), Error);
+  EXPECT_THROW((PhaseCurve{{0.0, 1.0, 2.0}, {0.0, 1.0, 0.5}}.check("rig.toml")), Error);
+  EXPECT_THROW((PhaseCurve{{0.0, 1.0}, {0.0}}.check("rig.toml")), Error);
+  EXPECT_NO_THROW((PhaseCurve{{0.0, 1.0}, {1.0, 0.0}}.check("rig.toml")));
+}
+
+}  // namespace
+}  // namespace frangia
