@@ -236,11 +236,12 @@ void add_operations(CLI::App& verb, EditArguments& arguments) {
     const std::string name = operation.name;
     if (operation.unit == nullptr) {
       verb.add_flag_callback(
-          name,
-          [&arguments, name] {
-            arguments.steps.push_back({name, ""});
-          },
-          operation.help)->trigger_on_parse();
+              name,
+              [&arguments, name] {
+                arguments.steps.push_back({name, ""});
+              },
+              operation.help)
+          ->trigger_on_parse();
     } else {
       verb.add_option_function<std::string>(
               name,

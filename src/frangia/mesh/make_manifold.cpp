@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "frangia/mesh/half_edges.h"
 #include "frangia/mesh/selection.h"
 #include "frangia/mesh/vertex_data.h"
