@@ -24,12 +24,8 @@ PlaneMap plane_map(const LocalPlanes& view, const CameraRays& camera, std::size_
       if (quad.kind != LocalPlanes::Kind::Smooth || plane.window != WindowKind::Centred) continue;
       const Eigen::Vector3f ray = camera.rays(x, y).homogeneous();
       const Eigen::Vector3f point = ray / view.inverse_depth(x, y);
-      // Noise along the normal is least where the view only grazes the surface, but there a pixel's
-      // footprint is long and curved and its phase a mean over it: it is told worse, not better.
-      constexpr float kGrazing = 0.5F;  // cosine of incidence: 60 degrees
       const float cosine = -plane.normal.dot(point) / point.norm();
-      if (cosine < kGrazing) continue;
-      map.spots(column, row) = {point, plane.normal, 1.0F / std::sqrt(quad.weight)};
+      map.spots(column, row) = {point, plane.normal, cosine * cosine / std::sqrt(quad.weight)};
     }
   });
   return map;

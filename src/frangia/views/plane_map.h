@@ -20,7 +20,7 @@ struct PlaneMap {
     Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();  ///< the pixel's own: a window's mean is
                                                          ///< off where the surface is curved
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();    ///< unit, towards the camera
-    float sigma_mm = 0.0F;  ///< of its ray, over the cosine of incidence
+    float sigma_mm = 0.0F;                               ///< along the normal
   };
 
   int stride = 1;
