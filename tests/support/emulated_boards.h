@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -70,7 +71,7 @@ class EmulatedHorus : public EmulatedLines {
  public:
   std::string version = "Horus 0.2 ['$' for help]";
   double position = 0.0;
-  bool lasers[2] = {true, true};
+  std::array<bool, 2> lasers = {true, true};
   bool motor = false;
 
   std::string greet() override { return "\r\n" + version + "\r\n"; }
@@ -83,8 +84,8 @@ class EmulatedHorus : public EmulatedLines {
   }
   std::string answer(const std::string& line) override {
     if (line.rfind("G1X", 0) == 0) position = number_after(line, 'X');
-    if (line.rfind("M70T", 0) == 0) lasers[line[4] - '1'] = false;
-    if (line.rfind("M71T", 0) == 0) lasers[line[4] - '1'] = true;
+    if (line.rfind("M70T", 0) == 0) lasers.at(static_cast<std::size_t>(line[4] - '1')) = false;
+    if (line.rfind("M71T", 0) == 0) lasers.at(static_cast<std::size_t>(line[4] - '1')) = true;
     if (line == "M17") motor = true;
     return "ok\r\n";
   }

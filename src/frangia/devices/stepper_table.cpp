@@ -50,9 +50,9 @@ std::optional<double> StepperTable::angle_rad() const {
   return stops_ == board_->stops() ? angle_rad_ : std::nullopt;
 }
 
-void StepperTable::move_to(double target_rad, const Deadline& deadline) {
-  check_target(target_rad);
-  const double target_deg = deg_from_rad(target_rad);
+void StepperTable::move_to(double angle_rad, const Deadline& deadline) {
+  check_target(angle_rad);
+  const double target_deg = deg_from_rad(angle_rad);
   // Until it is there, nobody knows where it is.
   const double from_deg = deg_from_rad(*std::exchange(angle_rad_, std::nullopt));
   // Every stop ends upwards, so that a further one upwards has no slack left to take.
@@ -63,19 +63,19 @@ void StepperTable::move_to(double target_rad, const Deadline& deadline) {
   go_to(target_deg, deadline);
   pushed_up_ = true;
   deadline.sleep(options_.settle_s);
-  angle_rad_ = target_rad;
+  angle_rad_ = angle_rad;
 }
 
-void StepperTable::check_target(double target_rad) const {
-  if (!(target_rad >= options_.info.min_rad && target_rad <= options_.info.max_rad)) {
+void StepperTable::check_target(double angle_rad) const {
+  if (!(angle_rad >= options_.info.min_rad && angle_rad <= options_.info.max_rad)) {
     device_fault(*this,
                  fmt::format("{:.6g} degrees are outside its limits, {:.6g} to {:.6g}",
-                             deg_from_rad(target_rad),
+                             deg_from_rad(angle_rad),
                              deg_from_rad(options_.info.min_rad),
                              deg_from_rad(options_.info.max_rad)));
   }
   if (!enabled_) device_fault(*this, "it is not enabled");
-  if (!angle_rad()) device_fault(*this, "its angle is not known; home it first");
+  if (!this->angle_rad()) device_fault(*this, "its angle is not known; home it first");
 }
 
 void StepperTable::go_to(double angle_deg, const Deadline& deadline) {
