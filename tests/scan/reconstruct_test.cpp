@@ -104,6 +104,30 @@ TEST(Reconstruct, ClipsBelowAHeightAndBeyondARadius) {
   EXPECT_THROW(static_cast<void>(reconstruct(scan, options)), Error);
 }
 
+TEST(Reconstruct, NamesAViewOfAMovedPartAndLeavesItOut) {
+  const TemporaryFolder folder;
+  const TemporaryFolder moved_folder;
+  const Scan scan = small_scan(folder.path(), "bust", "digital", 8);
+  Scan plan = scan;
+  plan.folder = moved_folder.path();
+  Mesh moved = make_part("bust");
+  for (Eigen::Vector3f& vertex : moved.vertices_mm)
+    vertex += Eigen::Vector3f(4.0F, -3.0F, 0.0F);
+  static_cast<void>(simulate_scan(moved, plan, {.samples_per_px = 4}));
+  for (const auto& entry : std::filesystem::directory_iterator(moved_folder.path() / "views/3")) {
+    std::filesystem::copy_file(entry.path(),
+                               folder.path() / "views/3" / entry.path().filename(),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].find("views/3 fits no other view"), 0U) << warnings[0];
+  EXPECT_LT(error_of(result, "bust").rms_mm, 0.06);
+}
+
 void darken(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     Frame frame = read_png(entry.path());
