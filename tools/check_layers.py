@@ -4,7 +4,7 @@ import re
 import sys
 
 # Each module may include itself and anything before it.
-ORDER = "core pattern frames rig phase range views surface mesh files inspect simulate scan".split()
+ORDER = "core pattern frames rig phase range views surface mesh files inspect devices simulate scan".split()
 
 root = pathlib.Path(sys.argv[1]) / "src" / "frangia"
 errors = []
