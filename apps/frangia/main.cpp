@@ -61,6 +61,8 @@ int run_program(int argc, char** argv) {
   add_inspect_verb(program, terminal);
   add_algorithms_verb(program, terminal);
   add_plan_verb(program, terminal);
+  add_scan_verb(program, terminal);
+  add_devices_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -31,6 +31,7 @@ bool on_a_terminal() {
 Run Terminal::run() {
   static_cast<void>(interrupt());  // made before a signal can ask for it
   std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
   Run run;
   run.stop = interrupt().get_token();
   run.progress = [this](double done) { draw(done); };

@@ -15,5 +15,7 @@ void add_decode_verb(CLI::App& program, Terminal& terminal);
 void add_inspect_verb(CLI::App& program, Terminal& terminal);
 void add_algorithms_verb(CLI::App& program, Terminal& terminal);
 void add_plan_verb(CLI::App& program, Terminal& terminal);
+void add_scan_verb(CLI::App& program, Terminal& terminal);
+void add_devices_verb(CLI::App& program, Terminal& terminal);
 
 }  // namespace frangia

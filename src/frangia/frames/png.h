@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "frangia/core/image.h"
 #include "frangia/frames/frame.h"
@@ -14,6 +15,9 @@ namespace frangia {
 /// errors   Error(Input) that names the file: missing, not a PNG, truncated, in colour, or larger
 ///          than 65 535 pixels a side
 [[nodiscard]] Frame read_png(const std::filesystem::path& path);
+
+/// The bytes of a grey PNG, for whoever writes files in a manner of their own.
+[[nodiscard]] std::vector<char> encode_png(const Frame& frame);
 
 using Rgb = std::array<std::uint8_t, 3>;
 
