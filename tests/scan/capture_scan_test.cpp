@@ -10,7 +10,6 @@
 #include "frangia/core/angles.h"
 #include "frangia/devices/device_error.h"
 #include "frangia/devices/folder_camera.h"
-#include "frangia/scan/reconstruct.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/simulated_drivers.h"
 
@@ -90,7 +89,7 @@ TEST_F(CaptureScan, WritesAScanThatReadsBackWithAVerdictOfEachView) {
   EXPECT_NE(notes_.front().find("contrast"), std::string::npos);
   const Scan scan = read_scan(plan_.folder);
   EXPECT_EQ(scan.views.size(), 3U);
-  EXPECT_GT(reconstruct(scan).points, 1000U);
+  EXPECT_EQ(read_frames(scan, 2).size(), 2U);
 }
 
 TEST_F(CaptureScan, InterruptedGoesOnToTheSameBytes) {
