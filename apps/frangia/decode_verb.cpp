@@ -69,8 +69,10 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
                             scan.views.size() - 1));
   }
   const auto rays = rays_of(scan.rig.camera.lens);
+  DecodeOptions options = arguments.options;
+  options.survey = survey_scan(scan, run);
   const auto frames = read_frames(scan, arguments.view, run);
-  DecodedView decoded = decode_view(frames, scan.rig, rays, arguments.options, run);
+  DecodedView decoded = decode_view(frames, scan.rig, rays, options, run);
   RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
   drop_mixed_edges(range, rays, decoded.phase.fate);
   const auto files = write_stages(decoded, range, arguments.folder, run);

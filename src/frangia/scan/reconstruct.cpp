@@ -106,13 +106,15 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   Pattern coarsest;
   bool unwrapped_in_space = false;
   const auto rays = rays_of(scan.rig.camera.lens);
+  DecodeOptions decode = options.decode;
+  decode.survey = survey_scan(scan, run);
 
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
     run.stage("frames");
     const auto frames = read_frames(scan, i, run);
     run.stage("phase");
-    DecodedView decoded = decode_view(frames, scan.rig, rays, options.decode, run);
+    DecodedView decoded = decode_view(frames, scan.rig, rays, decode, run);
     tell_verdicts(scan, i, decoded.verdicts, run);
     run.stage("range");
     RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
