@@ -21,8 +21,8 @@ struct DecimateOptions {
 /// keeps the larger sigma, the fewer views and the worse mark of those it stands for.
 ///
 /// With a tolerance every join is checked to four fifths of it, both surfaces against each other,
-/// at their vertices, the middles of their edges and triangles, and on large triangles at points as
-/// dense as the edges of the mesh as it was.
+/// at their vertices, the middles of their edges and triangles, and on large triangles at points
+/// half as far apart as the mesh's edges were long.
 /// errors   Error(Input) for a tolerance that is not positive
 /// source   Garland & Heckbert 1997, Surface Simplification Using Quadric Error Metrics
 [[nodiscard]] Mesh decimate(Mesh mesh, const DecimateOptions& options, const Run& run = {});

@@ -22,7 +22,7 @@ Eigen::Vector3f middle_of(const Mesh& mesh, std::uint32_t triangle) {
 DistanceGuard::DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm)
     : original_(&original),
       distance_mm_(distance_mm),
-      spacing_mm_(std::max(mean_edge_mm(original.mesh()), 1e-6)),
+      spacing_mm_(0.5 * std::max(mean_edge_mm(original.mesh()), 1e-6)),
       first_(original.mesh().triangles.size(), kNone) {
   const Mesh& mesh = original.mesh();
   std::vector<std::uint8_t> known(mesh.vertices_mm.size());

@@ -17,7 +17,7 @@ namespace frangia {
 /// Points of the original (its vertices, the middles of its edges and triangles) each belong to a
 /// triangle of the present mesh. A join is allowed when every point of the triangles that it
 /// touches lies within the distance of one of those that remain, and these lie as near to the
-/// original, at points as dense as its own.
+/// original, at points twice as dense as its own.
 class DistanceGuard {
  public:
   DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm);
