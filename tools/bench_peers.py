@@ -87,7 +87,7 @@ def main(folder):
         sine, cosine = a - 3 * b + c + d, a + b - 3 * c + d
         modulation = np.hypot(sine, cosine) / 4
         mean = (a + b + c + d) / 4
-        sigma = 0.866 * np.sqrt(0.5 + 0.02 * mean) / np.maximum(modulation, 1e-9)
+        sigma = 0.866 * np.sqrt(4.08 + 0.2 * mean) / np.maximum(modulation, 1e-9)
         mask = (sigma < 0.1) & (np.maximum.reduce([a, b, c, d]) < 255)
         return np.where(mask, np.arctan2(sine, cosine), np.nan), modulation, mean, sigma
 
