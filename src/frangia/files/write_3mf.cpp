@@ -118,7 +118,8 @@ void write_3mf(const std::filesystem::path& path, const Mesh& mesh) {
       " <Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
       "</Relationships>\n");
-  file.begin("3D/3dmodel.model");
+  constexpr std::uint64_t kMostLine = 128;  // bytes of a vertex or triangle
+  file.begin("3D/3dmodel.model", kMostLine * (mesh.vertices_mm.size() + mesh.triangles.size()));
   write_model(file, mesh);
   file.commit();
 }

@@ -119,13 +119,22 @@ ZipWriter::~ZipWriter() {
   if (archive_->file != nullptr) zipClose(archive_->file, nullptr);
 }
 
-void ZipWriter::begin(const std::string& name) {
+void ZipWriter::begin(const std::string& name, std::uint64_t most_bytes) {
   constexpr int kFast = 1;  // a third larger than the best, five times as fast
   archive_->end();
   zip_fileinfo info{};
   info.tmz_date = {0, 0, 0, 1, 0, 1980};  // the same mesh gives the same bytes
-  archive_->check(zipOpenNewFileInZip64(
-      archive_->file, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, kFast, 1));
+  archive_->check(zipOpenNewFileInZip64(archive_->file,
+                                        name.c_str(),
+                                        &info,
+                                        nullptr,
+                                        0,
+                                        nullptr,
+                                        0,
+                                        nullptr,
+                                        Z_DEFLATED,
+                                        kFast,
+                                        most_bytes > 0xFFFF0000U ? 1 : 0));
   archive_->open = true;
 }
 
