@@ -35,12 +35,14 @@ void CaptureManifest::read_line(const std::string& line, std::size_t number) {
   std::istringstream words(line);
   std::string kind;
   std::string name;
+  std::string tries;
   std::string last;
   words >> kind;
   if (kind == "frame") {
     ManifestFrame frame;
-    words >> name >> std::hex >> frame.checksum >> std::dec >> frame.bytes >> last;
-    if (words && value_of(last, "tries") >> frame.tries) {
+    words >> name >> std::hex >> frame.checksum >> std::dec >> frame.bytes >> tries >> last;
+    if (words && value_of(tries, "tries") >> frame.tries &&
+        value_of(last, "scale") >> frame.scale) {
       frames_[name] = frame;
       return;
     }
@@ -69,14 +71,26 @@ void CaptureManifest::take_in(const std::string& set, const ManifestSet& verdict
   std::erase_if(frames_, [&](const auto& entry) { return entry.first.rfind(begin, 0) == 0; });
 }
 
-void CaptureManifest::store(const std::string& file, std::span<const char> bytes, int tries) {
-  const ManifestFrame frame{crc32(bytes), bytes.size(), tries};
+void CaptureManifest::store(const std::string& file,
+                            std::span<const char> bytes,
+                            ManifestFrame frame) {
+  frame.checksum = crc32(bytes);
+  frame.bytes = bytes.size();
   AtomicFile out(folder_ / file, Durability::Synced);
   out.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.commit();
-  log_.append(
-      fmt::format("frame {} {:08x} {} tries={}", file, frame.checksum, frame.bytes, frame.tries));
+  log_.append(fmt::format("frame {} {:08x} {} tries={} scale={}",
+                          file,
+                          frame.checksum,
+                          frame.bytes,
+                          frame.tries,
+                          frame.scale));
   frames_[file] = frame;
+}
+
+const ManifestFrame* CaptureManifest::find(const std::string& file) const {
+  const auto found = frames_.find(file);
+  return found == frames_.end() ? nullptr : &found->second;
 }
 
 void CaptureManifest::judge(const std::string& set, const ManifestSet& verdict) {

@@ -16,7 +16,8 @@ namespace frangia {
 struct ManifestFrame {
   std::uint32_t checksum = 0;  ///< CRC-32 of the file
   std::size_t bytes = 0;
-  int tries = 1;  ///< exposures that it took until one came whole
+  int tries = 1;       ///< exposures that it took until one came whole
+  double scale = 1.0;  ///< of the shifts that it was taken with
 };
 
 /// What was found of a complete set of frames, all those of a pattern in a view.
@@ -28,7 +29,7 @@ struct ManifestSet {
 
 /// The list of what a capture session has on disk: a line a frame, a line a set that was judged,
 ///
-///     frame views/000/fringe-0.png 1c291ca3 184211 tries=1
+///     frame views/000/fringe-0.png 1c291ca3 184211 tries=1 scale=1
 ///     set views/000/fringe 0 good scale=0.952
 ///     exposures 2.5 10
 ///
@@ -39,12 +40,14 @@ class CaptureManifest {
   /// `folder` is the scan's; the list is in capture/manifest.txt.
   explicit CaptureManifest(std::filesystem::path folder);
 
-  /// Stores a file durably and acknowledges it. `file` is relative to the folder.
-  void store(const std::string& file, std::span<const char> bytes, int tries);
+  /// Stores a file durably and acknowledges it, its checksum found here. `file` is relative to the
+  /// folder.
+  void store(const std::string& file, std::span<const char> bytes, ManifestFrame frame);
   void judge(const std::string& set, const ManifestSet& verdict);
   void choose_exposures(const std::vector<double>& exposures_ms);
 
-  [[nodiscard]] bool has(const std::string& file) const { return frames_.count(file) > 0; }
+  [[nodiscard]] bool has(const std::string& file) const { return find(file) != nullptr; }
+  [[nodiscard]] const ManifestFrame* find(const std::string& file) const;
   /// A set that was judged and counts.
   [[nodiscard]] bool is_good(const std::string& set) const;
   /// How often a set was begun anew.

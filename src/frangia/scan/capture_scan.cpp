@@ -228,11 +228,13 @@ class Session {
 
   /// The frames of a set, each at all its exposures: those that lie there, and the rest taken.
   std::vector<FramePtr> take_set(std::size_t view, const Pattern& pattern, int attempt) {
+    store_.drain();  // until the next frame is put the manifest is ours to read
     const bool complete = has_all_frames(view, pattern);
     const std::vector<bool> stored = stored_frames(view, pattern);
+    const double scale = scale_of(view, pattern);
     if (!complete) {
       if (attempt > 0) set_aside(view, pattern, attempt - 1);
-      devices_.begin_set(pattern, manifest_.scale());
+      devices_.begin_set(pattern, scale);
     }
     std::vector<FramePtr> frames;
     for (int frame = 0; frame < pattern.frame_count(); ++frame) {
@@ -248,7 +250,7 @@ class Session {
           devices_.expose_for(exposure_of(pattern, exposure));
           TakenFrame taken = devices_.take(label);
           frames.push_back(std::make_shared<const Frame>(std::move(taken.frame)));
-          store_.put(file, frames.back(), taken.tries);
+          store_.put(file, frames.back(), {.tries = taken.tries, .scale = scale});
           ++report_.taken;
         }
         count(1);
@@ -258,8 +260,18 @@ class Session {
     return frames;
   }
 
-  [[nodiscard]] std::vector<bool> stored_frames(std::size_t view, const Pattern& pattern) {
-    store_.drain();  // until the next frame is put the manifest is ours to read
+  /// A set that was begun goes on as it began.
+  [[nodiscard]] double scale_of(std::size_t view, const Pattern& pattern) const {
+    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+        const ManifestFrame* stored = manifest_.find(file_of(view, pattern, frame, exposure));
+        if (stored != nullptr) return stored->scale;
+      }
+    }
+    return manifest_.scale();
+  }
+
+  [[nodiscard]] std::vector<bool> stored_frames(std::size_t view, const Pattern& pattern) const {
     std::vector<bool> stored;
     for (int frame = 0; frame < pattern.frame_count(); ++frame) {
       for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)

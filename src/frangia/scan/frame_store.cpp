@@ -20,10 +20,12 @@ FrameStore::~FrameStore() {
   thread_.join();
 }
 
-void FrameStore::put(std::string file, std::shared_ptr<const Frame> frame, int tries) {
+void FrameStore::put(std::string file,
+                     std::shared_ptr<const Frame> frame,
+                     const ManifestFrame& about) {
   std::unique_lock lock(mutex_);
   wait_until(lock, 1);
-  jobs_.push_back(Job{std::move(file), std::move(frame), tries});
+  jobs_.push_back(Job{std::move(file), std::move(frame), about});
   changed_.notify_all();
 }
 
@@ -61,7 +63,7 @@ void FrameStore::work() {
       on_the_disk_ = true;
       changed_.notify_all();
       lock.unlock();
-      manifest_.store(job.file, bytes, job.tries);
+      manifest_.store(job.file, bytes, job.about);
       lock.lock();
     } catch (...) {
       if (!lock.owns_lock()) lock.lock();

@@ -27,7 +27,7 @@ class FrameStore {
 
   /// Waits while two frames are on their way to the disk.
   /// errors   what went wrong with an earlier frame
-  void put(std::string file, std::shared_ptr<const Frame> frame, int tries);
+  void put(std::string file, std::shared_ptr<const Frame> frame, const ManifestFrame& about);
   /// Returns when all frames are acknowledged.
   /// errors   as `put`
   void drain();
@@ -39,7 +39,7 @@ class FrameStore {
   struct Job {
     std::string file;
     std::shared_ptr<const Frame> frame;
-    int tries = 1;
+    ManifestFrame about;
   };
   void work();
   void wait_until(std::unique_lock<std::mutex>& lock, std::size_t pending);
