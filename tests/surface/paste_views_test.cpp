@@ -150,33 +150,6 @@ TEST(PasteViews, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one.sigma_mm, two.sigma_mm);
 }
 
-TEST(PasteViews, ClipsBelowAHeight) {
-  const Shape truth = testing::sphere(50.0);
-  const Mesh mesh = paste_views(snapshots(truth, small_lens(), all_around(8, kDistance)),
-                                small_lens(),
-                                {.min_z_mm = 10.0, .clip_below = true});
-  ASSERT_FALSE(mesh.empty());
-  for (const auto& vertex : mesh.vertices_mm)
-    EXPECT_GT(vertex.z(), 9.0F);
-}
-
-TEST(PasteViews, ClipsBeyondARadius) {
-  const Shape truth = testing::sphere(50.0);
-  const Mesh mesh = paste_views(snapshots(truth, small_lens(), all_around(8, kDistance)),
-                                small_lens(),
-                                {.max_radius_mm = 30.0});
-  ASSERT_FALSE(mesh.empty());
-  for (const auto& vertex : mesh.vertices_mm)
-    EXPECT_LT(vertex.head<2>().norm(), 31.0F);
-}
-
-TEST(PasteViews, RefusesToClipEverything) {
-  const ViewStore views = snapshots(testing::sphere(50.0), small_lens(), all_around(3, kDistance));
-  EXPECT_THROW(
-      static_cast<void>(paste_views(views, small_lens(), {.min_z_mm = 60.0, .clip_below = true})),
-      Error);
-}
-
 TEST(PasteViews, RefusesVoxelsThatDoNotFitAndNamesASizeThatDoes) {
   const ViewStore views = snapshots(testing::sphere(50.0), small_lens(), all_around(3, kDistance));
   double fits_mm = 0.0;

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "frangia/core/missing.h"
-#include "frangia/core/parallel.h"
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/distance_field.h"
 #include "frangia/surface/evidence.h"
@@ -35,36 +32,14 @@ double choose_voxel(const Sampling& sampling, const PasteOptions& options, const
   return voxel_mm;
 }
 
-bool clips(const PasteOptions& options) {
-  return options.clip_below || std::isfinite(options.max_radius_mm);
-}
-
-void clip(View& view, const CameraRays& camera, const PasteOptions& options) {
-  const Eigen::Isometry3f object_from_rig = view.rig_from_object.inverse().cast<float>();
-  const auto lowest = options.clip_below ? static_cast<float>(options.min_z_mm)
-                                         : -std::numeric_limits<float>::infinity();
-  const auto widest = static_cast<float>(options.max_radius_mm);
-  Image<float>& depth = view.range.depth_mm;
-  parallel_rows(depth.height(), [&](int y) {
-    for (int x = 0; x < depth.width(); ++x) {
-      const Eigen::Vector3f point =
-          object_from_rig * (depth(x, y) * camera.rays(x, y).homogeneous());
-      if (point.z() < lowest || point.head<2>().norm() > widest) depth(x, y) = kMissing;
-    }
-  });
-}
-
 /// Calls `use` with each view in turn; one is in memory at a time.
 void for_each_view(const ViewStore& views,
                    const CameraRays& camera,
-                   const PasteOptions& options,
                    const LocalPlanesOptions& how,
                    const std::function<void(const LocalPlanes&)>& use) {
   LocalPlanes planes;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    View view = views.load(i);
-    if (clips(options)) clip(view, camera, options);
-    planes = local_planes(view, camera, how, std::move(planes));
+    planes = local_planes(views.load(i), camera, how, std::move(planes));
     use(planes);
   }
 }
@@ -90,18 +65,18 @@ Mesh paste_views(const ViewStore& views,
 
   DistanceField field;
   field.voxel_mm = voxel_mm;
-  for_each_view(views, rays, options, {.reach_px = reach_px}, [&](const LocalPlanes& view) {
+  for_each_view(views, rays, {.reach_px = reach_px}, [&](const LocalPlanes& view) {
     add_view(field, view, rays, band);
     budget.check(static_cast<double>(field.blocks.size()));
     run.report(done += step);
   });
   require(!field.blocks.empty(),
-          "every point of the views is clipped: there is no surface to paste");
+          "no two points of the views are neighbours: there is no surface to paste");
   const Crossings crossings = find_crossings(field);
   field = {};
 
   std::vector<Evidence> evidence(crossings.points_mm.size());
-  for_each_view(views, rays, options, {}, [&](const LocalPlanes& view) {
+  for_each_view(views, rays, {}, [&](const LocalPlanes& view) {
     add_evidence(
         evidence, crossings, view, rays, {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
     run.report(done += step);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 
 #include "frangia/core/run.h"
 #include "frangia/rig/lens.h"
@@ -11,13 +10,7 @@
 namespace frangia {
 
 struct PasteOptions {
-  double voxel_mm =
-      0.0;  ///< edge of a voxel; 0 chooses it from the data's own sampling, and notes it
-  double min_z_mm =
-      0.0;  ///< nothing below this height of the object frame, when `clip_below` is set
-  bool clip_below = false;
-  double max_radius_mm =
-      std::numeric_limits<double>::infinity();  ///< nothing farther from the axis
+  double voxel_mm = 0.0;  ///< edge of a voxel; 0 chooses it from the data's sampling, and notes it
   std::size_t max_memory_mb = 0;  ///< of the surface while it is made; 0 is half of the machine's
   std::size_t min_part_triangles = 100;  ///< smaller parts, not joined to others, are dropped
 };
@@ -31,9 +24,8 @@ struct PasteOptions {
 /// Memory holds one view and the surface.
 /// units    mm, object frame
 /// missing  where no view saw the surface the mesh stays open: nothing is invented
-/// errors   Error(Input) when no view holds a point, when all of them are clipped, and when the
-/// voxels
-///          would need more memory than there is: then it names a size that fits
+/// errors   Error(Input) when no view holds a point, and when the voxels would need more memory
+///          than there is: then it names a size that fits
 /// source   signed distance in a hashed grid: Curless & Levoy 1996, Niessner et al. 2013; vertices:
 ///          Ju et al. 2002
 [[nodiscard]] Mesh paste_views(const ViewStore& views,

@@ -1,0 +1,103 @@
+#include "frangia/scan/measure_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/range/triangulate.h"
+
+namespace frangia {
+namespace {
+
+std::size_t count_points(const RangeGrid& range) {
+  const auto depth = range.depth_mm.pixels();
+  return static_cast<std::size_t>(
+      std::count_if(depth.begin(), depth.end(), [](float z) { return !std::isnan(z); }));
+}
+
+double share(const Image<PixelFate>& fate, PixelFate which) {
+  const auto count = std::count(fate.pixels().begin(), fate.pixels().end(), which);
+  return 100.0 * static_cast<double>(count) / static_cast<double>(fate.pixels().size());
+}
+
+std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelFate>& fate) {
+  return fmt::format(
+      "{}: no point was measured, and the view is left out: {:.1f} % of its pixels are unmodulated "
+      "and {:.1f} % saturated; check light and exposure",
+      (scan.folder / scan.views[view].folder).string(),
+      share(fate, PixelFate::Unmodulated),
+      share(fate, PixelFate::Saturated));
+}
+
+/// The first view's verdicts stand for all; of the others only what is suspect is worth a sentence.
+void tell_verdicts(const Scan& scan,
+                   std::size_t view,
+                   const std::vector<FrameVerdict>& verdicts,
+                   const Run& run) {
+  for (const FrameVerdict& verdict : verdicts) {
+    const std::string folder = scan.views[view].folder.string();
+    if (verdict.vibration_suspected) {
+      run.warn(fmt::format("{}: {}", folder, in_words(verdict)));
+    } else if (view == 0) {
+      run.note(fmt::format("{}: {}", folder, in_words(verdict)));
+    }
+  }
+}
+
+/// What the frames of one view say, in mm.
+struct MeasuredView {
+  RangeGrid range;
+  DecodedView decoded;
+  std::size_t points = 0;
+};
+
+MeasuredView measure_view(const Scan& scan,
+                          std::size_t view,
+                          const Image<Eigen::Vector2f>& rays,
+                          const DecodeOptions& decode,
+                          const EdgeOptions& edges,
+                          const Run& run) {
+  run.stage("frames");
+  const auto frames = read_frames(scan, view, run);
+  run.stage("phase");
+  MeasuredView out;
+  out.decoded = decode_view(frames, scan.rig, rays, decode, run);
+  tell_verdicts(scan, view, out.decoded.verdicts, run);
+  run.stage("range");
+  out.range = triangulate(out.decoded.phase, scan.rig, rays);
+  drop_mixed_edges(out.range, rays, out.decoded.phase.fate, edges);
+  out.points = count_points(out.range);
+  return out;
+}
+
+}  // namespace
+
+MeasuredViews measure_views(const Scan& scan,
+                            const Image<Eigen::Vector2f>& rays,
+                            const DecodeOptions& decode,
+                            const EdgeOptions& edges,
+                            const Run& run) {
+  MeasuredViews all;
+  for (std::size_t i = 0; i < scan.views.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
+    MeasuredView one = measure_view(scan, i, rays, decode, edges, run);
+    if (one.points == 0 && one.decoded.loose.empty()) {
+      run.warn(why_empty(scan, i, one.decoded.phase.fate));
+      continue;
+    }
+    for (LooseRegion& region : one.decoded.loose)
+      all.loose.push_back({all.views.size(), std::move(region)});
+    all.coarsest = one.decoded.wrapped.front().pattern;
+    all.unwrapped_in_space = one.decoded.relative.has_value();
+    all.stops.push_back({scan.views[i].angle_rad, scan.views[i].folder.string()});
+    all.views.add({std::move(one.range), scan.rig.rig_from_object(scan.views[i].angle_rad)});
+    all.points += one.points;
+  }
+  return all;
+}
+
+}  // namespace frangia
