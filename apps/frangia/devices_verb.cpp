@@ -78,7 +78,7 @@ Json test_devices(const std::filesystem::path& rig_file,
 void print(const Json& drivers, const Json& found, const Json& tested) {
   fmt::print("Drivers\n");
   for (const Json& driver : drivers) {
-    fmt::print("  [devices.{}]{:{}} driver = {:<19} {}\n",
+    fmt::print("  [devices.{}]{:{}} driver = {:<20} {}\n",
                driver["table"].get<std::string>(),
                "",
                10 - driver["table"].get<std::string>().size(),
