@@ -7,6 +7,7 @@
 
 #include "frangia/core/error.h"
 
+#include "paste_verb.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -63,6 +64,7 @@ int run_program(int argc, char** argv) {
   add_plan_verb(program, terminal);
   add_response_verb(program, terminal);
   add_edit_verb(program, terminal);
+  add_paste_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
