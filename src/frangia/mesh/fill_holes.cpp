@@ -64,7 +64,11 @@ bool fits(const Mesh& mesh, const HalfEdges& edges, const Rim& rim, const HolePa
 HolePatch patch_of(
     const Mesh& mesh, const HalfEdges& edges, const Rim& rim, HoleFill kind, const Run& run) {
   HolePatch patch = kind == HoleFill::Flat ? flat_patch(mesh, rim) : smooth_patch(mesh, edges, rim);
-  if (!patch.triangles.empty() && fits(mesh, edges, rim, patch)) return patch;
+  const bool there =
+      std::all_of(patch.places_mm.begin(), patch.places_mm.end(), [](const Eigen::Vector3f& place) {
+        return place.allFinite();  // fairing a rim that is far from flat can fail
+      });
+  if (there && !patch.triangles.empty() && fits(mesh, edges, rim, patch)) return patch;
   run.note(fmt::format("a hole of {} edges is closed by a fan about its middle", rim.size()));
   return fan_patch(mesh, rim);
 }
