@@ -47,7 +47,7 @@ def stages(program, folder):
             axes.set_title(title, fontsize=9)
             axes.axis("off")
         figure.tight_layout(pad=0.4)
-        figure.savefig(os.path.join(folder, "stages.png"), dpi=110, metadata={"Software": None})
+        figure.savefig(os.path.join(folder, "stages.png"), dpi=110, bbox_inches="tight", pad_inches=0.05, metadata={"Software": None})
         plt.close(figure)
 
 
