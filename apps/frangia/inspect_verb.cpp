@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -57,6 +58,11 @@ std::vector<float> values_of(const InspectArguments& arguments, const Mesh& mesh
   if (arguments.show == "marks") {
     for (const Mark mark : mesh.vertex_marks)
       values.push_back(static_cast<float>(mark));
+    // A flat closing has no vertex of its own: its rim shows it.
+    for (std::size_t i = 0; i < mesh.triangle_marks.size() && !values.empty(); ++i) {
+      for (const std::uint32_t vertex : mesh.triangles[i])
+        values[vertex] = std::max(values[vertex], static_cast<float>(mesh.triangle_marks[i]));
+    }
   }
   if (!(arguments.show == "shape" || !values.empty())) {
     throw Error(

@@ -47,7 +47,7 @@ TEST(FinishMesh, ClosesAndMarksWhatItInvents) {
 }
 
 TEST(FinishMesh, NeverLeavesTheTolerance) {
-  const Mesh mesh = make_part("bust");
+  const Mesh mesh = make_part("bracket");
   const Mesh fewer = finish_mesh(mesh, {.tolerance_mm = 0.05});
   EXPECT_LT(fewer.triangles.size(), mesh.triangles.size() / 2);
   const RayScene before(mesh);
@@ -61,7 +61,7 @@ TEST(FinishMesh, NeverLeavesTheTolerance) {
 }
 
 TEST(AtMost, KeepsToTheCountAndSaysHowFarThatIs) {
-  const Mesh mesh = make_part("bust");
+  const Mesh mesh = make_part("bracket");
   std::string told;
   frangia::Run run;
   run.on_note = [&](const std::string& text) { told += text; };
