@@ -108,8 +108,9 @@ def spikes(vertices, triangles):
 
 
 def crossing(vertices, triangles):
-    more = [[x - 1.5, y + 2.0, z + 1.0] for x, y, z in vertices]
-    return vertices + more, triangles + [[a + len(vertices) for a in t] for t in triangles]
+    """A patch turned over in its place: it folds the surface around it."""
+    near = [sum((v - m) ** 2 for v, m in zip(vertex, (20, 3, 78))) < 9 for vertex in vertices]
+    return [[x, 6 - y, z] if inside else [x, y, z] for (x, y, z), inside in zip(vertices, near)], triangles
 
 
 def turned(vertices, triangles):
