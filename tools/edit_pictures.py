@@ -72,7 +72,7 @@ halves = WORK / "halves.ply"
 edit(closed, halves, "--select-box", "-60,-60,46,60,60,58", "--delete", "--keep-largest", 2)
 picture("bridge", halves, ["--bridge", "0,1"])
 picture("mirror", bust, ["--mirror", "1,0,0,0mm"])
-picture("align", bracket, ["--align", "0,0,0,-30,0,20,0,-30,20"])
+picture("align", bracket, ["--align", "-30,0,35,-10,25,3,-27,0,70"])
 picture("offset", bracket, ["--keep-largest", 1, "--offset", "2mm"])
 
 
