@@ -102,9 +102,9 @@ const std::vector<Operation>& operations() {
        }},
       {"--decimate",
        "mm",
-       "as few triangles as stay this near, RMS",
+       "as few triangles as stay within this distance everywhere",
        [](Mesh m, double v, const Run& run) {
-         return decimate(std::move(m), {.triangles = 0, .max_rms_mm = v}, run);
+         return decimate(std::move(m), {.triangles = 0, .tolerance_mm = v}, run);
        }},
       {"--decimate-to",
        "",

@@ -18,6 +18,7 @@
 #include "frangia/mesh/select_by_vertices.h"
 #include "frangia/mesh/smooth.h"
 #include "frangia/mesh/stitch.h"
+#include "frangia/mesh/surface_gap.h"
 #include "frangia/mesh/transform_mesh.h"
 #include "frangia/mesh/vertex_data.h"
 
@@ -180,9 +181,37 @@ TEST(Decimate, KeepsTheBoxItIsWhateverItsTriangles) {
   for (int round = 0; round < 3; ++round)
     mesh = finer(mesh);
   ASSERT_EQ(open_edges(mesh), 0U);
-  const Mesh few = decimate(mesh, {.triangles = 0, .max_rms_mm = 1e-3});
+  const Mesh few = decimate(mesh, {.triangles = 0, .tolerance_mm = 1e-3});
   EXPECT_LT(few.triangles.size(), 40U);
   EXPECT_NEAR(volume_mm3(few), 6000.0, 1.0);
+}
+
+TEST(Decimate, StaysWithinItsToleranceBothWaysOfARoughSurface) {
+  const RayScene rough(noisy(even_ball(), 0.02));
+  const double spacing = mean_edge_mm(rough.mesh()) / 3.0;
+  std::size_t last = rough.mesh().triangles.size();
+  for (const double tolerance_mm : {0.02, 0.05, 0.1}) {
+    const RayScene few(decimate(rough.mesh(), {.tolerance_mm = tolerance_mm}));
+    EXPECT_LE(surface_gap_mm(rough, few, spacing), tolerance_mm);
+    EXPECT_LT(few.mesh().triangles.size(), last);
+    EXPECT_EQ(open_edges(few.mesh()), 0U);
+    last = few.mesh().triangles.size();
+  }
+  EXPECT_LT(last, rough.mesh().triangles.size() / 5);
+}
+
+TEST(Decimate, WithinATolerancePastesNothingOverAHole) {
+  const Mesh open = holed_ball();
+  const Mesh few = decimate(open, {.tolerance_mm = 0.1});
+  EXPECT_LT(few.triangles.size(), open.triangles.size() / 3);
+  EXPECT_LT(surface_gap_mm(RayScene(open), RayScene(few), 0.5), 0.1001);
+  EXPECT_EQ(boundary_loops(few).size(), 1U);
+}
+
+TEST(SurfaceGap, BetweenTwoBallsIsTheDifferenceOfTheirRadii) {
+  const RayScene inner(ball());
+  const RayScene outer(sphere(Vector3d::Zero(), kRadius + 0.5, 40));
+  EXPECT_NEAR(surface_gap_mm(inner, outer, 1.0), 0.5, 0.005);
 }
 
 TEST(Decimate, LeavesTheRimOfAHoleInPlace) {

@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
+#include "frangia/mesh/nearest_on_triangle.h"
 
 namespace frangia {
 namespace {
@@ -29,31 +30,6 @@ Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
   return {mesh.vertices_mm[a].cast<double>(),
           mesh.vertices_mm[b].cast<double>(),
           mesh.vertices_mm[c].cast<double>()};
-}
-
-/// The point of a triangle nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
-Eigen::Vector3d nearest_on(const Corners& t, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d ab = t.b - t.a;
-  const Eigen::Vector3d ac = t.c - t.a;
-  const double d1 = ab.dot(p - t.a);
-  const double d2 = ac.dot(p - t.a);
-  if (d1 <= 0.0 && d2 <= 0.0) return t.a;
-  const double d3 = ab.dot(p - t.b);
-  const double d4 = ac.dot(p - t.b);
-  if (d3 >= 0.0 && d4 <= d3) return t.b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return t.a + ab * (d1 / (d1 - d3));
-  const double d5 = ab.dot(p - t.c);
-  const double d6 = ac.dot(p - t.c);
-  if (d6 >= 0.0 && d5 <= d6) return t.c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return t.a + ac * (d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
-    return t.b + (t.c - t.b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-  }
-  const double sum = va + vb + vc;
-  return t.a + ab * (vb / sum) + ac * (vc / sum);
 }
 
 /// Two distances closer than this, in mm, share a nearest point: an edge or a corner.
@@ -72,7 +48,8 @@ bool consider(Search& search, std::uint32_t triangle) {
   const Corners corners = corners_of(*search.mesh, triangle);
   const Eigen::Vector3d normal = (corners.b - corners.a).cross(corners.c - corners.a).normalized();
   if (!(normal.squaredNorm() > 0.5)) return false;
-  const Eigen::Vector3d point = nearest_on(corners, search.point_mm);
+  const Eigen::Vector3d point =
+      nearest_on_triangle(corners.a, corners.b, corners.c, search.point_mm);
   const Eigen::Vector3d way = search.point_mm - point;
   const double distance = way.norm();
   if (!(distance <= search.max_distance_mm)) return false;

@@ -1,0 +1,98 @@
+// CGAL is heavy to compile: it stays in this source.
+#include "frangia/mesh/remesh_isotropic.h"
+
+#include "frangia/core/error.h"
+
+#ifdef FRANGIA_WITH_CGAL
+#include <cstdint>
+#include <vector>
+
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include "frangia/mesh/ray_scene.h"
+#include "frangia/mesh/take_vertex_data.h"
+
+namespace frangia {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using VertexId = Surface::Vertex_index;
+
+Surface surface_of(const Mesh& mesh) {
+  Surface surface;
+  std::vector<VertexId> ids;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_mm) {
+    const Eigen::Vector3d p = vertex.cast<double>();
+    ids.push_back(surface.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const bool added = surface.add_face(ids[a], ids[b], ids[c]) != Surface::null_face();
+    require(added, "remesh: the mesh is not manifold; make it so first (--make-manifold)");
+  }
+  return surface;
+}
+
+Mesh mesh_of(const Surface& surface) {
+  Mesh mesh;
+  std::vector<std::uint32_t> number(surface.num_vertices() + surface.number_of_removed_vertices());
+  for (const VertexId id : surface.vertices()) {
+    number[id.idx()] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+    const auto& p = surface.point(id);
+    mesh.vertices_mm.push_back(Eigen::Vector3d(p.x(), p.y(), p.z()).cast<float>());
+  }
+  for (const auto face : surface.faces()) {
+    Mesh::Triangle triangle{};
+    std::size_t corner = 0;
+    for (const VertexId id : surface.vertices_around_face(surface.halfedge(face)))
+      triangle.at(corner++) = number[id.idx()];
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh remesh_isotropic(const Mesh& mesh, const RemeshOptions& options, const Run& run) {
+  require(options.edge_mm > 0.0 && options.rounds > 0,
+          "remesh: the length of the edges and the rounds must be positive");
+  if (mesh.empty()) return mesh;
+  Surface surface = surface_of(mesh);
+  const auto sharp = surface.add_property_map<Surface::Edge_index, bool>("e:sharp", false).first;
+  pmp::detect_sharp_edges(surface, deg_from_rad(options.crease_rad), sharp);
+  for (const auto edge : surface.edges())
+    if (surface.is_border(edge)) sharp[edge] = true;
+  std::vector<Surface::Edge_index> sharp_edges;
+  for (const auto edge : surface.edges())
+    if (sharp[edge]) sharp_edges.push_back(edge);
+  pmp::split_long_edges(
+      sharp_edges, options.edge_mm, surface, pmp::parameters::edge_is_constrained_map(sharp));
+  run.report(0.2);
+  pmp::isotropic_remeshing(
+      surface.faces(),
+      options.edge_mm,
+      surface,
+      pmp::parameters::number_of_iterations(static_cast<unsigned>(options.rounds))
+          .edge_is_constrained_map(sharp)
+          .protect_constraints(true));
+  run.report(0.9);
+  Mesh even = mesh_of(surface);
+  take_vertex_data(even, RayScene(mesh));
+  return even;
+}
+
+}  // namespace frangia
+#else
+namespace frangia {
+
+Mesh remesh_isotropic(const Mesh& /*mesh*/, const RemeshOptions& /*options*/, const Run& /*run*/) {
+  throw Error(ErrorKind::Input,
+              "this build has no uniform remeshing: configure it with FRANGIA_CGAL=ON");
+}
+
+}  // namespace frangia
+#endif
