@@ -10,6 +10,7 @@
 #include "frangia/range/triangulate.h"
 #include "frangia/scan/decode_view.h"
 #include "frangia/scan/scan_folder.h"
+#include "frangia/scan/stage_pictures.h"
 #include "frangia/scan/write_stages.h"
 
 #include "reconstruct_options.h"
@@ -26,7 +27,7 @@ struct DecodeArguments {
 };
 
 void print_result(const DecodedView& decoded,
-                  const std::vector<std::string>& files,
+                  const std::vector<StageFile>& files,
                   const DecodeArguments& arguments,
                   Terminal& terminal) {
   const auto fate = decoded.phase.fate.pixels();
@@ -42,10 +43,18 @@ void print_result(const DecodedView& decoded,
     json["verdicts"].push_back(in_words(verdict));
     if (!terminal.json && !terminal.quiet) fmt::print("{}\n", in_words(verdict));
   }
-  json["files"] = files;
+  for (const StageFile& file : files) {
+    json["files"].push_back(file.name);
+    json["shows"][file.name] = file.caption;
+    const bool picture = std::filesystem::path(file.name).extension() == ".png";
+    if (picture && !terminal.json && !terminal.quiet)
+      fmt::print("{:<24} {}\n", file.name, file.caption);
+  }
   if (terminal.json) fmt::print("{}\n", json.dump(2));
   if (!terminal.json && !terminal.quiet) {
-    fmt::print("wrote {} files into {}\n", files.size(), arguments.folder.string());
+    fmt::print("wrote {} files into {}; index.html shows all pictures\n",
+               files.size(),
+               arguments.folder.string());
   }
 }
 
@@ -60,8 +69,10 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
                             scan.views.size() - 1));
   }
   const auto rays = rays_of(scan.rig.camera.lens);
+  DecodeOptions options = arguments.options;
+  options.survey = survey_scan(scan, run);
   const auto frames = read_frames(scan, arguments.view, run);
-  DecodedView decoded = decode_view(frames, scan.rig, rays, arguments.options, run);
+  DecodedView decoded = decode_view(frames, scan.rig, rays, options, run);
   RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
   drop_mixed_edges(range, rays, decoded.phase.fate);
   const auto files = write_stages(decoded, range, arguments.folder, run);
@@ -79,6 +90,7 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--view", arguments->view, "number of the view, from 0")->capture_default_str();
   verb->add_option("-o,--output", arguments->folder, "the folder to write into")->required();
   add_decode_options(*verb, arguments->options);
+  arguments->options.in_space.keep_order = true;
   verb->callback([arguments, &terminal] { decode_verb(*arguments, terminal); });
 }
 

@@ -78,8 +78,25 @@ TEST_F(Program, DecodesTheStagesOfOneView) {
   const Answer answer =
       run_program("decode " + quoted(scan()) + " --view 1 -o " + quoted(out("stages")));
   EXPECT_EQ(answer.exit_code, 0) << answer.output;
-  for (const char* name : {"fringe-wrapped.png", "fringe-wrapped.tiff", "mask.png", "depth.tiff"})
+  for (const char* name : {"fringe-wrapped.png",
+                           "fringe-wrapped.tiff",
+                           "fringe-residues.png",
+                           "fringe-modulation.png",
+                           "fringe-sigma.png",
+                           "growth.png",
+                           "regions.png",
+                           "relative.png",
+                           "mask.png",
+                           "fringes.png",
+                           "absolute.png",
+                           "depth.tiff",
+                           "index.html"}) {
     EXPECT_TRUE(std::filesystem::exists(out("stages") / name)) << name;
+    if (std::filesystem::path(name).extension() == ".png") {
+      EXPECT_NE(answer.output.find(name), std::string::npos) << answer.output;
+    }
+  }
+  EXPECT_NE(answer.output.find("white: measured"), std::string::npos) << answer.output;
 }
 
 TEST_F(Program, SaysUsageErrorsWithTwo) {

@@ -1,6 +1,7 @@
 #include "frangia/phase/estimate_noise.h"
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -17,14 +18,17 @@ using testing::quarter_steps;
 using testing::Scene;
 
 /// Frames of a scene that darkens to one side, with shot and read noise of an 8-bit camera.
-FrameStack shot_noise_frames(const Pattern& pattern, double step_error = 0.0) {
+FrameStack shot_noise_frames(const Pattern& pattern,
+                             double step_error = 0.0,
+                             int height = 400,
+                             std::uint32_t seed = 3) {
   const double gain_e = 60.0;
   const double read_counts = 0.6;
-  std::mt19937 generator(3);
+  std::mt19937 generator(seed);
   std::normal_distribution<double> noise(0.0, 1.0);
   FrameStack stack{.pattern = pattern, .frames = {}, .white_level = 255};
   for (const double shift : pattern.shifts_rad) {
-    Image<std::uint8_t> image(640, 400);
+    Image<std::uint8_t> image(640, height);
     for (int y = 0; y < image.height(); ++y) {
       for (int x = 0; x < image.width(); ++x) {
         const double mean = 20.0 + 0.16 * x;
@@ -67,6 +71,28 @@ TEST(EstimateNoise, KeepsTheNoiseOfQuantisationForPerfectFrames) {
   const std::vector<FrameStack> stacks = {
       photograph({.height = 200}, quarter_steps(), [](int x, int) { return 0.05 * x; })};
   EXPECT_GE(estimate_noise(stacks).variance(30000.0), 1.0 / 12.0);
+}
+
+TEST(NoiseSamples, PooledOverViewsTellWhatFewPixelsOfOneCannot) {
+  constexpr int kTrials = 12;
+  constexpr int kViews = 8;
+  double alone = 0.0;
+  double pooled = 0.0;
+  for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+    NoiseSamples samples;
+    for (std::uint32_t view = 0; view < kViews; ++view) {
+      const FrameStack stack =
+          shot_noise_frames(quarter_steps(), 0.0, 8, 100 + trial * kViews + view);
+      samples.add(stack);
+      if (view == 0)
+        alone += std::pow(estimate_noise({&stack, 1}).variance(70.0) / true_variance(70.0) - 1, 2);
+    }
+    pooled += std::pow(samples.model().variance(70.0) / true_variance(70.0) - 1.0, 2);
+  }
+  alone = std::sqrt(alone / kTrials);
+  pooled = std::sqrt(pooled / kTrials);
+  EXPECT_LT(pooled, 0.5 * alone) << "alone " << alone << ", pooled " << pooled;
+  EXPECT_LT(pooled, 0.02);
 }
 
 TEST(EstimateNoise, OfNothingIsTheNoiseOfQuantisation) {

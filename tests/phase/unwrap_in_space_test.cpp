@@ -1,14 +1,18 @@
 #include "frangia/phase/unwrap_in_space.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/phase/discard_residues.h"
+#include "frangia/phase/find_residues.h"
 
 namespace frangia {
 namespace {
@@ -157,6 +161,47 @@ TEST(UnwrapInSpace, TakesMapsOfOnePixelAndOfOneRow) {
   const RelativePhase column =
       unwrap_in_space(wrapped_map(1, 50, [](int, int y) { return 0.3 * y; }));
   EXPECT_EQ(column.region_count, 1);
+}
+
+TEST(UnwrapInSpace, KeepsTheOrderOfTheGrowthWhenAsked) {
+  WrappedPhase map = wrapped_map(60, 50, dome);
+  map.modulation_counts(40, 30) = 90.0F;  // the best pixel: where it begins
+  EXPECT_TRUE(unwrap_in_space(map).order.pixels().empty());
+  for (const SpaceMethod method : {SpaceMethod::Runs, SpaceMethod::TakedaAbe}) {
+    const auto order = unwrap_in_space(map, {.method = method, .keep_order = true}).order;
+    EXPECT_EQ(order(40, 30), 0);
+    std::vector<std::int32_t> places(order.pixels().begin(), order.pixels().end());
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      ASSERT_EQ(places[i], static_cast<std::int32_t>(i));
+    // Each pixel but the first hangs on a neighbour that was there before it.
+    for (int y = 1; y < 49; ++y) {
+      for (int x = 1; x < 59; ++x) {
+        const int earliest =
+            std::min({order(x - 1, y), order(x + 1, y), order(x, y - 1), order(x, y + 1)});
+        if (order(x, y) > 0) {
+          EXPECT_LT(earliest, order(x, y));
+        }
+      }
+    }
+  }
+}
+
+TEST(FindResidues, TellsTheSenseOfASpiralAndPassesMissingPixelsOver) {
+  const auto spiral = [](double sense) {
+    return wrapped_map(
+        41, 41, [=](int x, int y) { return sense * std::atan2(y - 20.5, x - 20.5); });
+  };
+  for (const int sense : {1, -1}) {
+    const auto found = find_residues(spiral(sense).phase_rad);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].x, 20);
+    EXPECT_EQ(found[0].y, 20);
+    EXPECT_EQ(found[0].turns, sense);  // down is clockwise from right
+  }
+  WrappedPhase holed = spiral(1.0);
+  holed.phase_rad(21, 20) = kMissing;
+  EXPECT_TRUE(find_residues(holed.phase_rad).empty());
 }
 
 TEST(DiscardResidues, FindsTheCoreOfASpiralAndNothingInASmoothMap) {

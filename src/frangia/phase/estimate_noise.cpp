@@ -14,7 +14,7 @@
 namespace frangia {
 namespace {
 
-constexpr int kBins = 24;
+constexpr int kBins = NoiseSamples::kBins;
 constexpr std::size_t kEnough = 200;          ///< samples that make a bin's median trustworthy
 constexpr std::size_t kRowSamples = 400'000;  ///< pixels looked at in a stack, about
 
@@ -90,7 +90,7 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
 
 /// Variance of Gaussian noise from its absolute values, blind to the few that are no noise. A
 /// median alone would move in steps where the counts are few.
-double robust_variance(std::vector<float>& magnitudes) {
+double robust_variance(std::vector<float> magnitudes) {
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
   double sigma = std::max(*middle / 0.6745, 0.3);
@@ -109,29 +109,28 @@ double robust_variance(std::vector<float>& magnitudes) {
 
 }  // namespace
 
-NoiseModel estimate_noise(std::span<const FrameStack> stacks) {
-  Bins bins;
-  int white = 255;
-  for (const FrameStack& stack : stacks) {
-    if (stack.pattern.kind != PatternKind::Fringe || stack.frames.size() < 3) continue;
-    white = stack.white_level;
-    const int height = height_of(stack.frames.front());
-    const int width = width_of(stack.frames.front());
-    const int stride =
-        std::max(1, static_cast<int>(static_cast<double>(width) * height / kRowSamples));
-    for (const Weights& weights : noise_combinations(stack.pattern.shifts_rad)) {
-      for (int y = stride / 2; y < height; y += stride)
-        gather_row(stack, weights, y, bins);
-    }
+void NoiseSamples::add(const FrameStack& stack) {
+  if (stack.pattern.kind != PatternKind::Fringe || stack.frames.size() < 3) return;
+  white_ = stack.white_level;
+  const int height = height_of(stack.frames.front());
+  const int width = width_of(stack.frames.front());
+  const int stride =
+      std::max(1, static_cast<int>(static_cast<double>(width) * height / kRowSamples));
+  for (const Weights& weights : noise_combinations(stack.pattern.shifts_rad)) {
+    for (int y = stride / 2; y < height; y += stride)
+      gather_row(stack, weights, y, bins_);
   }
+}
+
+NoiseModel NoiseSamples::model() const {
   // Straight line through the bins, each weighted by its samples over its variance squared.
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (int bin = 0; bin < kBins; ++bin) {
-    auto& magnitudes = bins[static_cast<std::size_t>(bin)];
+    const auto& magnitudes = bins_[static_cast<std::size_t>(bin)];
     if (magnitudes.size() < kEnough) continue;
     const double variance = std::max(robust_variance(magnitudes), 1.0 / 12.0);
-    const Eigen::Vector2d row(1.0, (bin + 0.5) * white / kBins);
+    const Eigen::Vector2d row(1.0, (bin + 0.5) * white_ / kBins);
     const double weight = static_cast<double>(magnitudes.size()) / (variance * variance);
     normal += weight * row * row.transpose();
     right += weight * row * variance;
@@ -147,6 +146,13 @@ NoiseModel estimate_noise(std::span<const FrameStack> stacks) {
   model.floor_counts2 = line(0);
   model.slope_counts = line(1);
   return model;
+}
+
+NoiseModel estimate_noise(std::span<const FrameStack> stacks) {
+  NoiseSamples samples;
+  for (const FrameStack& stack : stacks)
+    samples.add(stack);
+  return samples.model();
 }
 
 }  // namespace frangia

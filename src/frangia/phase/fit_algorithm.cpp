@@ -1,35 +1,21 @@
 #include "frangia/phase/fit_algorithm.h"
 
-#include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "frangia/phase/estimate_shifts.h"
+#include "frangia/phase/pool_steps.h"
 #include "frangia/phase/published_algorithms.h"
 
 namespace frangia {
 namespace {
 
-/// The residual about equal steps may exceed the noise by this factor, which is known to some 10 %.
-constexpr double kMaxExcess = 1.3;
-
-/// The step, unless the frames say that there is no one step: errors that differ from frame to
-/// frame would be taken for a gain, and the constant that it adds to the phase be made up.
-StepEstimate trusted_step(const FrameStack& stack, const NoiseModel& noise, const Run& run) {
-  StepEstimate step = estimate_step(stack);
-  const double expected = noise.variance(step.mean_counts);
-  if (!step.found || step.residual_counts2 < kMaxExcess * expected) return step;
-  step.found = false;
-  run.note(
-      fmt::format("pattern \"{}\": its steps are not equal ({:.3g} counts squared left, {:.3g} "
-                  "expected), so those of scan.toml are used",
-                  stack.pattern.name,
-                  step.residual_counts2,
-                  expected));
-  return step;
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-PhaseAlgorithm iterated(const FrameStack& stack, const NoiseModel& noise, const Run& run) {
+FittedAlgorithm iterated(const FrameStack& stack, const NoiseModel& noise, const Run& run) {
   static_cast<void>(make_algorithm("aia", stack.pattern.shifts_rad));  // refuses too few frames
   const ShiftEstimate shifts = estimate_shifts(stack, noise);
   if (!shifts.found) {
@@ -40,9 +26,10 @@ PhaseAlgorithm iterated(const FrameStack& stack, const NoiseModel& noise, const 
         shifts.residual_counts2,
         shifts.expected_counts2));
   }
-  PhaseAlgorithm algorithm = least_squares(shifts.shifts_rad);
-  algorithm.name = "aia";
-  return algorithm;
+  FittedAlgorithm out{
+      .algorithm = least_squares(shifts.shifts_rad), .step = {}, .shifts_rad = shifts.shifts_rad};
+  out.algorithm.name = "aia";
+  return out;
 }
 
 }  // namespace
@@ -50,7 +37,8 @@ PhaseAlgorithm iterated(const FrameStack& stack, const NoiseModel& noise, const 
 FittedAlgorithm fit_algorithm(const std::string& name,
                               const FrameStack& stack,
                               const NoiseModel& noise,
-                              const Run& run) {
+                              const Run& run,
+                              std::optional<double> gain_error) {
   const Pattern& pattern = stack.pattern;
   const bool angular = pattern.fringes_per_degree > 0.0;
   const std::string chosen = name == "auto" ? default_algorithm(pattern) : name;
@@ -61,11 +49,19 @@ FittedAlgorithm fit_algorithm(const std::string& name,
                          pattern.frame_count(),
                          angular ? "an interferometer" : "a digital projector"));
   }
-  if (chosen == "aia") return {iterated(stack, noise, run), {}};
+  if (chosen == "aia") return iterated(stack, noise, run);
   FittedAlgorithm out;
-  if (angular || chosen == "carre" || chosen == "global-carre")
-    out.step = trusted_step(stack, noise, run);
-  out.algorithm = make_algorithm(chosen, pattern.shifts_rad, out.step.gain_error());
+  if (angular || chosen == "carre" || chosen == "global-carre") {
+    out.step = estimate_step(stack);
+    out.gain_error = angular && gain_error ? *gain_error : pooled_gain_error({&out.step, 1});
+  }
+  // Ripple comes of the step that these frames have, the constant of the shifter's gain.
+  const double own = out.step.found ? out.step.gain_error() : out.gain_error;
+  const double constant = (out.gain_error - own) * mean_of(pattern.shifts_rad);
+  out.algorithm = make_algorithm(chosen, pattern.shifts_rad, own);
+  turn_back(constant, out.algorithm);
+  for (const double shift : pattern.shifts_rad)
+    out.shifts_rad.push_back(shift * (1.0 + own) + constant);
   return out;
 }
 

@@ -40,7 +40,7 @@ class Frontier {
 
 }  // namespace
 
-RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions) {
+RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions, bool keep_order) {
   const int width = phase.phase_rad.width();
   const int height = phase.phase_rad.height();
   const auto row = static_cast<std::size_t>(width);
@@ -49,7 +49,10 @@ RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions) {
                     .sigma_rad = phase.sigma_rad,
                     .region = regions.label,
                     .region_count = regions.count,
-                    .fate = phase.fate};
+                    .fate = phase.fate,
+                    .order = {}};
+  if (keep_order) out.order = Image<std::int32_t>(width, height, -1);
+  std::int32_t reached = 0;
   const auto wrapped = phase.phase_rad.pixels();
   const auto modulation = phase.modulation_counts.pixels();
   const auto labels = regions.label.pixels();
@@ -66,12 +69,15 @@ RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions) {
     const float short_way = jump - 6.28318531F * std::round(jump / 6.28318531F);
     // Written on arrival, so that the one who pushes with the largest product is the one followed.
     unwrapped[to] = unwrapped[from] + short_way;
+    if (keep_order) out.order.pixels()[to] = ++reached;
     const float product = std::sqrt(std::max(0.0F, modulation[from] * modulation[to]));
     frontier.push(static_cast<std::size_t>(product * scale), static_cast<std::uint32_t>(to));
   };
   for (const std::uint32_t seed :
        best_pixels(phase.modulation_counts, regions.label, regions.count)) {
     unwrapped[seed] = wrapped[seed];
+    reached = 0;
+    if (keep_order) out.order.pixels()[seed] = reached;
     std::uint32_t pixel = seed;
     do {
       const std::size_t i = pixel;

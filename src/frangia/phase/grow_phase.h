@@ -6,9 +6,12 @@
 namespace frangia {
 
 /// Unwraps each region by growth from its best pixel to the neighbour with the largest product of
-/// modulations. The fringe of the best pixel is called 0.
+/// modulations. The fringe of the best pixel is called 0. With `keep_order` the order in which the
+/// pixels were reached is kept, too.
 ///
 /// source   the paper's reference [35], Takeda & Abe 1996
-[[nodiscard]] RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions);
+[[nodiscard]] RelativePhase grow_phase(const WrappedPhase& phase,
+                                       const Regions& regions,
+                                       bool keep_order = false);
 
 }  // namespace frangia

@@ -34,7 +34,7 @@ std::vector<std::vector<double>> left_weights(const std::vector<double>& shifts)
 /// Median, over measured pixels, of the residual's square over its expectation, scaled to be 1 for
 /// Gaussian noise of one degree of freedom or more.
 double residual_ratio(const FrameStack& stack,
-                      std::vector<double> shifts,
+                      const std::vector<double>& shifts,
                       const WrappedPhase& map,
                       const NoiseModel& noise) {
   if (shifts.size() < 4) return 0.0;
@@ -92,19 +92,16 @@ FrameVerdict judge_frames(const FrameStack& stack,
                           const WrappedPhase& map,
                           const NoiseModel& noise) {
   FrameVerdict verdict{.pattern = stack.pattern.name, .algorithm = fitted.algorithm.name};
-  std::vector<double> shifts = stack.pattern.shifts_rad;
   if (fitted.step.found) {
     verdict.nominal_deg = deg_from_rad(fitted.step.nominal_rad);
     verdict.step_deg = deg_from_rad(fitted.step.step_rad);
+    verdict.jitter_deg = deg_from_rad(fitted.step.jitter_rad);
     verdict.step_sigma_deg = deg_from_rad(fitted.step.sigma_rad);
-    for (double& shift : shifts)
-      shift *= 1.0 + fitted.step.gain_error();
   }
   verdict.contrast = median_contrast(map);
   verdict.measured_share = share(map.fate, PixelFate::Measured);
   verdict.saturated_share = share(map.fate, PixelFate::Saturated);
-  if (fitted.algorithm.name != "aia")
-    verdict.residual_ratio = residual_ratio(stack, shifts, map, noise);
+  verdict.residual_ratio = residual_ratio(stack, fitted.shifts_rad, map, noise);
   verdict.vibration_suspected = verdict.residual_ratio > kSuspicious;
   return verdict;
 }
@@ -116,6 +113,8 @@ std::string in_words(const FrameVerdict& verdict) {
                         verdict.step_deg,
                         verdict.step_sigma_deg,
                         verdict.nominal_deg);
+    if (verdict.jitter_deg > 0.0)
+      text += fmt::format("uneven by some {:.2f} degrees, ", verdict.jitter_deg);
   }
   text += fmt::format("contrast {:.2f}, {:.1f} % measured, {:.1f} % saturated",
                       verdict.contrast,

@@ -16,6 +16,7 @@ struct FrameVerdict {
   double nominal_deg = 0.0;  ///< step asked for; 0 when it was not looked at
   double step_deg = 0.0;     ///< step found
   double step_sigma_deg = 0.0;
+  double jitter_deg = 0.0;       ///< how uneven the steps are, rms; 0 where it does not show
   double contrast = 0.0;         ///< median of modulation over mean, of the measured pixels
   double measured_share = 0.0;   ///< of all pixels
   double saturated_share = 0.0;  ///< of all pixels

@@ -174,7 +174,8 @@ RelativePhase link_runs(WrappedPhase&& phase, Regions& regions) {
           .sigma_rad = std::move(phase.sigma_rad),
           .region = std::move(regions.label),
           .region_count = regions.count,
-          .fate = std::move(phase.fate)};
+          .fate = std::move(phase.fate),
+          .order = {}};
 }
 
 }  // namespace frangia

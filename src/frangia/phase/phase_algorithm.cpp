@@ -68,21 +68,6 @@ PhaseAlgorithm as_printed(const std::string& name, std::size_t frames) {
   return out;
 }
 
-/// Takes `angle_rad` off the phase that the algorithm finds.
-void turn_back(double angle_rad, PhaseAlgorithm& algorithm) {
-  if (!algorithm.outer.empty()) {
-    algorithm.turn_rad += angle_rad;
-    return;
-  }
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  for (std::size_t k = 0; k < algorithm.frames(); ++k) {
-    const double sine = algorithm.sine[k];
-    algorithm.sine[k] = sine * c - algorithm.cosine[k] * s;
-    algorithm.cosine[k] = algorithm.cosine[k] * c + sine * s;
-  }
-}
-
 struct Wave {
   double sine;
   double cosine;
@@ -139,6 +124,20 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
 }
 
 }  // namespace
+
+void turn_back(double angle_rad, PhaseAlgorithm& algorithm) {
+  if (!algorithm.outer.empty()) {
+    algorithm.turn_rad += angle_rad;
+    return;
+  }
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  for (std::size_t k = 0; k < algorithm.frames(); ++k) {
+    const double sine = algorithm.sine[k];
+    algorithm.sine[k] = sine * c - algorithm.cosine[k] * s;
+    algorithm.cosine[k] = algorithm.cosine[k] * c + sine * s;
+  }
+}
 
 double phase_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
   const Wave wave = wave_of(algorithm, counts);

@@ -44,4 +44,7 @@ struct PhaseAlgorithm {
                                             const std::vector<double>& shifts_rad,
                                             double gain_error = 0.0);
 
+/// Takes `angle_rad` off the phase that the algorithm finds.
+void turn_back(double angle_rad, PhaseAlgorithm& algorithm);
+
 }  // namespace frangia

@@ -38,6 +38,9 @@ struct RelativePhase {
   Image<std::int32_t> region;  ///< 0, 1, ... from the largest; -1 where not measured
   int region_count = 0;
   Image<PixelFate> fate;
+  /// Which pixel of its region the growth reached first (0), second (1), ...; -1 where not
+  /// measured. Empty unless it was asked for.
+  Image<std::int32_t> order;
 };
 
 /// Phase counted from the projection axis or the projector's first column. Its own type, so that a

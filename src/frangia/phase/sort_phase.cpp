@@ -84,7 +84,8 @@ RelativePhase sort_phase(const WrappedPhase& phase, const Regions& regions) {
                     .sigma_rad = phase.sigma_rad,
                     .region = regions.label,
                     .region_count = regions.count,
-                    .fate = phase.fate};
+                    .fate = phase.fate,
+                    .order = {}};
   const auto labels = regions.label.pixels();
   for (std::size_t i = 0; i < rad.size(); ++i) {
     if (labels[i] < 0) continue;

@@ -13,6 +13,8 @@ RelativePhase unwrap_in_space(WrappedPhase phase, const SpaceUnwrapOptions& opti
   discard_residues(phase);
   Regions regions = split_regions(phase, options.split);
   RelativePhase relative;
+  Image<std::int32_t> order;
+  if (options.keep_order) order = grow_phase(phase, regions, true).order;
   switch (options.method) {
     case SpaceMethod::Runs:
       relative = link_runs(std::move(phase), regions);
@@ -24,6 +26,7 @@ RelativePhase unwrap_in_space(WrappedPhase phase, const SpaceUnwrapOptions& opti
       relative = sort_phase(phase, regions);
       break;
   }
+  relative.order = std::move(order);
   join_regions(relative, regions, options.join);
   return relative;
 }

@@ -17,6 +17,9 @@ struct SpaceUnwrapOptions {
   SpaceMethod method = SpaceMethod::Runs;
   SplitOptions split;
   JoinOptions join;
+  /// Keep the order in which the paper's growth reaches the pixels, to be looked at; where another
+  /// method unwraps, it is that of the same regions by the growth.
+  bool keep_order = false;
 };
 
 /// Phase that is continuous within each region: residues discarded, regions split where a step may

@@ -59,6 +59,14 @@ std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDi
   return {};
 }
 
+/// The camera's noise: as the rig gives it, else from some views, else from this one.
+NoiseModel noise_of(std::span<const FrameStack> stacks,
+                    const Rig& rig,
+                    const DecodeOptions& options) {
+  if (rig.camera.noise) return *rig.camera.noise;
+  return options.survey.noise ? *options.survey.noise : estimate_noise(stacks);
+}
+
 /// Distance at which the camera's axis meets the middle of the lit field: the paper's x0.
 double crossing_distance(const Pattern& pattern, const Rig& rig) {
   const double middle = phase_range(pattern, rig.projector).centre_rad();
@@ -77,12 +85,15 @@ bool has_ladder(std::span<const WrappedPhase> maps, const Projector& projector) 
 void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
   Run warnings = run;  // the verdict tells the algorithm: one sentence a pattern is enough
   warnings.on_note = nullptr;
-  const FittedAlgorithm fitted = fit_algorithm(options.algorithm, taken, out.noise, warnings);
+  std::optional<double> gain_error;
+  if (const auto known = options.survey.gain_error.find(taken.pattern.name);
+      known != options.survey.gain_error.end())
+    gain_error = known->second;
+  const FittedAlgorithm fitted =
+      fit_algorithm(options.algorithm, taken, out.noise, warnings, gain_error);
   if (taken.pattern.exposure_count() > 1) {
-    std::vector<double> shifts = taken.pattern.shifts_rad;
-    for (double& shift : shifts)
-      shift *= 1.0 + fitted.step.gain_error();
-    out.wrapped.push_back(merge_exposures(exposures_of(&taken), shifts, out.noise, options.wrap));
+    out.wrapped.push_back(
+        merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
     out.verdicts.push_back(judge_frames(taken, fitted, out.wrapped.back(), out.noise));
     return;
   }
@@ -123,7 +134,7 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
                         const Run& run) {
   DecodedView out;
   const auto fringes = fringes_of(stacks);
-  out.noise = rig.camera.noise ? *rig.camera.noise : estimate_noise(stacks);
+  out.noise = noise_of(stacks, rig, options);
   for (const FrameStack* stack : fringes) {
     run.check();
     wrap(*stack, options, run, out);

@@ -19,6 +19,7 @@
 #include "frangia/range/anchor_phase.h"
 #include "frangia/range/line_profile.h"
 #include "frangia/rig/rig.h"
+#include "frangia/scan/survey_scan.h"
 
 namespace frangia {
 
@@ -26,6 +27,7 @@ struct DecodeOptions {
   std::string algorithm = "auto";  ///< see `fit_algorithm`
   /// Recover the one saturated frame of four, instead of discarding the pixel as the paper does.
   bool recover_saturated = false;
+  ScanSurvey survey;  ///< what the other views say, too
   WrapOptions wrap;
   TimeUnwrapOptions in_time;
   SpaceUnwrapOptions in_space;

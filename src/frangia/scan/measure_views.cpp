@@ -9,6 +9,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/range/triangulate.h"
+#include "frangia/scan/survey_scan.h"
 
 namespace frangia {
 namespace {
@@ -82,9 +83,12 @@ MeasuredViews measure_views(const Scan& scan,
                             const EdgeOptions& edges,
                             const Run& run) {
   MeasuredViews all;
+  run.stage("survey");
+  DecodeOptions informed = decode;
+  informed.survey = survey_scan(scan, run);
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
-    MeasuredView one = measure_view(scan, i, rays, decode, edges, run);
+    MeasuredView one = measure_view(scan, i, rays, informed, edges, run);
     if (one.points == 0 && one.decoded.loose.empty()) {
       run.warn(why_empty(scan, i, one.decoded.phase.fate));
       continue;
