@@ -32,6 +32,7 @@ endfunction()
 
 add_library(frangia_build_flags INTERFACE)
 add_library(frangia::build_flags ALIAS frangia_build_flags)
+# -pthread everywhere: a precompiled header needs one set of flags.
 # No fast-math: NaN means missing here. These two only drop errno and floating-point traps,
 # which nobody reads and which keep loops from vectorising.
 # -Wrestrict of g++ 12 sees overlaps in every "text" + string (GCC bug 105651).
@@ -39,7 +40,7 @@ add_library(frangia::build_flags ALIAS frangia_build_flags)
 target_compile_options(frangia_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wno-missing-field-initializers -Wno-restrict
-  -Winvalid-pch -fno-math-errno -fno-trapping-math -ffp-contract=off
+  -pthread -Winvalid-pch -fno-math-errno -fno-trapping-math -ffp-contract=off
   $<$<BOOL:${FRANGIA_WERROR}>:-Werror>)
 if(FRANGIA_SANITIZE)
   add_compile_options(-fsanitize=${FRANGIA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
