@@ -1,256 +1,199 @@
-#include <charconv>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/files/mesh_formats.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
-#include "frangia/mesh/boundary_loops.h"
-#include "frangia/mesh/connected_parts.h"
-#include "frangia/mesh/decimate.h"
-#include "frangia/mesh/fill_holes.h"
-#include "frangia/mesh/make_manifold.h"
-#include "frangia/mesh/offset_mesh.h"
-#include "frangia/mesh/orient.h"
-#include "frangia/mesh/remove_spikes.h"
-#include "frangia/mesh/smooth.h"
-#include "frangia/mesh/stitch.h"
+#include "frangia/mesh/edit_history.h"
+#include "frangia/mesh/edit_script.h"
 
+#include "edit_findings.h"
 #include "verbs.h"
+#include "write_options.h"
 
 namespace frangia {
 namespace {
 
-/// One operation with its number, as the command line has it.
-struct Step {
-  std::string name;
-  std::string value;
-};
-
-struct Operation {
-  const char* name;
-  const char* unit;  ///< of its number: "mm", "" for a count, nullptr when it takes none
-  const char* help;
-  std::function<Mesh(Mesh, double, const Run&)> apply;
-};
-
-std::size_t count_from(double value) {
-  return static_cast<std::size_t>(value);
-}
-
-const std::vector<Operation>& operations() {
-  static const std::vector<Operation> all{
-      {"--make-manifold",
-       nullptr,
-       "part what is not manifold, drop broken and repeated triangles",
-       [](Mesh m, double, const Run&) { return make_manifold(std::move(m)); }},
-      {"--orient",
-       nullptr,
-       "wind neighbours alike and closed parts outwards",
-       [](Mesh m, double, const Run&) { return orient(std::move(m)); }},
-      {"--stitch",
-       "mm",
-       "join boundaries within this distance",
-       [](Mesh m, double v, const Run&) { return stitch(std::move(m), v); }},
-      {"--keep-largest",
-       "",
-       "keep so many parts of the largest area",
-       [](Mesh m, double v, const Run&) {
-         return keep_largest_parts(std::move(m), count_from(v));
-       }},
-      {"--remove-islands",
-       "mm",
-       "drop parts up to this size",
-       [](Mesh m, double v, const Run&) { return remove_islands(std::move(m), v); }},
-      {"--fill-holes",
-       "mm",
-       "close holes up to this size as the surface around them runs",
-       [](Mesh m, double v, const Run& run) {
-         return fill_holes(
-             std::move(m), {.up_to_mm = v, .kind = HoleFill::Smooth, .only = {}}, run);
-       }},
-      {"--fill-holes-flat",
-       "mm",
-       "close holes up to this size with flat triangles",
-       [](Mesh m, double v, const Run& run) {
-         return fill_holes(std::move(m), {.up_to_mm = v, .kind = HoleFill::Flat, .only = {}}, run);
-       }},
-      {"--remove-spikes",
-       nullptr,
-       "set tips sharper than a cone of 60 degrees down",
-       [](Mesh m, double, const Run& run) { return remove_spikes(std::move(m), {}, run); }},
-      {"--smooth",
-       "",
-       "take away noise, in so many rounds",
-       [](Mesh m, double v, const Run& run) {
-         return smooth_taubin(std::move(m), {.iterations = static_cast<int>(v)}, run);
-       }},
-      {"--smooth-keeping-edges",
-       "",
-       "take away noise and keep edges, in so many rounds",
-       [](Mesh m, double v, const Run& run) {
-         KeepEdgesOptions options;
-         options.smooth.iterations = static_cast<int>(v);
-         return smooth_keeping_edges(std::move(m), options, run);
-       }},
-      {"--decimate",
-       "mm",
-       "as few triangles as stay within this distance everywhere",
-       [](Mesh m, double v, const Run& run) {
-         return decimate(std::move(m), {.triangles = 0, .tolerance_mm = v}, run);
-       }},
-      {"--decimate-to",
-       "",
-       "so many triangles",
-       [](Mesh m, double v, const Run& run) {
-         return decimate(std::move(m), {.triangles = count_from(v)}, run);
-       }},
-      {"--offset",
-       "mm",
-       "move the surface outwards",
-       [](Mesh m, double v, const Run&) { return offset_mesh(std::move(m), v); }},
-  };
-  return all;
-}
+// Steps that are none of edit_operations(): they work on the history.
+constexpr const char* kScript = "script";
+constexpr const char* kUndo = "undo";
+constexpr const char* kRedo = "redo";
 
 struct EditArguments {
   std::filesystem::path mesh;
   std::vector<std::filesystem::path> outputs;
-  std::vector<Step> steps;
+  std::vector<EditStep> steps;  ///< in the order given
+  std::filesystem::path save_script;
+  WriteOptions write;
   bool list = false;
 };
 
-/// A number with its unit, or without one.
-double number_of(const Step& step, const Operation& operation) {
-  if (operation.unit == nullptr) return 0.0;
-  const char* const end = step.value.data() + step.value.size();
-  double number = 0.0;
-  const auto parsed = std::from_chars(step.value.data(), end, number);
-  const std::string rest(parsed.ptr, end);
-  const bool fits = parsed.ec == std::errc() && (rest.empty() || rest == operation.unit);
-  if (!fits || !(number >= 0.0 || step.name == "--offset") || number > 1e9) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{} {}: give a number{}",
-                            step.name,
-                            step.value,
-                            *operation.unit == 0 ? "" : " of mm, as in 10mm"));
+/// The edits of a mesh, with a history when something asks for one: it takes memory.
+class Session {
+ public:
+  Session(Mesh mesh, bool with_history) {
+    if (with_history) {
+      history_ = std::make_unique<EditHistory>(std::move(mesh));
+    } else {
+      state_.mesh = std::move(mesh);
+    }
   }
-  return number;
+
+  void apply(const EditStep& step, const Run& run) {
+    run.stage(step.operation);
+    if (history_ != nullptr) {
+      history_->apply(step, run);
+    } else {
+      apply_step(state_, step, run);
+      steps_.push_back(step);
+    }
+  }
+  void move(const EditStep& step, const Run& run) {
+    const auto count = std::stoul(step.value);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool moved = step.operation == kUndo ? history_->undo() : history_->redo();
+      if (moved) continue;
+      run.warn(fmt::format("there was nothing left to {}", step.operation));
+      return;
+    }
+  }
+  void play(const EditScript& script, const Run& run) {
+    // Steps that were undone are done and undone, so that they can be done again.
+    const std::size_t count = history_ != nullptr ? script.steps.size() : script.done;
+    for (std::size_t i = 0; i < count; ++i)
+      apply(script.steps[i], run);
+    for (std::size_t i = script.done; i < count; ++i)
+      static_cast<void>(history_->undo());
+  }
+
+  [[nodiscard]] const Mesh& mesh() const {
+    return history_ != nullptr ? history_->mesh() : state_.mesh;
+  }
+  [[nodiscard]] EditScript script() const {
+    if (history_ != nullptr) return {history_->steps(), history_->done()};
+    return {steps_, steps_.size()};
+  }
+
+ private:
+  std::unique_ptr<EditHistory> history_;
+  EditState state_;
+  std::vector<EditStep> steps_;
+};
+
+bool asks_for_history(const EditArguments& arguments) {
+  for (const EditStep& step : arguments.steps)
+    if (step.operation == kUndo || step.operation == kRedo) return true;
+  return false;
 }
 
-const Operation& operation_of(const Step& step) {
-  for (const Operation& operation : operations())
-    if (step.name == operation.name) return operation;
-  throw Error(ErrorKind::Input, fmt::format("there is no operation {}", step.name));
-}
-
-nlohmann::ordered_json findings(const Mesh& mesh) {
-  Eigen::AlignedBox3d box;
-  double volume = 0.0;
-  double area = 0.0;
-  for (const auto& [ia, ib, ic] : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices_mm[ia].cast<double>();
-    const Eigen::Vector3d b = mesh.vertices_mm[ib].cast<double>();
-    const Eigen::Vector3d c = mesh.vertices_mm[ic].cast<double>();
-    box.extend(a).extend(b).extend(c);
-    volume += a.dot(b.cross(c)) / 6.0;
-    area += (b - a).cross(c - a).norm() / 2.0;
-  }
-  nlohmann::ordered_json json;
-  json["vertices"] = mesh.vertices_mm.size();
-  json["triangles"] = mesh.triangles.size();
-  json["parts"] = nlohmann::ordered_json::array();
-  for (const MeshPart& part : connected_parts(mesh).parts)
-    json["parts"].push_back(
-        {{"triangles", part.triangles}, {"size_mm", part.size_mm}, {"area_mm2", part.area_mm2}});
-  json["holes"] = nlohmann::ordered_json::array();
-  for (const BoundaryLoop& loop : boundary_loops(mesh))
-    json["holes"].push_back(
-        {{"edges", loop.edges.size()}, {"size_mm", loop.size_mm}, {"length_mm", loop.length_mm}});
-  const std::size_t crowded = count_non_manifold_edges(mesh);
-  json["non_manifold_edges"] = crowded;
-  json["closed"] = json["holes"].empty() && crowded == 0 && !mesh.empty();
-  json["area_mm2"] = area;
-  json["volume_mm3"] = volume;
-  if (!mesh.empty()) {
-    json["low_mm"] = {box.min().x(), box.min().y(), box.min().z()};
-    json["high_mm"] = {box.max().x(), box.max().y(), box.max().z()};
-  }
-  return json;
-}
-
-void print_findings(const nlohmann::ordered_json& json) {
-  constexpr std::size_t kShown = 20;
-  fmt::print("{} triangles, {} vertices, area {:.3f} mm2, volume {:.3f} mm3{}\n",
-             json["triangles"].get<std::size_t>(),
-             json["vertices"].get<std::size_t>(),
-             json["area_mm2"].get<double>(),
-             json["volume_mm3"].get<double>(),
-             json["closed"].get<bool>() ? ", closed" : "");
-  fmt::print("{} edges are not manifold\n", json["non_manifold_edges"].get<std::size_t>());
-  for (const char* what : {"parts", "holes"}) {
-    fmt::print("{} {}\n", json[what].size(), what);
-    for (std::size_t i = 0; i < std::min(kShown, json[what].size()); ++i)
-      fmt::print("  {:>3}: {}\n", i, json[what][i].dump());
-  }
-}
-
-void edit(const EditArguments& arguments, Terminal& terminal) {
+/// What can be found wrong before the work is found before it.
+std::vector<EditScript> checked(const EditArguments& arguments) {
   for (const auto& path : arguments.outputs)
     check_mesh_ending(path);
-  std::vector<std::pair<const Operation*, double>> plan;
-  for (const Step& step : arguments.steps)
-    plan.emplace_back(&operation_of(step), number_of(step, operation_of(step)));
-  const Run run = terminal.run();
-  run.stage("read");
-  Mesh mesh = read_mesh(arguments.mesh);
-  for (const auto& step : plan) {
-    run.stage(step.first->name + 2);
-    mesh = step.first->apply(std::move(mesh), step.second, run);
+  std::vector<EditScript> scripts;
+  for (const EditStep& step : arguments.steps) {
+    if (step.operation == kScript) {
+      scripts.push_back(read_edit_script(step.value));
+    } else if (step.operation != kUndo && step.operation != kRedo) {
+      check_step(step);
+    }
   }
-  run.stage("write");
-  for (const auto& path : arguments.outputs)
-    write_mesh(path, mesh);
-  terminal.finish();
+  return scripts;
+}
+
+void report(const Mesh& mesh, const EditArguments& arguments, Terminal& terminal, const Run& run) {
   if (terminal.json) {
-    nlohmann::ordered_json json = findings(mesh);
+    nlohmann::ordered_json json = findings_json(mesh_findings(mesh, run));
     for (const auto& stage : terminal.stage_seconds())
       json["seconds"][stage.first] = stage.second;
     fmt::print("{}\n", json.dump(2));
   } else if (arguments.list) {
-    print_findings(findings(mesh));
+    const MeshFindings found = mesh_findings(mesh, run);
+    terminal.finish();
+    print_findings(found);
   } else if (!terminal.quiet) {
+    terminal.finish();
     fmt::print("{} triangles\n", mesh.triangles.size());
   }
 }
 
-void add_operations(CLI::App& verb, EditArguments& arguments) {
-  for (const Operation& operation : operations()) {
-    const std::string name = operation.name;
-    if (operation.unit == nullptr) {
-      verb.add_flag_callback(
-              name,
-              [&arguments, name] {
-                arguments.steps.push_back({name, ""});
-              },
-              operation.help)
-          ->trigger_on_parse();
+void edit(const EditArguments& arguments, Terminal& terminal) {
+  const std::vector<EditScript> scripts = checked(arguments);
+  const Run run = terminal.run();
+  run.stage("read");
+  Session session(read_mesh(arguments.mesh, run), asks_for_history(arguments));
+  auto script = scripts.begin();
+  for (const EditStep& step : arguments.steps) {
+    if (step.operation == kScript) {
+      session.play(*script++, run);
+    } else if (step.operation == kUndo || step.operation == kRedo) {
+      session.move(step, run);
     } else {
-      verb.add_option_function<std::string>(
-              name,
-              [&arguments, name](const std::string& value) {
-                arguments.steps.push_back({name, value});
-              },
-              operation.help)
-          ->trigger_on_parse();
+      session.apply(step, run);
     }
+  }
+  run.stage("write");
+  for (const auto& path : arguments.outputs)
+    write_mesh(path, session.mesh(), arguments.write);
+  if (!arguments.save_script.empty()) write_edit_script(arguments.save_script, session.script());
+  run.stage("list");
+  report(session.mesh(), arguments, terminal, run);
+}
+
+void add_operations(CLI::App& verb, EditArguments& arguments) {
+  for (const EditOperation& operation : edit_operations()) {
+    const std::string name = operation.name;
+    CLI::Option* option = nullptr;
+    if (*operation.value == 0) {
+      option = verb.add_flag_callback(
+          "--" + name,
+          [&arguments, name] {
+            arguments.steps.push_back({name, ""});
+          },
+          operation.help);
+    } else {
+      option = verb.add_option_function<std::string>(
+          "--" + name,
+          [&arguments, name](const std::string& value) {
+            arguments.steps.push_back({name, value});
+          },
+          operation.help);
+      option->type_name(operation.value);
+    }
+    option->trigger_on_parse()->group(operation.group);
+  }
+}
+
+void add_history(CLI::App& verb, EditArguments& arguments) {
+  constexpr const char* kGroup = "History";
+  verb.add_option_function<std::string>(
+          "--script",
+          [&arguments](const std::string& value) {
+            arguments.steps.push_back({kScript, value});
+          },
+          "do the steps that a script keeps")
+      ->type_name("FILE.json")
+      ->trigger_on_parse()
+      ->group(kGroup);
+  verb.add_option("--save-script", arguments.save_script, "keep all steps as a script")
+      ->type_name("FILE.json")
+      ->group(kGroup);
+  for (const char* name : {kUndo, kRedo}) {
+    verb.add_option_function<unsigned>(
+            fmt::format("--{}", name),
+            [&arguments, name](unsigned count) {
+              arguments.steps.push_back({name, std::to_string(count)});
+            },
+            fmt::format("{} so many of the steps before", name))
+        ->type_name("N")
+        ->trigger_on_parse()
+        ->group(kGroup);
   }
 }
 
@@ -261,12 +204,15 @@ void add_edit_verb(CLI::App& program, Terminal& terminal) {
   CLI::App* verb = program.add_subcommand("edit", "repair and change a mesh, in the order given");
   verb->footer(
       "example:\n  frangia edit bust.ply --remove-islands 2mm --fill-holes 10mm --decimate 0.01mm "
-      "-o bust.dxf");
-  verb->add_option("MESH", arguments->mesh, "the mesh: .ply, .stl or .obj")->required();
-  verb->add_option("-o,--output", arguments->outputs, "where to write it: .dxf, .stl, .ply or .obj")
-      ->allow_extra_args(false);
-  verb->add_flag("--list", arguments->list, "show parts, holes, area and volume of the result");
+      "-o bust.dxf\n  frangia edit bust.ply --select-box 0,0,0,20,20,20 --within --select-normal "
+      "0,0,1,30deg --delete -o cut.ply");
+  verb->add_option("MESH", arguments->mesh, fmt::format("the mesh: {}", mesh_endings()))
+      ->required();
+  verb->add_option("-o,--output", arguments->outputs, output_help())->allow_extra_args(false);
+  add_write_options(*verb, arguments->write);
+  verb->add_flag("--list", arguments->list, "show what the result has and what is wrong with it");
   add_operations(*verb, *arguments);
+  add_history(*verb, *arguments);
   verb->callback([arguments, &terminal] { edit(*arguments, terminal); });
 }
 

@@ -63,6 +63,9 @@ int run_program(int argc, char** argv) {
   add_plan_verb(program, terminal);
   add_response_verb(program, terminal);
   add_edit_verb(program, terminal);
+  add_picture_verb(program, terminal);
+  add_scan_verb(program, terminal);
+  add_devices_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -15,6 +15,7 @@
 
 #include "reconstruct_options.h"
 #include "verbs.h"
+#include "write_options.h"
 
 namespace frangia {
 namespace {
@@ -22,7 +23,6 @@ namespace {
 struct ReconstructArguments {
   std::filesystem::path scan;
   std::vector<std::filesystem::path> outputs;
-  std::string dxf = "faces";
   bool no_register = false;
   ReconstructOptions options;
   WriteOptions write;
@@ -99,7 +99,6 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
     check_mesh_ending(path);
     const AtomicFile probe(path);  // an output that cannot be written is told before the work
   }
-  arguments.write.dxf.variant = arguments.dxf == "faces" ? DxfVariant::Faces : DxfVariant::Polyface;
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
   const Reconstruction result = reconstruct(scan, arguments.options, run);
@@ -134,14 +133,10 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia reconstruct ball-bar -o ball-bar.dxf -o ball-bar.ply --clip-below 1");
   verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
       ->required();
-  verb->add_option("-o,--output",
-                   arguments->outputs,
-                   "where to write the mesh: .dxf, .stl, .ply or .obj; may be given more than once")
+  verb->add_option("-o,--output", arguments->outputs, output_help())
       ->required()
       ->allow_extra_args(false);
-  verb->add_option("--dxf", arguments->dxf, "DXF variant: faces (3DFACE) or polyface (POLYLINE)")
-      ->check(CLI::IsMember({"faces", "polyface"}))
-      ->capture_default_str();
+  add_write_options(*verb, arguments->write);
   add_views_options(*verb, *arguments);
   verb->add_option("--voxel",
                    arguments->options.paste.voxel_mm,

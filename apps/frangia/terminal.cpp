@@ -1,6 +1,7 @@
 #include "terminal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <stop_token>
@@ -11,15 +12,15 @@
 namespace frangia {
 namespace {
 
-/// Ctrl-C asks nicely once; the second one ends the program at once.
+/// Ctrl-C, SIGTERM or a closed terminal ask nicely once; the second one ends the program at once.
 std::stop_source& interrupt() {
   static std::stop_source source;
   return source;
 }
 
-extern "C" void on_interrupt(int /*signal*/) {
+extern "C" void on_interrupt(int signal) {
   interrupt().request_stop();
-  std::signal(SIGINT, SIG_DFL);
+  std::signal(signal, SIG_DFL);
 }
 
 bool on_a_terminal() {
@@ -30,7 +31,9 @@ bool on_a_terminal() {
 
 Run Terminal::run() {
   static_cast<void>(interrupt());  // made before a signal can ask for it
-  std::signal(SIGINT, on_interrupt);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, on_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
   Run run;
   run.stop = interrupt().get_token();
   run.progress = [this](double done) { draw(done); };
@@ -68,6 +71,7 @@ void Terminal::begin_stage(const std::string& name) {
   }
   stage_ = name;
   stage_begin_ = now;
+  first_done_ = -1.0;
 }
 
 void Terminal::draw(double done) {
@@ -78,13 +82,29 @@ void Terminal::draw(double done) {
   constexpr int kWidth = 32;
   const auto full = static_cast<std::size_t>(std::clamp(done, 0.0, 1.0) * kWidth);
   fmt::print(stderr,
-             "\r\x1b[K{:<12} [{}{}] {:3.0f} %",
+             "\r\x1b[K{:<12} [{}{}] {:3.0f} %{}",
              stage_,
              std::string(full, '='),
              std::string(kWidth - full, ' '),
-             100.0 * done);
+             100.0 * done,
+             time_left(done));
   static_cast<void>(std::fflush(stderr));
   line_open_ = true;
+}
+
+std::string Terminal::time_left(double done) {
+  const auto now = Clock::now();
+  if (first_done_ < 0.0 || done < first_done_) {
+    first_done_ = done;  // what an earlier session did says nothing about speed
+    first_drawn_ = now;
+  }
+  const double spent_s = std::chrono::duration<double>(now - first_drawn_).count();
+  const double way = done - first_done_;
+  constexpr double kEnough_s = 2.0;
+  if (spent_s < kEnough_s || way <= 0.0 || done >= 1.0) return {};
+  const auto left_s = static_cast<int>(std::ceil(spent_s * (1.0 - done) / way));
+  if (left_s < 60) return fmt::format(", {} s left", left_s);
+  return fmt::format(", {}:{:02} min left", left_s / 60, left_s % 60);
 }
 
 void Terminal::say(const std::string& text) {

@@ -16,7 +16,7 @@ class Terminal {
   bool json = false;   ///< results as JSON on standard output, no progress
   bool quiet = false;  ///< warnings and errors only
 
-  /// A Run that is stopped by Ctrl-C and reports here. The Terminal must outlive it.
+  /// A Run that is stopped by Ctrl-C or SIGTERM and reports here. The Terminal must outlive it.
   [[nodiscard]] Run run();
 
   /// Stages in the order they first began, with the seconds spent in each.
@@ -31,6 +31,7 @@ class Terminal {
   using Clock = std::chrono::steady_clock;
   void begin_stage(const std::string& name);
   void draw(double done);
+  [[nodiscard]] std::string time_left(double done);
   void say(const std::string& text);
 
   std::vector<std::pair<std::string, double>> seconds_;
@@ -39,6 +40,8 @@ class Terminal {
   std::string stage_;
   Clock::time_point stage_begin_;
   Clock::time_point last_drawn_;
+  Clock::time_point first_drawn_;  ///< of the stage
+  double first_done_ = -1.0;       ///< then; below 0 before
   bool line_open_ = false;
 };
 

@@ -16,6 +16,9 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal);
 void add_algorithms_verb(CLI::App& program, Terminal& terminal);
 void add_plan_verb(CLI::App& program, Terminal& terminal);
 void add_response_verb(CLI::App& program, Terminal& terminal);
+void add_picture_verb(CLI::App& program, Terminal& terminal);
 void add_edit_verb(CLI::App& program, Terminal& terminal);
+void add_scan_verb(CLI::App& program, Terminal& terminal);
+void add_devices_verb(CLI::App& program, Terminal& terminal);
 
 }  // namespace frangia

@@ -1,12 +1,10 @@
 #include "frangia/devices/hardware_drivers.h"
 
-#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "frangia/devices/rig_devices.h"
-#include "frangia/rig/read_rig.h"
 
 #include "support/emulated_boards.h"
 #include "support/emulated_grbl.h"
@@ -83,22 +81,6 @@ TEST_F(HardwareDrivers, AMissingKeyIsNamed) {
         static_cast<void>(open("[devices.fringes]\ndriver = \"commands\"\nport = \"/dev/x\"\n"));
       }).find("devices.fringes.set"),
       std::string::npos);
-}
-
-TEST(ExampleRigs, AreReadAndNameDriversThatThereAre) {
-  const auto drivers = hardware_drivers();
-  int rigs = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(FRANGIA_SOURCE_DIR) + "/examples")) {
-    if (entry.path().extension() != ".toml") continue;
-    ++rigs;
-    EXPECT_GT(read_rig(entry.path()).camera.lens.width_px, 0) << entry.path();
-    auto tables = read_device_settings(entry.path());
-    EXPECT_FALSE(tables.empty()) << entry.path();
-    for (DeviceSettings& settings : tables)
-      EXPECT_NO_THROW(static_cast<void>(driver_for(settings, drivers))) << entry.path();
-  }
-  EXPECT_GT(rigs, 0);
 }
 
 }  // namespace

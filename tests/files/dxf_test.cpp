@@ -1,5 +1,6 @@
 #include "frangia/files/dxf.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -29,6 +30,13 @@ class WriteDxf : public testing::InAFolder {
   }
 };
 
+/// Triangle 1 was moved, triangle 2 invented.
+void mark_some(Mesh& mesh) {
+  mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
+  mesh.triangle_marks[1] = Mark::Moved;
+  mesh.triangle_marks[2] = Mark::Invented;
+}
+
 /// A judge answers with the number of faces and then corners of the box around them, low and high.
 void expect_verdict(const Answer& answer, const Mesh& mesh) {
   ASSERT_TRUE(answer.content) << answer.text;
@@ -52,8 +60,9 @@ void expect_verdict(const Answer& answer, const Mesh& mesh) {
 
 TEST_F(WriteDxf, PassesTheAuditOfEzdxfWithAllFacesAndExactExtents) {
   if (!testing::have_ezdxf()) GTEST_SKIP() << "python3-ezdxf is missing; ./run setup installs it";
-  const Mesh mesh = testing::measured_sheet(30);
-  for (const DxfVariant variant : kVariants)
+  Mesh mesh = testing::measured_sheet(30);
+  mark_some(mesh);
+  for (const DxfVariant variant : {DxfVariant::Faces, DxfVariant::Polyface, DxfVariant::Mesh})
     expect_verdict(testing::ask_ezdxf(write(mesh, variant)), mesh);
 }
 
@@ -110,6 +119,95 @@ TEST_F(WriteDxf, RefusesAVertexOutOfThisWorld) {
   mesh.vertices_mm[4].x() = 2e9F;
   EXPECT_NE(error_writing(mesh).find("1 000 km"), std::string::npos);
   EXPECT_TRUE(folder_is_empty());
+}
+
+/// The same surface: as many triangles of each mark, in the same box, with the same area.
+void expect_alike(const Mesh& a, const Mesh& b) {
+  ASSERT_EQ(a.triangles.size(), b.triangles.size());
+  EXPECT_EQ(a.vertices_mm.size(), b.vertices_mm.size());
+  const auto marks = [](const Mesh& mesh) {
+    std::array<std::size_t, 3> counts{};
+    for (const Mark mark : mesh.triangle_marks)
+      ++counts.at(static_cast<std::size_t>(mark));
+    return counts;
+  };
+  EXPECT_EQ(marks(a), marks(b));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& v : a.vertices_mm)
+    sum += v.cast<double>();
+  for (const auto& v : b.vertices_mm)
+    sum -= v.cast<double>();
+  EXPECT_LT(sum.norm(), 1e-4 * static_cast<double>(a.vertices_mm.size()));
+}
+
+using ReadDxf = WriteDxf;
+
+TEST_F(ReadDxf, GivesBackWhatEachVariantWroteWithItsMarks) {
+  Mesh mesh = testing::sheet(200);  // several polyfaces
+  mark_some(mesh);
+  for (const DxfVariant variant : {DxfVariant::Faces, DxfVariant::Polyface, DxfVariant::Mesh})
+    expect_alike(read_dxf(write(mesh, variant)), mesh);
+}
+
+TEST_F(ReadDxf, ReadsWhatEzdxfWritesAndNamesWhatItLeavesOut) {
+  if (!testing::have_ezdxf()) GTEST_SKIP() << "python3-ezdxf is missing; ./run setup installs it";
+  static_cast<void>(put("make.py",
+                        "import sys, ezdxf\n"
+                        "d = ezdxf.new('R2010', units=1)\n"  // inches
+                        "m = d.modelspace()\n"
+                        "m.add_3dface([(0,0,0),(1,0,0),(1,1,0),(0,1,0)])\n"
+                        "m.add_line((0,0),(1,1))\nm.add_line((0,0),(2,1))\nm.add_circle((0,0),1)\n"
+                        "m.add_text('mesh')\nm.add_lwpolyline([(0,0),(1,0)])\n"
+                        "g = m.add_polymesh((3, 2))\n"
+                        "for i in range(3):\n"
+                        "  for j in range(2): g.set_mesh_vertex((i, j), (i, j, 5))\n"
+                        "p = m.add_polyface()\np.append_face([(0,0,9),(1,0,9),(0,1,9)])\n"
+                        "with m.add_mesh().edit_data() as e:\n"
+                        "  e.vertices=[(0,0,7),(1,0,7),(1,1,7),(0,1,7)]; e.faces=[(0,1,2,3)]\n"
+                        "d.saveas(sys.argv[1])\n"));
+  const auto path = at("other.dxf");
+  const Answer made =
+      testing::ask("/usr/bin/python3 " + at("make.py").string() + " " + path.string());
+  ASSERT_TRUE(made.content) << made.text;
+  frangia::Run run;
+  std::string warning;
+  run.on_warning = [&](const std::string& sentence) { warning = sentence; };
+  const Mesh mesh = read_dxf(path, run);
+  EXPECT_EQ(mesh.triangles.size(), 2U + 4U + 1U + 2U);
+  float farthest = 0.0F;
+  for (const auto& vertex : mesh.vertices_mm)
+    farthest = std::max(farthest, vertex.z());
+  EXPECT_FLOAT_EQ(farthest, 9 * 25.4F);
+  EXPECT_NE(warning.find("1 CIRCLE, 2 LINE, 1 LWPOLYLINE, 1 TEXT"), std::string::npos) << warning;
+}
+
+TEST_F(ReadDxf, SaysWhatIsThereWhenThereIsNoMesh) {
+  const auto path = put("line.dxf", "0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n0\nENDSEC\n0\nEOF\n");
+  EXPECT_NE(error_of([&] { return read_dxf(path); }).find("only 1 LINE"), std::string::npos);
+}
+
+TEST_F(ReadDxf, NamesTheLineOfAFault) {
+  const std::string start = "0\nSECTION\n2\nENTITIES\n";
+  const auto error = [&](const std::string& rest) {
+    const auto path = put("bad.dxf", start + rest);
+    return error_of([&] { return read_dxf(path); });
+  };
+  EXPECT_NE(error("0\n3DFACE\n10\nx\n").find("line 8: 'x' is not a number"), std::string::npos);
+  EXPECT_NE(error("0\n3DFACE\n10\nnan\n0\nEOF\n").find("not finite"), std::string::npos);
+  EXPECT_NE(error("0\n3DFACE\n10").find("cut short"), std::string::npos);
+  EXPECT_NE(error("hello\n").find("code of a group"), std::string::npos);
+  EXPECT_NE(
+      error("0\nPOLYLINE\n70\n64\n0\nVERTEX\n70\n192\n10\n1\n0\nVERTEX\n70\n128\n71\n1\n72\n2\n"
+            "73\n-9223372036854775808\n0\nSEQEND\n")
+          .find("of only 1"),
+      std::string::npos);
+  EXPECT_NE(error("0\nPOLYLINE\n70\n16\n71\n3\n72\n900\n0\nSEQEND\n").find("3 x 900"),
+            std::string::npos);
+  EXPECT_NE(error("0\nMESH\n92\n1\n10\n0\n93\n4\n90\n3\n90\n0\n90\n0\n90\n7\n0\nENDSEC\n")
+                .find("vertex 7"),
+            std::string::npos);
+  const auto binary = put("binary.dxf", std::string("AutoCAD Binary DXF\r\n\x1a\0", 22));
+  EXPECT_NE(error_of([&] { return read_dxf(binary); }).find("save it as text"), std::string::npos);
 }
 
 }  // namespace

@@ -12,11 +12,16 @@ for complaint in complaints:
 
 faces, corners = 0, []
 for entity in document.modelspace():
-    if entity.dxf.layer != "SCAN":
+    if entity.dxf.layer not in ("SCAN", "SCAN_MOVED", "SCAN_INVENTED"):
         sys.exit(f"an entity is on layer {entity.dxf.layer}")
+    if entity.dxf.layer not in document.layers:
+        sys.exit(f"layer {entity.dxf.layer} is not in the table")
     if entity.dxftype() == "3DFACE":
         faces += 1
         corners += entity.wcs_vertices()
+    elif entity.dxftype() == "MESH":
+        faces += len(entity.faces)
+        corners += [entity.vertices[index] for face in entity.faces for index in face]
     else:
         for face in entity.faces():  # the last vertex is the face's own record
             faces += 1

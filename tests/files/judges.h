@@ -39,6 +39,22 @@ inline Answer ask_libdime(const std::filesystem::path& dxf) {
   return ask(FRANGIA_JUDGE_LIBDIME " " + dxf.string());
 }
 
+inline bool have_3mf() {
+  return ask("/usr/bin/python3 -c 'import ctypes; ctypes.CDLL(\"lib3MF.so.1\")'").content;
+}
+inline Answer ask_3mf(const std::filesystem::path& path) {
+  return ask("/usr/bin/python3 " FRANGIA_SOURCE_DIR "/tests/files/judge_3mf.py " + path.string());
+}
+inline bool have_admesh() {
+  return ask("admesh --version").content;
+}
+inline bool have_numpy() {
+  return ask("/usr/bin/python3 -c 'import numpy'").content;
+}
+inline bool have_pcl() {
+  return ask("/usr/bin/python3 -c 'import pcl'").content;
+}
+
 /// The faces that assimp finds in a file; -1 when it does not like it.
 inline int assimp_faces(const std::filesystem::path& path) {
   const Answer answer = ask("assimp info " + path.string());

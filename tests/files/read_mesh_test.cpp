@@ -30,7 +30,7 @@ TEST_F(ReadMesh, ReadsEachEndingInEitherCase) {
 }
 
 TEST_F(ReadMesh, ListsTheEndingsThatItKnows) {
-  EXPECT_NE(error_reading("part.dxf").find(".stl, .ply or .obj"), std::string::npos);
+  EXPECT_NE(error_reading("part.step").find(".xyz or .pcd"), std::string::npos);
 }
 
 TEST_F(ReadMesh, SaysWhenThereIsNoFile) {

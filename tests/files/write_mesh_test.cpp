@@ -14,7 +14,14 @@ using testing::error_of;
 
 class WriteMesh : public testing::InAFolder {
  protected:
-  static constexpr std::array kNames{"part.dxf", "part.stl", "part.ply", "part.obj"};
+  static constexpr std::array kNames{"part.dxf",
+                                     "part.stl",
+                                     "part.ply",
+                                     "part.obj",
+                                     "part.glb",
+                                     "part.gltf",
+                                     "part.3mf",
+                                     "part.off"};
   [[nodiscard]] std::string error_writing(const std::string& name, const Mesh& mesh) const {
     return error_of([&] { return write_mesh(at(name), mesh), 0; });
   }
@@ -28,6 +35,8 @@ TEST_F(WriteMesh, IsReadByAssimpWithAllFacesInEveryFormat) {
     write_mesh(at(name), mesh);
     EXPECT_EQ(testing::assimp_faces(at(name)), faces) << name;
   }
+  write_mesh(at("text.stl"), mesh, {.stl = {.ascii = true}});
+  EXPECT_EQ(testing::assimp_faces(at("text.stl")), faces);
   write_mesh(at("polyface.dxf"), mesh, {.dxf = {DxfVariant::Polyface}});
   EXPECT_EQ(testing::assimp_faces(at("polyface.dxf")), faces);
 }
@@ -38,9 +47,8 @@ TEST_F(WriteMesh, TakesTheEndingInEitherCase) {
 }
 
 TEST_F(WriteMesh, ListsTheEndingsThatItKnows) {
-  for (const char* name : {"part.step", "part", ".ply"}) {
-    EXPECT_NE(error_writing(name, testing::sheet(3)).find(".dxf, .stl, .ply or .obj"),
-              std::string::npos);
+  for (const char* name : {"part.step", "part", ".ply", "part.zip"}) {
+    EXPECT_NE(error_writing(name, testing::sheet(3)).find(".off, .xyz or .pcd"), std::string::npos);
     EXPECT_THROW(check_mesh_ending(name), Error);
   }
   EXPECT_NO_THROW(check_mesh_ending("part.Dxf"));
@@ -75,7 +83,10 @@ TEST_F(WriteMesh, RefusesPointsAloneWhereTheFormatHoldsTrianglesOnly) {
   Mesh points;
   points.vertices_mm = testing::sheet(3).vertices_mm;
   EXPECT_NE(error_writing("part.dxf", points).find("no triangle"), std::string::npos);
-  EXPECT_NE(error_writing("part.stl", points).find("no triangle"), std::string::npos);
+  for (const char* name : {"part.stl", "part.glb", "part.gltf", "part.3mf", "part.off"})
+    EXPECT_NE(error_writing(name, points).find("no triangle"), std::string::npos) << name;
+  EXPECT_NO_THROW(write_mesh(at("part.xyz"), points));
+  EXPECT_NO_THROW(write_mesh(at("part.pcd"), points));
   EXPECT_NO_THROW(write_mesh(at("part.ply"), points));
 }
 

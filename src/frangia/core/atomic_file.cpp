@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/sync_to_disk.h"
 
 namespace frangia {
 namespace {
@@ -18,8 +19,9 @@ namespace {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
-  const auto folder = path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
+AtomicFile::AtomicFile(std::filesystem::path path, Durability durability)
+    : path_(std::move(path)), durability_(durability) {
+  const auto folder = folder_of(path_);
   if (!std::filesystem::is_directory(folder)) {
     fail(path_, fmt::format("there is no folder {}; make it first", folder.string()));
   }
@@ -39,10 +41,12 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::commit() {
   stream_.close();
   if (!stream_) fail(path_, "the disk is full or failing; free some space");
+  if (durability_ == Durability::Synced) sync_to_disk(temporary_);
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) fail(path_, error.message());
   temporary_.clear();
+  if (durability_ == Durability::Synced) sync_to_disk(folder_of(path_));
 }
 
 }  // namespace frangia

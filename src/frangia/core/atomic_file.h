@@ -5,6 +5,12 @@
 
 namespace frangia {
 
+/// Whether a file must outlive a power cut from the moment it has its name.
+enum class Durability {
+  Whole,  ///< the system writes it when it likes
+  Synced  ///< it and its folder's entry are on the disk: tens of milliseconds
+};
+
 /// A file that appears under its name only when it is whole.
 ///
 /// Bytes go to a temporary file in the same folder; `commit` flushes, checks and renames it. A file
@@ -12,7 +18,7 @@ namespace frangia {
 /// errors   Error(File) when the folder cannot be written or the disk is full
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  explicit AtomicFile(std::filesystem::path path, Durability durability = Durability::Whole);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   AtomicFile(AtomicFile&&) = delete;
@@ -28,6 +34,7 @@ class AtomicFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   std::ofstream stream_;
+  Durability durability_;
 };
 
 }  // namespace frangia

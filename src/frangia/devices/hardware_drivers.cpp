@@ -5,13 +5,19 @@
 
 #include "frangia/devices/aravis_driver.h"
 #include "frangia/devices/board_drivers.h"
+#include "frangia/devices/folder_camera.h"
+#include "frangia/devices/glfw_display.h"
 #include "frangia/devices/line_drivers.h"
+#include "frangia/devices/v4l2_camera.h"
 
 namespace frangia {
 
 std::vector<Driver> hardware_drivers() {
   std::vector<Driver> drivers;
   drivers.push_back(aravis_driver());
+  drivers.push_back(v4l2_driver());
+  drivers.push_back(folder_camera_driver());
+  drivers.push_back(glfw_driver());
   for (auto more : {board_drivers(), line_drivers()})
     std::move(more.begin(), more.end(), std::back_inserter(drivers));
   return drivers;

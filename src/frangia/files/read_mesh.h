@@ -2,14 +2,16 @@
 
 #include <filesystem>
 
+#include "frangia/core/run.h"
 #include "frangia/surface/mesh.h"
 
 namespace frangia {
 
-/// The mesh of a .stl, .ply or .obj file; the ending, in either case, says which.
+/// The mesh of a file; the ending, in either case, says which of mesh_formats.h it is.
 ///
-/// units    as in the file, taken for mm
-/// errors   Error(Input) for another ending; else as read_stl, read_ply and read_obj
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+/// units    mm: formats that state others are turned, the rest are taken for mm
+/// missing  what a reader leaves out it tells to `run`
+/// errors   Error(Input) for another ending; else as the format's own reader
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const Run& run = {});
 
 }  // namespace frangia

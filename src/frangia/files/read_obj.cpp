@@ -59,6 +59,11 @@ class ObjReader {
         mesh_.normals.push_back(read_vector(reader_));
       } else if (keyword == "f") {
         read_face();
+      } else if (keyword == "g") {
+        const std::string_view name = reader_.word_on_line();
+        mark_ = name == "moved"      ? Mark::Moved
+                : name == "invented" ? Mark::Invented
+                                     : Mark::Measured;
       }
     }
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {
@@ -81,12 +86,19 @@ class ObjReader {
       reader_.fail(fmt::format("a face has {} corners; it needs three", corners_.size()));
     }
     add_polygon(mesh_, corners_);
+    if (mark_ != Mark::Measured) {  // those before are measured
+      mesh_.triangle_marks.resize(mesh_.triangles.size() - (corners_.size() - 2), Mark::Measured);
+      mesh_.triangle_marks.resize(mesh_.triangles.size(), mark_);
+    } else if (!mesh_.triangle_marks.empty()) {
+      mesh_.triangle_marks.resize(mesh_.triangles.size(), Mark::Measured);
+    }
   }
 
   TextReader reader_;
   Mesh mesh_;
   std::vector<std::uint32_t> corners_;
   bool one_normal_a_vertex_ = true;
+  Mark mark_ = Mark::Measured;
 };
 
 }  // namespace

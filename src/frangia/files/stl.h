@@ -16,11 +16,17 @@ namespace frangia {
 /// source   3D Systems, Stereolithography Interface Specification, 1989
 [[nodiscard]] Mesh read_stl(const std::filesystem::path& path);
 
-/// Binary, each triangle with its own normal.
+struct StlOptions {
+  bool ascii = false;  ///< as text: five times as large, but anyone can read it
+};
+
+/// Each triangle with its own normal; binary, or text with the shortest digits that read back as
+/// the same numbers.
 ///
 /// units    mm
+/// missing  normals of vertices, sigma_mm, views and marks have no place
 /// errors   Error(Input) when the mesh is not whole or has no triangle; Error(File) when it cannot
 ///          be written
-void write_stl(const std::filesystem::path& path, const Mesh& mesh);
+void write_stl(const std::filesystem::path& path, const Mesh& mesh, const StlOptions& options = {});
 
 }  // namespace frangia

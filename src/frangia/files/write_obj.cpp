@@ -1,8 +1,10 @@
+#include <array>
 #include <string_view>
 
 #include "frangia/files/check_mesh.h"
 #include "frangia/files/file_writer.h"
 #include "frangia/files/obj.h"
+#include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -12,6 +14,18 @@ void write_vector(FileWriter& file, std::string_view keyword, const Eigen::Vecto
   for (const float coordinate : vector) {
     file.text(" ");
     file.number(coordinate);
+  }
+  file.text("\n");
+}
+
+void write_face(FileWriter& file, const Mesh& mesh, std::size_t triangle) {
+  file.text("f");
+  for (const std::size_t corner : mesh.triangles[triangle]) {
+    file.text(" ");
+    file.number(corner + 1);
+    if (mesh.normals.empty()) continue;
+    file.text("//");
+    file.number(corner + 1);
   }
   file.text("\n");
 }
@@ -26,16 +40,17 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     write_vector(file, "v", vertex);
   for (const Eigen::Vector3f& normal : mesh.normals)
     write_vector(file, "vn", normal);
-  for (const Mesh::Triangle& triangle : mesh.triangles) {
-    file.text("f");
-    for (const std::size_t corner : triangle) {
-      file.text(" ");
-      file.number(corner + 1);
-      if (mesh.normals.empty()) continue;
-      file.text("//");
-      file.number(corner + 1);
+  constexpr std::array<std::string_view, 3> kGroups{"measured", "moved", "invented"};
+  const bool marked = !mesh.vertex_marks.empty() || !mesh.triangle_marks.empty();
+  Mark group = Mark::Measured;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (marked && (i == 0 || mark_of(mesh, i) != group)) {
+      group = mark_of(mesh, i);
+      file.text("g ");
+      file.text(kGroups.at(static_cast<std::size_t>(group)));
+      file.text("\n");
     }
-    file.text("\n");
+    write_face(file, mesh, i);
   }
   file.commit();
 }

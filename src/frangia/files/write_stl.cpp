@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Geometry>
 
@@ -9,25 +10,61 @@
 
 namespace frangia {
 
-void write_stl(const std::filesystem::path& path, const Mesh& mesh) {
-  check_triangles(mesh, path);
-  FileWriter file(path);
+namespace {
+
+Eigen::Vector3f normal_of(const Mesh& mesh, const Mesh::Triangle& triangle) {
+  const Eigen::Vector3f& a = mesh.vertices_mm[triangle[0]];
+  const Eigen::Vector3f& b = mesh.vertices_mm[triangle[1]];
+  const Eigen::Vector3f& c = mesh.vertices_mm[triangle[2]];
+  return (b - a).cross(c - a).stableNormalized();
+}
+
+void write_binary(FileWriter& file, const Mesh& mesh) {
   std::string header = "Frangia; binary STL; lengths in mm";  // "solid" here would look like ascii
   header.resize(80, ' ');
   file.text(header);
   file.binary(static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const Mesh::Triangle& triangle : mesh.triangles) {
-    const Eigen::Vector3f& a = mesh.vertices_mm[triangle[0]];
-    const Eigen::Vector3f& b = mesh.vertices_mm[triangle[1]];
-    const Eigen::Vector3f& c = mesh.vertices_mm[triangle[2]];
-    const Eigen::Vector3f normal = (b - a).cross(c - a).stableNormalized();
-    for (const float coordinate : normal)
+    for (const float coordinate : normal_of(mesh, triangle))
       file.binary(coordinate);
     for (const std::uint32_t corner : triangle) {
       for (const float coordinate : mesh.vertices_mm[corner])
         file.binary(coordinate);
     }
     file.binary(std::uint16_t{0});
+  }
+}
+
+void write_vector(FileWriter& file, std::string_view keyword, const Eigen::Vector3f& vector) {
+  file.text(keyword);
+  for (const float coordinate : vector) {
+    file.text(" ");
+    file.number(coordinate);
+  }
+  file.text("\n");
+}
+
+void write_ascii(FileWriter& file, const Mesh& mesh) {
+  file.text("solid frangia\n");
+  for (const Mesh::Triangle& triangle : mesh.triangles) {
+    write_vector(file, " facet normal", normal_of(mesh, triangle));
+    file.text("  outer loop\n");
+    for (const std::uint32_t corner : triangle)
+      write_vector(file, "   vertex", mesh.vertices_mm[corner]);
+    file.text("  endloop\n endfacet\n");
+  }
+  file.text("endsolid frangia\n");
+}
+
+}  // namespace
+
+void write_stl(const std::filesystem::path& path, const Mesh& mesh, const StlOptions& options) {
+  check_triangles(mesh, path);
+  FileWriter file(path);
+  if (options.ascii) {
+    write_ascii(file, mesh);
+  } else {
+    write_binary(file, mesh);
   }
   file.commit();
 }

@@ -54,10 +54,7 @@ Image<T> decode(spng_ctx* context,
   return image;
 }
 
-void encode(const std::filesystem::path& path,
-            const spng_ihdr& header,
-            const void* pixels,
-            std::size_t size) {
+std::vector<char> encode(const spng_ihdr& header, const void* pixels, std::size_t size) {
   const Context context(spng_ctx_new(SPNG_CTX_ENCODER));
   spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
   // A scan is hundreds of frames: a third of the default's time for a tenth more bytes.
@@ -71,10 +68,15 @@ void encode(const std::filesystem::path& path,
   const std::unique_ptr<void, void (*)(void*)> owner(encoded, std::free);  // NOLINT
   if (encoded == nullptr) {
     throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be encoded: {}", path.string(), spng_strerror(error)));
+                fmt::format("an image cannot be encoded as PNG: {}", spng_strerror(error)));
   }
+  const auto* bytes = static_cast<const char*>(encoded);
+  return {bytes, bytes + length};
+}
+
+void write_whole(const std::filesystem::path& path, const std::vector<char>& bytes) {
   AtomicFile file(path);
-  file.stream().write(static_cast<const char*>(encoded), static_cast<std::streamsize>(length));
+  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.commit();
 }
 
@@ -111,23 +113,26 @@ Frame read_png(const std::filesystem::path& path) {
   return decode<std::uint8_t>(context.get(), header, SPNG_FMT_G8, path);
 }
 
-void write_png(const std::filesystem::path& path, const Frame& frame) {
-  std::visit(
+std::vector<char> encode_png(const Frame& frame) {
+  return std::visit(
       [&](const auto& image) {
         const int depth = 8 * static_cast<int>(sizeof(image.pixels()[0]));
-        encode(path,
-               header_of(image, depth, SPNG_COLOR_TYPE_GRAYSCALE),
-               image.pixels().data(),
-               image.pixels().size_bytes());
+        return encode(header_of(image, depth, SPNG_COLOR_TYPE_GRAYSCALE),
+                      image.pixels().data(),
+                      image.pixels().size_bytes());
       },
       frame);
 }
 
+void write_png(const std::filesystem::path& path, const Frame& frame) {
+  write_whole(path, encode_png(frame));
+}
+
 void write_png(const std::filesystem::path& path, const Image<Rgb>& picture) {
-  encode(path,
-         header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
-         picture.pixels().data(),
-         picture.pixels().size_bytes());
+  write_whole(path,
+              encode(header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
+                     picture.pixels().data(),
+                     picture.pixels().size_bytes()));
 }
 
 }  // namespace frangia

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "frangia/core/image.h"
 #include "frangia/frames/frame.h"
@@ -16,6 +17,11 @@ namespace frangia {
 [[nodiscard]] Frame read_png(const std::filesystem::path& path);
 
 using Rgb = std::array<std::uint8_t, 3>;
+
+/// The bytes of a grey PNG, for whoever keeps them with a checksum.
+///
+/// errors   Error(File) when it cannot be encoded
+[[nodiscard]] std::vector<char> encode_png(const Frame& frame);
 
 /// Writes a PNG whole or not at all.
 ///

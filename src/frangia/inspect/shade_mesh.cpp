@@ -13,6 +13,7 @@
 #include "frangia/inspect/picture_viewer.h"
 #include "frangia/mesh/corner_normals.h"
 #include "frangia/mesh/ray_scene.h"
+#include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -124,6 +125,10 @@ class Painter {
 
   [[nodiscard]] Vector3d base_color(const RayHit& hit, bool inside) const {
     if (inside) return {0.62, 0.20, 0.13};
+    if (options_.show_marks && mark_of(scene_.mesh(), hit.triangle) != Mark::Measured) {
+      const bool moved = mark_of(scene_.mesh(), hit.triangle) == Mark::Moved;
+      return moved ? Vector3d(0.80, 0.58, 0.12) : Vector3d(0.12, 0.36, 0.72);
+    }
     if (options_.values.empty()) return {0.80, 0.775, 0.74};
     float value = 0.0F;
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -133,6 +138,22 @@ class Painter {
     const float share = (value - options_.value_min) / (options_.value_max - options_.value_min);
     // Maps are made for the screen; light adds up in its square.
     return color_of(options_.color_map, share).cast<double>().array().pow(2.2);
+  }
+
+  /// What a line along the triangle's edges leaves of the light, 1 away from them. Where triangles
+  /// are hardly larger than the line it fades.
+  [[nodiscard]] double edge_light(const RayHit& hit) const {
+    if (!options_.show_edges) return 1.0;
+    const Mesh& mesh = scene_.mesh();
+    const auto& [ia, ib, ic] = mesh.triangles[hit.triangle];
+    const Vector3d a = mesh.vertices_mm[ia].cast<double>();
+    const Vector3d b = mesh.vertices_mm[ib].cast<double>();
+    const Vector3d c = mesh.vertices_mm[ic].cast<double>();
+    const double twice = (b - a).cross(c - a).norm();
+    const Vector3d heights(twice / (c - b).norm(), twice / (a - c).norm(), twice / (b - a).norm());
+    const double pixel_mm = 1.1 * size_mm_ / std::min(options_.width_px, options_.height_px);
+    if (hit.barycentric.cwiseProduct(heights).minCoeff() > 0.6 * pixel_mm) return 1.0;
+    return 1.0 - 0.7 * std::clamp(heights.minCoeff() / (8.0 * pixel_mm), 0.0, 1.0);
   }
 
   [[nodiscard]] Vector3d shading_normal(const RayHit& hit) const {
@@ -172,7 +193,8 @@ class Painter {
       const Vector3d halfway = (way - ray.direction).normalized();
       gloss += 0.10 * light.color.mean() * std::pow(std::max(normal.dot(halfway), 0.0), 36.0);
     }
-    return base_color(hit, inside).cwiseProduct(diffuse) + gloss * Vector3d::Ones();
+    return edge_light(hit) * base_color(hit, inside).cwiseProduct(diffuse) +
+           gloss * Vector3d::Ones();
   }
 
   const ShadeOptions& options_;

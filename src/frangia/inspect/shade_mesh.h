@@ -21,6 +21,9 @@ struct ShadeOptions {
   bool ground = true;                         ///< the part's shadow on what it stands on
   double crease_rad = rad_from_deg(40.0);     ///< sharper edges stay sharp
 
+  bool show_edges = false;  ///< of the triangles, as thin lines
+  bool show_marks = false;  ///< what was moved in yellow, what was invented in blue
+
   std::vector<float> values;  ///< one a vertex, shown as colours; empty for plain plaster
   float value_min = 0.0F;     ///< the colour map's two ends
   float value_max = 1.0F;

@@ -164,7 +164,10 @@ Mesh make_manifold(Mesh mesh) {
 }
 
 std::size_t count_non_manifold_edges(const Mesh& mesh) {
-  const HalfEdges edges(mesh);
+  return count_non_manifold_edges(mesh, HalfEdges(mesh));
+}
+
+std::size_t count_non_manifold_edges(const Mesh& mesh, const HalfEdges& edges) {
   std::size_t count = 0;
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (edges.has_twin(edge) || edges.is_boundary(edge)) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "frangia/mesh/half_edges.h"
 #include "frangia/surface/mesh.h"
 
 namespace frangia {
@@ -14,5 +15,6 @@ namespace frangia {
 
 /// Edges with more than two triangles, or two that run against each other.
 [[nodiscard]] std::size_t count_non_manifold_edges(const Mesh& mesh);
+[[nodiscard]] std::size_t count_non_manifold_edges(const Mesh& mesh, const HalfEdges& edges);
 
 }  // namespace frangia

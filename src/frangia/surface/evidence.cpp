@@ -32,7 +32,7 @@ struct Questioner {
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
     if (quad == nullptr) {
       // Half a pixel beside the last quad, where that is not far on the surface.
-      constexpr float kRim = 0.25F;  // of the weight: what lies further in is better known
+      constexpr float kRim = 0.1F;  // of the weight: what lies further in is better known
       constexpr float kFlattest = 0.5F;
       const LocalPlanes::Plane* pixel = view.pixel_at(u, v);
       if (pixel != nullptr && pixel->window != WindowKind::Small &&
@@ -54,7 +54,10 @@ struct Questioner {
       support(evidence, {p, plane.normal, distance, quad->weight}, outward);
     } else if (distance > through_mm && is_clear(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
-      evidence.against += quad->weight / (cosine * cosine);
+      // That it sees through is as sure however well it knows what lies behind: what speaks for the
+      // point may have been smoothed, what speaks against it not.
+      constexpr float kSmoothed = 6.5F;
+      evidence.against += kSmoothed * quad->weight / (cosine * cosine);
     }
   }
 
@@ -101,7 +104,7 @@ struct Questioner {
     const float w = word.weight * trust;
     const float cosine = -word.normal.dot(word.point) / word.point.norm();
     const float cosine2 = cosine * cosine;
-    constexpr float kInterpolated = 4.0F / 9.0F;  // of a pixel's variance, after interpolation
+    constexpr float kInterpolated = 0.73F;  // of a pixel's variance, after interpolation
     const float variance = kInterpolated * cosine2 * cosine2 / word.weight;
     Evidence::Face& face = face_for(evidence, normal);
     face.weight += w;
@@ -110,7 +113,12 @@ struct Questioner {
     face.offset_squared += w * word.distance_mm * word.distance_mm;
     face.noise += w * variance;
     face.noise_squared += w * w * variance;
-    face.spacing += w * word.point.z() * pixel_rad / std::sqrt(cosine);
+    // A lens is known, and light spread evenly over a pixel, to this and no better.
+    constexpr float kOff_px = 0.022F;
+    const float pixel_mm = word.point.z() * pixel_rad;
+    face.lateral_squared +=
+        w * w * kOff_px * kOff_px * pixel_mm * pixel_mm * std::max(0.0F, 1.0F - cosine2);
+    face.spacing += w * pixel_mm / std::sqrt(cosine);
     face.normal += w * normal;
     ++face.views;
   }
@@ -119,7 +127,8 @@ struct Questioner {
 }  // namespace
 
 float correlation(float distance_mm, float spacing_mm) {
-  const float x = distance_mm / spacing_mm;
+  constexpr float kWide = 1.6F;  // pixels: the best paraboloid of 5 x 5 spreads as far as that
+  const float x = distance_mm / (kWide * spacing_mm);
   if (x >= 2.0F) return 0.0F;
   if (x >= 1.0F) return 0.25F * (2.0F - x) * (2.0F - x) * (2.0F - x);
   return 1.0F - 1.5F * x * x + 0.75F * x * x * x;
@@ -161,11 +170,12 @@ void add_disagreement(std::vector<Evidence>& evidence, const Crossings& crossing
         excess += (scatter - expected) / face.weight;
         freedom += 1.0F - face.weight_squared / (face.weight * face.weight);
       }
-      if (!(excess > 0.0F && freedom > 0.0F)) continue;
+      const float between = excess > 0.0F && freedom > 0.0F ? excess / freedom : 0.0F;
       for (std::size_t i = first; i < last; ++i) {
         const Evidence::Face& face = evidence[i].main();
         if (face.views == 0) continue;
-        evidence[i].common = excess / freedom * face.weight_squared / (face.weight * face.weight);
+        evidence[i].common = std::max(between * face.weight_squared, face.lateral_squared) /
+                             (face.weight * face.weight);
       }
     }
   });

@@ -17,13 +17,14 @@ namespace frangia {
 struct Evidence {
   /// One plane near the point, from the views that agree on how it slopes.
   struct Face {
-    float weight = 0.0F;          ///< sum of w
-    float weight_squared = 0.0F;  ///< sum of w^2
-    float offset = 0.0F;          ///< sum of w d, the point's distance in front
-    float offset_squared = 0.0F;  ///< sum of w d^2
-    float noise = 0.0F;           ///< sum of w v, v the variance of d
-    float noise_squared = 0.0F;   ///< sum of w^2 v
-    float spacing = 0.0F;         ///< sum of w times the distance of pixels
+    float weight = 0.0F;           ///< sum of w
+    float weight_squared = 0.0F;   ///< sum of w^2
+    float offset = 0.0F;           ///< sum of w d, the point's distance in front
+    float offset_squared = 0.0F;   ///< sum of w d^2
+    float noise = 0.0F;            ///< sum of w v, v the variance of d
+    float noise_squared = 0.0F;    ///< sum of w^2 v
+    float lateral_squared = 0.0F;  ///< sum of w^2 l, l the variance of d by what pixels are off
+    float spacing = 0.0F;          ///< sum of w times the distance of pixels
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sum of w n
     std::uint16_t views = 0;
 
@@ -63,7 +64,7 @@ void add_evidence(std::vector<Evidence>& evidence,
 
 /// Adds to the variance of each crossing what the views disagree by beyond their noise, taken
 /// together over its block: an error that a view makes all over a region does not average away
-/// within it.
+/// within it. It is not less than what places in the picture are off by.
 ///
 /// source   random effects, DerSimonian & Laird 1986
 void add_disagreement(std::vector<Evidence>& evidence, const Crossings& crossings);

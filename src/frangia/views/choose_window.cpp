@@ -1,9 +1,14 @@
 #include "frangia/views/choose_window.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "frangia/views/fit_patch.h"
 
 namespace frangia {
 namespace {
+
+const ChosenWindow kNoWindow{kNoFit, WindowKind::None, 1.0F, 0.0F};
 
 /// The window of 3 x 3 pixels about (x, y), by hand; NaN as in `fit_windows`.
 WindowFit small_fit(const Image<float>& q, int x, int y) {
@@ -25,6 +30,13 @@ WindowFit small_fit(const Image<float>& q, int x, int y) {
           fit.mean + static_cast<float>(dx) * fit.slope_x + static_cast<float>(dy) * fit.slope_y;
       fit.variance += (q(x + dx, y + dy) - plane) * (q(x + dx, y + dy) - plane) / 6.0F;
     }
+  }
+  // Of the best paraboloid: the mean less what its curvature lifts the mean by.
+  fit.middle = fit.mean;
+  for (const int dy : {-1, 0, 1}) {
+    for (const int dx : {-1, 0, 1})
+      fit.middle -=
+          (static_cast<float>(dx * dx + dy * dy) - 4.0F / 3.0F) * q(x + dx, y + dy) / 3.0F;
   }
   return fit;
 }
@@ -49,25 +61,64 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
   return best;
 }
 
+/// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
+/// or more of it than the phase knows of, but without structure. An edge leaves structure over.
+ChosenWindow round_window(const Image<float>& image,
+                          const Eigen::Vector2i& at,
+                          const PixelNoise& noise,
+                          bool loud) {
+  constexpr float kRound = 1.3F;  // in variance
+  constexpr float kLoud = 9.0F;
+  constexpr float kStructure = 0.0F;
+  const PatchFit patch = fit_patch(image, at);
+  const float expected = noise.variance(patch.window);
+  const float rest = patch.window.rest;
+  const bool quiet = rest < kRound * expected;
+  const bool noisy = patch.structure < kStructure && rest < (loud ? kLoud : kRound) * expected;
+  if (!noisy && !(loud && quiet)) return kNoWindow;  // and for NaN
+  return {patch.window,
+          WindowKind::Centred,
+          patch.variance,
+          std::sqrt(std::max(expected, quiet ? 0.0F : rest))};
+}
+
 }  // namespace
 
 ChosenWindow choose_window(const Image<float>& image,
                            const WindowRows& fits,
                            const Eigen::Vector2i& at,
-                           float noise) {
+                           const PixelNoise& noise) {
   constexpr float kFits = 2.0F;      // in variance
   constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
-  const float good = kFits * noise * noise;
+  constexpr float kAtCorner = 0.2F;  // of a pixel's variance, what a plane has at a corner
+  const auto chosen = [&](const WindowFit& fit, WindowKind kind, float variance) {
+    return ChosenWindow{fit, kind, variance, std::sqrt(noise.variance(fit))};
+  };
+  const auto good = [&](const WindowFit& fit) {
+    return fit.variance < kFits * noise.variance(fit);  // false for NaN
+  };
+  const auto near = [&](const WindowFit& fit) {
+    const float off = fit.mean - image(at.x(), at.y());
+    return off * off < kFarthest * kFarthest * noise.variance(fit);
+  };
   const WindowFit& centred = fits.at(at.x(), at.y());
-  if (centred.variance < good) return {centred, WindowKind::Centred};
+  if (good(centred)) return chosen(centred, WindowKind::Centred, middle_variance(fits.radius));
+  if (!std::isnan(centred.mean)) {
+    const ChosenWindow round = round_window(image, at, noise, false);
+    if (round.kind == WindowKind::Centred) return round;
+  }
   const WindowFit close = small_fit(image, at.x(), at.y());
-  if (close.variance < good) return {close, WindowKind::Centred};
+  if (good(close)) return chosen(close, WindowKind::Centred, middle_variance(1));
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
-  const auto off = [&](const WindowFit& fit) { return std::abs(fit.mean - image(at.x(), at.y())); };
-  if (large.variance < good && off(large) < kFarthest * noise) return {large, WindowKind::Beside};
+  // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
+  if (std::isnan(centred.mean) || !good(large)) {
+    const ChosenWindow round = round_window(image, at, noise, true);
+    if (round.kind == WindowKind::Centred) return round;
+  }
+  if (good(large) && near(large)) return chosen(large, WindowKind::Beside, kAtCorner);
   const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
-  if (off(small) < kFarthest * noise) return {small, WindowKind::Small};
-  return {kNoFit, WindowKind::None};
+  if (near(small)) return chosen(small, WindowKind::Small, 1.0F);
+  return kNoWindow;
 }
 
 }  // namespace frangia

@@ -28,21 +28,34 @@ struct WindowRows {
 /// pixels.
 enum class WindowKind : std::uint8_t { None, Centred, Beside, Small };
 
+/// What a pixel's value is uncertain by.
+struct PixelNoise {
+  float value = 0.0F;      ///< standard deviation of the value itself
+  float jitter_px = 0.0F;  ///< of the place that it belongs to, see `estimate_jitter`
+
+  [[nodiscard]] float variance(const WindowFit& fit) const {
+    const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
+    return value * value + jitter_px * jitter_px * square;
+  }
+};
+
 struct ChosenWindow {
   WindowFit fit;
   WindowKind kind = WindowKind::None;
+  float variance = 1.0F;  ///< of a centred window: what its middle has of a pixel's noise
+  float noise = 0.0F;     ///< standard deviation of the pixel, were it on this plane
 };
 
 /// The plane that an image follows at a pixel, never rounded off by what lies across an edge: that
 /// of the window about the pixel when it fits as well as noise allows, else of 3 x 3 pixels about
 /// it, else of the best window that holds the pixel, large or small.
 ///
-/// shape    one pixel, in one of the rows; `noise` is its standard deviation
+/// shape    one pixel, in one of the rows
 /// missing  NaN where the pixel lies off even the best plane: there the image is rougher than its
 /// pixels source   Kuwahara et al. 1976
 [[nodiscard]] ChosenWindow choose_window(const Image<float>& image,
                                          const WindowRows& fits,
                                          const Eigen::Vector2i& at,
-                                         float noise);
+                                         const PixelNoise& noise);
 
 }  // namespace frangia

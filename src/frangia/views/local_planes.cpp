@@ -10,6 +10,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/views/carry_planes.h"
 #include "frangia/views/choose_window.h"
+#include "frangia/views/estimate_jitter.h"
 #include "frangia/views/fast_lens.h"
 
 namespace frangia {
@@ -23,8 +24,8 @@ constexpr float kSmallestSigma = 1e-6F;  // of the depth: keeps the weight of pe
 enum Link : std::uint8_t { kRight = 1, kDown = 2 };
 
 struct Grid {
-  const Image<float>& q;  ///< inverse depth
-  Image<float> noise;     ///< its standard deviation
+  Image<float> q;      ///< inverse depth, as measured
+  Image<float> noise;  ///< its standard deviation
   Image<std::uint8_t> links;
 };
 
@@ -33,19 +34,17 @@ void fit_size(Image<T>& image, int width, int height) {
   if (image.width() != width || image.height() != height) image = Image<T>(width, height);
 }
 
-/// Fills `q`.
-
-Grid link_pixels(Image<float>& q, const RangeGrid& range, const Lens& camera) {
+Grid link_pixels(const RangeGrid& range, const Lens& camera) {
   const int width = range.depth_mm.width();
   const int height = range.depth_mm.height();
-  fit_size(q, width, height);
-  Grid grid{q, Image<float>(width, height), Image<std::uint8_t>(width, height)};
+  Grid grid{
+      Image<float>(width, height), Image<float>(width, height), Image<std::uint8_t>(width, height)};
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const float depth = range.depth_mm(x, y);
       const float sigma = std::max(range.sigma_mm(x, y), kSmallestSigma * depth);
       const bool seen = depth > 0.0F && sigma >= 0.0F;
-      q(x, y) = seen ? 1.0F / depth : kMissing;
+      grid.q(x, y) = seen ? 1.0F / depth : kMissing;
       grid.noise(x, y) = sigma / (depth * depth);
     }
   });
@@ -77,6 +76,15 @@ struct Pixel {
   float noise;
 };
 
+/// A pixel where its window is centred on it and follows the surface: that of the best paraboloid,
+/// which keeps the curvature and has little of the noise.
+Pixel settled(const ChosenWindow& chosen, const Pixel& measured) {
+  if (chosen.kind == WindowKind::Beside)
+    return {chosen.fit.mean, measured.noise * std::sqrt(chosen.variance)};
+  if (chosen.kind != WindowKind::Centred) return measured;
+  return {chosen.fit.middle, measured.noise * std::sqrt(chosen.variance)};
+}
+
 /// The plane through a pixel's point, from q and its slope over the image.
 LocalPlanes::Plane plane_of(const ChosenWindow& chosen,
                             const Pixel& pixel,
@@ -89,7 +97,7 @@ LocalPlanes::Plane plane_of(const ChosenWindow& chosen,
   const float distance = 1.0F / abc.norm();
   const float cosine = distance * pixel.q;
   // Beside a rim or an edge neither slope nor pixel is what it is in the middle of a face.
-  constexpr float kDoubt = 2.0F;
+  constexpr float kDoubt = 3.0F;
   const float doubt = chosen.kind == WindowKind::Centred ? 1.0F : kDoubt;
   const float sigma_mm = doubt * pixel.noise / (pixel.q * pixel.q);
   return {-distance * abc,
@@ -173,8 +181,10 @@ LocalPlanes local_planes(const View& view,
   out.rig_from_object = view.rig_from_object;
   fit_size(out.planes, width, height);
   fit_size(out.quads, std::max(0, width - 1), std::max(0, height - 1));
-  const Grid grid = link_pixels(out.inverse_depth, view.range, camera.lens);
+  fit_size(out.inverse_depth, width, height);
+  const Grid grid = link_pixels(view.range, camera.lens);
   const FastLens lens(camera.lens);
+  const float jitter_px = estimate_jitter(grid.q, grid.noise);
   constexpr std::size_t kRows = 32;
   parallel_chunks(static_cast<std::size_t>(height), kRows, [&](std::size_t begin, std::size_t end) {
     const WindowRows fits(
@@ -182,10 +192,14 @@ LocalPlanes local_planes(const View& view,
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       for (int x = 0; x < width; ++x) {
         out.planes(x, y) = {};
+        out.inverse_depth(x, y) = grid.q(x, y);
         if (std::isnan(grid.q(x, y))) continue;
-        const ChosenWindow chosen = choose_window(grid.q, fits, {x, y}, grid.noise(x, y));
+        const ChosenWindow chosen =
+            choose_window(grid.q, fits, {x, y}, {grid.noise(x, y), jitter_px});
         if (std::isnan(chosen.fit.mean)) continue;
-        out.planes(x, y) = plane_of(chosen, {grid.q(x, y), grid.noise(x, y)}, lens, rays(x, y));
+        const Pixel pixel = settled(chosen, {grid.q(x, y), chosen.noise});
+        out.inverse_depth(x, y) = pixel.q;
+        out.planes(x, y) = plane_of(chosen, pixel, lens, rays(x, y));
       }
     }
   });

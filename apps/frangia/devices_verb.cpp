@@ -1,0 +1,153 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/devices/rig_devices.h"
+#include "frangia/rig/read_rig.h"
+
+#include "drivers.h"
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kPatience_s = 10.0;
+
+Json list_drivers(const std::vector<Driver>& drivers) {
+  Json all = Json::array();
+  for (const Driver& driver : drivers) {
+    all.push_back(
+        {{"table", table_of(driver.kind)}, {"driver", driver.name}, {"what", driver.what}});
+  }
+  return all;
+}
+
+/// What is connected. A driver whose search fails says so, and the others go on.
+Json find_devices(const std::vector<Driver>& drivers, const Run& run) {
+  Json all = Json::array();
+  for (const Driver& driver : drivers) {
+    if (!driver.find) continue;
+    try {
+      for (const FoundDevice& found : driver.find(Deadline::in(kPatience_s, run.stop))) {
+        all.push_back({{"table", table_of(driver.kind)},
+                       {"driver", driver.name},
+                       {"name", found.name},
+                       {"settings", found.settings}});
+      }
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::Cancelled) throw;
+      run.warn(fmt::format("{} cannot be searched for: {}", driver.name, error.what()));
+    }
+  }
+  return all;
+}
+
+/// Opens and asks every device of a rig, each by itself, whatever the others say.
+Json test_devices(const std::filesystem::path& rig_file,
+                  const std::vector<Driver>& drivers,
+                  const Run& run) {
+  const Rig rig = read_rig(rig_file, run);
+  std::vector<std::unique_ptr<Device>> opened;  // until the end: tables may share a board
+  Json all = Json::array();
+  for (DeviceSettings& settings : read_device_settings(rig_file)) {
+    Json entry{{"table", settings.device()}};
+    try {
+      const Driver& driver = driver_for(settings, drivers);
+      entry["driver"] = driver.name;
+      opened.push_back(driver.open(settings, rig, Deadline::in(kPatience_s, run.stop)));
+      settings.warn_of_the_rest(run);
+      entry["name"] = opened.back()->name();
+      entry["answer"] = opened.back()->test(Deadline::in(kPatience_s, run.stop));
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::Cancelled) throw;
+      entry["fault"] = error.what();
+    }
+    all.push_back(entry);
+  }
+  for (const auto& device : opened)
+    device->make_safe();
+  return all;
+}
+
+void print(const Json& drivers, const Json& found, const Json& tested) {
+  fmt::print("Drivers\n");
+  for (const Json& driver : drivers) {
+    fmt::print("  [devices.{}]{:{}} driver = {:<20} {}\n",
+               driver["table"].get<std::string>(),
+               "",
+               10 - driver["table"].get<std::string>().size(),
+               "\"" + driver["driver"].get<std::string>() + "\"",
+               driver["what"].get<std::string>());
+  }
+  fmt::print("\nConnected{}\n", found.empty() ? ": nothing that can be found by itself" : "");
+  for (const Json& device : found) {
+    fmt::print("  {}\n    [devices.{}]\n",
+               device["name"].get<std::string>(),
+               device["table"].get<std::string>());
+    std::string settings = device["settings"];
+    for (std::size_t at = 0; !settings.empty();) {
+      at = settings.find('\n');
+      fmt::print("    {}\n", settings.substr(0, at));
+      settings.erase(0, at == std::string::npos ? at : at + 1);
+    }
+  }
+  if (tested.empty()) return;
+  fmt::print("\nThis rig\n");
+  for (const Json& device : tested) {
+    const bool well = device.contains("answer");
+    fmt::print("  [devices.{}] {}\n",
+               device["table"].get<std::string>(),
+               well ? fmt::format("works: {}: {}",
+                                  device["name"].get<std::string>(),
+                                  device["answer"].get<std::string>())
+                    : "FAULT: " + device["fault"].get<std::string>());
+  }
+}
+
+void list(const std::filesystem::path& rig, bool search, Terminal& terminal) {
+  const Run run = terminal.run();
+  const std::vector<Driver> drivers = all_drivers();
+  const Json found = search ? find_devices(drivers, run) : Json::array();
+  const Json tested = rig.empty() ? Json::array() : test_devices(rig, drivers, run);
+  terminal.finish();
+  if (terminal.json) {
+    const Json all{{"drivers", list_drivers(drivers)}, {"connected", found}, {"rig", tested}};
+    fmt::print("{}\n", all.dump(2));
+  } else {
+    print(list_drivers(drivers), found, tested);
+  }
+  int faults = 0;
+  for (const Json& device : tested)
+    faults += device.contains("fault") ? 1 : 0;
+  if (faults > 0) {
+    throw Error(ErrorKind::Device,
+                fmt::format("{} of the {} devices of {} do not work, as said above",
+                            faults,
+                            tested.size(),
+                            rig.string()));
+  }
+}
+
+}  // namespace
+
+void add_devices_verb(CLI::App& program, Terminal& terminal) {
+  auto* verb =
+      program.add_subcommand("devices", "the drivers, what is connected, and a test of a rig's");
+  verb->footer(
+      "Example:\n"
+      "  frangia devices\n"
+      "  frangia devices rig.toml       opens and tests each device of this rig, moving none");
+  auto rig = std::make_shared<std::filesystem::path>();
+  auto no_search = std::make_shared<bool>(false);
+  verb->add_option("rig,--rig", *rig, "open and test every device that this rig.toml names");
+  verb->add_flag("--no-search", *no_search, "do not look for what is connected");
+  verb->callback([rig, no_search, &terminal] { list(*rig, !*no_search, terminal); });
+}
+
+}  // namespace frangia

@@ -1,0 +1,123 @@
+#include "edit_findings.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kShown = 20;
+
+/// Numbers of a list's items, the largest first.
+template <typename Item>
+std::vector<std::size_t> by_size(const std::vector<Item>& items) {
+  std::vector<std::size_t> order(items.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return items[a].size_mm > items[b].size_mm;
+  });
+  return order;
+}
+
+void print_rest(std::size_t count) {
+  if (count > kShown) fmt::print("  ... and {} smaller ones (--json shows all)\n", count - kShown);
+}
+
+void print_parts(const std::vector<MeshPart>& parts) {
+  if (parts.size() < 2) return;
+  fmt::print("\n  part  size mm     area mm2  triangles\n");
+  const auto order = by_size(parts);
+  for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
+    const MeshPart& part = parts[order[i]];
+    fmt::print("  {:>4} {:>8.2f} {:>12.2f} {:>10}\n",
+               order[i],
+               part.size_mm,
+               part.area_mm2,
+               part.triangles);
+  }
+  print_rest(parts.size());
+}
+
+void print_holes(const std::vector<BoundaryLoop>& holes) {
+  if (holes.empty()) return;
+  fmt::print("\n  hole  size mm    length mm      edges\n");
+  const auto order = by_size(holes);
+  for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
+    const BoundaryLoop& hole = holes[order[i]];
+    fmt::print("  {:>4} {:>8.2f} {:>12.2f} {:>10}\n",
+               order[i],
+               hole.size_mm,
+               hole.length_mm,
+               hole.edges.size());
+  }
+  print_rest(holes.size());
+}
+
+void print_line(const char* what, const std::string& value) {
+  fmt::print("{:<20} {}\n", what, value);
+}
+
+}  // namespace
+
+nlohmann::ordered_json findings_json(const MeshFindings& found) {
+  nlohmann::ordered_json json;
+  json["vertices"] = found.vertices;
+  json["triangles"] = found.triangles;
+  json["parts"] = nlohmann::ordered_json::array();
+  for (const MeshPart& part : found.parts)
+    json["parts"].push_back(
+        {{"triangles", part.triangles}, {"size_mm", part.size_mm}, {"area_mm2", part.area_mm2}});
+  json["holes"] = nlohmann::ordered_json::array();
+  for (const BoundaryLoop& loop : found.holes)
+    json["holes"].push_back(
+        {{"edges", loop.edges.size()}, {"size_mm", loop.size_mm}, {"length_mm", loop.length_mm}});
+  json["non_manifold_edges"] = found.non_manifold_edges;
+  json["without_area"] = found.without_area;
+  if (found.self_intersections) json["self_intersections"] = *found.self_intersections;
+  json["closed"] = found.closed;
+  json["measured"] = found.marks[0];
+  json["moved"] = found.marks[1];
+  json["invented"] = found.marks[2];
+  json["area_mm2"] = found.area_mm2;
+  json["volume_mm3"] = found.volume_mm3;
+  if (!found.box_mm.isEmpty()) {
+    const Eigen::Vector3d& low = found.box_mm.min();
+    const Eigen::Vector3d& high = found.box_mm.max();
+    json["low_mm"] = {low.x(), low.y(), low.z()};
+    json["high_mm"] = {high.x(), high.y(), high.z()};
+  }
+  return json;
+}
+
+void print_findings(const MeshFindings& found) {
+  const auto place = [](const Eigen::Vector3d& p) {
+    return fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z());
+  };
+  print_line("triangles", fmt::format("{}", found.triangles));
+  print_line("vertices", fmt::format("{}", found.vertices));
+  print_line(
+      "marks",
+      fmt::format(
+          "{} measured, {} moved, {} invented", found.marks[0], found.marks[1], found.marks[2]));
+  if (!found.box_mm.isEmpty()) {
+    print_line("bounds mm", place(found.box_mm.min()) + "  to  " + place(found.box_mm.max()));
+  }
+  print_line("area mm2", fmt::format("{:.3f}", found.area_mm2));
+  print_line("volume mm3",
+             found.closed ? fmt::format("{:.3f}", found.volume_mm3) : "none: it is not closed");
+  print_line("non-manifold edges", fmt::format("{}", found.non_manifold_edges));
+  print_line("without area", fmt::format("{}", found.without_area));
+  print_line("crossing pairs",
+             found.self_intersections ? fmt::format("{}", *found.self_intersections)
+                                      : "unknown to a build without CGAL");
+  print_line("parts", fmt::format("{}", found.parts.size()));
+  print_line("holes", fmt::format("{}", found.holes.size()));
+  print_parts(found.parts);
+  print_holes(found.holes);
+}
+
+}  // namespace frangia

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/files/ending_of.h"
+#include "frangia/files/mesh_formats.h"
+#include "frangia/files/read_mesh.h"
+#include "frangia/frames/png.h"
+#include "frangia/inspect/contact_sheet.h"
+#include "frangia/inspect/shade_mesh.h"
+
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+struct PictureArguments {
+  std::vector<std::filesystem::path> meshes;
+  std::filesystem::path output;
+  double azimuth_deg = 35.0;
+  double elevation_deg = 20.0;
+  ShadeOptions shade;
+};
+
+void draw(PictureArguments arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  if (ending_of(arguments.output) != ".png") {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: a picture is written as .png; name such a file",
+                            arguments.output.string()));
+  }
+  arguments.shade.azimuth_rad = rad_from_deg(arguments.azimuth_deg);
+  arguments.shade.elevation_rad = rad_from_deg(arguments.elevation_deg);
+  std::vector<Image<Rgb>> pictures;
+  for (const auto& path : arguments.meshes) {
+    run.stage(path.filename().string());
+    pictures.push_back(shade_mesh(read_mesh(path, run), arguments.shade, run));
+  }
+  if (pictures.size() == 1) {
+    write_png(arguments.output, pictures.front());
+  } else {
+    write_png(arguments.output, contact_sheet({pictures}, arguments.shade.height_px));
+  }
+}
+
+}  // namespace
+
+void add_picture_verb(CLI::App& program, Terminal& terminal) {
+  auto arguments = std::make_shared<PictureArguments>();
+  CLI::App* verb = program.add_subcommand("picture", "draw meshes, side by side");
+  verb->footer("example:\n  frangia picture bust.ply mended.ply --marks -o both.png");
+  verb->add_option("MESH", arguments->meshes, fmt::format("the meshes: {}", mesh_endings()))
+      ->required();
+  verb->add_option("-o,--output", arguments->output, "the picture, a .png")->required();
+  const auto size = [&](const char* name, int& value, const char* help) {
+    verb->add_option(name, value, help)->check(CLI::Range(16, 16'384))->capture_default_str();
+  };
+  size("--width", arguments->shade.width_px, "of each mesh's picture, pixels");
+  size("--height", arguments->shade.height_px, "pixels");
+  verb->add_option(
+          "--azimuth", arguments->azimuth_deg, "of the viewer about z, degrees from x to y")
+      ->capture_default_str();
+  verb->add_option(
+          "--elevation", arguments->elevation_deg, "of the viewer above the ground, degrees")
+      ->check(CLI::Range(-90.0, 90.0))
+      ->capture_default_str();
+  verb->add_flag("--edges", arguments->shade.show_edges, "draw the edges of the triangles");
+  verb->add_flag(
+      "--marks", arguments->shade.show_marks, "show what was moved yellow, what was invented blue");
+  verb->add_flag("!--no-ground", arguments->shade.ground, "leave out the shadow on the ground");
+  verb->callback([arguments, &terminal] { draw(*arguments, terminal); });
+}
+
+}  // namespace frangia

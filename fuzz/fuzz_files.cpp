@@ -1,0 +1,48 @@
+// Every reader against bytes that nobody meant: FRANGIA_FUZZ_ENDING says whose turn it is, ".ply",
+// ".dxf", ... or ".json" for scripts of edits. A reader may refuse with an Error or give a mesh that
+// is whole; anything else ends the program.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "frangia/core/error.h"
+#include "frangia/files/check_mesh.h"
+#include "frangia/files/mesh_formats.h"
+#include "frangia/mesh/edit_script.h"
+
+namespace {
+
+std::string ending() {
+  const char* const named = std::getenv("FRANGIA_FUZZ_ENDING");
+  return named == nullptr ? ".ply" : named;
+}
+
+void read(const std::filesystem::path& path) {
+  static const std::string kEnding = ending();
+  if (kEnding == ".json") {
+    static_cast<void>(frangia::read_edit_script(path));
+    return;
+  }
+  const frangia::MeshFormat* const format = frangia::find_mesh_format("mesh" + kEnding);
+  if (format == nullptr) std::abort();
+  frangia::check_mesh(format->read(path, {}), path);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const int file = ::memfd_create("fuzz", 0);
+  if (file < 0 || ::write(file, data, size) != static_cast<ssize_t>(size)) std::abort();
+  try {
+    read("/proc/self/fd/" + std::to_string(file));
+  } catch (const frangia::Error&) {  // refused: as good as read
+  }
+  ::close(file);
+  return 0;
+}

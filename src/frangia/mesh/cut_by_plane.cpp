@@ -1,0 +1,192 @@
+#include "frangia/mesh/cut_by_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "frangia/core/error.h"
+#include "frangia/mesh/boundary_loops.h"
+#include "frangia/mesh/triangulate_polygon.h"
+#include "frangia/mesh/vertex_data.h"
+
+namespace frangia {
+namespace {
+
+using Plane = Eigen::Hyperplane<double, 3>;
+using Eigen::Vector3d;
+using Rim = std::vector<std::uint32_t>;
+
+constexpr double kOnPlaneMm = 1e-5;  // vertices this near are on it: no slivers
+
+double height_of(const Mesh& mesh, std::uint32_t vertex, const Plane& plane) {
+  const double height = plane.signedDistance(mesh.vertices_mm[vertex].cast<double>());
+  return std::abs(height) < kOnPlaneMm ? 0.0 : height;
+}
+
+class Cutter {
+ public:
+  Cutter(Mesh& mesh, const Plane& plane) : mesh_(mesh) {
+    heights_.reserve(mesh.vertices_mm.size());
+    for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v)
+      heights_.push_back(height_of(mesh, v, plane));
+  }
+
+  void cut() {
+    const std::size_t count = mesh_.triangles.size();
+    std::vector<std::uint8_t> keep(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Mesh::Triangle triangle = mesh_.triangles[i];
+      const auto above = std::count_if(
+          triangle.begin(), triangle.end(), [&](std::uint32_t v) { return heights_[v] > 0.0; });
+      const auto below = std::count_if(
+          triangle.begin(), triangle.end(), [&](std::uint32_t v) { return heights_[v] < 0.0; });
+      keep[i] = above > 0 && below == 0 ? 1 : 0;
+      if (above > 0 && below > 0) {
+        const Mark mark = mesh_.triangle_marks.empty() ? Mark::Measured : mesh_.triangle_marks[i];
+        add_above(triangle, mark);
+      }
+    }
+    keep.resize(mesh_.triangles.size(), 1);
+    keep_triangles(mesh_, keep);
+  }
+
+ private:
+  /// The part of a triangle that is above: its corners and those where its edges cross the plane.
+  void add_above(const Mesh::Triangle& triangle, Mark mark) {
+    std::vector<std::uint32_t> polygon;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = triangle[i];
+      const std::uint32_t b = triangle[(i + 1) % 3];
+      if (heights_[a] >= 0.0) polygon.push_back(a);
+      if (heights_[a] * heights_[b] < 0.0) polygon.push_back(crossing(a, b));
+    }
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      add_triangle(mesh_, {polygon[0], polygon[i - 1], polygon[i]}, mark);
+  }
+
+  std::uint32_t crossing(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    const std::uint64_t key = (std::uint64_t{a} << 32U) | b;
+    const auto found = crossings_.find(key);
+    if (found != crossings_.end()) return found->second;
+    const double t = heights_[a] / (heights_[a] - heights_[b]);
+    const std::uint32_t fresh = blend_vertices(mesh_, a, b, static_cast<float>(t));
+    crossings_.emplace(key, fresh);
+    return fresh;
+  }
+
+  Mesh& mesh_;
+  std::vector<double> heights_;
+  std::unordered_map<std::uint64_t, std::uint32_t> crossings_;
+};
+
+struct Outline {
+  Rim rim;
+  Polygon shadow;
+  double area = 0.0;  ///< positive when it runs counter-clockwise
+};
+
+double area_of(const Polygon& polygon) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto& a = polygon[i];
+    const auto& b = polygon[(i + 1) % polygon.size()];
+    sum += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * sum;
+}
+
+bool holds(const Polygon& polygon, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto& a = polygon[i];
+    const auto& b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    if (p.x() < x) inside = !inside;
+  }
+  return inside;
+}
+
+/// The boundary loops that lie in the plane, against their own way round, as one sees them from
+/// below.
+std::vector<Outline> outlines_of(const Mesh& mesh, const Plane& plane) {
+  const Vector3d x = plane.normal().unitOrthogonal();
+  const Vector3d y = -plane.normal().cross(x);
+  std::vector<Outline> outlines;
+  for (const BoundaryLoop& loop : boundary_loops(mesh)) {
+    Outline outline{.rim = vertices_of(mesh, loop), .shadow = {}};
+    // Interpolated in single precision: near the plane, not on it.
+    const bool in_plane = std::all_of(outline.rim.begin(), outline.rim.end(), [&](std::uint32_t v) {
+      const Vector3d place = mesh.vertices_mm[v].cast<double>();
+      return std::abs(plane.signedDistance(place)) < kOnPlaneMm + 1e-6 * place.norm();
+    });
+    if (!in_plane) continue;
+    std::reverse(outline.rim.begin(), outline.rim.end());
+    for (const std::uint32_t v : outline.rim) {
+      const Vector3d place = mesh.vertices_mm[v].cast<double>();
+      outline.shadow.emplace_back(place.dot(x), place.dot(y));
+    }
+    outline.area = area_of(outline.shadow);
+    outlines.push_back(std::move(outline));
+  }
+  return outlines;
+}
+
+/// For each hole its outline: the smallest one around it.
+std::vector<std::vector<std::size_t>> holes_in(const std::vector<Outline>& outlines) {
+  std::vector<std::vector<std::size_t>> holes(outlines.size());
+  for (std::size_t h = 0; h < outlines.size(); ++h) {
+    if (outlines[h].area > 0.0) continue;
+    std::size_t owner = outlines.size();
+    for (std::size_t o = 0; o < outlines.size(); ++o) {
+      const bool around = outlines[o].area > -outlines[h].area &&
+                          holds(outlines[o].shadow, outlines[h].shadow.front());
+      if (around && (owner == outlines.size() || outlines[o].area < outlines[owner].area))
+        owner = o;
+    }
+    if (owner < outlines.size()) holes[owner].push_back(h);
+  }
+  return holes;
+}
+
+void add_cap(Mesh& mesh,
+             const std::vector<Outline>& outlines,
+             std::size_t outer,
+             const std::vector<std::size_t>& holes) {
+  Rim all = outlines[outer].rim;
+  std::vector<Polygon> inner;
+  for (const std::size_t hole : holes) {
+    inner.push_back(outlines[hole].shadow);
+    all.insert(all.end(), outlines[hole].rim.begin(), outlines[hole].rim.end());
+  }
+  for (const auto& [a, b, c] : triangulate_polygon(outlines[outer].shadow, inner))
+    add_triangle(mesh, {all[a], all[b], all[c]}, Mark::Invented);
+}
+
+void cap(Mesh& mesh, const Plane& plane, const Run& run) {
+  const std::vector<Outline> outlines = outlines_of(mesh, plane);
+  const auto holes = holes_in(outlines);
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    if (!(outlines[i].area > 0.0)) continue;
+    try {
+      add_cap(mesh, outlines, i, holes[i]);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::Numeric) throw;
+      run.warn("cut: an outline of the cut crosses itself and stays open");
+    }
+  }
+}
+
+}  // namespace
+
+Mesh cut_by_plane(Mesh mesh, const Plane& plane, const CutOptions& options, const Run& run) {
+  Cutter(mesh, plane).cut();
+  if (options.capped) cap(mesh, plane, run);
+  renew_normals(mesh);
+  return mesh;
+}
+
+}  // namespace frangia

@@ -1,0 +1,44 @@
+#include "frangia/mesh/mesh_findings.h"
+
+#include "frangia/core/error.h"
+#include "frangia/mesh/half_edges.h"
+#include "frangia/mesh/make_manifold.h"
+#include "frangia/mesh/self_intersections.h"
+#include "frangia/mesh/vertex_data.h"
+
+namespace frangia {
+
+MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
+  MeshFindings found;
+  found.vertices = mesh.vertices_mm.size();
+  found.triangles = mesh.triangles.size();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [ia, ib, ic] = mesh.triangles[i];
+    const Eigen::Vector3d a = mesh.vertices_mm[ia].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices_mm[ib].cast<double>();
+    const Eigen::Vector3d c = mesh.vertices_mm[ic].cast<double>();
+    const double twice = (b - a).cross(c - a).norm();
+    found.volume_mm3 += a.dot(b.cross(c)) / 6.0;
+    found.area_mm2 += twice / 2.0;
+    if (!(twice > 0.0)) ++found.without_area;
+    ++found.marks.at(static_cast<std::size_t>(mark_of(mesh, i)));
+    found.box_mm.extend(a).extend(b).extend(c);
+  }
+  found.parts = connected_parts(mesh).parts;
+  const HalfEdges edges(mesh);
+  found.holes = boundary_loops(mesh, edges);
+  found.non_manifold_edges = count_non_manifold_edges(mesh, edges);
+  bool open = false;
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge)
+    open = open || edges.is_boundary(edge);
+  found.closed = !open && found.non_manifold_edges == 0 && !mesh.empty();
+  run.check();
+  try {
+    found.self_intersections = self_intersections(mesh, run).size();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Input) throw;
+  }
+  return found;
+}
+
+}  // namespace frangia

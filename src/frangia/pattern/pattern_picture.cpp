@@ -1,0 +1,54 @@
+#include "frangia/pattern/pattern_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/pattern/gray_code.h"
+
+namespace frangia {
+namespace {
+
+[[noreturn]] void fail(const Pattern& pattern, const char* why) {
+  throw Error(ErrorKind::Input, fmt::format("pattern \"{}\" {}", pattern.name, why));
+}
+
+/// The light at a place across the fringes, in pixels.
+float light_at(const Pattern& pattern, int frame, int place) {
+  const auto index = static_cast<std::size_t>(frame);
+  if (pattern.kind == PatternKind::Ramp) return static_cast<float>(pattern.levels[index]);
+  if (pattern.kind == PatternKind::Gray) return is_lit(pattern, frame, place) ? 1.0F : 0.0F;
+  const double phase = kTurn * place / pattern.period_px + pattern.shifts_rad[index];
+  return static_cast<float>(0.5 + 0.5 * std::cos(phase));
+}
+
+}  // namespace
+
+Image<float> pattern_picture(const Pattern& pattern, int frame, int width, int height) {
+  if (pattern.kind == PatternKind::Line) fail(pattern, "is a line, which no projector shows");
+  if (pattern.kind == PatternKind::Fringe && !(pattern.period_px > 0.0))
+    fail(pattern, "needs a period_px above 0 to be shown by a digital projector");
+  if (frame < 0 || frame >= pattern.frame_count()) fail(pattern, "has fewer frames");
+  const bool vertical = pattern.direction == FringeDirection::Vertical;
+  std::vector<float> across;
+  for (int place = 0; place < (vertical ? width : height); ++place)
+    across.push_back(light_at(pattern, frame, place));
+  Image<float> picture(width, height, Unfilled{});
+  for (int y = 0; y < height; ++y) {
+    const auto row =
+        picture.pixels().subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width),
+                                 static_cast<std::size_t>(width));
+    if (vertical) {
+      std::copy(across.begin(), across.end(), row.begin());
+    } else {
+      std::fill(row.begin(), row.end(), across[static_cast<std::size_t>(y)]);
+    }
+  }
+  return picture;
+}
+
+}  // namespace frangia

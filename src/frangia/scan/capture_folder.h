@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "frangia/scan/scan_folder.h"
+
+namespace frangia {
+
+/// Makes a folder, and those above it.
+///
+/// errors   Error(File) that names it
+void make_folder(const std::filesystem::path& folder);
+
+/// Lays a plan down in its folder, in `capture/`, or makes sure that it is the one that lies there
+/// already; takes away what a killed session left half written. Returns whether it lay there.
+///
+/// `asked` is what else was asked for, in words, and must be the same again.
+/// errors   Error(Input) when the folder holds something else; Error(File)
+bool claim_folder(const Scan& plan, const std::string& asked);
+
+/// Writes the scan's own scan.toml and rig.toml, to outlive a power cut.
+void finish_folder(const Scan& scan);
+
+}  // namespace frangia

@@ -1,0 +1,79 @@
+#include "frangia/scan/frame_store.h"
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "frangia/frames/png.h"
+
+namespace frangia {
+
+FrameStore::FrameStore(CaptureManifest& manifest)
+    : manifest_(manifest), thread_([this] { work(); }) {}
+
+FrameStore::~FrameStore() {
+  {
+    const std::scoped_lock lock(mutex_);
+    done_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void FrameStore::put(std::string file,
+                     std::shared_ptr<const Frame> frame,
+                     const ManifestFrame& about) {
+  std::unique_lock lock(mutex_);
+  wait_until(lock, 1);
+  jobs_.push_back(Job{std::move(file), std::move(frame), about});
+  changed_.notify_all();
+}
+
+void FrameStore::drain() {
+  std::unique_lock lock(mutex_);
+  wait_until(lock, 0);
+}
+
+double FrameStore::waited_for_disk_s() {
+  const std::scoped_lock lock(mutex_);
+  return waited_for_disk_s_;
+}
+
+void FrameStore::wait_until(std::unique_lock<std::mutex>& lock, std::size_t pending) {
+  while (jobs_.size() > pending && !fault_) {
+    const bool on_the_disk = on_the_disk_;
+    const auto begin = std::chrono::steady_clock::now();
+    changed_.wait(lock);
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+    if (on_the_disk) waited_for_disk_s_ += waited.count();
+  }
+  if (fault_) std::rethrow_exception(fault_);
+}
+
+void FrameStore::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return done_ || !jobs_.empty(); });
+    if (jobs_.empty() || fault_) return;
+    const Job job = jobs_.front();
+    lock.unlock();
+    try {
+      const std::vector<char> bytes = encode_png(*job.frame);
+      lock.lock();
+      on_the_disk_ = true;
+      changed_.notify_all();
+      lock.unlock();
+      manifest_.store(job.file, bytes, job.about);
+      lock.lock();
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      fault_ = std::current_exception();
+    }
+    on_the_disk_ = false;
+    jobs_.pop_front();
+    changed_.notify_all();
+    if (fault_) return;
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,58 @@
+#include "frangia/views/estimate_jitter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/views/fit_windows.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kRadius = 2;
+constexpr int kEvery = 6;           // rows are looked at
+constexpr std::size_t kFew = 200;   // windows tell too little
+constexpr float kMost_px = 0.5F;    // beyond its own edge no pixel looks
+constexpr float kSteepest = 0.25F;  // the share of windows that is looked at
+
+/// What one window says.
+struct Slope {
+  float steepness;  ///< slope^2 over noise^2
+  float jitter;     ///< excess of the scatter over noise^2, over slope^2
+};
+
+std::vector<Slope> slopes_of(const Image<float>& image, const Image<float>& noise) {
+  std::vector<Slope> slopes;
+  Image<WindowFit> fits(image.width(), 1);
+  for (int y = kRadius; y + kRadius < image.height(); y += kEvery) {
+    fit_windows(image, kRadius, y, fits);
+    for (int x = 0; x < image.width(); ++x) {
+      const WindowFit& fit = fits(x, 0);
+      const float expected = noise(x, y) * noise(x, y);
+      const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
+      if (!(fit.rest >= 0.0F && square > 0.0F && expected > 0.0F)) continue;
+      slopes.push_back({square / expected, (fit.rest - expected) / square});
+    }
+  }
+  return slopes;
+}
+
+}  // namespace
+
+float estimate_jitter(const Image<float>& image, const Image<float>& noise) {
+  std::vector<Slope> slopes = slopes_of(image, noise);
+  if (slopes.size() < kFew) return 0.0F;
+  const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(
+                                          (1.0F - kSteepest) * static_cast<float>(slopes.size()));
+  std::nth_element(slopes.begin(), steep, slopes.end(), [](const Slope& a, const Slope& b) {
+    return a.steepness < b.steepness;
+  });
+  const auto middle = steep + (slopes.end() - steep) / 2;
+  std::nth_element(steep, middle, slopes.end(), [](const Slope& a, const Slope& b) {
+    return a.jitter < b.jitter;
+  });
+  return std::min(kMost_px, std::sqrt(std::max(0.0F, middle->jitter)));
+}
+
+}  // namespace frangia

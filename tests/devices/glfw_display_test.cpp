@@ -1,0 +1,130 @@
+#include "frangia/devices/glfw_display.h"
+
+#include <gtest/gtest.h>
+
+#ifdef FRANGIA_WITH_GLFW
+
+#include <cmath>
+
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+#include "support/test_screen.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+using testing::TestScreen;
+
+Deadline soon() {
+  return Deadline::in(5.0);
+}
+
+/// A picture in which no two neighbours are alike, in any direction.
+Image<float> checked(const DisplayInfo& info) {
+  Image<float> light(info.width_px, info.height_px);
+  for (int y = 0; y < info.height_px; ++y) {
+    for (int x = 0; x < info.width_px; ++x)
+      light(x, y) = static_cast<float>((7 * x + 13 * y) % 256) / 255.0F;
+  }
+  return light;
+}
+
+int wrong_pixels(const Image<std::uint8_t>& seen, const Image<float>& shown, int left) {
+  int wrong = 0;
+  for (int y = 0; y < shown.height(); ++y) {
+    for (int x = 0; x < shown.width(); ++x)
+      wrong += seen(left + x, y) != std::lround(255.0F * shown(x, y)) ? 1 : 0;
+  }
+  return wrong;
+}
+
+std::vector<std::string> xvfb() {
+  return {"Xvfb", "-screen", "0", "320x240x24"};
+}
+
+TEST(GlfwDisplay, ShowsEveryPixelAsItWasAsked) {
+  const TestScreen screen(xvfb());
+  if (!screen.runs()) GTEST_SKIP() << "install xvfb";
+  const testing::TemporaryFolder folder;
+  const auto display = open_glfw_display({.delay_s = 0.0});
+  ASSERT_EQ(display->info().width_px, 320);
+  const Image<float> picture = checked(display->info());
+  display->show(picture, soon());
+  EXPECT_EQ(wrong_pixels(screen.read_back(folder.path()), picture, 0), 0);
+  display->show_dark(soon());
+  EXPECT_EQ(wrong_pixels(screen.read_back(folder.path()), Image<float>(320, 240, 0.0F), 0), 0);
+  EXPECT_NE(error_of([&] { display->show(Image<float>(10, 10), soon()); }).find("does not fit"),
+            std::string::npos);
+}
+
+TEST(GlfwDisplay, UndoesTheProjectorsResponse) {
+  const TestScreen screen(xvfb());
+  if (!screen.runs()) GTEST_SKIP() << "install xvfb";
+  const testing::TemporaryFolder folder;
+  GlfwSettings settings;
+  settings.delay_s = 0.0;
+  std::vector<double> levels;
+  std::vector<double> light;
+  for (int i = 0; i <= 64; ++i) {
+    levels.push_back(i / 64.0);
+    light.push_back(std::pow(i / 64.0, 2.2));
+  }
+  settings.response = make_response_curve(levels, light);
+  const auto display = open_glfw_display(settings);
+  display->show(Image<float>(320, 240, 0.5F), soon());
+  const Image<std::uint8_t> seen = screen.read_back(folder.path());
+  EXPECT_NEAR(seen(160, 120), 255.0 * std::pow(0.5, 1.0 / 2.2), 1.0);
+}
+
+TEST(GlfwDisplay, LightsTheChosenOneOfTwoMonitorsOnly) {
+  const testing::TemporaryFolder folder;
+  const auto config = folder.path() / "dummy.conf";
+  std::ofstream(config) << "Section \"Device\"\nIdentifier \"c\"\nDriver \"dummy\"\nEndSection\n"
+                           "Section \"Screen\"\nIdentifier \"s\"\nDevice \"c\"\nDefaultDepth 24\n"
+                           "SubSection \"Display\"\nDepth 24\nVirtual 1440 600\nEndSubSection\n"
+                           "EndSection\nSection \"ServerFlags\"\nOption \"AutoAddDevices\" "
+                           "\"false\"\nOption \"DontVTSwitch\" \"true\"\nEndSection\n";
+  const TestScreen screen({"Xorg",
+                           "-config",
+                           config.string(),
+                           "-logfile",
+                           (folder.path() / "log").string(),
+                           "-novtswitch",
+                           "-sharevts"});
+  if (!screen.runs() || std::system("xrandr --addmode DUMMY1 640x480 && "
+                                    "xrandr --output DUMMY1 --mode 640x480 --right-of DUMMY0 && "
+                                    "xrandr > /dev/null") != 0) {
+    GTEST_SKIP() << "needs root and xserver-xorg-core, xserver-xorg-video-dummy, x11-xserver-utils";
+  }
+  const auto found = find_glfw_monitors();
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].settings, "driver = \"monitor\"\nmonitor = \"DUMMY1\"\n");
+  GlfwSettings settings{.monitor = "DUMMY1", .delay_s = 0.0};
+  const auto display = open_glfw_display(settings);
+  ASSERT_EQ(display->info().width_px, 640);
+  const Image<float> picture = checked(display->info());
+  display->show(picture, soon());
+  const Image<std::uint8_t> seen = screen.read_back(folder.path());
+  ASSERT_GE(seen.width(), 1440);
+  EXPECT_EQ(wrong_pixels(seen, picture, 800), 0);
+  EXPECT_EQ(seen(400, 300), 0) << "the operator's own monitor stays as it was";
+}
+
+TEST(GlfwDisplay, AMonitorThatIsNotThereIsNamedWithThoseThatAre) {
+  {
+    const TestScreen screen(xvfb());
+    if (!screen.runs()) GTEST_SKIP() << "install xvfb";
+    const std::string sentence =
+        error_of([] { static_cast<void>(open_glfw_display({.monitor = "projector"})); });
+    EXPECT_NE(sentence.find("there is no such one; there are: monitor 0 "), std::string::npos)
+        << sentence;
+  }
+  EXPECT_NE(error_of([] { static_cast<void>(open_glfw_display({})); }).find("there is no screen"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia
+
+#endif

@@ -1,0 +1,234 @@
+#include "frangia/devices/v4l2_camera.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <linux/videodev2.h>
+
+#include "support/error_of.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+
+/// A webcam as the kernel would show it: it runs by itself, a frame each time it is waited for.
+class FakeWebcam final : public V4l2System {
+ public:
+  static constexpr int kWidth = 32;
+  static constexpr int kHeight = 8;
+
+  [[nodiscard]] int open(const char* path) override {
+    if (std::string(path) == "/dev/video0") return 7;
+    errno = ENOENT;
+    return -1;
+  }
+  void close(int /*file*/) override { closed = true; }
+  [[nodiscard]] void* map(std::size_t length, int /*file*/, std::size_t offset) override {
+    memory_.at(offset).resize(length);
+    return memory_.at(offset).data();
+  }
+  void unmap(void* /*memory*/, std::size_t /*length*/) override { ++unmapped; }
+  [[nodiscard]] double now_s() override { return now_; }
+
+  /// Time goes by, and another frame is exposed into the oldest buffer.
+  [[nodiscard]] int wait_readable(int /*file*/, int /*milliseconds*/) override {
+    if (silent) return 0;
+    now_ += 0.040;
+    if (queued_.empty()) return 0;
+    paint(memory_.at(queued_.front()));
+    return 1;
+  }
+
+  [[nodiscard]] int ioctl(int /*file*/, unsigned long request, void* argument) override {
+    if (gone) return refuse(ENODEV);
+    switch (request) {
+      case VIDIOC_QUERYCAP: {
+        auto* answer = static_cast<v4l2_capability*>(argument);
+        std::strncpy(reinterpret_cast<char*>(answer->card), "Fake webcam", 31);
+        answer->capabilities = V4L2_CAP_DEVICE_CAPS;
+        answer->device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+        return 0;
+      }
+      case VIDIOC_S_FMT:
+        return set_format(static_cast<v4l2_format*>(argument)->fmt.pix);
+      case VIDIOC_QUERYCTRL: {
+        auto* answer = static_cast<v4l2_queryctrl*>(argument);
+        answer->minimum = 1;
+        answer->maximum = 5000;
+        return 0;
+      }
+      case VIDIOC_S_CTRL: {
+        const auto* setting = static_cast<v4l2_control*>(argument);
+        if (setting->id == V4L2_CID_EXPOSURE_ABSOLUTE) exposure = setting->value;
+        if (setting->id == V4L2_CID_EXPOSURE_AUTO) manual = setting->value == V4L2_EXPOSURE_MANUAL;
+        return 0;
+      }
+      case VIDIOC_QUERYBUF: {
+        auto* answer = static_cast<v4l2_buffer*>(argument);
+        answer->length = row_bytes() * kHeight;
+        answer->m.offset = answer->index;
+        return 0;
+      }
+      case VIDIOC_QBUF:
+        queued_.push_back(static_cast<v4l2_buffer*>(argument)->index);
+        return 0;
+      case VIDIOC_DQBUF:
+        return hand_out(*static_cast<v4l2_buffer*>(argument));
+      case VIDIOC_STREAMON:
+        return 0;
+      case VIDIOC_STREAMOFF:
+        queued_.clear();
+        return 0;
+      case VIDIOC_REQBUFS:
+        return 0;
+      default:
+        return refuse(ENOTTY);
+    }
+  }
+
+  std::vector<unsigned> formats = {V4L2_PIX_FMT_YUYV};
+  bool manual = false;
+  bool gone = false;
+  bool silent = false;
+  bool broken = false;
+  bool closed = false;
+  int unmapped = 0;
+  int exposure = 0;
+  int frame = 0;
+
+ private:
+  static int refuse(int code) {
+    errno = code;
+    return -1;
+  }
+  [[nodiscard]] unsigned row_bytes() const {
+    return format_ == V4L2_PIX_FMT_GREY ? kWidth + 4 : 2 * kWidth;
+  }
+  int set_format(v4l2_pix_format& wanted) {
+    const bool can = std::find(formats.begin(), formats.end(), wanted.pixelformat) != formats.end();
+    if (!can) wanted.pixelformat = V4L2_PIX_FMT_MJPEG;  // drivers offer what they have instead
+    format_ = wanted.pixelformat;
+    wanted.width = kWidth;
+    wanted.height = kHeight;
+    wanted.bytesperline = row_bytes();
+    return 0;
+  }
+  /// The brightness tells the frame, the column and the exposure.
+  void paint(std::vector<std::uint8_t>& pixels) {
+    ++frame;
+    const std::size_t step = format_ == V4L2_PIX_FMT_GREY ? 1 : 2;
+    std::fill(pixels.begin(), pixels.end(), std::uint8_t{128});  // colour
+    for (std::size_t y = 0; y < kHeight; ++y) {
+      for (std::size_t x = 0; x < kWidth; ++x)
+        pixels[y * row_bytes() + step * x] =
+            static_cast<std::uint8_t>(x + 40 * static_cast<std::size_t>(frame % 4));
+    }
+  }
+  int hand_out(v4l2_buffer& buffer) {
+    buffer.index = queued_.front();
+    queued_.pop_front();
+    buffer.bytesused = broken ? 10 : row_bytes() * kHeight;
+    buffer.sequence = static_cast<unsigned>(frame);
+    buffer.timestamp.tv_sec = static_cast<long>(now_);
+    buffer.timestamp.tv_usec =
+        static_cast<long>(1e6 * (now_ - static_cast<double>(buffer.timestamp.tv_sec)));
+    return 0;
+  }
+
+  double now_ = 100.0;
+  unsigned format_ = 0;
+  std::array<std::vector<std::uint8_t>, 3> memory_;
+  std::deque<unsigned> queued_;
+};
+
+Deadline soon() {
+  return Deadline::in(0.2);
+}
+
+V4l2Settings settings() {
+  V4l2Settings wanted;
+  wanted.width_px = FakeWebcam::kWidth;
+  wanted.height_px = FakeWebcam::kHeight;
+  return wanted;
+}
+
+TEST(V4l2Camera, AFrameIsExposedAfterItIsAskedForAndByHand) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  const auto camera = open_v4l2_camera(settings(), webcam);
+  EXPECT_TRUE(webcam->manual);
+  EXPECT_DOUBLE_EQ(camera->configure({20.0, 0.0, 0.0}, soon()).exposure_ms, 20.0);
+  EXPECT_EQ(webcam->exposure, 200);
+  static_cast<void>(webcam->wait_readable(7, 0));
+  const int before = webcam->frame;
+  const CapturedFrame captured = camera->take({}, soon());
+  ASSERT_TRUE(captured.complete);
+  EXPECT_GE(static_cast<int>(captured.id), before + 2) << "one is skipped";
+}
+
+TEST(V4l2Camera, BrightnessIsReadFromGreyAndFromYuyv) {
+  for (const unsigned format : {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV}) {
+    const auto webcam = std::make_shared<FakeWebcam>();
+    webcam->formats = {format};
+    const auto camera = open_v4l2_camera(settings(), webcam);
+    const CapturedFrame captured = camera->take({}, soon());
+    ASSERT_TRUE(captured.complete);
+    for (int x = 0; x < FakeWebcam::kWidth; ++x)
+      EXPECT_EQ(counts_at(captured.frame, x, 5), x + 40 * (static_cast<int>(captured.id) % 4));
+  }
+}
+
+TEST(V4l2Camera, AShortFrameIsIncomplete) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  const auto camera = open_v4l2_camera(settings(), webcam);
+  webcam->broken = true;
+  const CapturedFrame captured = camera->take({}, soon());
+  EXPECT_FALSE(captured.complete);
+  EXPECT_EQ(captured.incomplete_cause, "10 of 512 bytes came");
+}
+
+TEST(V4l2Camera, FaultsAreOneSentenceAndTheCameraIsGivenBack) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  {
+    const auto camera = open_v4l2_camera(settings(), webcam);
+    const auto take = [&] { static_cast<void>(camera->take({}, soon())); };
+    EXPECT_NE(error_of([&] {
+                static_cast<void>(camera->configure({9e9, 0, 0}, soon()));
+              }).find("outside its range, 0.1 to 500"),
+              std::string::npos);
+    webcam->silent = true;
+    EXPECT_NE(error_of(take).find("no frame within 0.2 s"), std::string::npos);
+    webcam->silent = false;
+    webcam->gone = true;
+    EXPECT_NE(error_of(take).find("is unplugged"), std::string::npos) << error_of(take);
+  }
+  EXPECT_TRUE(webcam->closed);
+  EXPECT_EQ(webcam->unmapped, 3);
+  const auto other = std::make_shared<FakeWebcam>();
+  other->formats = {V4L2_PIX_FMT_MJPEG};
+  EXPECT_NE(error_of([&] {
+              static_cast<void>(open_v4l2_camera(settings(), other));
+            }).find("only compressed ones"),
+            std::string::npos);
+  V4l2Settings nobody = settings();
+  nobody.path = "/dev/video9";
+  EXPECT_NE(error_of([&] {
+              static_cast<void>(open_v4l2_camera(nobody, webcam));
+            }).find("camera /dev/video9: cannot be opened"),
+            std::string::npos);
+}
+
+TEST(V4l2Camera, IsFoundWithItsSettings) {
+  FakeWebcam webcam;
+  const auto found = find_v4l2_cameras(webcam);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().name, "Fake webcam at /dev/video0");
+  EXPECT_EQ(found.front().settings, "driver = \"v4l2\"\npath = \"/dev/video0\"\n");
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,178 @@
+// What each format keeps of a mesh, in and out, and what programs of others say of it.
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string>
+
+#include "frangia/files/read_mesh.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/mesh/vertex_data.h"
+
+#include "files/in_a_folder.h"
+#include "files/judges.h"
+#include "files/sample_meshes.h"
+#include "support/mesh_truths.h"
+
+namespace frangia {
+namespace {
+
+/// A box with all that is known of a vertex; triangle 3 was moved, triangle 7 invented.
+Mesh marked_box() {
+  Mesh mesh = testing::box({-1.5F, 2.25F, 0.1F}, {10.7F, 20.0F, 31.0F});
+  mesh.normals = vertex_normals(mesh);
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    mesh.sigma_mm.push_back(0.01F + 0.001F * static_cast<float>(i));
+    mesh.views.push_back(static_cast<std::uint16_t>(i));
+  }
+  ensure_marks(mesh);
+  mesh.triangle_marks[3] = Mark::Moved;
+  mesh.triangle_marks[7] = Mark::Invented;
+  return mesh;
+}
+
+class EveryFormat : public testing::InAFolder {
+ protected:
+  [[nodiscard]] Mesh there_and_back(const std::string& name, const Mesh& mesh) const {
+    write_mesh(at(name), mesh);
+    return read_mesh(at(name));
+  }
+};
+
+std::array<std::size_t, 3> counts_of_marks(const Mesh& mesh) {
+  std::array<std::size_t, 3> counts{};
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    ++counts.at(static_cast<std::size_t>(mark_of(mesh, i)));
+  return counts;
+}
+
+TEST_F(EveryFormat, KeepsTheClosedSurfaceInItsPlace) {
+  const Mesh mesh = marked_box();
+  for (const char* name :
+       {"a.dxf", "a.stl", "a.ply", "a.obj", "a.glb", "a.gltf", "a.3mf", "a.off"}) {
+    const Mesh back = there_and_back(name, mesh);
+    ASSERT_EQ(back.triangles.size(), mesh.triangles.size()) << name;
+    EXPECT_EQ(testing::open_edges(back), 0U) << name;
+    EXPECT_NEAR(testing::volume_mm3(back), testing::volume_mm3(mesh), 0.01) << name;
+    for (const auto& vertex : mesh.vertices_mm) {
+      const bool kept = std::any_of(
+          back.vertices_mm.begin(), back.vertices_mm.end(), [&](const Eigen::Vector3f& v) {
+            return (v - vertex).norm() < 1e-4F;
+          });
+      EXPECT_TRUE(kept) << name;
+    }
+  }
+}
+
+TEST_F(EveryFormat, WithRoomForThemKeepsTheMarks) {
+  const Mesh mesh = marked_box();
+  for (const char* name : {"a.dxf", "a.ply", "a.obj", "a.glb", "a.gltf", "a.3mf"})
+    EXPECT_EQ(counts_of_marks(there_and_back(name, mesh)), counts_of_marks(mesh)) << name;
+}
+
+TEST_F(EveryFormat, GltfAndPlyKeepAllThatIsKnownOfAVertexToTheBit) {
+  const Mesh mesh = marked_box();
+  for (const char* name : {"a.ply", "a.glb", "a.gltf"}) {
+    const Mesh back = there_and_back(name, mesh);
+    EXPECT_EQ(back.vertices_mm, mesh.vertices_mm) << name;
+    EXPECT_EQ(back.normals, mesh.normals) << name;
+    EXPECT_EQ(back.sigma_mm, mesh.sigma_mm) << name;
+    EXPECT_EQ(back.views, mesh.views) << name;
+    EXPECT_EQ(back.vertex_marks, mesh.vertex_marks) << name;
+  }
+}
+
+TEST_F(EveryFormat, GltfStandsInMetresWithYUp) {
+  if (!testing::have_assimp()) GTEST_SKIP() << "assimp is missing; ./run setup installs it";
+  write_mesh(at("a.glb"), testing::box({0, 0, 0}, {100, 200, 300}));
+  const testing::Answer answer = testing::ask("assimp info " + at("a.glb").string());
+  EXPECT_NE(answer.text.find("Maximum point      (0.100000 0.300000 0.000000)"), std::string::npos)
+      << answer.text;
+}
+
+TEST_F(EveryFormat, CloudsKeepTheirPointsAndNormalsToTheBit) {
+  const Mesh mesh = testing::measured_sheet(12);
+  for (const char* name : {"a.xyz", "a.pcd", "a.ply"}) {
+    const Mesh back = there_and_back(name, mesh);
+    EXPECT_EQ(back.vertices_mm, mesh.vertices_mm) << name;
+    EXPECT_EQ(back.normals, mesh.normals) << name;
+  }
+  EXPECT_EQ(there_and_back("a.pcd", mesh).sigma_mm, mesh.sigma_mm);
+}
+
+TEST_F(EveryFormat, ThreeMfIsValidToTheConsortiumsOwnReader) {
+  if (!testing::have_3mf()) GTEST_SKIP() << "lib3mf is missing; ./run setup installs it";
+  write_mesh(at("solid.3mf"), marked_box());
+  const testing::Answer solid = testing::ask_3mf(at("solid.3mf"));
+  EXPECT_TRUE(solid.content && solid.text == "12 1\n") << solid.text;
+  write_mesh(at("sheet.3mf"), testing::sheet(30));
+  const testing::Answer sheet = testing::ask_3mf(at("sheet.3mf"));
+  EXPECT_TRUE(sheet.content && sheet.text == "1682 0\n") << sheet.text;
+}
+
+TEST_F(EveryFormat, ReadsWhatAssimpWrites) {
+  if (!testing::have_assimp()) GTEST_SKIP() << "assimp is missing; ./run setup installs it";
+  write_mesh(at("a.ply"), testing::sheet(20));
+  for (const char* name : {"b.stl", "b.obj", "b.glb", "b.gltf", "b.ply"}) {
+    const testing::Answer answer =
+        testing::ask("assimp export " + at("a.ply").string() + " " + at(name).string());
+    ASSERT_TRUE(answer.content) << answer.text;
+    EXPECT_EQ(read_mesh(at(name)).triangles.size(), 2U * 19 * 19) << name;
+  }
+}
+
+TEST_F(EveryFormat, StlIsClosedToAdmesh) {
+  if (!testing::have_admesh()) GTEST_SKIP() << "admesh is missing; ./run setup installs it";
+  for (const bool ascii : {false, true}) {
+    write_mesh(at("a.stl"), marked_box(), {.stl = {.ascii = ascii}});
+    const testing::Answer answer = testing::ask("admesh -e " + at("a.stl").string());
+    EXPECT_NE(answer.text.find("Total disconnected facets        :     0"), std::string::npos)
+        << answer.text;
+    EXPECT_NE(answer.text.find("Number of facets                 :    12"), std::string::npos)
+        << answer.text;
+  }
+}
+
+TEST_F(EveryFormat, XyzIsReadByNumPyAndPcdByPcl) {
+  if (!testing::have_numpy()) GTEST_SKIP() << "python3-numpy is missing; ./run setup installs it";
+  const Mesh mesh = testing::measured_sheet(12);
+  write_mesh(at("a.xyz"), mesh);
+  write_mesh(at("a.pcd"), mesh);
+  const auto python = [](const std::string& program) {
+    return testing::ask("/usr/bin/python3 -c '" + program + "'").text;
+  };
+  EXPECT_EQ(python("import numpy; print(numpy.loadtxt(\"" + at("a.xyz").string() + "\").shape)"),
+            "(144, 6)\n");
+  if (testing::have_pcl()) {
+    EXPECT_EQ(python("import pcl; print(pcl.load(\"" + at("a.pcd").string() + "\").size)"),
+              "144\n");
+  }
+}
+
+TEST_F(EveryFormat, ReadsPointCloudsAsPclWritesThemWithoutTheUnseen) {
+  const auto path = put("a.pcd",
+                        "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F F\n"
+                        "COUNT 1 1 1 1\nWIDTH 2\nHEIGHT 2\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\n"
+                        "DATA ascii\n1 2 3 0\nnan nan nan 0\n4 5 6 1\n7 8 9 1\n");
+  const Mesh cloud = read_mesh(path);
+  ASSERT_EQ(cloud.vertices_mm.size(), 3U);
+  EXPECT_EQ(cloud.vertices_mm[2], Eigen::Vector3f(7, 8, 9));
+}
+
+TEST_F(EveryFormat, ReadsOffWithColoursPolygonsAndComments) {
+  const auto path = put("a.off",
+                        "COFF # corners\n5 2 0\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n"
+                        "1 1 0 0 0 0 0\n0 1 0 0 0 0 0\n# the tip\n0 0 1 0 0 0 0\n"
+                        "4 0 1 2 3 255 0 0\n3 0 1 4\n");
+  EXPECT_EQ(read_mesh(path).triangles.size(), 3U);
+}
+
+TEST_F(EveryFormat, GivesTheSameBytesAgain) {
+  for (const char* ending : {".dxf", ".stl", ".ply", ".obj", ".glb", ".gltf", ".3mf", ".off"}) {
+    write_mesh(at(std::string("a") + ending), marked_box());
+    write_mesh(at(std::string("b") + ending), marked_box());
+    EXPECT_EQ(bytes_in(std::string("a") + ending), bytes_in(std::string("b") + ending)) << ending;
+  }
+}
+
+}  // namespace
+}  // namespace frangia

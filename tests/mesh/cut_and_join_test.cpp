@@ -1,0 +1,170 @@
+// Cuts, bridges, remeshing and crossings, on shapes whose every figure is known.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/mesh/boundary_loops.h"
+#include "frangia/mesh/bridge_loops.h"
+#include "frangia/mesh/change_selection.h"
+#include "frangia/mesh/connected_parts.h"
+#include "frangia/mesh/cut_by_plane.h"
+#include "frangia/mesh/mesh_findings.h"
+#include "frangia/mesh/orient.h"
+#include "frangia/mesh/remesh_isotropic.h"
+#include "frangia/mesh/select_by_place.h"
+#include "frangia/mesh/self_intersections.h"
+#include "frangia/mesh/surface_gap.h"
+#include "frangia/mesh/transform_mesh.h"
+#include "frangia/mesh/vertex_data.h"
+
+#include "support/mesh_truths.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+using testing::box;
+using testing::open_edges;
+using testing::sphere;
+using testing::volume_mm3;
+
+Mesh ball(double radius = 20.0, const Vector3d& center = Vector3d::Zero()) {
+  return sphere(center, radius, 40);
+}
+
+Eigen::Hyperplane<double, 3> plane(const Vector3d& normal, double along) {
+  return {normal.normalized(), -along};
+}
+
+TEST(CutByPlane, CappedLeavesTheVolumeOfASegmentOfASphere) {
+  const double height = 8.0;  // of the segment
+  const Mesh cut = cut_by_plane(ball(), plane({1, 2, 3}, 20.0 - height), {.capped = true});
+  EXPECT_EQ(open_edges(cut), 0U);
+  EXPECT_NEAR(volume_mm3(cut) / (kPi * height * height * (20.0 - height / 3.0)), 1.0, 0.01);
+}
+
+TEST(CutByPlane, OpenLeavesOneRimInThePlaneAndInventsNothing) {
+  const Mesh cut = cut_by_plane(ball(), plane({0, 0, 1}, 5.3));
+  const auto loops = boundary_loops(cut);
+  ASSERT_EQ(loops.size(), 1U);
+  for (const std::uint32_t v : vertices_of(cut, loops[0]))
+    EXPECT_NEAR(cut.vertices_mm[v].z(), 5.3, 1e-5);
+  EXPECT_EQ(mesh_findings(cut).marks[2], 0U);
+}
+
+TEST(CutByPlane, CapsATubeWithItsHole) {
+  Mesh tube = box({0, 0, 0}, {30, 30, 40});
+  append_mesh(tube, turn_inside_out(box({10, 10, -5}, {20, 20, 45})));
+  const Mesh cut = cut_by_plane(tube, plane({0, 0, -1}, -25.0), {.capped = true});
+  const Mesh both = cut_by_plane(cut, plane({0, 0, 1}, 10.0), {.capped = true});
+  EXPECT_EQ(open_edges(both), 0U);
+  EXPECT_NEAR(volume_mm3(both), (900.0 - 100.0) * 15.0, 0.01);
+}
+
+TEST(CutByPlane, ThroughVerticesAndEdgesMakesNoSlivers) {
+  const Mesh cut = cut_by_plane(ball(), plane({0, 0, 1}, 0.0), {.capped = true});
+  EXPECT_EQ(open_edges(cut), 0U);
+  EXPECT_EQ(mesh_findings(cut).without_area, 0U);
+  EXPECT_TRUE(cut_by_plane(ball(), plane({0, 0, 1}, 30.0)).empty());
+  EXPECT_EQ(cut_by_plane(ball(), plane({0, 0, 1}, -30.0)).triangles, ball().triangles);
+}
+
+TEST(BridgeLoops, JoinsTwoHalvesToOneClosedPart) {
+  Mesh halves = cut_by_plane(ball(), plane({0, 0, 1}, 4.0));
+  append_mesh(halves, cut_by_plane(ball(), plane({0, 0, -1}, 4.0)));
+  ASSERT_EQ(boundary_loops(halves).size(), 2U);
+  const Mesh whole = bridge_loops(halves, 0, 1);
+  EXPECT_EQ(open_edges(whole), 0U);
+  EXPECT_EQ(connected_parts(whole).parts.size(), 1U);
+  // Between the halves now stands a cylinder.
+  const double low = testing::volume_mm3(ball());
+  EXPECT_NEAR(volume_mm3(whole) / low, 1.0, 0.03);
+  EXPECT_EQ(mesh_findings(whole).marks[2], whole.triangles.size() - halves.triangles.size());
+  EXPECT_THROW(static_cast<void>(bridge_loops(halves, 0, 0)), Error);
+  EXPECT_THROW(static_cast<void>(bridge_loops(halves, 0, 2)), Error);
+}
+
+TEST(RemeshIsotropic, GivesEdgesOfOneLengthOnTheSameSurface) {
+  Mesh mesh = ball();
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.05F);
+  const Mesh even = remesh_isotropic(mesh, {.edge_mm = 2.0, .rounds = 5});
+  EXPECT_EQ(open_edges(even), 0U);
+  EXPECT_NEAR(mean_edge_mm(even), 2.0, 0.3);
+  EXPECT_LT(surface_gap_mm(RayScene(mesh), RayScene(even), 0.5), 0.1);
+  EXPECT_EQ(even.sigma_mm.size(), even.vertices_mm.size());
+  EXPECT_NEAR(even.sigma_mm[7], 0.05F, 1e-4F);
+}
+
+TEST(RemeshIsotropic, KeepsTheEdgesOfABox) {
+  const Mesh even = remesh_isotropic(box({0, 0, 0}, {10, 20, 30}), {.edge_mm = 2.0});
+  EXPECT_NEAR(volume_mm3(even), 6000.0, 0.1);
+  EXPECT_GT(even.triangles.size(), 500U);
+}
+
+TEST(SelfIntersections, AreNoneInASphereOrABoxOrBesideEachOther) {
+  EXPECT_TRUE(self_intersections(ball()).empty());
+  Mesh boxes = box({0, 0, 0}, {1, 1, 1});
+  append_mesh(boxes, box({1.001F, 0, 0}, {2, 1, 1}));
+  EXPECT_TRUE(self_intersections(boxes).empty());
+}
+
+TEST(SelfIntersections, AreFoundWhereTwoBallsCrossAndNowhereElse) {
+  Mesh mesh = ball(10.0);
+  append_mesh(mesh, ball(10.0, {12.0, 0.3, 0.2}));
+  const Selection crossing = select_self_intersections(mesh);
+  EXPECT_GT(count_of(crossing), 100U);
+  for (std::size_t i = 0; i < crossing.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    const Eigen::Vector3f middle =
+        (mesh.vertices_mm[t[0]] + mesh.vertices_mm[t[1]] + mesh.vertices_mm[t[2]]) / 3.0F;
+    const bool near = std::abs(middle.x() - 6.0F) < 1.5F;
+    EXPECT_TRUE(near || crossing[i] == 0) << i;
+  }
+}
+
+TEST(SelfIntersections, AreFoundOfAFoldAndOfRepeatedTriangles) {
+  Mesh fold;
+  fold.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2F, 0.7F, 0}};
+  fold.triangles = {{0, 1, 2}, {1, 0, 3}};
+  EXPECT_EQ(self_intersections(fold).size(), 1U);
+  fold.triangles = {{0, 1, 2}, {2, 0, 1}};
+  EXPECT_EQ(self_intersections(fold).size(), 1U);
+}
+
+TEST(SelfIntersections, RemovedLeaveAMeshThatCrossesNowhereAndIsClosed) {
+  Mesh mesh = ball();
+  // A dent through the other side.
+  for (auto& vertex : mesh.vertices_mm) {
+    if (vertex.x() > 19.0F) vertex.x() -= 42.0F;
+  }
+  ASSERT_FALSE(self_intersections(mesh).empty());
+  const Mesh mended = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(mended).empty());
+  EXPECT_EQ(mesh_findings(mended).non_manifold_edges, 0U);
+  EXPECT_TRUE(boundary_loops(mended).empty());
+}
+
+TEST(MeshFindings, KnowABoxWithAHole) {
+  Mesh mesh = box({0, 0, 0}, {10, 20, 30});
+  MeshFindings found = mesh_findings(mesh);
+  EXPECT_TRUE(found.closed);
+  EXPECT_NEAR(found.volume_mm3, 6000.0, 1e-6);
+  EXPECT_NEAR(found.area_mm2, 2200.0, 1e-6);
+  EXPECT_EQ(found.box_mm.max(), Vector3d(10, 20, 30));
+  EXPECT_EQ(found.self_intersections.value_or(99), 0U);
+  found = mesh_findings(delete_selected(mesh, select_by_normal(mesh, {0, 0, 1}, 0.1)));
+  EXPECT_FALSE(found.closed);
+  ASSERT_EQ(found.holes.size(), 1U);
+  EXPECT_NEAR(found.holes[0].length_mm, 60.0, 1e-6);
+}
+
+TEST(MeshFindings, OfNothingAreNothing) {
+  const MeshFindings found = mesh_findings(Mesh());
+  EXPECT_FALSE(found.closed);
+  EXPECT_EQ(found.triangles, 0U);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,132 @@
+"""Draws every operation of docs/editing.md before and after: python3 tools/edit_pictures.py PROGRAM docs/images/editing
+
+The part is a simulated bust, scanned and pasted by the program; for some operations a part of the bracket.
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+OUT = pathlib.Path(sys.argv[2]).resolve()
+ONLY = set(sys.argv[3:])
+WORK = pathlib.Path(tempfile.gettempdir()) / "frangia-edit-pictures"
+WORK.mkdir(exist_ok=True)
+OUT.mkdir(parents=True, exist_ok=True)
+
+
+def run(*arguments):
+    subprocess.run([PROGRAM, "--quiet", *map(str, arguments)], check=True)
+
+
+def edit(source, target, *arguments):
+    run("edit", source, *arguments, "-o", target)
+
+
+def scan(part, *options):
+    mesh = WORK / f"{part}.ply"
+    if not mesh.exists():
+        run("simulate", part, "--rig", "digital", *options, "-o", WORK / f"{part}-scan")
+        run("reconstruct", WORK / f"{part}-scan", "-o", mesh)
+    return mesh
+
+
+def show(name, before, after, *options):
+    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 480, "--height", 480, "--marks", *options)
+
+
+def picture(name, before, steps, *options):
+    """Before and after the steps, drawn alike."""
+    if ONLY and name not in ONLY:
+        return
+    after = WORK / f"{name}.ply"
+    edit(before, after, *steps)
+    show(name, before, after, *options)
+
+
+bust = scan("bust")
+bracket = scan("bracket")
+face = WORK / "face.ply"  # a part of the head, near enough to see triangles
+edit(bust, face, "--keep-largest", 1, "--select-box", "-40,-40,62,40,40,100", "--invert", "--delete", "--keep-largest", 1)
+ear = WORK / "ear.ply"
+edit(face, ear, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
+
+picture("remove-islands", bust, ["--remove-islands", "60mm"])
+picture("fill-holes", bust, ["--keep-largest", 1, "--fill-holes", "200mm"])
+picture("fill-holes-flat", bust, ["--keep-largest", 1, "--fill-holes-flat", "200mm"])
+picture("delete", bust, ["--keep-largest", 1, "--select-box", "-60,-60,0,60,60,30", "--delete"])
+picture("select-normal", bracket, ["--select-normal", "0,0,1,15deg", "--delete"])
+picture("select-sigma", bust, ["--select-sigma", "0.03mm", "--grow", 1, "--delete"])
+picture("select-views", bust, ["--select-views", 2, "--delete"])
+picture("select-curvature", bracket, ["--select-curvature", "0.6", "--delete"])
+picture("smooth", ear, ["--max-sigmas", 0, "--smooth", 30])
+picture("smooth-keeping-edges", bracket, ["--smooth-keeping-edges", 8])
+picture("decimate", ear, ["--decimate", "0.03mm"], "--edges")
+picture("decimate-to", ear, ["--decimate-to", 600], "--edges")
+picture("remesh", ear, ["--remesh", "1.2mm"], "--edges")
+picture("cut", bust, ["--keep-largest", 1, "--cut", "0,0,1,50mm"])
+closed = WORK / "closed.ply"
+edit(bust, closed, "--keep-largest", 1, "--fill-holes-flat", "200mm")
+picture("cut-capped", closed, ["--cut-capped", "0,0.3,-1,-70mm"])
+halves = WORK / "halves.ply"
+edit(closed, halves, "--select-box", "-60,-60,46,60,60,58", "--delete", "--keep-largest", 2)
+picture("bridge", halves, ["--bridge", "0,1"])
+picture("mirror", bust, ["--mirror", "1,0,0,0mm"])
+picture("align", bracket, ["--align", "0,0,0,-30,0,20,0,-30,20"])
+picture("offset", bracket, ["--keep-largest", 1, "--offset", "2mm"])
+
+
+def write_ply(path, vertices, triangles):
+    """An ascii PLY."""
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", "property float x", "property float y", "property float z"]
+    lines += [f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header"]
+    lines += [" ".join(map(str, vertex)) for vertex in vertices]
+    lines += [f"3 {a} {b} {c}" for a, b, c in triangles]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def read_off(path):
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    count, faces = (int(word) for word in lines[1].split()[:2])
+    vertices = [[float(word) for word in line.split()] for line in lines[2 : 2 + count]]
+    return vertices, [[int(word) for word in line.split()[1:4]] for line in lines[2 + count : 2 + count + faces]]
+
+
+def broken(name, change):
+    """The ear with a fault that `change` makes."""
+    edit(ear, WORK / "ear.off")
+    vertices, triangles = read_off(WORK / "ear.off")
+    path = WORK / f"{name}-before.ply"
+    write_ply(path, *change(vertices, triangles))
+    return path
+
+
+def spikes(vertices, triangles):
+    for i in range(40, len(vertices), len(vertices) // 12):
+        vertices[i] = [2 * vertices[i][axis] - middle for axis, middle in enumerate((16, 0, 80))]
+    return vertices, triangles
+
+
+def crossing(vertices, triangles):
+    more = [[x - 1.5, y + 2.0, z + 1.0] for x, y, z in vertices]
+    return vertices + more, triangles + [[a + len(vertices) for a in t] for t in triangles]
+
+
+def turned(vertices, triangles):
+    return vertices, [t if i % 5 else t[::-1] for i, t in enumerate(triangles)]
+
+
+def loose(vertices, triangles):
+    """Each triangle with corners of its own, moved apart a little."""
+    places, faces = [], []
+    for t in triangles:
+        middle = [sum(vertices[v][axis] for v in t) / 3 for axis in range(3)]
+        faces.append([len(places), len(places) + 1, len(places) + 2])
+        places += [[middle[axis] + 0.93 * (vertices[v][axis] - middle[axis]) for axis in range(3)] for v in t]
+    return places, faces
+
+
+picture("remove-spikes", broken("spikes", spikes), ["--remove-spikes"])
+picture("remove-self-intersections", broken("crossing", crossing), ["--remove-self-intersections"])
+picture("orient", broken("turned", turned), ["--orient"])
+picture("stitch", broken("loose", loose), ["--stitch", "0.1mm"], "--edges")
