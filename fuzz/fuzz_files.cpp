@@ -1,6 +1,6 @@
 // Every reader against bytes that nobody meant: FRANGIA_FUZZ_ENDING says whose turn it is, ".ply",
-// ".dxf", ... or ".json" for scripts of edits. A reader may refuse with an Error or give a mesh that
-// is whole; anything else ends the program.
+// ".dxf", ... or ".json" for scripts of edits. A reader may refuse with an Error or give a mesh
+// that is whole; anything else ends the program.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

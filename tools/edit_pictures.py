@@ -32,7 +32,7 @@ def scan(part, *options):
 
 
 def show(name, before, after, *options):
-    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 480, "--height", 480, "--marks", *options)
+    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 400, "--height", 400, "--samples", 3, "--marks", *options)
 
 
 def picture(name, before, steps, *options):

@@ -66,6 +66,7 @@ int run_program(int argc, char** argv) {
   add_picture_verb(program, terminal);
   add_scan_verb(program, terminal);
   add_devices_verb(program, terminal);
+  add_calibrate_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -20,5 +20,6 @@ void add_picture_verb(CLI::App& program, Terminal& terminal);
 void add_edit_verb(CLI::App& program, Terminal& terminal);
 void add_scan_verb(CLI::App& program, Terminal& terminal);
 void add_devices_verb(CLI::App& program, Terminal& terminal);
+void add_calibrate_verb(CLI::App& program, Terminal& terminal);
 
 }  // namespace frangia

@@ -5,32 +5,12 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/disjoint_sets.h"
 #include "frangia/core/error.h"
 #include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
 namespace {
-
-/// Disjoint sets of vertices; each is known by its smallest member.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Parts by area, the largest first; ties go to the earlier.
 std::vector<std::size_t> by_area(const std::vector<MeshPart>& parts) {
@@ -54,7 +34,7 @@ Mesh keep_parts(Mesh mesh, const ConnectedParts& parts, const std::vector<std::u
 
 ConnectedParts connected_parts(const Mesh& mesh) {
   constexpr std::uint32_t kUnnumbered = 0xFFFFFFFF;
-  Sets sets(mesh.vertices_mm.size());
+  DisjointSets sets(mesh.vertices_mm.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     sets.join(a, b);
     sets.join(a, c);

@@ -1,11 +1,11 @@
 #include "frangia/mesh/make_manifold.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/disjoint_sets.h"
 #include "frangia/mesh/half_edges.h"
 #include "frangia/mesh/selection.h"
 #include "frangia/mesh/vertex_data.h"
@@ -61,27 +61,6 @@ void drop_broken(Mesh& mesh) {
   keep_triangles(mesh, keep);
 }
 
-/// Disjoint sets of corners: those of one set are one vertex in the end.
-class Corners {
- public:
-  explicit Corners(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 Eigen::Vector3d normal_of(const Mesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   const Eigen::Vector3d p = mesh.vertices_mm[a].cast<double>();
@@ -97,7 +76,7 @@ struct Pair {
 };
 
 /// Joins the half-edges of one crowded edge in pairs, the straightest first.
-void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, Corners& corners) {
+void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, DisjointSets& corners) {
   const std::uint32_t from = from_of(mesh, edge);
   const std::uint32_t to = to_of(mesh, edge);
   std::vector<Pair> pairs;
@@ -127,7 +106,7 @@ void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, Corne
 /// Parts the triangles at crowded edges and at vertices with several fans.
 void part_fans(Mesh& mesh) {
   const HalfEdges edges(mesh);
-  Corners corners(edges.count());
+  DisjointSets corners(edges.count());
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (edges.has_twin(edge)) {
       corners.join(edge, HalfEdges::next(edges.twin(edge)));

@@ -92,12 +92,13 @@ void write_pixel(const Fit& fit, const WrapOptions& options, int x, int y, Wrapp
   out.mean_counts(x, y) = static_cast<float>(fit.fringe[0]);
   const double cosine = fit.fringe[1];
   const double sine = fit.fringe[2];
-  const double square = cosine * cosine + sine * sine + 1e-30;
+  const double square = cosine * cosine + sine * sine;
   out.modulation_counts(x, y) = static_cast<float>(std::sqrt(square));
   if (!fit.determined) {
     out.fate(x, y) = PixelFate::Saturated;
     return;
   }
+  if (!(square > 0.0)) return;  // all black, such as a background without any light
   const Eigen::Vector3d slope(0.0, -sine / square, cosine / square);  // of phi in the fringe
   const double sigma = std::sqrt(slope.dot(fit.covariance * slope));
   if (!(sigma <= static_cast<double>(options.max_sigma_rad))) return;

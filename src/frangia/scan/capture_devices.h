@@ -33,6 +33,8 @@ class CaptureDevices {
   void begin_set(const Pattern& pattern, double scale);
   /// Brings the light of one frame.
   void show(const Pattern& pattern, int frame);
+  /// The light of the fringes alone, wherever they are.
+  void light_fringes() { switch_to(Light::Fringes); }
   void expose_for(double exposure_ms);
   /// Takes a frame, again while it arrives incomplete.
   /// errors   Error(Device), also when none of many came whole
@@ -61,6 +63,20 @@ class CaptureDevices {
   double exposure_ms_ = 0.0;  ///< that the camera was told last
   bool enabled_ = false;
   double seconds_ = 0.0;
+};
+
+/// Leaves the devices safe, however what uses them ends; and makes them so first.
+class SafeAtTheEnd {
+ public:
+  explicit SafeAtTheEnd(RigDevices& devices) : devices_(devices) { devices_.make_safe(); }
+  SafeAtTheEnd(const SafeAtTheEnd&) = delete;
+  SafeAtTheEnd& operator=(const SafeAtTheEnd&) = delete;
+  SafeAtTheEnd(SafeAtTheEnd&&) = delete;
+  SafeAtTheEnd& operator=(SafeAtTheEnd&&) = delete;
+  ~SafeAtTheEnd() { devices_.make_safe(); }
+
+ private:
+  RigDevices& devices_;
 };
 
 /// Whether a rig's devices can take these patterns at these angles.

@@ -85,7 +85,6 @@ void CaptureManifest::store(const std::string& file,
                           frame.bytes,
                           frame.tries,
                           frame.scale));
-  frames_[file] = frame;
 }
 
 const ManifestFrame* CaptureManifest::find(const std::string& file) const {
@@ -93,13 +92,12 @@ const ManifestFrame* CaptureManifest::find(const std::string& file) const {
   return found == frames_.end() ? nullptr : &found->second;
 }
 
-void CaptureManifest::judge(const std::string& set, const ManifestSet& verdict) {
+void CaptureManifest::store(const std::string& set, const ManifestSet& verdict) {
   log_.append(fmt::format("set {} {} {} scale={}",
                           set,
                           verdict.attempt,
                           verdict.moved ? "moved" : "good",
                           verdict.scale));
-  take_in(set, verdict);
 }
 
 void CaptureManifest::choose_exposures(const std::vector<double>& exposures_ms) {

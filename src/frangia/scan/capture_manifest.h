@@ -41,9 +41,14 @@ class CaptureManifest {
   explicit CaptureManifest(std::filesystem::path folder);
 
   /// Stores a file durably and acknowledges it, its checksum found here. `file` is relative to the
-  /// folder.
+  /// folder. For the thread that stores: it touches the disk and nothing else of this.
   void store(const std::string& file, std::span<const char> bytes, ManifestFrame frame);
-  void judge(const std::string& set, const ManifestSet& verdict);
+  /// Writes down what was found of a set; likewise.
+  void store(const std::string& set, const ManifestSet& verdict);
+
+  /// Takes in what is on its way to the disk; for the thread that asks the questions below.
+  void take_in(const std::string& file, const ManifestFrame& frame) { frames_[file] = frame; }
+  void take_in(const std::string& set, const ManifestSet& verdict);
   void choose_exposures(const std::vector<double>& exposures_ms);
 
   [[nodiscard]] bool has(const std::string& file) const { return find(file) != nullptr; }
@@ -63,7 +68,6 @@ class CaptureManifest {
 
  private:
   void read_line(const std::string& line, std::size_t number);
-  void take_in(const std::string& set, const ManifestSet& verdict);
 
   std::filesystem::path folder_;
   DurableLog log_;

@@ -10,15 +10,14 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/frames/png.h"
 #include "frangia/scan/capture_devices.h"
 #include "frangia/scan/capture_folder.h"
-#include "frangia/scan/choose_exposures.h"
 #include "frangia/scan/frame_store.h"
 #include "frangia/scan/judge_set.h"
+#include "frangia/scan/survey_exposures.h"
 #include "frangia/scan/view_verdicts.h"
 
 namespace frangia {
@@ -90,6 +89,7 @@ class Session {
         skip(view, why);
       }
     }
+    store_.drain();
     verdicts_.tell(true);
     if (scan.views.empty())
       throw Error(ErrorKind::Device, "no view could be captured; " + report_.skipped.front());
@@ -207,8 +207,7 @@ class Session {
         verdict.scale /= 1.0 + share * judged.gain_error;
       }
     }
-    store_.drain();
-    manifest_.judge(set_of(view, pattern), verdict);
+    store_.put(set_of(view, pattern), verdict);
     return verdict.moved;
   }
 
@@ -228,11 +227,11 @@ class Session {
 
   /// The frames of a set, each at all its exposures: those that lie there, and the rest taken.
   std::vector<FramePtr> take_set(std::size_t view, const Pattern& pattern, int attempt) {
-    store_.drain();  // until the next frame is put the manifest is ours to read
     const bool complete = has_all_frames(view, pattern);
     const std::vector<bool> stored = stored_frames(view, pattern);
     const double scale = scale_of(view, pattern);
     if (!complete) {
+      if (attempt > 0) store_.drain();  // the frames that are to be moved aside
       if (attempt > 0) set_aside(view, pattern, attempt - 1);
       devices_.begin_set(pattern, scale);
     }
@@ -310,7 +309,9 @@ class Session {
   void choose_exposures() {
     exposure_ms_ = options_.camera.exposure_ms;
     if (options_.exposure != ExposureChoice::Given) {
-      if (manifest_.exposures_ms().empty()) manifest_.choose_exposures(survey());
+      if (manifest_.exposures_ms().empty())
+        manifest_.choose_exposures(
+            survey_exposures(plan_, devices_, options_, camera_range_, run_));
       report_.exposures_ms = manifest_.exposures_ms();
       exposure_ms_ = report_.exposures_ms.front();
     }
@@ -324,52 +325,6 @@ class Session {
       }
     }
     if (report_.exposures_ms.empty()) report_.exposures_ms = {exposure_ms_};
-  }
-
-  /// Looks at a few views, evenly over the plan, for the exposures that they need.
-  std::vector<double> survey() {
-    constexpr std::size_t kViews = 4;
-    ExposureRange range = camera_range_;
-    ExposureBracket bracket(range);
-    const std::size_t looks = std::min(kViews, plan_.views.size());
-    for (std::size_t i = 0; i < looks; ++i) {
-      run_.check();
-      const std::size_t view = i * plan_.views.size() / looks;
-      devices_.turn_to(plan_.views[view].angle_rad);
-      const ExposureProbe probe = [&](double exposure_ms) { return probe_at(view, exposure_ms); };
-      if (options_.exposure == ExposureChoice::Bracketed) {
-        bracket.look(probe);
-      } else {
-        range.guess_ms = longest_exposure(probe, range);
-        range.most_ms = range.guess_ms;  // the other views may only ask for less
-      }
-    }
-    std::vector<double> chosen = options_.exposure == ExposureChoice::Bracketed
-                                     ? bracket.chosen()
-                                     : std::vector<double>{range.guess_ms};
-    run_.note(fmt::format("exposures chosen: {:.3g} ms", fmt::join(chosen, ", ")));
-    return chosen;
-  }
-
-  /// What the finest fringes tell of a view at an exposure.
-  Image<PixelFate> probe_at(std::size_t view, double exposure_ms) {
-    const Pattern* finest = nullptr;
-    for (const Pattern& pattern : plan_.patterns) {
-      const bool finer =
-          finest == nullptr || pattern.fringes_per_unit() > finest->fringes_per_unit();
-      if (pattern.kind == PatternKind::Fringe && finer) finest = &pattern;
-    }
-    require(finest != nullptr, "an automatic exposure needs a pattern of fringes");
-    FrameStack stack{*finest, {}, plan_.rig.camera.white_level};
-    stack.pattern.exposures_ms.clear();
-    devices_.begin_set(*finest, manifest_.scale());
-    devices_.expose_for(exposure_ms);
-    for (int frame = 0; frame < finest->frame_count(); ++frame) {
-      devices_.show(*finest, frame);
-      stack.frames.push_back(
-          devices_.take({static_cast<int>(view), finest->name, frame, 0, 0}).frame);
-    }
-    return fate_of(stack, plan_.rig.camera.noise);
   }
 
   void finish_report(double seconds) {
@@ -393,20 +348,6 @@ class Session {
   std::vector<FramePtr> frames_;  ///< of the view at hand, in the order of read_frames
   std::size_t total_ = 0;
   std::size_t counted_ = 0;
-};
-
-/// Leaves the devices safe, however the session ends.
-class SafeAtTheEnd {
- public:
-  explicit SafeAtTheEnd(RigDevices& devices) : devices_(devices) { devices_.make_safe(); }
-  SafeAtTheEnd(const SafeAtTheEnd&) = delete;
-  SafeAtTheEnd& operator=(const SafeAtTheEnd&) = delete;
-  SafeAtTheEnd(SafeAtTheEnd&&) = delete;
-  SafeAtTheEnd& operator=(SafeAtTheEnd&&) = delete;
-  ~SafeAtTheEnd() { devices_.make_safe(); }
-
- private:
-  RigDevices& devices_;
 };
 
 }  // namespace

@@ -23,9 +23,20 @@ FrameStore::~FrameStore() {
 void FrameStore::put(std::string file,
                      std::shared_ptr<const Frame> frame,
                      const ManifestFrame& about) {
+  manifest_.take_in(file, about);
+  push({std::move(file), std::move(frame), about, {}});
+}
+
+void FrameStore::put(const std::string& set, const ManifestSet& verdict) {
+  manifest_.take_in(set, verdict);
+  push({set, nullptr, {}, verdict});
+}
+
+void FrameStore::push(Job job) {
+  constexpr std::size_t kPending = 2;  // besides this one
   std::unique_lock lock(mutex_);
-  wait_until(lock, 1);
-  jobs_.push_back(Job{std::move(file), std::move(frame), about});
+  wait_until(lock, kPending);
+  jobs_.push_back(std::move(job));
   changed_.notify_all();
 }
 
@@ -50,6 +61,17 @@ void FrameStore::wait_until(std::unique_lock<std::mutex>& lock, std::size_t pend
   if (fault_) std::rethrow_exception(fault_);
 }
 
+void FrameStore::store(const Job& job) {
+  if (!job.frame) return manifest_.store(job.file, job.verdict);
+  const std::vector<char> bytes = encode_png(*job.frame);
+  {
+    const std::scoped_lock lock(mutex_);
+    on_the_disk_ = true;
+  }
+  changed_.notify_all();
+  manifest_.store(job.file, bytes, job.about);
+}
+
 void FrameStore::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -58,12 +80,7 @@ void FrameStore::work() {
     const Job job = jobs_.front();
     lock.unlock();
     try {
-      const std::vector<char> bytes = encode_png(*job.frame);
-      lock.lock();
-      on_the_disk_ = true;
-      changed_.notify_all();
-      lock.unlock();
-      manifest_.store(job.file, bytes, job.about);
+      store(job);
       lock.lock();
     } catch (...) {
       if (!lock.owns_lock()) lock.lock();

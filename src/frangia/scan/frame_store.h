@@ -14,7 +14,8 @@
 namespace frangia {
 
 /// Packs and stores frames on a thread of its own, one after the other, while the next ones are
-/// taken. The manifest is this thread's between `put` and `drain`.
+/// taken. What it is given counts for the manifest's questions at once; should the disk fail, the
+/// next call says so.
 class FrameStore {
  public:
   explicit FrameStore(CaptureManifest& manifest);
@@ -25,9 +26,11 @@ class FrameStore {
   /// Stores what was put, unless the disk failed.
   ~FrameStore();
 
-  /// Waits while two frames are on their way to the disk.
+  /// Waits while three things are on their way to the disk.
   /// errors   what went wrong with an earlier frame
   void put(std::string file, std::shared_ptr<const Frame> frame, const ManifestFrame& about);
+  /// A verdict on a set, after all its frames.
+  void put(const std::string& set, const ManifestSet& verdict);
   /// Returns when all frames are acknowledged.
   /// errors   as `put`
   void drain();
@@ -40,8 +43,11 @@ class FrameStore {
     std::string file;
     std::shared_ptr<const Frame> frame;
     ManifestFrame about;
+    ManifestSet verdict;  ///< of the set `file`, when there is no frame
   };
   void work();
+  void push(Job job);
+  void store(const Job& job);
   void wait_until(std::unique_lock<std::mutex>& lock, std::size_t pending);
 
   CaptureManifest& manifest_;

@@ -35,7 +35,10 @@ Driver switch_driver(DeviceKind kind,
 }  // namespace
 
 std::vector<Driver> simulated_drivers() {
-  const auto bench = std::make_shared<SimulatedBench>();
+  return simulated_drivers(std::make_shared<SimulatedBench>());
+}
+
+std::vector<Driver> simulated_drivers(const BenchPtr& bench) {
   std::vector<Driver> drivers;
   drivers.push_back(driver(
       "simulated",

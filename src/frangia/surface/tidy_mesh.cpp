@@ -1,32 +1,12 @@
 #include "frangia/surface/tidy_mesh.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
+
+#include "frangia/core/disjoint_sets.h"
 
 namespace frangia {
 namespace {
-
-/// Disjoint sets of vertices.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// A number for each vertex that tells its edges apart.
 std::uint64_t scrambled(std::uint32_t i) {
@@ -63,7 +43,7 @@ void repeat(std::vector<T>& values, std::uint32_t which) {
 
 /// Numbers the fans among the corners of one vertex; corners that share an edge are of one fan.
 std::vector<std::uint32_t> fans_of(const Mesh& mesh, const std::vector<Corner>& corners) {
-  Parts parts(corners.size());
+  DisjointSets parts(corners.size());
   for (std::uint32_t a = 0; a < corners.size(); ++a) {
     for (std::uint32_t b = 0; b < corners.size(); ++b) {
       const auto& one = mesh.triangles[corners[a].triangle];
@@ -80,7 +60,7 @@ std::vector<std::uint32_t> fans_of(const Mesh& mesh, const std::vector<Corner>& 
 }  // namespace
 
 void drop_small_parts(Mesh& mesh, std::size_t min_triangles) {
-  Parts parts(mesh.vertices_mm.size());
+  DisjointSets parts(mesh.vertices_mm.size());
   for (const auto& t : mesh.triangles) {
     parts.join(t[0], t[1]);
     parts.join(t[0], t[2]);

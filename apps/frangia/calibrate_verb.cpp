@@ -1,0 +1,112 @@
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/atomic_file.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/scan/sweep_piezo.h"
+
+#include "drivers.h"
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+struct PiezoArguments {
+  std::filesystem::path rig;
+  std::filesystem::path output;
+  SweepOptions options;
+};
+
+std::vector<double> degrees(const std::vector<double>& angles_rad) {
+  std::vector<double> angles_deg;
+  for (const double angle_rad : angles_rad)
+    angles_deg.push_back(deg_from_rad(angle_rad));
+  return angles_deg;
+}
+
+std::string lines_of(const PhaseCurve& curve) {
+  return fmt::format("curve_commands = [{:.5g}]\ncurve_phases_deg = [{:.3f}]\n",
+                     fmt::join(curve.commands, ", "),
+                     fmt::join(degrees(curve.phases_rad), ", "));
+}
+
+/// The rig's text with the curve in its [devices.fringes], in the place of what told it before.
+std::string with_curve(const std::filesystem::path& rig, const PhaseCurve& curve) {
+  std::ifstream in(rig);
+  std::string out;
+  bool in_fringes = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind('[', 0) == 0) in_fringes = line.rfind("[devices.fringes]", 0) == 0;
+    bool dropped = false;
+    for (const auto* key : {"command_per_turn", "curve_commands", "curve_phases_deg"})
+      dropped = dropped || (in_fringes && line.rfind(key, 0) == 0);
+    if (!dropped) out += line + "\n";
+    if (line.rfind("[devices.fringes]", 0) == 0) out += lines_of(curve);
+  }
+  return out;
+}
+
+void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  run.stage("devices");
+  const Rig rig = read_rig(arguments.rig, run);
+  constexpr double kOpening_s = 30.0;
+  RigDevices devices =
+      open_devices(arguments.rig, rig, all_drivers(), Deadline::in(kOpening_s, run.stop), run);
+  run.stage("sweep");
+  const PiezoSweep sweep = sweep_piezo(devices, rig, arguments.options, run);
+  if (!arguments.output.empty()) {
+    AtomicFile file(arguments.output);
+    file.stream() << with_curve(arguments.rig, sweep.curve);
+    file.commit();
+  }
+  terminal.finish();
+  if (terminal.json) {
+    const nlohmann::ordered_json result{{"curve_commands", sweep.curve.commands},
+                                        {"curve_phases_deg", degrees(sweep.curve.phases_rad)},
+                                        {"excess", sweep.excess}};
+    fmt::print("{}\n", result.dump(2));
+  } else {
+    fmt::print("# for [devices.fringes], instead of command_per_turn\n{}", lines_of(sweep.curve));
+  }
+}
+
+}  // namespace
+
+void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
+  auto* verb = program.add_subcommand("calibrate", "measure a rig's devices");
+  verb->require_subcommand(1);
+  auto* piezo = verb->add_subcommand(
+      "piezo", "the phase that each command of a phase shifter makes, from the frames alone");
+  piezo->footer(
+      "Example:\n  frangia calibrate piezo rig.toml -o rig-calibrated.toml\n"
+      "A part, or a sheet of paper, must stand in the fringes; nothing turns.");
+  auto arguments = std::make_shared<PiezoArguments>();
+  piezo->add_option("rig,--rig", arguments->rig, "the rig.toml, with its [devices.*]")->required();
+  piezo->add_option("-o,--output", arguments->output, "the same rig with the curve in it");
+  piezo->add_option("--steps", arguments->options.steps, "commands over the shifter's range")
+      ->check(CLI::Range(6, 200))
+      ->capture_default_str();
+  piezo->add_option("--exposure", arguments->options.capture.camera.exposure_ms, "milliseconds")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  piezo
+      ->add_option("--fringes-per-degree",
+                   arguments->options.fringes_per_degree,
+                   "of the fringes to look at")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  piezo->callback([arguments, &terminal] { calibrate_piezo(*arguments, terminal); });
+}
+
+}  // namespace frangia
