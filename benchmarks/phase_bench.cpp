@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -5,11 +6,14 @@
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/pattern/fringe_sequence.h"
+#include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/published_algorithms.h"
 #include "frangia/phase/unwrap_in_space.h"
 #include "frangia/phase/wrap_phase.h"
@@ -28,6 +32,12 @@ const tbb::global_control& one_core() {
 void per_pixel(benchmark::State& state, double pixels) {
   state.counters["ns_per_px"] = benchmark::Counter(
       pixels * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// Pixels of a side of a square image of some megapixels, in whole hundreds: OpenCV's decoder
+/// takes only sizes that its Fourier transform likes.
+int side_of(std::int64_t megapixels) {
+  return 100 * static_cast<int>(std::ceil(10.0 * std::sqrt(static_cast<double>(megapixels))));
 }
 
 template <typename T>
@@ -63,13 +73,14 @@ void write_for_peers(const FrameStack& stack, const WrappedPhase& wrapped) {
 
 void decode(benchmark::State& state, const char* name) {
   static_cast<void>(one_core());
-  const auto side = static_cast<int>(std::sqrt(static_cast<double>(state.range(0)) * 1e6));
+  const int side = side_of(state.range(0));
   const FrameStack stack = testing::benchmark_frames(side, side);
   const PhaseAlgorithm algorithm = make_algorithm(name, stack.pattern.shifts_rad);
-  WrappedPhase map = wrap_phase(stack, algorithm, {0.5, 0.02});
+  WrappedPhase map = wrap_phase(stack, algorithm, testing::kBenchmarkNoise);
   for (auto iteration : state) {
     static_cast<void>(iteration);
-    map = wrap_phase(stack, algorithm, {0.5, 0.02}, {}, std::move(map));  // as from view to view
+    map = wrap_phase(
+        stack, algorithm, testing::kBenchmarkNoise, {}, std::move(map));  // as from view to view
   }
   per_pixel(state, static_cast<double>(side) * side);
 }
@@ -80,12 +91,63 @@ BENCHMARK_CAPTURE(decode, schwider, "schwider")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(decode, carre, "carre")->Arg(20)->Unit(benchmark::kMillisecond);
 
+/// Frames of a map of `fringes` over a display as wide as the image; the same rows again and again.
+FrameStack sequence_frames(int side, double fringes) {
+  FrameStack band = testing::benchmark_frames(
+      side, side / 10, [&](double u, double /*v*/) { return kTurn * fringes * u; });
+  band.pattern = {
+      .name = "map", .period_px = side / fringes, .shifts_rad = band.pattern.shifts_rad};
+  for (Frame& frame : band.frames) {
+    const auto& rows = std::get<Image<std::uint8_t>>(frame).pixels();
+    Image<std::uint8_t> whole(side, side, Unfilled{});
+    for (std::size_t i = 0; i < 10; ++i)
+      std::copy(rows.begin(),
+                rows.end(),
+                whole.pixels().begin() + static_cast<std::ptrdiff_t>(i) * std::ssize(rows));
+    frame = std::move(whole);
+  }
+  return band;
+}
+
+/// Seven maps of four frames to absolute phase, all in one pass.
+void decode_maps(benchmark::State& state, const char* name) {
+  static_cast<void>(one_core());
+  const int side = side_of(state.range(0));
+  Projector display;
+  display.model = PinholeModel{.width_px = side, .height_px = side, .focal_px = {1.0, 1.0}};
+  std::vector<FrameStack> stacks;
+  for (const double fringes : fringe_sequence(name, 64.0))
+    stacks.push_back(sequence_frames(side, fringes));
+  std::vector<SequenceFrames> maps;
+  for (const FrameStack& stack : stacks)
+    maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
+  AbsolutePhase phase = decode_sequence(maps, testing::kBenchmarkNoise, display);
+  for (auto iteration : state) {
+    static_cast<void>(iteration);
+    phase = decode_sequence(maps, testing::kBenchmarkNoise, display, {}, {}, std::move(phase));
+  }
+  state.counters["maps"] = static_cast<double>(maps.size());
+  state.counters["measured"] =
+      static_cast<double>(
+          std::count(phase.fate.pixels().begin(), phase.fate.pixels().end(), PixelFate::Measured)) /
+      static_cast<double>(phase.fate.pixels().size());
+  per_pixel(state, static_cast<double>(side) * side);
+}
+BENCHMARK_CAPTURE(decode_maps, doubling, "doubling")
+    ->Arg(1)
+    ->Arg(5)
+    ->Arg(20)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decode_maps, negative_exponential, "negative-exponential")
+    ->Arg(20)
+    ->Unit(benchmark::kMillisecond);
+
 void unwrap_space(benchmark::State& state) {
   static_cast<void>(one_core());
-  const auto side = static_cast<int>(std::sqrt(static_cast<double>(state.range(0)) * 1e6));
+  const int side = side_of(state.range(0));
   const FrameStack stack = testing::benchmark_frames(side, side);
-  const WrappedPhase wrapped =
-      wrap_phase(stack, make_algorithm("schwider", stack.pattern.shifts_rad), {0.5, 0.02});
+  const WrappedPhase wrapped = wrap_phase(
+      stack, make_algorithm("schwider", stack.pattern.shifts_rad), testing::kBenchmarkNoise);
   if (state.range(0) == 20) write_for_peers(stack, wrapped);
   for (auto iteration : state) {
     static_cast<void>(iteration);

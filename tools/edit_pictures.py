@@ -32,7 +32,7 @@ def scan(part, *options):
 
 
 def show(name, before, after, *options):
-    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 400, "--height", 400, "--samples", 3, "--marks", *options)
+    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 320, "--height", 320, "--marks", *options)
 
 
 def picture(name, before, steps, *options):
@@ -48,8 +48,8 @@ bust = scan("bust")
 bracket = scan("bracket")
 face = WORK / "face.ply"  # a part of the head, near enough to see triangles
 edit(bust, face, "--keep-largest", 1, "--select-box", "-40,-40,62,40,40,100", "--invert", "--delete", "--keep-largest", 1)
-ear = WORK / "ear.ply"
-edit(face, ear, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
+mask = WORK / "mask.ply"
+edit(face, mask, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
 
 picture("remove-islands", bust, ["--remove-islands", "60mm"])
 picture("fill-holes", bust, ["--keep-largest", 1, "--fill-holes", "200mm"])
@@ -59,11 +59,11 @@ picture("select-normal", bracket, ["--select-normal", "0,0,1,15deg", "--delete"]
 picture("select-sigma", bust, ["--select-sigma", "0.03mm", "--grow", 1, "--delete"])
 picture("select-views", bust, ["--select-views", 2, "--delete"])
 picture("select-curvature", bracket, ["--select-curvature", "0.6", "--delete"])
-picture("smooth", ear, ["--max-sigmas", 0, "--smooth", 30])
+picture("smooth", mask, ["--max-sigmas", 0, "--smooth", 30])
 picture("smooth-keeping-edges", bracket, ["--smooth-keeping-edges", 8])
-picture("decimate", ear, ["--decimate", "0.03mm"], "--edges")
-picture("decimate-to", ear, ["--decimate-to", 600], "--edges")
-picture("remesh", ear, ["--remesh", "1.2mm"], "--edges")
+picture("decimate", mask, ["--decimate", "0.03mm"], "--edges")
+picture("decimate-to", mask, ["--decimate-to", 600], "--edges")
+picture("remesh", mask, ["--remesh", "1.2mm"], "--edges")
 picture("cut", bust, ["--keep-largest", 1, "--cut", "0,0,1,50mm"])
 closed = WORK / "closed.ply"
 edit(bust, closed, "--keep-largest", 1, "--fill-holes-flat", "200mm")
@@ -93,9 +93,9 @@ def read_off(path):
 
 
 def broken(name, change):
-    """The ear with a fault that `change` makes."""
-    edit(ear, WORK / "ear.off")
-    vertices, triangles = read_off(WORK / "ear.off")
+    """The mask with a fault that `change` makes."""
+    edit(mask, WORK / "mask.off")
+    vertices, triangles = read_off(WORK / "mask.off")
     path = WORK / f"{name}-before.ply"
     write_ply(path, *change(vertices, triangles))
     return path
@@ -108,8 +108,9 @@ def spikes(vertices, triangles):
 
 
 def crossing(vertices, triangles):
-    more = [[x - 1.5, y + 2.0, z + 1.0] for x, y, z in vertices]
-    return vertices + more, triangles + [[a + len(vertices) for a in t] for t in triangles]
+    """A patch turned over in its place: it folds the surface around it."""
+    near = [sum((v - m) ** 2 for v, m in zip(vertex, (20, 3, 78))) < 9 for vertex in vertices]
+    return [[x, 6 - y, z] if inside else [x, y, z] for (x, y, z), inside in zip(vertices, near)], triangles
 
 
 def turned(vertices, triangles):

@@ -61,8 +61,8 @@ def gige():
     tell("| | measured |\n|---|---|")
     tell(f"| frames, all there | {figure['frames']} |")
     tell(f"| frames taken again | {figure['retries']} |")
-    tell(f"| RMS mm | {figure['captured_mm']:.4f} |")
-    tell(f"| RMS mm, rendered scan | {figure['rendered_mm']:.4f} |\n")
+    tell(f"| 95 % of the mesh within, mm | {figure['captured_mm']:.4f} |")
+    tell(f"| the same of a rendered scan | {figure['rendered_mm']:.4f} |\n")
 
 
 def steps():
@@ -75,7 +75,7 @@ def steps():
     tell(f"| the same, steps taken for what was asked | {figure['corrected_plain']:.2f} | |\n")
 
 
-SHINY = "gloss = 30\nshininess = 12\n"
+SHINY = "gloss = 100\nshininess = 12\n"
 
 
 def blade():

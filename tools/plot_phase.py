@@ -9,6 +9,7 @@ import math
 import os
 import subprocess
 import sys
+import tempfile
 
 import matplotlib
 
@@ -29,8 +30,30 @@ def chart(folder, name, title, x_label, y_label, draw):
     plt.close(figure)
 
 
+def stages(program, folder):
+    """One row of what `frangia decode` writes of a view of the paper's rig."""
+    shown = (("fringe-residues", "modulo 2π, residues"), ("fringe-modulation", "modulation"),
+             ("growth", "order of growth"), ("regions", "regions"), ("fringes", "fringes"),
+             ("absolute", "final phase"), ("mask", "why pixels went"))
+    with tempfile.TemporaryDirectory() as work:
+        scan, views = os.path.join(work, "scan"), os.path.join(work, "stages")
+        subprocess.run([program, "--quiet", "simulate", "bracket", "--rig", "carducci", "--views", "4",
+                        "-o", scan], check=True)
+        subprocess.run([program, "--quiet", "decode", scan, "--view", "0", "-o", views], check=True)
+        figure, all_axes = plt.subplots(1, len(shown), figsize=(14, 2.9))
+        for axes, (name, title) in zip(all_axes, shown):
+            picture = plt.imread(os.path.join(views, name + ".png"))
+            axes.imshow(picture[190:460, 155:360], interpolation="nearest")
+            axes.set_title(title, fontsize=9)
+            axes.axis("off")
+        figure.tight_layout(pad=0.4)
+        figure.savefig(os.path.join(folder, "stages.png"), dpi=110, bbox_inches="tight", pad_inches=0.05, metadata={"Software": None})
+        plt.close(figure)
+
+
 def main(program, bench, folder):
     os.makedirs(folder, exist_ok=True)
+    stages(program, folder)
     table = json.loads(subprocess.run([program, "--json", "algorithms"], check=True,
                                       capture_output=True, text=True).stdout)
 
@@ -71,7 +94,7 @@ def main(program, bench, folder):
         runs = json.load(file)["benchmarks"]
 
     def speed(axes):
-        for start in ("decode/schwider", "unwrap_space"):
+        for start in ("decode/schwider", "decode_maps/doubling", "unwrap_space"):
             some = [run for run in runs if run["name"].startswith(start + "/")]
             sizes = [int(run["name"].rsplit("/", 1)[1]) for run in some]
             axes.loglog(sizes, [run["cpu_time"] / size for run, size in zip(some, sizes)], "o-",

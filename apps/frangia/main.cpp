@@ -7,6 +7,7 @@
 
 #include "frangia/core/error.h"
 
+#include "paste_verb.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -67,6 +68,7 @@ int run_program(int argc, char** argv) {
   add_scan_verb(program, terminal);
   add_devices_verb(program, terminal);
   add_calibrate_verb(program, terminal);
+  add_paste_verb(program, terminal);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

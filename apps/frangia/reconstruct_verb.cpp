@@ -10,6 +10,8 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
+#include "frangia/files/ending_of.h"
+#include "frangia/files/ply.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/scan/reconstruct.h"
 
@@ -23,6 +25,8 @@ namespace {
 struct ReconstructArguments {
   std::filesystem::path scan;
   std::vector<std::filesystem::path> outputs;
+  std::size_t dxf_faces = 200000;
+  std::filesystem::path raw;
   bool no_register = false;
   ReconstructOptions options;
   WriteOptions write;
@@ -70,6 +74,7 @@ void print_result(const Reconstruction& result,
     json["views"] = result.views;
     json["vertices"] = result.mesh.vertices_mm.size();
     json["triangles"] = result.mesh.triangles.size();
+    if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
     if (result.registration) json["registration"] = json_of(*result.registration);
     if (!std::isnan(result.platter_height_mm)) json["platter_height_mm"] = result.platter_height_mm;
     for (const auto& [stage, seconds] : stages)
@@ -94,17 +99,37 @@ void print_result(const Reconstruction& result,
     fmt::print("wrote {}\n", path.string());
 }
 
+void write_outputs(const Reconstruction& result,
+                   const ReconstructArguments& arguments,
+                   const Run& run) {
+  for (const auto& path : arguments.outputs) {
+    const bool dxf = ending_of(path) == ".dxf";
+    write_mesh(
+        path, dxf ? at_most(result.mesh, arguments.dxf_faces, run) : result.mesh, arguments.write);
+  }
+  if (arguments.raw.empty()) return;
+  Mesh points;
+  points.vertices_mm = result.raw.points_mm;
+  points.sigma_mm = result.raw.sigma_mm;
+  write_ply(arguments.raw, points);
+}
+
 void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   for (const auto& path : arguments.outputs) {
     check_mesh_ending(path);
     const AtomicFile probe(path);  // an output that cannot be written is told before the work
   }
+  arguments.options.keep_raw = !arguments.raw.empty();
+  if (arguments.options.keep_raw) {
+    require(ending_of(arguments.raw) == ".ply",
+            "--keep-raw: points with their sigma are written as .ply; name such a file");
+    const AtomicFile probe(arguments.raw);
+  }
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
   const Reconstruction result = reconstruct(scan, arguments.options, run);
   run.stage("files");
-  for (const auto& path : arguments.outputs)
-    write_mesh(path, result.mesh, arguments.write);
+  write_outputs(result, arguments, run);
   print_result(result, arguments, terminal);
 }
 
@@ -124,6 +149,24 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
                 "take the turntable's axis and angles as the rig and the scan say");
 }
 
+void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
+  verb.add_option("--voxel",
+                  arguments.options.paste.voxel_mm,
+                  "sampling of the surface in mm; chosen from the data when not given")
+      ->check(CLI::PositiveNumber);
+  verb.add_flag("--watertight",
+                arguments.options.finish.watertight,
+                "close what was not seen; each such triangle is marked as invented (mark 2 in a "
+                "PLY, its own layer in a DXF)");
+  verb.add_option("--tolerance",
+                  arguments.options.finish.tolerance_mm,
+                  "fewer triangles where the part is flat, never farther than this from the mesh, "
+                  "in mm")
+      ->check(CLI::PositiveNumber);
+  verb.add_option(
+      "--keep-raw", arguments.raw, "write the registered points with sigma to this .ply");
+}
+
 }  // namespace
 
 void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
@@ -137,11 +180,12 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
       ->required()
       ->allow_extra_args(false);
   add_write_options(*verb, arguments->write);
+  verb->add_option("--dxf-faces",
+                   arguments->dxf_faces,
+                   "the most triangles that a DXF gets, simplified to it; 0 for all")
+      ->capture_default_str();
   add_views_options(*verb, *arguments);
-  verb->add_option("--voxel",
-                   arguments->options.paste.voxel_mm,
-                   "sampling of the surface in mm; chosen from the data when not given")
-      ->check(CLI::PositiveNumber);
+  add_surface_options(*verb, *arguments);
   add_decode_options(*verb, arguments->options.decode);
   verb->callback([arguments, &terminal] {
     arguments->options.register_views = !arguments->no_register;

@@ -62,8 +62,8 @@ class GigeScan : public ::testing::Test {
         << "[devices.turntable]\ndriver = \"simulated\"\n";
     return open_devices(file, plan_.rig, drivers, Deadline::in(10.0));
   }
-  [[nodiscard]] double rms_of(const std::filesystem::path& folder) const {
-    return surface_error(reconstruct(read_scan(folder)).mesh, RayScene(make_ball_bar())).rms_mm;
+  [[nodiscard]] double p95_of(const std::filesystem::path& folder) const {
+    return surface_error(reconstruct(read_scan(folder)).mesh, RayScene(make_ball_bar())).p95_mm;
   }
 
   testing::TemporaryFolder folder_;
@@ -84,8 +84,8 @@ TEST_F(GigeScan, WithLostPacketsIsCompleteAndAsAccurateAsARenderedScan) {
   Scan rendered = plan_;
   rendered.folder = folder_.path() / "rendered";
   static_cast<void>(simulate_scan(make_ball_bar(), rendered));
-  const double captured_mm = rms_of(plan_.folder);
-  const double rendered_mm = rms_of(rendered.folder);
+  const double captured_mm = p95_of(plan_.folder);
+  const double rendered_mm = p95_of(rendered.folder);
   EXPECT_LT(captured_mm, 1.15 * rendered_mm + 0.002);
   fmt::print(
       "FIGURE {{\"retries\": {}, \"frames\": {}, \"captured_mm\": {:.4f}, \"rendered_mm\": "

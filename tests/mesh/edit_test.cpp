@@ -147,6 +147,17 @@ TEST(FillHoles, MarksWhatItInventsAndLeavesTheMeasuredAsItWas) {
   }
 }
 
+TEST(FillHoles, ClosesAHoleWithSliversAtItsRimWithinItsReach) {
+  Mesh open = holed_ball();
+  const auto rim = vertices_of(open, boundary_loops(open)[0]);
+  for (std::size_t i = 0; i + 1 < rim.size(); i += 2)  // pairs of corners at one place
+    open.vertices_mm[rim[i]] = open.vertices_mm[rim[i + 1]];
+  const Mesh filled = fill_holes(open);
+  EXPECT_TRUE(boundary_loops(filled).empty());
+  for (const auto& vertex : filled.vertices_mm)
+    ASSERT_LT(vertex.norm(), 1.5F * static_cast<float>(kRadius));
+}
+
 TEST(FillHoles, LeavesHolesAboveTheSize) {
   EXPECT_EQ(boundary_loops(fill_holes(holed_ball(), {.up_to_mm = 10.0})).size(), 1U);
 }

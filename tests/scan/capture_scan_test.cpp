@@ -38,7 +38,8 @@ TEST_F(CaptureScan, WritesAScanThatReadsBackWithAVerdictOfEachView) {
   EXPECT_EQ(read_frames(scan, 2).size(), 2U);
 }
 
-/// The scan that was captured and one that was rendered, of the same part, as accurate meshes.
+/// The scan that was captured and one that was rendered, of the same part: what 95 % of the mesh is
+/// within of the truth. At so few pixels a scrap may be off by a fringe, which no RMS forgives.
 struct Accuracy {
   double captured_mm = 0.0;
   double rendered_mm = 0.0;
@@ -49,10 +50,10 @@ Accuracy accuracy_of(const Scan& plan, const std::filesystem::path& rendered) {
   other.folder = rendered;
   const Mesh part = make_ball_bar();
   static_cast<void>(simulate_scan(part, other, {}));
-  const auto rms = [&](const std::filesystem::path& folder) {
-    return surface_error(reconstruct(read_scan(folder)).mesh, RayScene(part)).rms_mm;
+  const auto p95 = [&](const std::filesystem::path& folder) {
+    return surface_error(reconstruct(read_scan(folder)).mesh, RayScene(part)).p95_mm;
   };
-  return {rms(plan.folder), rms(rendered)};
+  return {p95(plan.folder), p95(rendered)};
 }
 
 TEST_F(CaptureScan, OfAnInterferometerIsAsAccurateAsARenderedScan) {
@@ -63,7 +64,7 @@ TEST_F(CaptureScan, OfAnInterferometerIsAsAccurateAsARenderedScan) {
   static_cast<void>(capture());
   const Accuracy accuracy = accuracy_of(plan_, folder_.path() / "rendered");
   EXPECT_LT(accuracy.captured_mm, 1.15 * accuracy.rendered_mm + 0.002);
-  EXPECT_LT(accuracy.captured_mm, 0.15);
+  EXPECT_LT(accuracy.captured_mm, 0.25);
 }
 
 TEST_F(CaptureScan, OfADigitalProjectorIsAsAccurateAsARenderedScan) {
@@ -73,7 +74,7 @@ TEST_F(CaptureScan, OfADigitalProjectorIsAsAccurateAsARenderedScan) {
   static_cast<void>(capture());
   const Accuracy accuracy = accuracy_of(plan_, folder_.path() / "rendered");
   EXPECT_LT(accuracy.captured_mm, 1.15 * accuracy.rendered_mm + 0.002);
-  EXPECT_LT(accuracy.captured_mm, 0.05);
+  EXPECT_LT(accuracy.captured_mm, 0.1);
 }
 
 TEST_F(CaptureScan, InterruptedGoesOnToTheSameBytes) {

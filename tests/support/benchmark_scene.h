@@ -7,6 +7,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
 #include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
 
 namespace frangia::testing {
 
@@ -24,8 +25,13 @@ inline double benchmark_light(double u, double v) {
   return 1.0 - 0.6 * ((u - 0.5) * (u - 0.5) + (v - 0.5) * (v - 0.5));
 }
 
-/// Four 8-bit frames 90 degrees apart, with shot and read noise, holes and shadows.
-inline FrameStack benchmark_frames(int width, int height) {
+/// What the camera of the frames has.
+inline constexpr NoiseModel kBenchmarkNoise{4.0 + 1.0 / 12.0, 0.2};
+
+/// Four 8-bit frames of `phase(u, v)`, 90 degrees apart, with shot and read noise, holes and
+/// shadows.
+template <typename PhaseOf>
+FrameStack benchmark_frames(int width, int height, const PhaseOf& phase) {
   FrameStack stack{.pattern = {.name = "fringe", .fringes_per_degree = 1.0}, .white_level = 255};
   for (int k = 0; k < 4; ++k)
     stack.pattern.shifts_rad.push_back(0.5 * kPi * k);
@@ -37,7 +43,7 @@ inline FrameStack benchmark_frames(int width, int height) {
         const double v = (y + 0.5) / height;
         const double light = benchmark_light(u, v);
         const double counts =
-            4.0 + 100.0 * light * (1.0 + 0.8 * std::cos(benchmark_phase(u, v) + 0.5 * kPi * k));
+            4.0 + 100.0 * light * (1.0 + 0.8 * std::cos(phase(u, v) + 0.5 * kPi * k));
         const auto place = (static_cast<std::uint64_t>(y) << 32U) | static_cast<std::uint64_t>(x);
         const double noise = std::sqrt(4.0 + 0.2 * counts) *
                              normal_from(hash(static_cast<std::uint64_t>(k) + 1, place));
@@ -48,6 +54,10 @@ inline FrameStack benchmark_frames(int width, int height) {
     stack.frames.emplace_back(std::move(image));
   }
   return stack;
+}
+
+inline FrameStack benchmark_frames(int width, int height) {
+  return benchmark_frames(width, height, benchmark_phase);
 }
 
 }  // namespace frangia::testing

@@ -43,8 +43,8 @@ class ZipWriter {
   ZipWriter& operator=(ZipWriter&&) = delete;
   ~ZipWriter();
 
-  /// What is written next belongs to this entry, of `most_bytes` at most: beyond 4 GB it takes a form
-  /// that old readers refuse.
+  /// What is written next belongs to this entry, of `most_bytes` at most: beyond 4 GB it takes a
+  /// form that old readers refuse.
   void begin(const std::string& name, std::uint64_t most_bytes = 0);
   void text(std::string_view piece);
   void commit();

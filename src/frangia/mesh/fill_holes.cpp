@@ -63,8 +63,21 @@ bool fits(const Mesh& mesh, const HalfEdges& edges, const Rim& rim, const HolePa
 
 HolePatch patch_of(
     const Mesh& mesh, const HalfEdges& edges, const Rim& rim, HoleFill kind, const Run& run) {
-  HolePatch patch = kind == HoleFill::Flat ? flat_patch(mesh, rim) : smooth_patch(mesh, edges, rim);
-  if (!patch.triangles.empty() && fits(mesh, edges, rim, patch)) return patch;
+  const auto is_good = [&](const HolePatch& patch) {
+    const bool there = std::all_of(
+        patch.places_mm.begin(), patch.places_mm.end(), [](const Eigen::Vector3f& place) {
+          return place.allFinite();  // fairing a rim that is far from flat can fail
+        });
+    return there && !patch.triangles.empty() && fits(mesh, edges, rim, patch);
+  };
+  if (kind == HoleFill::Smooth) {
+    HolePatch smooth = smooth_patch(mesh, edges, rim);
+    if (is_good(smooth)) return smooth;
+    run.note(
+        fmt::format("a hole of {} edges has no smooth filling and is closed flat", rim.size()));
+  }
+  HolePatch flat = flat_patch(mesh, rim);
+  if (is_good(flat)) return flat;
   run.note(fmt::format("a hole of {} edges is closed by a fan about its middle", rim.size()));
   return fan_patch(mesh, rim);
 }

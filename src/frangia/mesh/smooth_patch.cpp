@@ -11,6 +11,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
+#include <Eigen/Geometry>
 
 namespace frangia {
 namespace {
@@ -59,6 +60,15 @@ struct Surroundings {
   }
 };
 
+/// Where a patch may reach: the box around the rim, half its size wider all around.
+Eigen::AlignedBox3d reach_of(const Mesh& mesh, const std::vector<std::uint32_t>& rim) {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t vertex : rim)
+    box.extend(mesh.vertices_mm[vertex].cast<double>());
+  const Eigen::Vector3d more = Eigen::Vector3d::Constant(0.5 * box.diagonal().norm());
+  return {box.min() - more, box.max() + more};
+}
+
 }  // namespace
 
 HolePatch smooth_patch(const Mesh& mesh,
@@ -86,11 +96,15 @@ HolePatch smooth_patch(const Mesh& mesh,
                                                         std::back_inserter(vertices),
                                                         pmp::parameters::fairing_continuity(1U)));
   if (!fair) return patch;
+  // Slivers around the rim can throw the fairing far off, or to no place at all.
+  const Eigen::AlignedBox3d reach = reach_of(mesh, rim);
   std::sort(vertices.begin(), vertices.end());
   auto next = static_cast<std::uint32_t>(mesh.vertices_mm.size());
   for (const VertexId id : vertices) {
     const auto& p = around.surface.point(id);
-    patch.places_mm.emplace_back(Eigen::Vector3d(p.x(), p.y(), p.z()).cast<float>());
+    const Eigen::Vector3d place(p.x(), p.y(), p.z());
+    if (!reach.contains(place)) return {};  // of NaN, too
+    patch.places_mm.emplace_back(place.cast<float>());
     around.vertex_of.resize(std::max<std::size_t>(around.vertex_of.size(), id.idx() + 1U));
     around.vertex_of[id.idx()] = next++;
   }

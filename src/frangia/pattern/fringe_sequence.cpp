@@ -43,6 +43,16 @@ std::vector<double> fringe_sequence(const std::string& name, double fringes) {
   return all;
 }
 
+double sigma_of_chance(double chance) {
+  double low = 1e-3;
+  double high = 1e3;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = std::sqrt(low * high);
+    (wrong_order_chance(middle) > chance ? high : low) = middle;
+  }
+  return low;
+}
+
 SequencePlan plan_sequence(double fringes, double sigma_rad, double max_wrong_order) {
   require(std::isfinite(fringes) && fringes >= 1.0, "a plan needs at least one fringe");
   require(std::isfinite(sigma_rad) && sigma_rad > 0.0, "a plan needs a sigma above 0 rad");

@@ -17,6 +17,9 @@ namespace frangia {
 /// The chance that a phase of this sigma is more than half a fringe off.
 [[nodiscard]] double wrong_order_chance(double sigma_rad);
 
+/// The sigma whose chance of that is `chance`.
+[[nodiscard]] double sigma_of_chance(double chance);
+
 struct SequencePlan {
   std::vector<double> fringes;  ///< over the field, coarse to fine
   double wrong_order = 0.0;     ///< chance over all steps, at the given sigma

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 namespace frangia {
 
@@ -38,6 +40,32 @@ Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted) {
   }
   counts.conservativeResize(rows, frames);
   return counts;
+}
+
+FrameStack sample_rows(const FrameStack& stack, std::size_t wanted) {
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  const auto rows = static_cast<std::size_t>(height);
+  const std::size_t most = std::max<std::size_t>(1, wanted / static_cast<std::size_t>(width));
+  const std::size_t stride = std::max<std::size_t>(1, rows / most);
+  FrameStack out{.pattern = stack.pattern,
+                 .frames = {},
+                 .white_level = stack.white_level,
+                 .exposure = stack.exposure};
+  const int kept = static_cast<int>((rows + stride - 1) / stride);
+  for (const Frame& frame : stack.frames) {
+    std::visit(
+        [&](const auto& image) {
+          std::remove_cvref_t<decltype(image)> some(width, kept, Unfilled{});
+          for (int y = 0; y < kept; ++y) {
+            const auto* row = &image(0, y * static_cast<int>(stride));
+            std::copy(row, row + width, &some(0, y));
+          }
+          out.frames.emplace_back(std::move(some));
+        },
+        frame);
+  }
+  return out;
 }
 
 }  // namespace frangia

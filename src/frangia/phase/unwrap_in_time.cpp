@@ -17,17 +17,6 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
 
-/// The sigma whose chance of a wrong order is `chance`, by bisection.
-double sigma_of_chance(double chance) {
-  double low = 1e-3;
-  double high = 1e3;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = std::sqrt(low * high);
-    (wrong_order_chance(middle) > chance ? high : low) = middle;
-  }
-  return low;
-}
-
 /// A phase near the ends of the fringe may have slipped over to the other end by noise: doubtful.
 AbsolutePhase from_single_fringe(const WrappedPhase& level,
                                  const Projector& projector,

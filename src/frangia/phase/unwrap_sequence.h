@@ -3,24 +3,12 @@
 #include <span>
 #include <vector>
 
+#include "frangia/phase/find_ladder.h"
 #include "frangia/phase/phase_map.h"
 #include "frangia/phase/unwrap_in_time.h"
 #include "frangia/rig/projector.h"
 
 namespace frangia {
-
-/// One step from a coarse phase to a finer one: a map of its own, or the beat of two.
-struct LadderStep {
-  std::size_t map = 0;    ///< index of the map
-  int less = -1;          ///< index of the map taken off it; -1 for none
-  double per_unit = 0.0;  ///< fringes per degree or projector pixel
-};
-
-/// The way from one fringe over the field, of a map or of a beat of two, to the finest map, each
-/// step as fine as noise `sigma_rad` in every map allows. Empty when there is none.
-[[nodiscard]] std::vector<LadderStep> find_ladder(std::span<const Pattern> patterns,
-                                                  const Projector& projector,
-                                                  double sigma_rad = 0.05);
 
 /// Absolute phase of the finest fringes from maps of any ratios: doubling, heterodyne, negative
 /// exponential. All maps take part in the result, by the least-squares slope of phase over

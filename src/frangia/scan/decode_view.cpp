@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/find_ladder.h"
 #include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/frame_samples.h"
 #include "frangia/phase/merge_exposures.h"
 #include "frangia/phase/number_by_gray.h"
 #include "frangia/phase/recover_saturated.h"
@@ -73,24 +76,38 @@ double crossing_distance(const Pattern& pattern, const Rig& rig) {
   return intersect({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
 }
 
-/// Whether beats of the patterns make up for an absolute one that is not there.
-bool has_ladder(std::span<const WrappedPhase> maps, const Projector& projector) {
+/// The way up by several patterns, beats of two among them; empty where there is none.
+std::vector<LadderStep> ladder_of(std::span<const FrameStack* const> fringes,
+                                  const Projector& projector) {
   std::vector<Pattern> patterns;
-  for (const WrappedPhase& map : maps)
-    patterns.push_back(map.pattern);
-  return maps.size() > 1 && !find_ladder(patterns, projector).empty();
+  for (const FrameStack* stack : fringes)
+    patterns.push_back(stack->pattern);
+  return patterns.size() > 1 ? find_ladder(patterns, projector) : std::vector<LadderStep>{};
+}
+
+/// Whether each step of a ladder is safe for every pixel that wrapping keeps, without a look at its
+/// neighbours.
+bool is_plain(std::span<const LadderStep> ladder, const DecodeOptions& options) {
+  constexpr double kRare = 1e-6;
+  return is_safe(ladder, options.wrap.max_sigma_rad, kRare);
+}
+
+/// The algorithm for one pattern's frames.
+FittedAlgorithm fit(const FrameStack& taken,
+                    const NoiseModel& noise,
+                    const DecodeOptions& options,
+                    const Run& run) {
+  Run warnings = run;  // the verdict tells the algorithm: one sentence a pattern is enough
+  warnings.on_note = nullptr;
+  std::optional<double> gain_error;
+  const auto known = options.survey.gain_error.find(taken.pattern.name);
+  if (known != options.survey.gain_error.end()) gain_error = known->second;
+  return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
 }
 
 /// One pattern's frames to its wrapped phase, and what is to be said of them.
 void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
-  Run warnings = run;  // the verdict tells the algorithm: one sentence a pattern is enough
-  warnings.on_note = nullptr;
-  std::optional<double> gain_error;
-  if (const auto known = options.survey.gain_error.find(taken.pattern.name);
-      known != options.survey.gain_error.end())
-    gain_error = known->second;
-  const FittedAlgorithm fitted =
-      fit_algorithm(options.algorithm, taken, out.noise, warnings, gain_error);
+  const FittedAlgorithm fitted = fit(taken, out.noise, options, run);
   if (taken.pattern.exposure_count() > 1) {
     out.wrapped.push_back(
         merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
@@ -107,6 +124,31 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
   const FrameStack& stack = options.recover_saturated ? recovered : taken;
   out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
   out.verdicts.push_back(judge_frames(stack, fitted, out.wrapped.back(), out.noise));
+}
+
+/// All patterns in one pass; what is to be said of them comes from some of their rows.
+void decode_at_once(std::span<const FrameStack* const> fringes,
+                    const Rig& rig,
+                    const DecodeOptions& options,
+                    const Run& run,
+                    DecodedView& out) {
+  constexpr std::size_t kJudged = 200'000;
+  std::vector<SequenceFrames> maps;
+  for (const FrameStack* stack : fringes) {
+    const FittedAlgorithm fitted = fit(*stack, out.noise, options, run);
+    const FrameStack some = sample_rows(*stack, kJudged);
+    const WrappedPhase map = wrap_phase(some, fitted.algorithm, out.noise, options.wrap);
+    out.verdicts.push_back(judge_frames(some, fitted, map, out.noise));
+    maps.push_back({stack, fitted.algorithm});
+  }
+  out.phase = decode_sequence(maps, out.noise, rig.projector, options.wrap, options.in_time);
+}
+
+bool are_plain_frames(std::span<const FrameStack* const> fringes, const DecodeOptions& options) {
+  return !options.recover_saturated &&
+         std::all_of(fringes.begin(), fringes.end(), [](const FrameStack* stack) {
+           return stack->pattern.exposure_count() == 1;
+         });
 }
 
 }  // namespace
@@ -135,18 +177,26 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   DecodedView out;
   const auto fringes = fringes_of(stacks);
   out.noise = noise_of(stacks, rig, options);
+  out.coarsest = fringes.front()->pattern;
+  const auto ladder = ladder_of(fringes, rig.projector);
+  const auto gray = gray_of(stacks, out.coarsest.direction);
+  const bool plain = gray.empty() && is_plain(ladder, options);
+  if (plain && !options.keep_maps && are_plain_frames(fringes, options)) {
+    decode_at_once(fringes, rig, options, run, out);
+    fill_enclosed(out.phase, options.fill);
+    return out;
+  }
   for (const FrameStack* stack : fringes) {
     run.check();
     wrap(*stack, options, run, out);
   }
-  const auto gray = gray_of(stacks, out.wrapped.front().pattern.direction);
   if (!gray.empty()) {
     out.phase = lift_in_time(number_by_gray(gray, out.wrapped.front(), out.noise, options.in_time),
                              std::span(out.wrapped).subspan(1),
                              options.in_time);
-  } else if (is_absolute(out.wrapped.front().pattern, rig.projector)) {
+  } else if (!plain && is_absolute(out.coarsest, rig.projector)) {
     out.phase = unwrap_in_time(out.wrapped, rig.projector, options.in_time);
-  } else if (has_ladder(out.wrapped, rig.projector)) {
+  } else if (!ladder.empty()) {
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.in_time);
   } else {
     out.relative = unwrap_in_space(out.wrapped.front(), options.in_space);

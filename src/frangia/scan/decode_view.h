@@ -27,6 +27,9 @@ struct DecodeOptions {
   std::string algorithm = "auto";  ///< see `fit_algorithm`
   /// Recover the one saturated frame of four, instead of discarding the pixel as the paper does.
   bool recover_saturated = false;
+  /// Keep the wrapped maps. Without them a sequence is decoded in one pass over its frames, where
+  /// its steps are safe for all pixels that `wrap` keeps.
+  bool keep_maps = true;
   ScanSurvey survey;  ///< what the other views say, too
   WrapOptions wrap;
   TimeUnwrapOptions in_time;
@@ -39,7 +42,8 @@ struct DecodeOptions {
 /// Everything that the frames of one view say about its phase, stage by stage.
 struct DecodedView {
   NoiseModel noise;
-  std::vector<WrappedPhase> wrapped;      ///< coarse to fine
+  Pattern coarsest;                       ///< of the fringes
+  std::vector<WrappedPhase> wrapped;      ///< coarse to fine; empty where they were not kept
   std::vector<FrameVerdict> verdicts;     ///< of the frames, one a wrapped phase
   std::optional<RelativePhase> relative;  ///< of a scan that is unwrapped in space
   std::vector<ProfilePoint> profile;      ///< of a scan with the plane of light

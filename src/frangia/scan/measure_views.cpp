@@ -86,6 +86,7 @@ MeasuredViews measure_views(const Scan& scan,
   run.stage("survey");
   DecodeOptions informed = decode;
   informed.survey = survey_scan(scan, run);
+  informed.keep_maps = false;
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
     MeasuredView one = measure_view(scan, i, rays, informed, edges, run);
@@ -95,7 +96,7 @@ MeasuredViews measure_views(const Scan& scan,
     }
     for (LooseRegion& region : one.decoded.loose)
       all.loose.push_back({all.views.size(), std::move(region)});
-    all.coarsest = one.decoded.wrapped.front().pattern;
+    all.coarsest = one.decoded.coarsest;
     all.unwrapped_in_space = one.decoded.relative.has_value();
     all.stops.push_back({scan.views[i].angle_rad, scan.views[i].folder.string()});
     all.views.add({std::move(one.range), scan.rig.rig_from_object(scan.views[i].angle_rad)});

@@ -102,7 +102,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   clip(all.views, camera, options, run);  // again, in the frame of the refined axis
 
   run.stage("surface");
-  out.mesh = paste_views(all.views, camera, options.paste, run);
+  if (options.keep_raw) out.raw = collect_points(all.views, camera, run);
+  out.mesh = finish_mesh(paste_views(all.views, camera, options.paste, run), options.finish, run);
   return out;
 }
 

@@ -7,10 +7,12 @@
 #include "frangia/core/run.h"
 #include "frangia/range/drop_mixed_edges.h"
 #include "frangia/scan/decode_view.h"
+#include "frangia/scan/finish_mesh.h"
 #include "frangia/scan/scan_folder.h"
 #include "frangia/surface/mesh.h"
 #include "frangia/surface/paste_views.h"
 #include "frangia/views/anchor_by_views.h"
+#include "frangia/views/collect_points.h"
 #include "frangia/views/find_platter.h"
 #include "frangia/views/reconcile_views.h"
 #include "frangia/views/register_views.h"
@@ -29,10 +31,13 @@ struct ReconstructOptions {
   double clip_below_mm = -std::numeric_limits<double>::infinity();  ///< height, object frame
   double clip_radius_mm = std::numeric_limits<double>::infinity();  ///< from the axis
   PasteOptions paste;
+  FinishOptions finish;
+  bool keep_raw = false;  ///< the registered points, too
 };
 
 struct Reconstruction {
   Mesh mesh;
+  PointCloud raw;                                  ///< empty unless asked for
   std::size_t points = 0;                          ///< measured, in all views
   std::size_t views = 0;                           ///< that held any
   std::optional<RegistrationReport> registration;  ///< none when it was not asked for or impossible

@@ -1,0 +1,128 @@
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/files/ending_of.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/scan/paste_scans.h"
+
+#include "paste_verb.h"
+
+namespace frangia {
+namespace {
+
+struct PasteArguments {
+  std::vector<std::filesystem::path> scans;
+  std::vector<std::filesystem::path> outputs;
+  std::size_t dxf_faces = 200000;
+  bool no_register = false;
+  PasteScansOptions options;
+};
+
+std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths) {
+  std::vector<RangeScan> scans;
+  for (const auto& path : paths) {
+    if (ending_of(path) == ".conf") {
+      for (RangeScan& scan : read_scan_poses(path))
+        scans.push_back(std::move(scan));
+    } else {
+      scans.push_back(read_range_scan(path));
+    }
+  }
+  return scans;
+}
+
+void print_result(const PastedScans& result,
+                  std::size_t scans,
+                  const PasteArguments& arguments,
+                  Terminal& terminal) {
+  const auto stages = terminal.stage_seconds();
+  terminal.finish();
+  if (terminal.json) {
+    nlohmann::ordered_json json{{"scans", scans},
+                                {"points", result.points},
+                                {"vertices", result.mesh.vertices_mm.size()},
+                                {"triangles", result.mesh.triangles.size()}};
+    if (result.registration) {
+      json["registration"] = {{"rms_before_mm", result.registration->rms_before_mm},
+                              {"rms_after_mm", result.registration->rms_after_mm},
+                              {"overlap", result.registration->overlap}};
+    }
+    for (const auto& [stage, seconds] : stages)
+      json["seconds"][stage] = seconds;
+    json["warnings"] = terminal.warnings();
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  if (terminal.quiet) return;
+  fmt::print("{} points from {} scans -> {} triangles\n",
+             result.points,
+             scans,
+             result.mesh.triangles.size());
+  for (const auto& path : arguments.outputs)
+    fmt::print("wrote {}\n", path.string());
+}
+
+void paste(PasteArguments& arguments, Terminal& terminal) {
+  for (const auto& path : arguments.outputs) {
+    check_mesh_ending(path);
+    const AtomicFile probe(path);  // an output that cannot be written is told before the work
+  }
+  arguments.options.register_poses = !arguments.no_register;
+  const Run run = terminal.run();
+  run.stage("files");
+  const std::vector<RangeScan> scans = read_all(arguments.scans);
+  const PastedScans result = paste_scans(scans, arguments.options, run);
+  run.stage("files");
+  for (const auto& path : arguments.outputs) {
+    const bool dxf = ending_of(path) == ".dxf";
+    write_mesh(path, dxf ? at_most(result.mesh, arguments.dxf_faces, run) : result.mesh, {});
+  }
+  print_result(result, scans.size(), arguments, terminal);
+}
+
+}  // namespace
+
+void add_paste_verb(CLI::App& program, Terminal& terminal) {
+  auto arguments = std::make_shared<PasteArguments>();
+  CLI::App* verb =
+      program.add_subcommand("paste", "paste range scans of other scanners into one mesh");
+  verb->footer(
+      "example:\n  frangia paste bun000.ply bun045.ply -o bunny.ply\n"
+      "  frangia paste bun.conf -o bunny.ply");
+  verb->add_option("SCANS",
+                   arguments->scans,
+                   "range scans as .ply: with faces, with Stanford's grid, or of points that face "
+                   "+z; all in one frame, or named with their poses in a .conf")
+      ->required();
+  verb->add_option(
+          "-o,--output", arguments->outputs, "where to write the mesh; may be given more than once")
+      ->required()
+      ->allow_extra_args(false);
+  verb->add_flag("--no-register", arguments->no_register, "take the poses as they are");
+  verb->add_option("--reach",
+                   arguments->options.registration.reach_mm,
+                   "how far surfaces that are one may lie apart at the start, in mm")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--voxel",
+                   arguments->options.paste.voxel_mm,
+                   "sampling of the surface in mm; chosen from the data when not given")
+      ->check(CLI::PositiveNumber);
+  verb->add_flag("--watertight",
+                 arguments->options.finish.watertight,
+                 "close what was not seen; each such triangle is marked as invented");
+  verb->add_option("--tolerance",
+                   arguments->options.finish.tolerance_mm,
+                   "fewer triangles, never farther than this from the mesh, in mm")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--dxf-faces", arguments->dxf_faces, "the most triangles of a DXF; 0 for all")
+      ->capture_default_str();
+  verb->callback([arguments, &terminal] { paste(*arguments, terminal); });
+}
+
+}  // namespace frangia

@@ -1,0 +1,192 @@
+#include "frangia/files/range_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/files/ply.h"
+#include "frangia/files/ply_source.h"
+#include "frangia/files/read_bytes.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::int64_t kNothing = -1;
+
+/// Which point is where.
+struct Grid {
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  std::vector<std::int64_t> points;  ///< row by row; kNothing where there is none
+};
+
+/// The number after "obj_info KEY" in the header; 0 when there is none.
+std::size_t info_of(std::string_view header, const std::string& key) {
+  const auto found = header.find("obj_info " + key + " ");
+  if (found == std::string_view::npos) return 0;
+  std::istringstream rest(std::string(header.substr(found + key.size() + 10, 20)));
+  std::size_t number = 0;
+  rest >> number;
+  return number;
+}
+
+/// Reads over a property; the last value of a list, or kNothing when it is empty.
+template <typename Source>
+std::int64_t last_of(Source& source, const PlyProperty& property) {
+  std::int64_t last = kNothing;
+  const double count = property.count_type ? source.value(*property.count_type) : 1.0;
+  for (double i = 0.0; i < count; i += 1.0)
+    last = static_cast<std::int64_t>(source.value(property.type));
+  return last;
+}
+
+template <typename Source>
+std::vector<std::int64_t> read_grid(Source source, const PlyHeader& header) {
+  std::vector<std::int64_t> points;
+  for (const PlyElement& element : header.elements) {
+    const bool grid = element.name == "range_grid";
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      std::int64_t point = kNothing;
+      for (const PlyProperty& property : element.properties)
+        point = last_of(source, property);
+      if (grid) points.push_back(point);
+    }
+    if (grid) break;
+  }
+  return points;
+}
+
+Grid grid_of(const std::filesystem::path& path) {
+  const std::string bytes = read_bytes(path);
+  const PlyHeader header = parse_ply_header(path, bytes);
+  const bool has_grid =
+      std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& element) {
+        return element.name == "range_grid";
+      });
+  if (!has_grid) return {};
+  const std::string_view all(bytes);
+  Grid grid;
+  grid.columns = info_of(all.substr(0, header.body), "num_cols");
+  grid.rows = info_of(all.substr(0, header.body), "num_rows");
+  grid.points =
+      header.format == PlyFormat::Ascii
+          ? read_grid(AsciiPlySource(path, bytes, header.body), header)
+          : read_grid(BinaryPlySource(path, all.substr(header.body), header.format), header);
+  if (grid.columns == 0 || grid.points.size() != grid.columns * grid.rows) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: its grid holds {} places, but obj_info says {} columns and {} rows",
+                    path.string(),
+                    grid.points.size(),
+                    grid.columns,
+                    grid.rows));
+  }
+  return grid;
+}
+
+double median_spacing(const Mesh& mesh, const Grid& grid) {
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i + 1 < grid.points.size(); ++i) {
+    if ((i + 1) % grid.columns == 0 || grid.points[i] < 0 || grid.points[i + 1] < 0) continue;
+    const auto& a = mesh.vertices_mm[static_cast<std::size_t>(grid.points[i])];
+    const auto& b = mesh.vertices_mm[static_cast<std::size_t>(grid.points[i + 1])];
+    lengths.push_back(static_cast<double>((a - b).norm()));
+  }
+  if (lengths.empty()) return 0.0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+void join_neighbours(Mesh& mesh, const Grid& grid, const std::filesystem::path& path) {
+  constexpr double kLongest = 6.0;  // spacings
+  for (const std::int64_t point : grid.points) {
+    if (point >= static_cast<std::int64_t>(mesh.vertices_mm.size())) {
+      throw Error(
+          ErrorKind::Input,
+          fmt::format("{}: its grid names point {}, which is not there", path.string(), point));
+    }
+  }
+  const auto longest = static_cast<float>(kLongest * median_spacing(mesh, grid));
+  double up = 0.0;
+  const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    if (a < 0 || b < 0 || c < 0) return;
+    const auto corner = [&](std::int64_t i) {
+      return mesh.vertices_mm[static_cast<std::size_t>(i)];
+    };
+    const Eigen::Vector3f ab = corner(b) - corner(a);
+    const Eigen::Vector3f ac = corner(c) - corner(a);
+    if (std::max({ab.norm(), ac.norm(), (ab - ac).norm()}) > longest) return;
+    up += static_cast<double>(ab.cross(ac).z());
+    mesh.triangles.push_back({static_cast<std::uint32_t>(a),
+                              static_cast<std::uint32_t>(b),
+                              static_cast<std::uint32_t>(c)});
+  };
+  for (std::size_t row = 0; row + 1 < grid.rows; ++row) {
+    for (std::size_t column = 0; column + 1 < grid.columns; ++column) {
+      const std::size_t at = row * grid.columns + column;
+      const auto a = grid.points[at];
+      const auto b = grid.points[at + 1];
+      const auto c = grid.points[at + grid.columns + 1];
+      const auto d = grid.points[at + grid.columns];
+      const bool other_way = a < 0 || c < 0;  // one corner may be missing
+      add(a, b, other_way ? d : c);
+      add(other_way ? b : a, c, d);
+    }
+  }
+  if (up < 0.0) {
+    for (auto& triangle : mesh.triangles)
+      std::swap(triangle[1], triangle[2]);
+  }
+}
+
+}  // namespace
+
+RangeScan read_range_scan(const std::filesystem::path& path) {
+  RangeScan scan;
+  scan.path = path;
+  scan.mesh = read_ply(path);
+  const Grid grid = grid_of(path);
+  if (!grid.points.empty()) join_neighbours(scan.mesh, grid, path);
+  return scan;
+}
+
+std::vector<RangeScan> read_scan_poses(const std::filesystem::path& path) {
+  std::istringstream lines(read_bytes(path));
+  std::vector<RangeScan> scans;
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    std::istringstream words(line);
+    std::string what;
+    std::string file;
+    if (!(words >> what) || what != "bmesh") continue;
+    Eigen::Vector3d move;
+    Eigen::Vector4d turn;
+    words >> file >> move.x() >> move.y() >> move.z() >> turn[0] >> turn[1] >> turn[2] >> turn[3];
+    if (!words || !(turn.norm() > 0.0)) {
+      throw Error(
+          ErrorKind::Input,
+          fmt::format(
+              "{}: line {}: a scan is \"bmesh FILE tx ty tz qx qy qz qw\"", path.string(), number));
+    }
+    RangeScan scan = read_range_scan(path.parent_path() / file);
+    const Eigen::Quaterniond as_written(turn[3], turn[0], turn[1], turn[2]);
+    scan.world_from_scan.linear() = as_written.normalized().conjugate().toRotationMatrix();
+    scan.world_from_scan.translation() = move;
+    scans.push_back(std::move(scan));
+  }
+  if (!(!scans.empty())) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: names no scan; a line \"bmesh ...\" does", path.string()));
+  }
+  return scans;
+}
+
+}  // namespace frangia

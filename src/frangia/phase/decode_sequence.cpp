@@ -1,0 +1,192 @@
+#include "frangia/phase/decode_sequence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "frangia/core/error.h"
+#include "frangia/core/make_room.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/vectorised.h"
+#include "frangia/phase/climb_ladder.h"
+#include "frangia/phase/wrap_tile.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kChunk = 64 * kTilePixels;
+
+using Fates = std::array<std::int32_t, kTilePixels>;
+
+/// One over the variance of the phase of one map, and the least of it so far.
+FRANGIA_VECTORISED void find_precision(const WrapTile& __restrict tile,
+                                       std::size_t n,
+                                       TileNoise f,
+                                       float* __restrict precision,
+                                       float* __restrict least) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float s = tile.sine[i];
+    const float c = tile.cosine[i];
+    const float square = s * s + c * c;
+    const float mean = tile.mean[i] > 0.0F ? tile.mean[i] : 0.0F;
+    const float variance = f.variance_floor + f.variance_slope * mean;
+    const float gain = c * c * f.sine_gain + s * s * f.cosine_gain - 2.0F * s * c * f.cross_gain;
+    const float found = square * square / (variance * gain + 1e-20F);
+    precision[i] = found;
+    least[i] = found < least[i] ? found : least[i];
+  }
+}
+
+/// The same where sine and cosine are equally noisy, each by itself.
+FRANGIA_VECTORISED void find_even_precision(const WrapTile& __restrict tile,
+                                            std::size_t n,
+                                            TileNoise f,
+                                            float* __restrict precision,
+                                            float* __restrict least) {
+  const float floor = f.variance_floor * f.sine_gain;
+  const float slope = f.variance_slope * f.sine_gain;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float s = tile.sine[i];
+    const float c = tile.cosine[i];
+    const float mean = tile.mean[i] > 0.0F ? tile.mean[i] : 0.0F;
+    const float found = (s * s + c * c) / (floor + slope * mean);
+    precision[i] = found;
+    least[i] = found < least[i] ? found : least[i];
+  }
+}
+
+bool is_even(const TileNoise& noise) {
+  return std::abs(noise.sine_gain - noise.cosine_gain) < 1e-6F * noise.sine_gain &&
+         std::abs(noise.cross_gain) < 1e-6F * noise.sine_gain;
+}
+
+FRANGIA_VECTORISED void find_lost(const float* __restrict least,
+                                  const std::uint16_t* __restrict top,
+                                  std::size_t n,
+                                  float min_precision,
+                                  std::int32_t white,
+                                  std::int32_t* __restrict fate) {
+  constexpr auto kSaturated = static_cast<std::int32_t>(PixelFate::Saturated);
+  constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelFate::Unmodulated);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t dim = least[i] >= min_precision ? 0 : kUnmodulated;
+    fate[i] = static_cast<std::int32_t>(top[i]) >= white ? kSaturated : dim;
+  }
+}
+
+FRANGIA_VECTORISED void discard(const std::int32_t* __restrict doubtful,
+                                std::size_t n,
+                                std::int32_t* __restrict fate,
+                                float* __restrict phase,
+                                float* __restrict sigma) {
+  constexpr auto kDoubtful = static_cast<std::int32_t>(PixelFate::Doubtful);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t lost = fate[i] != 0 ? fate[i] : doubtful[i] * kDoubtful;
+    fate[i] = lost;
+    phase[i] = lost != 0 ? kMissing : phase[i];
+    sigma[i] = lost != 0 ? kMissing : sigma[i];
+  }
+}
+
+FRANGIA_VECTORISED void narrow(const std::int32_t* __restrict fate,
+                               std::size_t n,
+                               PixelFate* __restrict out) {
+  for (std::size_t i = 0; i < n; ++i)
+    out[i] = static_cast<PixelFate>(fate[i]);
+}
+
+/// The work of one thread: tile by tile, all maps of each.
+class TileDecoder {
+ public:
+  TileDecoder(std::span<const SequenceFrames> maps,
+              std::span<const TileNoise> noises,
+              const LadderClimb& ladder,
+              float min_precision)
+      : maps_(maps),
+        noises_(noises),
+        ladder_(ladder),
+        min_precision_(min_precision),
+        lanes_(2 * maps.size()) {
+    for (std::size_t m = 0; m < maps.size(); ++m) {
+      phase_.push_back(lanes_[2 * m].data());
+      precision_.push_back(lanes_[2 * m + 1].data());
+    }
+  }
+
+  void decode(std::size_t at, std::size_t n, AbsolutePhase& out) {
+    tile_.top.fill(0);
+    least_.fill(std::numeric_limits<float>::max());
+    for (std::size_t m = 0; m < maps_.size(); ++m) {
+      sum_frames(*maps_[m].stack, maps_[m].algorithm, at, n, tile_);
+      find_tile_phase(tile_, n, lanes_[2 * m].data());
+      const auto find = is_even(noises_[m]) ? find_even_precision : find_precision;
+      find(tile_, n, noises_[m], lanes_[2 * m + 1].data(), least_.data());
+    }
+    find_lost(
+        least_.data(), tile_.top.data(), n, min_precision_, noises_.front().white, fates_.data());
+    float* phase = out.phase_rad.pixels().data() + at;
+    float* sigma = out.sigma_rad.pixels().data() + at;
+    if (std::find(fates_.begin(), fates_.begin() + static_cast<std::ptrdiff_t>(n), 0) !=
+        fates_.begin() + static_cast<std::ptrdiff_t>(n))
+      ladder_.climb({phase_, precision_, fates_.data()}, n, phase, sigma, doubtful_.data());
+    discard(doubtful_.data(), n, fates_.data(), phase, sigma);
+    narrow(fates_.data(), n, out.fate.pixels().data() + at);
+  }
+
+ private:
+  std::span<const SequenceFrames> maps_;
+  std::span<const TileNoise> noises_;
+  const LadderClimb& ladder_;
+  float min_precision_;
+  WrapTile tile_;
+  std::vector<Lane> lanes_;  ///< phase and precision of each map
+  std::vector<const float*> phase_;
+  std::vector<const float*> precision_;
+  alignas(64) Lane least_{};
+  Fates fates_{};
+  Fates doubtful_{};
+};
+
+}  // namespace
+
+AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
+                              const NoiseModel& noise,
+                              const Projector& projector,
+                              const WrapOptions& wrap,
+                              const TimeUnwrapOptions& in_time,
+                              AbsolutePhase lent) {
+  std::vector<Pattern> patterns;
+  std::vector<TileNoise> noises;
+  for (const SequenceFrames& map : coarse_to_fine) {
+    check_frames(*map.stack, map.algorithm);
+    require(width_of(map.stack->frames.front()) ==
+                    width_of(coarse_to_fine.front().stack->frames.front()) &&
+                height_of(map.stack->frames.front()) ==
+                    height_of(coarse_to_fine.front().stack->frames.front()),
+            "decode_sequence: the patterns' frames differ in size");
+    patterns.push_back(map.stack->pattern);
+    noises.push_back(tile_noise(*map.stack, map.algorithm, noise));
+  }
+  const LadderClimb ladder(patterns, projector, in_time.max_wrong_order);
+  const Frame& first = coarse_to_fine.front().stack->frames.front();
+  AbsolutePhase out = std::move(lent);
+  out.pattern = patterns.back();
+  make_room(width_of(first), height_of(first), out.phase_rad);
+  make_room(width_of(first), height_of(first), out.sigma_rad);
+  make_room(width_of(first), height_of(first), out.fate);
+  const float min_precision = 1.0F / (wrap.max_sigma_rad * wrap.max_sigma_rad);
+  parallel_chunks(out.fate.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    TileDecoder decoder(coarse_to_fine, noises, ladder, min_precision);
+    for (std::size_t at = begin; at < end; at += kTilePixels)
+      decoder.decode(at, std::min(kTilePixels, end - at), out);
+  });
+  return out;
+}
+
+}  // namespace frangia
