@@ -167,9 +167,34 @@ class Session {
     return why;
   }
 
+  /// A set that is not kept, before the first one that is: it tells how far off the steps are, so
+  /// that all views are taken with the same ones.
+  void try_steps(std::size_t view, const Pattern& pattern) {
+    const bool due = options_.control_steps && devices_.shifts() &&
+                     pattern.kind == PatternKind::Fringe && !manifest_.is_good("trial");
+    if (!due) return;
+    FrameStack stack{pattern, {}, plan_.rig.camera.white_level};
+    stack.pattern.exposures_ms.clear();
+    devices_.begin_set(pattern, 1.0);
+    devices_.expose_for(exposure_of(pattern, 0));
+    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+      devices_.show(pattern, frame);
+      stack.frames.push_back(
+          devices_.take({static_cast<int>(view), pattern.name, frame, 0, 0}).frame);
+    }
+    const SetVerdict judged = judge_set({&stack, 1}, plan_.rig.camera.noise, true);
+    ManifestSet verdict;
+    if (judged.step_found) verdict.scale = 1.0 / (1.0 + judged.gain_error);
+    store_.put("trial", verdict);
+    run_.note(
+        fmt::format("steps of the phase shifter: {:+.2f} % off, corrected from the first set on",
+                    100.0 * judged.gain_error));
+  }
+
   /// Takes what is missing of a set, until it shows no motion.
   void capture_set(std::size_t view, const Pattern& pattern) {
     const std::string set = set_of(view, pattern);
+    try_steps(view, pattern);
     for (;;) {
       const int attempt = manifest_.attempt_of(set);
       std::vector<FramePtr> frames = take_set(view, pattern, attempt);
@@ -202,9 +227,9 @@ class Session {
           judge_set(stacks_of(pattern, frames), plan_.rig.camera.noise, devices_.shifts());
       verdict.moved = judged.moved && attempt + 1 < options_.set_attempts;
       if (options_.control_steps && judged.step_found && !judged.moved) {
-        // The first set tells most; later ones only trim, for each has the jitter of its steps.
-        const double share = manifest_.scale() != 1.0 ? 0.5 : 1.0;
-        verdict.scale /= 1.0 + share * judged.gain_error;
+        // The trial told most; these only trim, for each has the jitter of its steps.
+        constexpr double kShare = 0.5;
+        verdict.scale /= 1.0 + kShare * judged.gain_error;
       }
     }
     store_.put(set_of(view, pattern), verdict);

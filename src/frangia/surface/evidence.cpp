@@ -114,7 +114,7 @@ struct Questioner {
     face.noise += w * variance;
     face.noise_squared += w * w * variance;
     // A lens is known, and light spread evenly over a pixel, to this and no better.
-    constexpr float kOff_px = 0.022F;
+    constexpr float kOff_px = 0.02F;
     const float pixel_mm = word.point.z() * pixel_rad;
     face.lateral_squared +=
         w * w * kOff_px * kOff_px * pixel_mm * pixel_mm * std::max(0.0F, 1.0F - cosine2);
