@@ -20,8 +20,8 @@ std::vector<Driver> all_drivers() {
 
 std::vector<std::filesystem::path> examples() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(FRANGIA_SOURCE_DIR) + "/examples")) {
+  const auto folder = std::filesystem::path(FRANGIA_SOURCE_DIR) / "examples";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   }
   return files;

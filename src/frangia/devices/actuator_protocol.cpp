@@ -7,25 +7,21 @@
 namespace frangia {
 
 ActuatorProtocol scpi_protocol() {
-  ActuatorProtocol protocol;
-  protocol.start = {"*CLS", "OUTP ON"};
-  protocol.set = "VOLT:OFFS {value:.6f}";
-  protocol.settled_query = "*OPC?";
-  protocol.settled_answer = "1";
-  protocol.language = {"SYST:ERR?", "0", "\n", "*IDN?"};
-  protocol.stop = {"OUTP OFF"};
-  return protocol;
+  return {.language = {"SYST:ERR?", "0", "\n", "*IDN?"},
+          .start = {"*CLS", "OUTP ON"},
+          .set = "VOLT:OFFS {value:.6f}",
+          .settled_query = "*OPC?",
+          .settled_answer = "1",
+          .stop = {"OUTP OFF"}};
 }
 
 ActuatorProtocol gcs2_protocol(const std::string& axis) {
-  ActuatorProtocol protocol;
-  protocol.start = {"SVO " + axis + " 1"};
-  protocol.set = "MOV " + axis + " {value:.5f}";
-  protocol.settled_query = "ONT? " + axis;
-  protocol.settled_answer = axis + "=1";
-  protocol.language = {"ERR?", "0", "\n", "*IDN?"};
-  protocol.stop = {"STP " + axis};
-  return protocol;
+  return {.language = {"ERR?", "0", "\n", "*IDN?"},
+          .start = {"SVO " + axis + " 1"},
+          .set = "MOV " + axis + " {value:.5f}",
+          .settled_query = "ONT? " + axis,
+          .settled_answer = axis + "=1",
+          .stop = {"STP " + axis}};
 }
 
 std::string fill_command(const std::string& set, double value) {
