@@ -204,7 +204,7 @@ Mesh mesh_of(Surface& surface) {
 
 void decimate_to_tenth_by_cgal(benchmark::State& state) {
   namespace sms = CGAL::Surface_mesh_simplification;
-  using Policies = sms::GarlandHeckbert_policies<Surface, Kernel>;
+  using Policies = sms::GarlandHeckbert_plane_policies<Surface, Kernel>;
   const Mesh& mesh = scan(state);
   Mesh few;
   for (auto iteration : state) {
