@@ -82,6 +82,7 @@ def blade():
     tell("## A polished blade\n")
     rig = WORK / "blade.toml"
     text = (ROOT / "examples" / "simulated-digital.toml").read_text()
+    text = text.replace("samples = 4", "samples = 1")
     rig.write_text(text.replace('part = "bracket" ', 'part = "blade"\n' + SHINY + "# "))
     run("simulate", "blade", "--views", 1, "-o", WORK / "blade-truth")
     truth = WORK / "blade-truth" / "truth.ply"
