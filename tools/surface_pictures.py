@@ -209,7 +209,8 @@ def block_edge():
         weight[near] += 1
     shape = tuple(len(a) for a in axes)
     field = numpy.where(weight > 0, total / numpy.maximum(weight, 1), numpy.nan).reshape(shape)
-    vertices, faces, _, _ = marching_cubes(numpy.nan_to_num(field, nan=truncation), 0.0, mask=numpy.isfinite(field))
+    vertices, faces, _, _ = marching_cubes(
+        numpy.nan_to_num(field, nan=truncation), 0.0, mask=numpy.isfinite(field), gradient_direction="ascent")
     write_ply(WORK / "cubes.ply", vertices * voxel + low, numpy.ones(len(vertices)), faces[:, ::-1])
     for name in ("bracket", "cubes"):
         run("inspect", WORK / f"{name}.ply", "--show", "shape", "--picture", WORK / f"{name}.png")
