@@ -33,7 +33,9 @@ struct PixelAllocator {
   void construct(U* place, Arguments&&... arguments) {
     ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
   }
-  friend bool operator==(const PixelAllocator&, const PixelAllocator&) { return true; }
+  friend bool operator==(const PixelAllocator& /*one*/, const PixelAllocator& /*other*/) {
+    return true;
+  }
 };
 
 }  // namespace frangia

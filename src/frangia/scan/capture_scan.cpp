@@ -334,9 +334,10 @@ class Session {
   void choose_exposures() {
     exposure_ms_ = options_.camera.exposure_ms;
     if (options_.exposure != ExposureChoice::Given) {
-      if (manifest_.exposures_ms().empty())
+      if (manifest_.exposures_ms().empty()) {
         manifest_.choose_exposures(
             survey_exposures(plan_, devices_, options_, camera_range_, run_));
+      }
       report_.exposures_ms = manifest_.exposures_ms();
       exposure_ms_ = report_.exposures_ms.front();
     }
