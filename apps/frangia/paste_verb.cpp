@@ -1,3 +1,5 @@
+#include "paste_verb.h"
+
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -9,8 +11,6 @@
 #include "frangia/files/ending_of.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/scan/paste_scans.h"
-
-#include "paste_verb.h"
 
 namespace frangia {
 namespace {

@@ -14,8 +14,8 @@ namespace frangia {
 /// shape    a row a pixel, a column a frame
 [[nodiscard]] Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted);
 
-/// Some rows of a stack, evenly over it, that hold about `wanted` pixels: for a judgement that needs
-/// no more.
+/// Some rows of a stack, evenly over it, that hold about `wanted` pixels: for a judgement that
+/// needs no more.
 [[nodiscard]] FrameStack sample_rows(const FrameStack& stack, std::size_t wanted);
 
 }  // namespace frangia
