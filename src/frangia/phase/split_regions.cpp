@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "frangia/core/parallel.h"
@@ -110,11 +111,16 @@ void spread(Front& front, Regions& regions, const Allowed& allowed) {
   }
 }
 
-/// Gives each connected set of admitted, unlabelled pixels the next label.
+/// Runs of pixels that hang together over smooth jumps, and the set that each belongs to.
+struct RunSets {
+  PixelRuns all;
+  RunForest forest;
+};
+
 template <typename Allowed>
-void label_all(Regions& regions, const Allowed& allowed) {
+RunSets connect_runs(const Regions& regions, const Allowed& allowed) {
   const int height = regions.label.height();
-  const PixelRuns all = find_runs(
+  PixelRuns all = find_runs(
       regions.label.width(),
       height,
       [&](int x, int y) { return regions.label(x, y) < 0 && allowed(x, y); },
@@ -122,27 +128,78 @@ void label_all(Regions& regions, const Allowed& allowed) {
   RunForest forest(all.runs.size());
   for (int y = 1; y < height; ++y) {
     meet_row_above(all, y, [&](std::size_t a, std::size_t b, std::int32_t begin, std::int32_t end) {
-      for (std::int32_t x = begin; x < end; ++x) {
-        if (regions.smooth_below(x, y - 1) == 0) continue;
-        forest.join(a, b, 0);
-        return;
-      }
+      const std::uint8_t* smooth = &regions.smooth_below(0, y - 1);
+      if (std::find(smooth + begin, smooth + end, 1) != smooth + end) forest.join(a, b, 0);
     });
   }
-  // A root is the first run of its set.
-  std::vector<std::int32_t> label(all.runs.size());
-  for (std::size_t i = 0; i < label.size(); ++i) {
-    const std::size_t root = forest.root(i).run;
-    label[i] = root == i ? regions.count++ : label[root];
-  }
-  parallel_rows(height, [&](int y) {
+  return {std::move(all), std::move(forest)};
+}
+
+/// Writes a label into each run that has one.
+void label_runs(const PixelRuns& all, const std::vector<std::int32_t>& label, Regions& regions) {
+  parallel_rows(regions.label.height(), [&](int y) {
     const auto row = static_cast<std::size_t>(y);
     for (std::size_t i = all.first[row]; i < all.first[row + 1]; ++i) {
-      std::fill(&regions.label(all.runs[i].begin, y),
-                &regions.label(all.runs[i].begin, y) + (all.runs[i].end - all.runs[i].begin),
-                label[i]);
+      if (label[i] < 0) continue;
+      std::int32_t* begin = &regions.label(all.runs[i].begin, y);
+      std::fill(begin, begin + (all.runs[i].end - all.runs[i].begin), label[i]);
     }
   });
+}
+
+/// Gives each connected set of admitted, unlabelled pixels the next label.
+template <typename Allowed>
+void label_all(Regions& regions, const Allowed& allowed) {
+  RunSets sets = connect_runs(regions, allowed);
+  // A root is the first run of its set.
+  std::vector<std::int32_t> label(sets.all.runs.size());
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    const std::size_t root = sets.forest.root(i).run;
+    label[i] = root == i ? regions.count++ : label[root];
+  }
+  label_runs(sets.all, label, regions);
+}
+
+constexpr std::int32_t kNoLabel = -1;
+constexpr std::int32_t kSeveral = -2;
+
+/// The one label that smooth jumps lead to from a run, kNoLabel or kSeveral.
+std::int32_t label_beside(const Regions& regions, int y, PixelRun run) {
+  std::int32_t found = kNoLabel;
+  const auto meet = [&](int x, int v, std::uint8_t smooth) {
+    const std::int32_t label = regions.label(x, v);
+    if (smooth == 0 || label < 0 || label == found) return;
+    found = found == kNoLabel ? label : kSeveral;
+  };
+  if (run.begin > 0) meet(run.begin - 1, y, regions.smooth_right(run.begin - 1, y));
+  if (run.end < regions.label.width()) meet(run.end, y, regions.smooth_right(run.end - 1, y));
+  for (std::int32_t x = run.begin; x < run.end && found != kSeveral; ++x) {
+    if (y > 0) meet(x, y - 1, regions.smooth_below(x, y - 1));
+    if (y + 1 < regions.label.height()) meet(x, y + 1, regions.smooth_below(x, y));
+  }
+  return found;
+}
+
+/// Labels at once the sets of unlabelled pixels that border on a single label: what `spread` would
+/// do a pixel at a time.
+template <typename Allowed>
+void label_beside_one(Regions& regions, const Allowed& allowed) {
+  RunSets sets = connect_runs(regions, allowed);
+  std::vector<std::int32_t> beside(sets.all.runs.size());
+  parallel_rows(regions.label.height(), [&](int y) {
+    const auto row = static_cast<std::size_t>(y);
+    for (std::size_t i = sets.all.first[row]; i < sets.all.first[row + 1]; ++i)
+      beside[i] = label_beside(regions, y, sets.all.runs[i]);
+  });
+  std::vector<std::int32_t> of_set(beside.size(), kNoLabel);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    std::int32_t& known = of_set[sets.forest.root(i).run];
+    if (beside[i] == kNoLabel || beside[i] == known) continue;
+    known = known == kNoLabel ? beside[i] : kSeveral;
+  }
+  for (std::size_t i = 0; i < beside.size(); ++i)
+    beside[i] = of_set[sets.forest.root(i).run];
+  label_runs(sets.all, beside, regions);
 }
 
 /// 1 where a pixel or one beside it is near a cut: elsewhere no pixel waits for a label.
@@ -202,8 +259,9 @@ Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options) 
   dilate(options.neck_radius_px, near_cut);
   const auto measured = [&](int x, int y) { return !std::isnan(phase(x, y)); };
   label_all(regions, [&](int x, int y) { return measured(x, y) && near_cut(x, y) == 0; });
+  // The rims around the cores: most belong to one, for the others the nearest one is sought.
+  label_beside_one(regions, [&](int x, int y) { return near_cut(x, y) != 0 && measured(x, y); });
   Front front = rims(phase, regions.label, near_cut);
-  // The rims around the cores.
   spread(front, regions, [&](std::uint32_t at) { return !std::isnan(phase.pixels()[at]); });
   label_all(regions, measured);  // what no core reaches
   return regions;
