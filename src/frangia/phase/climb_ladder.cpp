@@ -44,7 +44,7 @@ struct Rung {
 template <bool IsBeat>
 [[gnu::always_inline]] inline Rung rung_at(const RungLanes& rung, std::size_t i) {
   if constexpr (IsBeat) {
-    return {rung.phase[i] - rung.less[i],
+    return {rung.phase[i] - rung.less[i],  // NOLINT(clang-analyzer-core.NullDereference): a beat's
             rung.precision[i] + rung.less_precision[i],
             rung.precision[i] * rung.less_precision[i]};
   } else {
@@ -67,14 +67,20 @@ struct Margins {
          (margin < margins.least * over ? kDoubtful : 0);
 }
 
+/// The first step, and its phase in the middle of the field.
+struct Start {
+  RungLanes rung;
+  float centre;
+  Margins margins;
+};
+
 /// The first step: nothing to lift, but noise slips over at the ends of the single fringe.
 template <bool IsBeat>
-FRANGIA_VECTORISED void start(const RungLanes& rung,
+FRANGIA_VECTORISED void start(const Start& first,
                               std::size_t n,
-                              float centre,
-                              Margins margins,
                               float* __restrict absolute,
                               std::int32_t* __restrict state) {
+  const auto [rung, centre, margins] = first;
   for (std::size_t i = 0; i < n; ++i) {
     const Rung at = rung_at<IsBeat>(rung, i);
     const float away = at.phase - centre;
@@ -121,6 +127,12 @@ struct Part {
   float ratio;  ///< of its fringes to the finest one's
 };
 
+/// Sums over the maps for the least-squares slope of phase over frequency.
+struct Slope {
+  alignas(64) Lane sum;
+  alignas(64) Lane weights;
+};
+
 /// Two maps' share in the slope of phase over frequency: how far they lie from the finest one's.
 /// The first two set the sums.
 template <bool IsFirst>
@@ -128,8 +140,7 @@ FRANGIA_VECTORISED void weigh(const Part& first,
                               const Part& second,
                               const float* __restrict at,
                               std::size_t n,
-                              float* __restrict sum,
-                              float* __restrict weights) {
+                              Slope& __restrict slope) {
   const Part a = first;
   const Part b = second;
   for (std::size_t i = 0; i < n; ++i) {
@@ -140,20 +151,19 @@ FRANGIA_VECTORISED void weigh(const Part& first,
     const float found = weight_a * (away_a - kTurnRad * nearest(away_a * kPerTurn)) +
                         weight_b * (away_b - kTurnRad * nearest(away_b * kPerTurn));
     const float weight = weight_a * a.ratio + weight_b * b.ratio;
-    sum[i] = IsFirst ? found : sum[i] + found;
-    weights[i] = IsFirst ? weight : weights[i] + weight;
+    slope.sum[i] = IsFirst ? found : slope.sum[i] + found;
+    slope.weights[i] = IsFirst ? weight : slope.weights[i] + weight;
   }
 }
 
 FRANGIA_VECTORISED void finish(const float* __restrict at,
-                               const float* __restrict sum,
-                               const float* __restrict weights,
+                               const Slope& __restrict slope,
                                std::size_t n,
                                float* __restrict absolute,
                                float* __restrict sigma) {
   for (std::size_t i = 0; i < n; ++i) {
-    const float variance = 1.0F / weights[i];
-    absolute[i] = at[i] + sum[i] * variance;
+    const float variance = 1.0F / slope.weights[i];
+    absolute[i] = at[i] + slope.sum[i] * variance;
     sigma[i] = std::sqrt(variance);
   }
 }
@@ -188,7 +198,7 @@ LiftLanes lift_between(const LadderStep& coarse, const LadderStep& fine) {
 LadderClimb::LadderClimb(std::span<const Pattern> coarse_to_fine,
                          const Projector& projector,
                          double max_wrong_order)
-    : max_wrong_order_(max_wrong_order), safe_sigmas_(0.0), least_sigmas_(0.0), centre_rad_(0.0) {
+    : max_wrong_order_(max_wrong_order), least_sigmas_(kPi / sigma_of_chance(max_wrong_order)) {
   require(!coarse_to_fine.empty(), "unwrap_sequence: no phase given");
   const double top = coarse_to_fine.back().fringes_per_unit();
   for (const Pattern& pattern : coarse_to_fine) {
@@ -204,7 +214,6 @@ LadderClimb::LadderClimb(std::span<const Pattern> coarse_to_fine,
           "holds one fringe or less over the field");
   const auto count = static_cast<double>(steps_.size());
   safe_sigmas_ = kPi / sigma_of_chance(max_wrong_order / count);
-  least_sigmas_ = kPi / sigma_of_chance(max_wrong_order);
   centre_rad_ =
       steps_.front().per_unit / top * phase_range(coarse_to_fine.back(), projector).centre_rad();
 }
@@ -218,12 +227,8 @@ void LadderClimb::climb(const Input& maps,
   const Margins margins{static_cast<float>(safe_sigmas_ * safe_sigmas_),
                         static_cast<float>(least_sigmas_ * least_sigmas_)};
   RungLanes coarse = lanes_of(steps_.front(), maps);
-  (steps_.front().less < 0 ? start<false> : start<true>)(coarse,
-                                                         n,
-                                                         static_cast<float>(centre_rad_),
-                                                         margins,
-                                                         lanes[0].data(),
-                                                         doubtful);
+  const Start first{coarse, static_cast<float>(centre_rad_), margins};
+  (steps_.front().less < 0 ? start<false> : start<true>)(first, n, lanes[0].data(), doubtful);
   for (std::size_t k = 1; k < steps_.size(); ++k) {
     const RungLanes fine = lanes_of(steps_[k], maps);
     const double ratio = steps_[k].per_unit / steps_[k - 1].per_unit;
@@ -253,23 +258,18 @@ void LadderClimb::fit_slope(const Input& maps,
                             std::size_t n,
                             float* absolute_rad,
                             float* sigma_rad) const {
-  alignas(64) Lane sum;      // NOLINT(cppcoreguidelines-pro-type-member-init): set by the first two
-  alignas(64) Lane weights;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  Slope slope;  // NOLINT(cppcoreguidelines-pro-type-member-init): set by the first two maps
   for (std::size_t m = 0; m < ratios_.size(); m += 2) {
     // An odd last one goes with itself at no weight.
     const bool pair = m + 1 < ratios_.size();
     const std::size_t other = pair ? m + 1 : m;
-    (m == 0 ? weigh<true>
-            : weigh<false>)({maps.phase_rad[m], maps.precision[m], static_cast<float>(ratios_[m])},
-                            {maps.phase_rad[other],
-                             maps.precision[other],
-                             pair ? static_cast<float>(ratios_[other]) : 0.0F},
-                            at,
-                            n,
-                            sum.data(),
-                            weights.data());
+    const Part one{maps.phase_rad[m], maps.precision[m], static_cast<float>(ratios_[m])};
+    const Part two{maps.phase_rad[other],
+                   maps.precision[other],
+                   pair ? static_cast<float>(ratios_[other]) : 0.0F};
+    (m == 0 ? weigh<true> : weigh<false>)(one, two, at, n, slope);
   }
-  finish(at, sum.data(), weights.data(), n, absolute_rad, sigma_rad);
+  finish(at, slope, n, absolute_rad, sigma_rad);
 }
 
 double LadderClimb::wrong_chance(const Input& maps, std::size_t i) const {

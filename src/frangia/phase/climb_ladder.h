@@ -48,9 +48,9 @@ class LadderClimb {
   std::vector<LadderStep> steps_;
   std::vector<double> ratios_;  ///< of each map's fringes to the finest one's
   double max_wrong_order_;
-  double safe_sigmas_;   ///< half a fringe away by so many sigmas is safe at each step
-  double least_sigmas_;  ///< and by fewer than these is not, at any single one
-  double centre_rad_;    ///< phase of the first step in the middle of the field
+  double safe_sigmas_ = 0.0;  ///< half a fringe away by so many sigmas is safe at each step
+  double least_sigmas_;       ///< and by fewer than these is not, at any single one
+  double centre_rad_ = 0.0;   ///< phase of the first step in the middle of the field
 };
 
 }  // namespace frangia

@@ -20,6 +20,7 @@ double found_of(double phase,
                 const PhaseAlgorithm& algorithm,
                 const std::vector<double>& shifts_rad) {
   std::vector<double> light;
+  light.reserve(shifts_rad.size());
   for (const double shift : shifts_rad)
     light.push_back(response.light_of(0.5 + 0.5 * std::cos(phase + shift)));
   return phase_of(algorithm, light);
@@ -44,7 +45,6 @@ ResponseTable response_table(const ResponseCurve& response,
             "the patterns that it shows instead");
   }
   ResponseTable table;
-  std::size_t k = 0;
   for (std::size_t i = 0; i <= kPlaces; ++i) {
     double seen = -kPi + kTurn * static_cast<double>(i) / kPlaces;
     while (seen < found.front())
@@ -52,7 +52,7 @@ ResponseTable response_table(const ResponseCurve& response,
     while (seen > found.back())
       seen -= kTurn;
     const auto above = std::lower_bound(found.begin() + 1, found.end() - 1, seen);
-    k = static_cast<std::size_t>(above - found.begin());
+    const auto k = static_cast<std::size_t>(above - found.begin());
     const double within = (seen - found[k - 1]) / (found[k] - found[k - 1]);
     table.correction_rad.push_back(
         static_cast<float>(std::lerp(true_phase[k - 1], true_phase[k], within) - seen));

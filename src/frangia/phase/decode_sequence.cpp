@@ -46,17 +46,22 @@ FRANGIA_VECTORISED void find_precision(const WrapTile& __restrict tile,
   }
 }
 
+/// Beyond which a pixel is lost.
+struct Limits {
+  float min_precision;
+  std::int32_t white;
+};
+
 FRANGIA_VECTORISED void find_lost(const float* __restrict least,
                                   const std::uint16_t* __restrict top,
                                   std::size_t n,
-                                  float min_precision,
-                                  std::int32_t white,
+                                  Limits limits,
                                   std::int32_t* __restrict fate) {
   constexpr auto kSaturated = static_cast<std::int32_t>(PixelFate::Saturated);
   constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelFate::Unmodulated);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t dim = least[i] >= min_precision ? 0 : kUnmodulated;
-    fate[i] = static_cast<std::int32_t>(top[i]) >= white ? kSaturated : dim;
+    const std::int32_t dim = least[i] >= limits.min_precision ? 0 : kUnmodulated;
+    fate[i] = static_cast<std::int32_t>(top[i]) >= limits.white ? kSaturated : dim;
   }
 }
 
@@ -114,9 +119,7 @@ class TileDecoder {
       float* phase = lane(2 * m);
       float* precision = lane(2 * m + 1);
       if (quarters_[m]) {
-        wrap_quarters(*maps_[m].stack,
-                      maps_[m].algorithm,
-                      noises_[m],
+        wrap_quarters({*maps_[m].stack, maps_[m].algorithm, noises_[m]},
                       at,
                       n,
                       {phase, precision, least_.data(), tile_.top.data()});
@@ -127,7 +130,7 @@ class TileDecoder {
       find_precision(tile_, n, noises_[m], precision, least_.data());
     }
     find_lost(
-        least_.data(), tile_.top.data(), n, min_precision_, noises_.front().white, fates_.data());
+        least_.data(), tile_.top.data(), n, {min_precision_, noises_.front().white}, fates_.data());
     float* phase = out.phase_rad.pixels().data() + at;
     float* sigma = out.sigma_rad.pixels().data() + at;
     if (any_measured(fates_.data(), n))

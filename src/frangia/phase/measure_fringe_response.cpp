@@ -100,6 +100,7 @@ ResponseCurve measure_fringe_response(std::span<const FrameStack> stacks) {
           "the fringes light too few pixels that do not saturate; check the exposure");
   const Eigen::VectorXd light = fit.solve();
   std::vector<double> levels;
+  levels.reserve(kKnots);
   for (int k = 0; k < kKnots; ++k)
     levels.push_back(static_cast<double>(k) / (kKnots - 1));
   return make_response_curve(levels, {light.begin(), light.end()});

@@ -27,18 +27,25 @@ struct Limits {
   float jump;
 };
 
+/// Jumps, and those before and behind them.
+struct JumpRows {
+  const float* before;
+  const float* here;
+  const float* behind;
+};
+
 /// Whether each jump is smooth: small, and not far outside the ones before and behind it. One that
 /// is missing is passed over, and a lone jump has no departure.
-FRANGIA_VECTORISED void judge_jumps(const float* before,
-                                    const float* here,
-                                    const float* behind,
+FRANGIA_VECTORISED void judge_jumps(JumpRows rows,
                                     int count,
                                     Limits limits,
-                                    std::uint8_t* smooth) {
+                                    std::uint8_t* __restrict smooth) {
   for (int x = 0; x < count; ++x) {
-    const float jump = here[x];
-    const float one = before[x] == before[x] ? before[x] : behind[x];
-    const float two = behind[x] == behind[x] ? behind[x] : before[x];
+    const float before = rows.before[x];
+    const float jump = rows.here[x];
+    const float behind = rows.behind[x];
+    const float one = before == before ? before : behind;
+    const float two = behind == behind ? behind : before;
     const float low = one < two ? one : two;
     const float high = one < two ? two : one;
     const std::int32_t below = low - jump > limits.departure ? 1 : 0;
@@ -79,7 +86,7 @@ Image<std::uint8_t> smooth_right(const Image<float>& phase_rad, const JumpOption
     std::vector<float> jump(row + 2, kMissing);  // one more at each end
     const float* from = phase_rad.pixels().data() + static_cast<std::size_t>(y) * row;
     find_jumps(from, from + 1, width - 1, jump.data() + 1);
-    judge_jumps(jump.data(), jump.data() + 1, jump.data() + 2, width, limits, &smooth(0, y));
+    judge_jumps({jump.data(), jump.data() + 1, jump.data() + 2}, width, limits, &smooth(0, y));
   });
   return smooth;
 }
@@ -107,7 +114,7 @@ Image<std::uint8_t> smooth_below(const Image<float>& phase_rad, const JumpOption
     jumps_below(band * kBand, here);
     for (int y = band * kBand; y < std::min(height, (band + 1) * kBand); ++y) {
       jumps_below(y + 1, behind);
-      judge_jumps(before.data(), here.data(), behind.data(), width, limits, &smooth(0, y));
+      judge_jumps({before.data(), here.data(), behind.data()}, width, limits, &smooth(0, y));
       std::swap(before, here);
       std::swap(here, behind);
     }

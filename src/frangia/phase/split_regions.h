@@ -24,6 +24,6 @@ struct Regions {
 
 /// Cuts the phase wherever it may hide a step of more than half a fringe. It cuts too much rather
 /// than too little: `join_regions` mends what is safe.
-[[nodiscard]] Regions split_regions(const WrappedPhase& phase, const SplitOptions& options = {});
+[[nodiscard]] Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options = {});
 
 }  // namespace frangia

@@ -62,9 +62,10 @@ template <typename T>
 FRANGIA_VECTORISED void find_phase(const Sums<T>& __restrict sums,
                                    std::size_t n,
                                    QuarterNoise noise,
-                                   float* __restrict phase,
-                                   float* __restrict precision,
-                                   float* __restrict least) {
+                                   const TilePhase& out) {
+  float* __restrict phase = out.phase_rad;
+  float* __restrict precision = out.precision;
+  float* __restrict least = out.least;
   for (std::size_t i = 0; i < n; ++i) {
     const auto y = static_cast<float>(sums.sine[i]);
     const auto x = static_cast<float>(sums.cosine[i]);
@@ -103,7 +104,7 @@ template <typename T>
 void wrap(FourFrames<T> frames, std::size_t n, QuarterNoise noise, const TilePhase& out) {
   Sums<T> sums;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
   sum_four<T>(frames, n, sums);
-  find_phase(sums, n, noise, out.phase_rad, out.precision, out.least);
+  find_phase(sums, n, noise, out);
   keep_top<T>(frames, n, out.top);
 }
 
@@ -121,12 +122,13 @@ bool are_quarters(const PhaseAlgorithm& algorithm) {
          is(mean[1], mean[0]) && is(mean[2], mean[0]) && is(mean[3], mean[0]);
 }
 
-void wrap_quarters(const FrameStack& stack,
-                   const PhaseAlgorithm& algorithm,
-                   const TileNoise& noise,
+void wrap_quarters(const QuarterFrames& frames,
                    std::size_t at,
                    std::size_t n,
                    const TilePhase& out) {
+  const PhaseAlgorithm& algorithm = frames.algorithm;
+  const TileNoise& noise = frames.noise;
+  const std::vector<Frame>& images = frames.stack.frames;
   // Differences are taken as they are; their scale goes into the noise, their sign into the order.
   const double scale = algorithm.sine[3] * algorithm.sine[3];
   const double gain = static_cast<double>(noise.sine_gain) / scale;
@@ -138,11 +140,11 @@ void wrap_quarters(const FrameStack& stack,
   std::visit(
       [&]<typename T>(const Image<T>& /*first*/) {
         const auto pixels = [&](std::size_t k) {
-          return std::get<Image<T>>(stack.frames[k]).pixels().data() + at;
+          return std::get<Image<T>>(images[k]).pixels().data() + at;
         };
         wrap<T>({pixels(a), pixels(b), pixels(2 - a), pixels(4 - b)}, n, of_counts, out);
       },
-      stack.frames.front());
+      images.front());
 }
 
 }  // namespace frangia

@@ -13,6 +13,13 @@ namespace frangia {
 /// fourth only, its cosine of the others, its mean of all alike.
 [[nodiscard]] bool are_quarters(const PhaseAlgorithm& algorithm);
 
+/// Frames for which `are_quarters` holds, and the noise of their sums.
+struct QuarterFrames {
+  const FrameStack& stack;
+  const PhaseAlgorithm& algorithm;
+  const TileNoise& noise;
+};
+
 /// Where the phases of a tile go.
 struct TilePhase {
   float* phase_rad;
@@ -21,11 +28,9 @@ struct TilePhase {
   std::uint16_t* top;  ///< brightest of all frames so far; 0 before the first
 };
 
-/// Phase and precision of the pixels [at, at + n), n at most kTilePixels, of four frames for which
-/// `are_quarters` holds, in one pass: no sum is ever stored.
-void wrap_quarters(const FrameStack& stack,
-                   const PhaseAlgorithm& algorithm,
-                   const TileNoise& noise,
+/// Phase and precision of the pixels [at, at + n), n at most kTilePixels, in one pass: no sum is
+/// ever stored.
+void wrap_quarters(const QuarterFrames& frames,
                    std::size_t at,
                    std::size_t n,
                    const TilePhase& out);

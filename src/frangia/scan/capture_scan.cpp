@@ -122,9 +122,9 @@ class Session {
     return true;
   }
   [[nodiscard]] bool is_complete(std::size_t view) const {
-    for (const Pattern& pattern : plan_.patterns)
-      if (!has_all_frames(view, pattern) || !manifest_.is_good(set_of(view, pattern))) return false;
-    return true;
+    return std::all_of(plan_.patterns.begin(), plan_.patterns.end(), [&](const Pattern& pattern) {
+      return has_all_frames(view, pattern) && manifest_.is_good(set_of(view, pattern));
+    });
   }
 
   void skip(std::size_t view, const std::string& why) {
@@ -243,6 +243,7 @@ class Session {
   [[nodiscard]] std::vector<FrameStack> stacks_of(const Pattern& pattern,
                                                   const std::vector<FramePtr>& frames) const {
     std::vector<FrameStack> stacks;
+    stacks.reserve(static_cast<std::size_t>(pattern.exposure_count()));
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
       stacks.push_back({pattern, {}, plan_.rig.camera.white_level, exposure});
     for (std::size_t i = 0; i < frames.size(); ++i)

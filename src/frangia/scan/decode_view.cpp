@@ -213,9 +213,10 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   } else {
     out.relative = unwrap_in_space(out.wrapped.front(), options.in_space);
     const FrameStack* line = line_of(stacks);
-    if (line != nullptr)
+    if (line != nullptr) {
       out.profile =
           line_profile(*line, out.wrapped.front().mean_counts, rig, out.noise, options.line);
+    }
     AnchoredPhase anchored =
         line != nullptr
             ? anchor_by_line(*out.relative, out.profile, rig.projector, options.anchor)
