@@ -1,8 +1,8 @@
 """Asks programs of others what they read of the files that the program writes, and renews the table
 between the markers of docs/files.md: python3 tools/judge_files.py PROGRAM docs/files.md
 
-A closed mesh goes out in every format; a cell is the number of triangles (of points, for clouds) that
-the other program finds. What is not installed is left as it stands.
+A closed mesh goes out in every format; a cell says whether the other program finds all its triangles (all
+its points, in clouds). What is not installed is left as it stands.
 """
 import json
 import pathlib
@@ -68,12 +68,15 @@ def script(name):
 
 def meshlab(path):
     text = ask("xvfb-run", "-a", "meshlabserver", "-i", path, "-o", WORK / "meshlab.ply")
-    return number(r"vn \d+ fn (\d+)", text) or number(r"(\d+) face", text)
+    return number(r"loaded has (\d+) vn" if path.suffix == ".xyz" else r"loaded has \d+ vn (\d+) fn", text)
 
 
 def cloud_compare(path):
     text = ask("xvfb-run", "-a", "CloudCompare", "-SILENT", "-O", path)
-    return number(r"(?:with|,) (\d+) (?:triangles|points|face)", text) or number(r"Found one (?:mesh|cloud) with (\d+)", text)
+    points = number(r"Found one cloud with (\d+) points", text)
+    if points and path.suffix != ".xyz":
+        return "points alone"
+    return points or number(r"Found one mesh with (\d+) faces", text)
 
 
 def prusa(path):
@@ -84,9 +87,11 @@ BLENDER = """
 import bpy, sys
 path = sys.argv[-1]
 bpy.ops.wm.read_factory_settings(use_empty=True)
+if path.endswith('.dxf'):
+    bpy.ops.preferences.addon_enable(module='io_import_dxf')
 kinds = {'stl': lambda: bpy.ops.import_mesh.stl(filepath=path), 'ply': lambda: bpy.ops.import_mesh.ply(filepath=path),
          'obj': lambda: bpy.ops.wm.obj_import(filepath=path), 'glb': lambda: bpy.ops.import_scene.gltf(filepath=path),
-         'gltf': lambda: bpy.ops.import_scene.gltf(filepath=path)}
+         'gltf': lambda: bpy.ops.import_scene.gltf(filepath=path), 'dxf': lambda: bpy.ops.import_scene.dxf(filepath=path)}
 kinds[path.rsplit('.', 1)[1]]()
 print('FACES', sum(len(o.data.polygons) for o in bpy.data.objects if o.type == 'MESH'))
 """
@@ -103,10 +108,10 @@ JUDGES = {  # name: (is it here, how to ask, columns)
     "admesh": (shutil.which("admesh"), lambda path: number(r"Number of facets\s+:\s+(\d+)", ask("admesh", "-e", path)), ["STL", "STL text"]),
     "NumPy": (True, python("numpy, sys", "print(len(numpy.loadtxt(sys.argv[1])))"), ["XYZ"]),
     "PCL": (ask("/usr/bin/python3", "-c", "import pcl; print(1)").strip() == "1", python("pcl, sys", "print(pcl.load(sys.argv[1]).size)"), ["PCD"]),
-    "MeshLab": (shutil.which("meshlabserver") and shutil.which("xvfb-run"), meshlab, ["DXF faces", "STL", "STL text", "PLY", "OBJ", "OFF"]),
-    "CloudCompare": (shutil.which("CloudCompare") and shutil.which("xvfb-run"), cloud_compare, ["DXF faces", "DXF polyface", "STL", "PLY", "OBJ", "OFF", "XYZ"]),
+    "MeshLab": (shutil.which("meshlabserver") and shutil.which("xvfb-run"), meshlab, ["STL", "STL text", "PLY", "OBJ", "OFF", "XYZ"]),
+    "CloudCompare": (shutil.which("CloudCompare") and shutil.which("xvfb-run"), cloud_compare, ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "OFF", "XYZ"]),
     "PrusaSlicer": (shutil.which("prusa-slicer"), prusa, ["STL", "STL text", "OBJ", "3MF"]),
-    "Blender": (shutil.which("blender"), blender, ["STL", "STL text", "PLY", "OBJ", "GLB", "glTF"]),
+    "Blender": (shutil.which("blender"), blender, ["DXF faces", "DXF polyface", "DXF mesh", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF"]),
 }
 
 
@@ -133,7 +138,7 @@ def main():
         for column, (name, _) in FORMATS.items():
             wanted = truth["vertices"] if column in ("XYZ", "PCD") else truth["triangles"]
             found = question(WORK / name) if column in columns else None
-            cells.append("" if column not in columns else "all" if found == wanted else "nothing" if not found else f"{found} of {wanted}")
+            cells.append("" if column not in columns else "all" if found == wanted else "nothing" if not found else found if isinstance(found, str) else f"{found} of {wanted}")
         rows.append(f"| {judge} | " + " | ".join(cells) + " |")
         print(rows[-1], flush=True)
     head = "| | " + " | ".join(FORMATS) + " |\n|" + "---|" * (len(FORMATS) + 1)

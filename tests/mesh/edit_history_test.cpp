@@ -42,6 +42,11 @@ EditStep random_step(std::uint64_t seed) {
                                             {"keep-largest", "1"},
                                             {"fill-holes-flat", "8mm"},
                                             {"fill-hole-flat", "0"},
+                                            {"fill-holes", "8mm"},
+                                            {"fill-hole", "0"},
+                                            {"remesh", "2mm"},
+                                            {"remove-self-intersections", ""},
+                                            {"align", "0,0,9,0,9,0,9,0,0"},
                                             {"remove-spikes", ""},
                                             {"smooth", "3"},
                                             {"smooth-keeping-edges", "2"},
@@ -59,6 +64,15 @@ EditStep random_step(std::uint64_t seed) {
                                             {"select-box", "-5,-5,-5,5,5,20"},
                                             {"select-normal", "0,0,1,40deg"},
                                             {"select-views", "3"},
+                                            {"select-ball", "9,0,0,4"},
+                                            {"select-plane", "0,0,1,2"},
+                                            {"select-face", "0,0,9"},
+                                            {"select-part", "1"},
+                                            {"select-loop", "0"},
+                                            {"select-curvature", "0.2"},
+                                            {"select-sigma", "0.1mm"},
+                                            {"select-self-intersections", ""},
+                                            {"shrink", "1"},
                                             {"select-mark", "invented"},
                                             {"add", ""},
                                             {"within", ""},
@@ -119,6 +133,15 @@ RC_GTEST_PROP(EditHistory, ReplaysItsStepsToTheSameBytes, ()) {
   for (const EditStep& step : script.steps)
     again.apply(step);
   RC_ASSERT(again.state() == history.state());
+}
+
+TEST(EditHistory, IsTriedWithEveryOperation) {
+  for (const EditOperation& operation : edit_operations()) {
+    bool tried = false;
+    for (std::uint64_t seed = 0; seed < 100; ++seed)
+      tried = tried || random_step(seed).operation == operation.name;
+    EXPECT_TRUE(tried) << operation.name;
+  }
 }
 
 TEST(EditHistory, ForgetsWhatWasUndoneOnceAnotherStepIsDone) {
