@@ -52,9 +52,11 @@ mask = WORK / "mask.ply"
 edit(face, mask, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
 
 picture("remove-islands", bust, ["--remove-islands", "60mm"])
-picture("fill-holes", bust, ["--keep-largest", 1, "--fill-holes", "200mm"])
-picture("fill-holes-flat", bust, ["--keep-largest", 1, "--fill-holes-flat", "200mm"])
-picture("delete", bust, ["--keep-largest", 1, "--select-box", "-60,-60,0,60,60,30", "--delete"])
+largest = WORK / "largest.ply"
+edit(bust, largest, "--keep-largest", 1)
+picture("fill-holes", largest, ["--fill-holes", "200mm"])
+picture("fill-holes-flat", largest, ["--fill-holes-flat", "200mm"])
+picture("delete", largest, ["--select-box", "-60,-60,0,60,60,30", "--delete"])
 picture("select-normal", bracket, ["--select-normal", "0,0,1,15deg", "--delete"])
 picture("select-sigma", bust, ["--select-sigma", "0.03mm", "--grow", 1, "--delete"])
 picture("select-views", bust, ["--select-views", 2, "--delete"])
@@ -64,7 +66,7 @@ picture("smooth-keeping-edges", bracket, ["--smooth-keeping-edges", 8])
 picture("decimate", mask, ["--decimate", "0.03mm"], "--edges")
 picture("decimate-to", mask, ["--decimate-to", 600], "--edges")
 picture("remesh", mask, ["--remesh", "1.2mm"], "--edges")
-picture("cut", bust, ["--keep-largest", 1, "--cut", "0,0,1,50mm"])
+picture("cut", largest, ["--cut", "0,0,1,50mm"])
 closed = WORK / "closed.ply"
 edit(bust, closed, "--keep-largest", 1, "--fill-holes-flat", "200mm")
 picture("cut-capped", closed, ["--cut-capped", "0,0.3,-1,-70mm"])
@@ -73,7 +75,7 @@ edit(closed, halves, "--select-box", "-60,-60,46,60,60,58", "--delete", "--keep-
 picture("bridge", halves, ["--bridge", "0,1"])
 picture("mirror", bust, ["--mirror", "1,0,0,0mm"])
 picture("align", bracket, ["--align", "-30,0,35,-10,25,3,-27,0,70"])
-picture("offset", bracket, ["--keep-largest", 1, "--offset", "2mm"])
+picture("offset", bracket, ["--offset", "2mm"])
 
 
 def write_ply(path, vertices, triangles):

@@ -41,9 +41,9 @@ def program(*arguments):
 
 
 def ask(*command):
-    """What a program says on both channels; empty when it takes longer than two minutes or fails to start."""
+    """What a program says on both channels; empty when it takes longer than a quarter of an hour or fails to start."""
     try:
-        answer = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=120, errors="replace", cwd=WORK)
+        answer = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=900, errors="replace", cwd=WORK)
     except (OSError, subprocess.TimeoutExpired):
         return ""
     return answer.stdout + answer.stderr
@@ -101,6 +101,7 @@ def blender(path):
     return number(r"FACES (\d+)", ask("blender", "-b", "--python-expr", BLENDER, "--", path))
 
 
+# MeshLab 2020.09 as Debian builds it ends on any OBJ, also on one of a single triangle: it is not asked.
 JUDGES = {  # name: (is it here, how to ask, columns)
     "assimp": (shutil.which("assimp"), assimp, ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF", "3MF", "OFF"]),
     "ezdxf": (ask("/usr/bin/python3", "-c", "import ezdxf; print(1)").strip() == "1", script("judge_ezdxf.py"), ["DXF faces", "DXF polyface", "DXF mesh"]),
@@ -108,7 +109,7 @@ JUDGES = {  # name: (is it here, how to ask, columns)
     "admesh": (shutil.which("admesh"), lambda path: number(r"Number of facets\s+:\s+(\d+)", ask("admesh", "-e", path)), ["STL", "STL text"]),
     "NumPy": (True, python("numpy, sys", "print(len(numpy.loadtxt(sys.argv[1])))"), ["XYZ"]),
     "PCL": (ask("/usr/bin/python3", "-c", "import pcl; print(1)").strip() == "1", python("pcl, sys", "print(pcl.load(sys.argv[1]).size)"), ["PCD"]),
-    "MeshLab": (shutil.which("meshlabserver") and shutil.which("xvfb-run"), meshlab, ["STL", "STL text", "PLY", "OBJ", "OFF", "XYZ"]),
+    "MeshLab": (shutil.which("meshlabserver") and shutil.which("xvfb-run"), meshlab, ["STL", "STL text", "PLY", "OFF", "XYZ"]),
     "CloudCompare": (shutil.which("CloudCompare") and shutil.which("xvfb-run"), cloud_compare, ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "OFF", "XYZ"]),
     "PrusaSlicer": (shutil.which("prusa-slicer"), prusa, ["STL", "STL text", "OBJ", "3MF"]),
     "Blender": (shutil.which("blender"), blender, ["DXF faces", "DXF polyface", "DXF mesh", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF"]),
