@@ -56,7 +56,7 @@ largest = WORK / "largest.ply"
 edit(bust, largest, "--keep-largest", 1)
 picture("fill-holes", largest, ["--fill-holes", "200mm"])
 picture("fill-holes-flat", largest, ["--fill-holes-flat", "200mm"])
-picture("delete", largest, ["--select-box", "-60,-60,0,60,60,30", "--delete"])
+picture("delete", largest, ["--select-box", "-60,-60,0,60,60,55", "--delete"])
 picture("select-normal", bracket, ["--select-normal", "0,0,1,15deg", "--delete"])
 picture("select-sigma", bust, ["--select-sigma", "0.03mm", "--grow", 1, "--delete"])
 picture("select-views", bust, ["--select-views", 2, "--delete"])
@@ -110,9 +110,13 @@ def spikes(vertices, triangles):
 
 
 def crossing(vertices, triangles):
-    """A patch turned over in its place: it folds the surface around it."""
-    near = [sum((v - m) ** 2 for v, m in zip(vertex, (20, 3, 78))) < 9 for vertex in vertices]
-    return [[x, 6 - y, z] if inside else [x, y, z] for (x, y, z), inside in zip(vertices, near)], triangles
+    """Pairs of spikes that pass through each other."""
+    vertices = [list(vertex) for vertex in vertices]
+    for height in (72, 80, 88):
+        left, right = (min(range(len(vertices)), key=lambda i: sum((v - m) ** 2 for v, m in zip(vertices[i], (17, y, height)))) for y in (-4, 4))
+        (xl, yl, zl), (xr, yr, zr) = vertices[left], vertices[right]
+        vertices[left], vertices[right] = [xl + 12, 2 * yr - yl, 2 * zr - zl], [xr + 12, 2 * yl - yr, 2 * zl - zr]
+    return vertices, triangles
 
 
 def turned(vertices, triangles):

@@ -1,8 +1,9 @@
 """Asks programs of others what they read of the files that the program writes, and renews the table
-between the markers of docs/files.md: python3 tools/judge_files.py PROGRAM docs/files.md
+between the markers of docs/files.md: python3 tools/judge_files.py PROGRAM docs/files.md [JUDGE...]
 
 A closed mesh goes out in every format; a cell says whether the other program finds all its triangles (all
-its points, in clouds). What is not installed is left as it stands.
+its points, in clouds). What is not installed, or not among the judges named, is left
+as it stands.
 """
 import json
 import pathlib
@@ -14,6 +15,7 @@ import tempfile
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PAGE = pathlib.Path(sys.argv[2])
+ONLY = set(sys.argv[3:])
 HERE = pathlib.Path(__file__).resolve().parent.parent
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-judges-"))
 BEGIN, END = "<!-- judges begin -->", "<!-- judges end -->"
@@ -83,8 +85,10 @@ def prusa(path):
     return number(r"number_of_facets\s*=\s*(\d+)", ask("prusa-slicer", "--info", path))
 
 
+# Debian 12's importer of glTF asks NumPy for a name that it no longer has.
 BLENDER = """
-import bpy, sys
+import bpy, sys, numpy
+numpy.bool = bool
 path = sys.argv[-1]
 bpy.ops.wm.read_factory_settings(use_empty=True)
 if path.endswith('.dxf'):
@@ -131,7 +135,7 @@ def main():
 
     rows = []
     for judge, (is_here, question, columns) in JUDGES.items():
-        if not is_here:
+        if not is_here or (ONLY and judge not in ONLY):
             if judge in kept:
                 rows.append(kept[judge])
             continue
