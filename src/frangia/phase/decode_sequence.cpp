@@ -21,12 +21,9 @@
 namespace frangia {
 namespace {
 
-/// Phase and precision of seven maps stay in the first-level cache.
-constexpr std::size_t kTile = 512;
-static_assert(kTile <= kTilePixels);
 /// Not a power of two: lanes that are a power of two apart share one set of the cache's lines.
-constexpr std::size_t kLane = kTile + 16;
-constexpr std::size_t kChunk = 128 * kTile;
+constexpr std::size_t kLane = kTilePixels + 16;
+constexpr std::size_t kChunk = 64 * kTilePixels;
 
 using Fates = std::array<std::int32_t, kTilePixels>;
 
@@ -106,6 +103,7 @@ class TileDecoder {
     for (std::size_t m = 0; m < maps.size(); ++m) {
       phase_.push_back(lane(2 * m));
       precision_.push_back(lane(2 * m + 1));
+      quarters_.push_back(are_quarters(maps[m].algorithm));
     }
   }
 
@@ -115,7 +113,7 @@ class TileDecoder {
     for (std::size_t m = 0; m < maps_.size(); ++m) {
       float* phase = lane(2 * m);
       float* precision = lane(2 * m + 1);
-      if (are_quarters(maps_[m].algorithm)) {
+      if (quarters_[m]) {
         wrap_quarters(*maps_[m].stack,
                       maps_[m].algorithm,
                       noises_[m],
@@ -149,6 +147,7 @@ class TileDecoder {
   std::vector<float> lanes_;  ///< phase and precision of each map
   std::vector<const float*> phase_;
   std::vector<const float*> precision_;
+  std::vector<bool> quarters_;  ///< whether each map's frames are a quarter turn apart
   alignas(64) Lane least_{};
   Fates fates_{};
   Fates doubtful_{};
@@ -184,8 +183,8 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const float min_precision = 1.0F / (wrap.max_sigma_rad * wrap.max_sigma_rad);
   parallel_chunks(out.fate.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
     TileDecoder decoder(coarse_to_fine, noises, ladder, min_precision);
-    for (std::size_t at = begin; at < end; at += kTile)
-      decoder.decode(at, std::min(kTile, end - at), out);
+    for (std::size_t at = begin; at < end; at += kTilePixels)
+      decoder.decode(at, std::min(kTilePixels, end - at), out);
   });
   return out;
 }

@@ -14,6 +14,7 @@
 #include "frangia/surface/collapse_slivers.h"
 #include "frangia/surface/flip_caps.h"
 #include "frangia/surface/sharpen_edges.h"
+#include "frangia/surface/unfold_mesh.h"
 
 namespace frangia {
 namespace {
@@ -283,7 +284,9 @@ Mesh mesh_quads(PlacedVertices vertices,
   add_pinched(mesh, crossings, quads);
   const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
   smooth_out(mesh, vertices.sharp, voxel_mm);
-  smooth_out(mesh, sharpen_edges(mesh, voxel_mm), voxel_mm);
+  const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
+  smooth_out(mesh, sharp, voxel_mm);
+  unfold_mesh(mesh, sharp);
   return std::move(vertices.mesh);
 }
 
