@@ -7,7 +7,7 @@
 namespace frangia {
 namespace {
 
-constexpr double kSharpCosine = 0.88;    // of 28 degrees between two triangles
+constexpr double kSharpCosine = 0.8;     // of 37 degrees between two triangles
 constexpr float kAtEdges = 1.0F / 3.0F;  // of the bound: edges are shape rather than noise
 
 /// The vertices of which two neighbouring triangles turn from each other like an edge of the part.

@@ -28,9 +28,10 @@ PatchSurroundings surroundings_of(const Mesh& mesh, const HalfEdges& edges, cons
   for (std::size_t i = 0; i < rim.size(); ++i)
     number.emplace(rim[i], static_cast<std::uint32_t>(i));
   std::vector<std::uint32_t> triangles;
-  for (const std::uint32_t vertex : rim)
+  for (const std::uint32_t vertex : rim) {
     for (const std::uint32_t edge : edges.leaving(vertex))
       triangles.push_back(edge / 3);
+  }
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   for (const std::uint32_t t : triangles) {
@@ -121,9 +122,10 @@ HolePatch smooth_patch(const Mesh& mesh, const HalfEdges& edges, const Rim& boun
   if (boundary.size() < 3) return {};
   Rim rim(boundary.rbegin(), boundary.rend());  // the patch runs against the mesh's boundary
   const auto joined = [&](std::size_t a, std::size_t b) {
-    for (const std::uint32_t edge : edges.leaving(rim[a]))
-      if (to_of(mesh, edge) == rim[b] || across_of(mesh, edge) == rim[b]) return true;
-    return false;
+    const auto leaving = edges.leaving(rim[a]);
+    return std::any_of(leaving.begin(), leaving.end(), [&](std::uint32_t edge) {
+      return to_of(mesh, edge) == rim[b] || across_of(mesh, edge) == rim[b];
+    });
   };
   std::vector<Vector3d> places;
   for (const std::uint32_t vertex : rim)
