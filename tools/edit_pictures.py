@@ -52,9 +52,11 @@ mask = WORK / "mask.ply"
 edit(face, mask, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
 
 picture("remove-islands", bust, ["--remove-islands", "60mm"])
-picture("fill-holes", bust, ["--keep-largest", 1, "--fill-holes", "200mm"])
-picture("fill-holes-flat", bust, ["--keep-largest", 1, "--fill-holes-flat", "200mm"])
-picture("delete", bust, ["--keep-largest", 1, "--select-box", "-60,-60,0,60,60,30", "--delete"])
+largest = WORK / "largest.ply"
+edit(bust, largest, "--keep-largest", 1)
+picture("fill-holes", largest, ["--fill-holes", "200mm"])
+picture("fill-holes-flat", largest, ["--fill-holes-flat", "200mm"])
+picture("delete", largest, ["--select-box", "-60,-60,0,60,60,55", "--delete"])
 picture("select-normal", bracket, ["--select-normal", "0,0,1,15deg", "--delete"])
 picture("select-sigma", bust, ["--select-sigma", "0.03mm", "--grow", 1, "--delete"])
 picture("select-views", bust, ["--select-views", 2, "--delete"])
@@ -64,7 +66,7 @@ picture("smooth-keeping-edges", bracket, ["--smooth-keeping-edges", 8])
 picture("decimate", mask, ["--decimate", "0.03mm"], "--edges")
 picture("decimate-to", mask, ["--decimate-to", 600], "--edges")
 picture("remesh", mask, ["--remesh", "1.2mm"], "--edges")
-picture("cut", bust, ["--keep-largest", 1, "--cut", "0,0,1,50mm"])
+picture("cut", largest, ["--cut", "0,0,1,50mm"])
 closed = WORK / "closed.ply"
 edit(bust, closed, "--keep-largest", 1, "--fill-holes-flat", "200mm")
 picture("cut-capped", closed, ["--cut-capped", "0,0.3,-1,-70mm"])
@@ -73,7 +75,7 @@ edit(closed, halves, "--select-box", "-60,-60,46,60,60,58", "--delete", "--keep-
 picture("bridge", halves, ["--bridge", "0,1"])
 picture("mirror", bust, ["--mirror", "1,0,0,0mm"])
 picture("align", bracket, ["--align", "-30,0,35,-10,25,3,-27,0,70"])
-picture("offset", bracket, ["--keep-largest", 1, "--offset", "2mm"])
+picture("offset", bracket, ["--offset", "2mm"])
 
 
 def write_ply(path, vertices, triangles):
@@ -108,9 +110,13 @@ def spikes(vertices, triangles):
 
 
 def crossing(vertices, triangles):
-    """A patch turned over in its place: it folds the surface around it."""
-    near = [sum((v - m) ** 2 for v, m in zip(vertex, (20, 3, 78))) < 9 for vertex in vertices]
-    return [[x, 6 - y, z] if inside else [x, y, z] for (x, y, z), inside in zip(vertices, near)], triangles
+    """Pairs of spikes that pass through each other."""
+    vertices = [list(vertex) for vertex in vertices]
+    for height in (72, 80, 88):
+        left, right = (min(range(len(vertices)), key=lambda i: sum((v - m) ** 2 for v, m in zip(vertices[i], (17, y, height)))) for y in (-4, 4))
+        (xl, yl, zl), (xr, yr, zr) = vertices[left], vertices[right]
+        vertices[left], vertices[right] = [xl + 12, 2 * yr - yl, 2 * zr - zl], [xr + 12, 2 * yl - yr, 2 * zl - zr]
+    return vertices, triangles
 
 
 def turned(vertices, triangles):

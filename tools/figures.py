@@ -202,6 +202,18 @@ def distance_to_triangles(points, a, b, c):
     return numpy.where(inside, numpy.abs(off), numpy.minimum(numpy.minimum(to_segment(a, b), to_segment(b, c)), to_segment(c, a)))
 
 
+def sharp_edges(half, height):
+    """Points along the 4 upright and 4 upper edges of a box."""
+    edges = []
+    for t in numpy.arange(0.0, 1.0, 0.002):
+        for x, y in ((-1, -1), (1, -1), (-1, 1), (1, 1)):
+            edges.append([x * half[0], y * half[1], 2.0 + t * (height - 2.0)])
+        for side in (-1, 1):
+            edges.append([(2 * t - 1) * half[0], side * half[1], height])
+            edges.append([side * half[0], (2 * t - 1) * half[1], height])
+    return numpy.array(edges)
+
+
 def block_edges():
     from scipy.spatial import cKDTree
 
@@ -213,14 +225,7 @@ def block_edges():
     vertices = points_of(read_ply(mesh))
     triangles = read_triangles(mesh)
     low, high = numpy.array([*-half, 0.0]), numpy.array([*half, height])
-    edges = []
-    for t in numpy.arange(0.0, 1.0, 0.002):
-        for x, y in ((-1, -1), (1, -1), (-1, 1), (1, 1)):
-            edges.append([x * half[0], y * half[1], 2.0 + t * (height - 2.0)])
-        for side in (-1, 1):
-            edges.append([(2 * t - 1) * half[0], side * half[1], height])
-            edges.append([side * half[0], (2 * t - 1) * half[1], height])
-    edges = numpy.array(edges)
+    edges = sharp_edges(half, height)
     corners = [vertices[triangles[:, i]] for i in range(3)]
     near = cKDTree(sum(corners) / 3).query(edges, k=24)[1]
     distance = numpy.min([distance_to_triangles(edges, *(corner[near[:, k]] for corner in corners)) for k in range(near.shape[1])], axis=0)
@@ -285,6 +290,83 @@ def large():
     tell(f"\n{answer['points']} points, {answer['triangles']} triangles, peak {answer['peak_memory_mb']:.0f} MB.\n")
 
 
+def vertex_normals(points, triangles):
+    corners = [points[triangles[:, i]] for i in range(3)]
+    cross = numpy.cross(corners[1] - corners[0], corners[2] - corners[0])
+    sums = numpy.zeros_like(points)
+    for i in range(3):
+        numpy.add.at(sums, triangles[:, i], cross)
+    return sums / numpy.maximum(numpy.linalg.norm(sums, axis=1), 1e-12)[:, None]
+
+
+def write_noisy(path, points, triangles, sigma_mm):
+    """A binary PLY of places and sigma."""
+    vertices = numpy.zeros(len(points), [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("sigma", "<f4")])
+    for i, axis in enumerate("xyz"):
+        vertices[axis] = points[:, i]
+    vertices["sigma"] = sigma_mm
+    faces = numpy.zeros(len(triangles), [("n", "u1"), ("v", "<i4", 3)])
+    faces["n"], faces["v"] = 3, triangles
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\nproperty float sigma_mm\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    path.write_bytes(head.encode() + vertices.tobytes() + faces.tobytes())
+
+
+def from_edges(points, edges):
+    from scipy.spatial import cKDTree
+
+    return cKDTree(edges).query(points)[0]
+
+
+def edits():
+    tell("## Edits")
+    tell("What `frangia edit` makes of simulated scans, digital rig, 8 views. The head is the bust; its noise is the spread of 0.02 mm that was put on every vertex of a scan without noise, along its normal, each for itself, and is measured as what the vertices differ from where they were, along that normal. Noise of a scan is in part longer than an edge, which smoothing that keeps the shape cannot tell from shape: the last rows have a scan with a twelfth of the light (`--exposure 0.08`) against the truth. The block is the one with sharp edges above.\n")
+    tell("| | measured | wanted |\n|---|---|---|")
+    bar, mesh, filled = WORK / "edit-bar", WORK / "edit-bar.ply", WORK / "edit-filled.ply"
+    run("simulate", "ball-bar", "--rig", "digital", "--samples", 4, "-o", bar)
+    run("reconstruct", bar, "-o", mesh)
+    points = points_of(read_ply(mesh))
+    for side in (-35.0, 35.0):
+        from_centre = numpy.linalg.norm(points - [0.0, side, 60.0], axis=1)
+        near = points[(points[:, 2] > 47) & (numpy.abs(from_centre - 20) < 0.5)]
+        centre, radius, _ = fit_sphere(near, numpy.array([0.0, side, 60.0]), 20.0)
+        top = centre + radius * numpy.array([0.0, numpy.sign(side) * 0.6, 0.8])
+        run("edit", mesh, "--remove-islands", "5mm", "--select-ball", ",".join(f"{x:.4f}" for x in top) + ",10", "--delete", "--fill-holes", "25mm", "-o", filled)
+        vertices = read_ply(filled)
+        patch = points_of(vertices[vertices["mark"] == 2])
+        patch = patch[numpy.linalg.norm(patch - top, axis=1) < 11]
+        off = numpy.abs(numpy.linalg.norm(patch - centre, axis=1) - radius)
+        tell(f"| a hole of 20 mm in a sphere of 40 mm, filled: farthest of {len(patch)} vertices from the sphere, mm | {off.max():.3f} | at most 0.15 |")
+    scan, mesh, noisy, smooth = WORK / "edit-head", WORK / "edit-head.ply", WORK / "edit-noisy.ply", WORK / "edit-smooth.ply"
+    run("simulate", "bust", "--rig", "digital", "--samples", 4, "--no-noise", "-o", scan)
+    run("reconstruct", scan, "-o", mesh)
+    points, triangles = points_of(read_ply(mesh)), read_triangles(mesh)
+    normals = vertex_normals(points, triangles)
+    spread = 0.02 * numpy.random.default_rng(1).standard_normal(len(points))
+    write_noisy(noisy, points + spread[:, None] * normals, triangles, 0.02)
+    for steps in (["--smooth", 10], ["--smooth-keeping-edges", 4]):
+        run("edit", noisy, *steps, "-o", smooth)
+        left = ((points_of(read_ply(smooth)) - points) * normals).sum(axis=1)
+        tell(f"| noise of the head after `{' '.join(map(str, steps))}`, as a share of before | {numpy.sqrt(numpy.mean(left**2)) / numpy.sqrt(numpy.mean(spread**2)):.2f} | at most 0.5 |")
+    half, height = numpy.array([25.0, 18.0]), 30.0
+    edges = sharp_edges(half, height)
+    block = WORK / "block-mesh.ply"
+    before = points_of(read_ply(block))
+    on_edge = from_edges(before, edges) < 0.06
+    for steps in (["--smooth", 10], ["--smooth-keeping-edges", 4]):
+        run("edit", block, *steps, "-o", smooth)
+        after = points_of(read_ply(smooth))
+        moved = numpy.linalg.norm(after[on_edge] - before[on_edge], axis=1)
+        tell(f"| farthest that `{' '.join(map(str, steps))}` moves one of {on_edge.sum()} vertices on the block's edges, mm | {moved.max():.3f} | at most 0.03 |")
+    dim = WORK / "edit-dim"
+    run("simulate", "bust", "--rig", "digital", "--samples", 4, "--exposure", 0.08, "-o", dim)
+    run("reconstruct", dim, "-o", mesh)
+    for steps in ([], ["--smooth", 10], ["--smooth-keeping-edges", 4]):
+        run("edit", mesh, *steps, "-o", smooth)
+        error = run("inspect", smooth, "--reference", dim / "truth.ply")
+        tell(f"| a head with little light{' after `' + ' '.join(map(str, steps)) + '`' if steps else ''}: error, RMS mm | {error['rms_mm']:.4f} | |")
+    tell()
+
+
 tell("# Figures\n\nMeasured by `./run figures`, which writes this file; not edited by hand. Times are of a machine with two cores.\n")
 skull()
 balls()
@@ -293,6 +375,7 @@ simulated()
 block_edges()
 worn_table()
 large()
+edits()
 temporary = REPORT.with_suffix(".tmp")
 temporary.write_text("\n".join(lines).rstrip() + "\n")
 temporary.replace(REPORT)

@@ -42,6 +42,11 @@ EditStep random_step(std::uint64_t seed) {
                                             {"keep-largest", "1"},
                                             {"fill-holes-flat", "8mm"},
                                             {"fill-hole-flat", "0"},
+                                            {"fill-holes", "8mm"},
+                                            {"fill-hole", "0"},
+                                            {"remesh", "2mm"},
+                                            {"remove-self-intersections", ""},
+                                            {"align", "0,0,9,0,9,0,9,0,0"},
                                             {"remove-spikes", ""},
                                             {"smooth", "3"},
                                             {"smooth-keeping-edges", "2"},
@@ -59,6 +64,15 @@ EditStep random_step(std::uint64_t seed) {
                                             {"select-box", "-5,-5,-5,5,5,20"},
                                             {"select-normal", "0,0,1,40deg"},
                                             {"select-views", "3"},
+                                            {"select-ball", "9,0,0,4"},
+                                            {"select-plane", "0,0,1,2"},
+                                            {"select-face", "0,0,9"},
+                                            {"select-part", "1"},
+                                            {"select-loop", "0"},
+                                            {"select-curvature", "0.2"},
+                                            {"select-sigma", "0.1mm"},
+                                            {"select-self-intersections", ""},
+                                            {"shrink", "1"},
                                             {"select-mark", "invented"},
                                             {"add", ""},
                                             {"within", ""},
@@ -119,6 +133,64 @@ RC_GTEST_PROP(EditHistory, ReplaysItsStepsToTheSameBytes, ()) {
   for (const EditStep& step : script.steps)
     again.apply(step);
   RC_ASSERT(again.state() == history.state());
+}
+
+TEST(EditHistory, IsTriedWithEveryOperation) {
+  for (const EditOperation& operation : edit_operations()) {
+    bool tried = false;
+    for (std::uint64_t seed = 0; seed < 100; ++seed)
+      tried = tried || random_step(seed).operation == operation.name;
+    EXPECT_TRUE(tried) << operation.name;
+  }
+}
+
+/// Meshes as damaged files and other programs leave them.
+std::vector<Mesh> broken_meshes() {
+  Mesh flat;  // all of it in a line
+  flat.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 0}};
+  flat.triangles = {{0, 1, 2}, {0, 0, 1}, {0, 3, 1}};
+  Mesh book = random_mesh(1);  // several pages at one edge, and one of them twice
+  const auto first = static_cast<std::uint32_t>(book.vertices_mm.size());
+  book.sigma_mm = {};
+  book.views = {};
+  book.normals = {};
+  for (const float x : {0.0F, 5.0F, -5.0F, 0.0F, 0.0F}) {
+    const auto i = static_cast<std::uint32_t>(book.vertices_mm.size()) - first;
+    book.vertices_mm.emplace_back(x, i < 3 ? 1.0F : -1.0F, i == 0 ? 30.0F : 20.0F);
+    if (i >= 2) book.triangles.push_back({first, first + 1, first + i});
+  }
+  book.triangles.push_back(book.triangles.back());
+  book.triangles.push_back({first + 2, first + 1, first});
+  Mesh dot;
+  dot.vertices_mm = {{0, 0, 0}};
+  Mesh parts;
+  for (int i = 0; i < 100; ++i)
+    append_mesh(parts,
+                testing::box({2.0F * static_cast<float>(i), 0, 0},
+                             {2.0F * static_cast<float>(i) + 1.0F, 1, 1}));
+  return {Mesh(), dot, flat, book, parts};
+}
+
+TEST(EditOperations, OfBrokenMeshesGiveWholeOnesOrSayWhatIsWrong) {
+  for (const Mesh& mesh : broken_meshes()) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      const EditStep step = random_step(seed);
+      if (seed > 0 && step == random_step(0)) break;
+      EditState state{.mesh = mesh, .selection = Selection(mesh.triangles.size(), 1)};
+      try {
+        apply_step(state, step);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Input) << step.operation;
+        continue;
+      }
+      const auto count = state.mesh.vertices_mm.size();
+      for (const auto& triangle : state.mesh.triangles)
+        for (const std::uint32_t vertex : triangle)
+          ASSERT_LT(vertex, count) << step.operation;
+      for (const auto& vertex : state.mesh.vertices_mm)
+        ASSERT_TRUE(vertex.allFinite()) << step.operation;
+    }
+  }
 }
 
 TEST(EditHistory, ForgetsWhatWasUndoneOnceAnotherStepIsDone) {

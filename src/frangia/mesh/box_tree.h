@@ -47,9 +47,10 @@ class BoxTree {
       return;
     }
     const std::size_t end = std::min((at.begin + 1) * kLeaf, order_.size());
-    for (std::size_t i = leaf * kLeaf; i < std::min((leaf + 1) * kLeaf, order_.size()); ++i)
+    for (std::size_t i = leaf * kLeaf; i < std::min((leaf + 1) * kLeaf, order_.size()); ++i) {
       for (std::size_t k = std::max(at.begin * kLeaf, i + 1); k < end; ++k)
         if (own_[i].intersects(own_[k])) work(order_[i], order_[k]);
+    }
   }
 
   std::vector<std::uint32_t> order_;

@@ -39,9 +39,10 @@ std::vector<Rim> simple_rims(const Rim& rim) {
 }
 
 bool joined(const Mesh& mesh, const HalfEdges& edges, std::uint32_t a, std::uint32_t b) {
-  for (const std::uint32_t edge : edges.leaving(a))
-    if (to_of(mesh, edge) == b || across_of(mesh, edge) == b) return true;
-  return false;
+  const auto leaving = edges.leaving(a);
+  return std::any_of(leaving.begin(), leaving.end(), [&](std::uint32_t edge) {
+    return to_of(mesh, edge) == b || across_of(mesh, edge) == b;
+  });
 }
 
 /// Whether no edge of the patch but the rim's own is one of the mesh already.
@@ -100,9 +101,10 @@ void append(Mesh& mesh, const HolePatch& patch, const Rim& rim, std::uint32_t ba
 Mesh fill_holes(Mesh mesh, const FillHolesOptions& options, const Run& run) {
   const HalfEdges edges(mesh);
   const std::vector<BoundaryLoop> loops = boundary_loops(mesh, edges);
-  for (const std::size_t number : options.only)
+  for (const std::size_t number : options.only) {
     require(number < loops.size(),
             "fill_holes: the mesh has no hole of this number; --list shows them");
+  }
   const auto base = static_cast<std::uint32_t>(mesh.vertices_mm.size());
   std::vector<std::pair<Rim, HolePatch>> patches;
   for (std::size_t i = 0; i < loops.size(); ++i) {

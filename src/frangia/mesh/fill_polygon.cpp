@@ -99,9 +99,10 @@ class LeastArea {
         splits_(areas_.size()) {}
 
   void append_to(std::vector<Triangle>& triangles) {
-    for (std::size_t width = 2; width < line_.size(); ++width)
+    for (std::size_t width = 2; width < line_.size(); ++width) {
       for (std::size_t i = 0; i + width < line_.size(); ++i)
         choose(i, i + width);
+    }
     collect(triangles, 0, line_.size() - 1);
   }
 

@@ -36,9 +36,9 @@ std::uint32_t PatchMesh::add_triangle(std::uint32_t a, std::uint32_t b, std::uin
   return first;
 }
 
-void PatchMesh::link(std::uint32_t edge, std::uint32_t twin) {
-  twins_[edge] = twin;
-  if (twin != kRim) twins_[twin] = edge;
+void PatchMesh::link(std::uint32_t one, std::uint32_t other) {
+  twins_[one] = other;
+  if (other != kRim) twins_[other] = one;
 }
 
 Vector3d PatchMesh::cross(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {

@@ -52,7 +52,7 @@ class PatchMesh {
 
  private:
   std::uint32_t add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  void link(std::uint32_t edge, std::uint32_t twin);
+  void link(std::uint32_t one, std::uint32_t other);
   [[nodiscard]] Eigen::Vector3d cross(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   [[nodiscard]] bool should_turn(std::uint32_t edge) const;
   [[nodiscard]] bool may_turn(std::uint32_t edge) const;

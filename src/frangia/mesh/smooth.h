@@ -8,12 +8,14 @@ namespace frangia {
 
 struct SmoothOptions {
   int iterations = 10;
-  double max_sigmas = 3.0;  ///< no vertex moves farther than so many of its sigma; 0: no bound
-  Selection only;           ///< move the vertices of these triangles alone; empty: all
+  /// No vertex moves farther than so many of its sigma, at sharp edges than a third of it; 0: no
+  /// bound.
+  double max_sigmas = 3.0;
+  Selection only;  ///< move the vertices of these triangles alone; empty: all
 };
 
-/// Takes away noise and leaves large shapes: each step smooths, then swells back. Sharp edges get
-/// rounder; smooth_keeping_edges keeps them.
+/// Takes away noise and leaves large shapes: each step smooths, then swells back, along the
+/// normals. Where nothing bounds it sharp edges get rounder; smooth_keeping_edges keeps them.
 ///
 /// Vertices on the boundary stay. Those that end beyond their sigma from where they were are marked
 /// as moved; without sigma there is no bound.

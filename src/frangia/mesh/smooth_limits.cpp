@@ -5,6 +5,31 @@
 #include "frangia/core/error.h"
 
 namespace frangia {
+namespace {
+
+constexpr double kSharpCosine = 0.8;     // of 37 degrees between two triangles
+constexpr float kAtEdges = 1.0F / 3.0F;  // of the bound: edges are shape rather than noise
+
+/// The vertices of which two neighbouring triangles turn from each other like an edge of the part.
+std::vector<std::uint8_t> on_sharp_edges(const Mesh& mesh, const HalfEdges& edges) {
+  std::vector<Eigen::Vector3f> normals;
+  normals.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3f& p = mesh.vertices_mm[a];
+    normals.push_back((mesh.vertices_mm[b] - p).cross(mesh.vertices_mm[c] - p).stableNormalized());
+  }
+  std::vector<std::uint8_t> sharp(mesh.vertices_mm.size());
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
+    if (!edges.has_twin(edge)) continue;
+    const float cosine = normals[edge / 3].dot(normals[edges.twin(edge) / 3]);
+    if (!(static_cast<double>(cosine) < kSharpCosine)) continue;
+    sharp[from_of(mesh, edge)] = 1;
+    sharp[to_of(mesh, edge)] = 1;
+  }
+  return sharp;
+}
+
+}  // namespace
 
 SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const SmoothOptions& options)
     : begin_mm_(mesh.vertices_mm), free_(mesh.vertices_mm.size(), 1) {
@@ -25,9 +50,13 @@ SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const Smoot
     free_[to_of(mesh, edge)] = 0;
   }
   if (options.max_sigmas == 0.0) return;
-  for (const float sigma : mesh.sigma_mm) {
+  if (mesh.sigma_mm.empty()) return;
+  const std::vector<std::uint8_t> sharp = on_sharp_edges(mesh, edges);
+  for (std::size_t v = 0; v < mesh.sigma_mm.size(); ++v) {
+    const float sigma = mesh.sigma_mm[v];
     const bool known = std::isfinite(sigma) && sigma > 0.0F;
-    reach_mm_.push_back(known ? static_cast<float>(options.max_sigmas) * sigma : 0.0F);
+    const float share = sharp[v] != 0 ? kAtEdges : 1.0F;
+    reach_mm_.push_back(known ? share * static_cast<float>(options.max_sigmas) * sigma : 0.0F);
   }
 }
 

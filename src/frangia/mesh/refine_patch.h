@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/mesh/fair_patch.h"
+#include "frangia/mesh/patch_mesh.h"
+
+namespace frangia {
+
+/// How long edges at a patch's vertex should be, and how far it is from the rim.
+struct PatchSpacing {
+  double edge_mm = 0.0;
+  double inwards_mm = 0.0;
+};
+
+/// Makes a patch denser: first coarsely, for its shape, then as dense as the surface around it.
+class PatchRefinement {
+ public:
+  /// `patch` must outlive it; there is one spacing for each of its vertices.
+  PatchRefinement(PatchMesh& patch, std::vector<PatchSpacing> spacing);
+
+  /// Puts a vertex into each triangle that is large for its corners, until none is. Triangles grow
+  /// with their distance from the rim.
+  /// source  Liepa 2003, Filling Holes in Meshes
+  void coarsely();
+
+  /// Cuts edges that are longer than those around the rim, along the curve between their ends.
+  void finely(const PatchSurroundings& around);
+
+ private:
+  [[nodiscard]] static double wide(const PatchSpacing& at);
+  [[nodiscard]] double coarser_than_around() const;
+  void split_if_large(std::uint32_t triangle);
+  void split_if_long(std::uint32_t edge,
+                     const std::vector<Eigen::Vector3d>& normals,
+                     double coarser);
+
+  PatchMesh& patch_;
+  std::vector<PatchSpacing> spacing_;
+};
+
+}  // namespace frangia
