@@ -218,7 +218,7 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
   verb->footer(
       "Example:\n"
       "  frangia simulate bust --rig carducci -o bust-scan\n"
-      "  frangia simulate bracket --rounds 180 -o bracket-on-both-sides\n"
+      "  frangia simulate bracket --rounds 90 -o bracket-stood-and-laid\n"
       "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5 -o bracket-scan");
   auto arguments = std::make_shared<SimulateArguments>();
   add_scan_options(*verb, *arguments);

@@ -120,17 +120,17 @@ TEST(JoinRounds, NamesARoundThatFitsNoOtherAndLeavesItOut) {
   EXPECT_EQ(joined.measured.views.size(), 5U);
 }
 
-TEST(Reconstruct, MeasuresTheBottomOfABracketThatWasTurnedOver) {
+TEST(Reconstruct, MeasuresTheBottomOfABracketThatWasLaidDown) {
   const TemporaryFolder folder;
   const TemporaryFolder folder_of_one;
   const Mesh part = make_part("bracket");
-  Scan plan = small_scan(folder_of_one.path(), "bracket", "digital", 6, {});
+  Scan plan = testing::small_scan(folder_of_one.path(), "bracket", "digital", 6, {});
   const RayScene truth(part);
   const double one_rms_mm = surface_error(reconstruct(plan).mesh, truth).rms_mm;
   plan.folder = folder.path();
   for (int i = 0; i < 6; ++i)
     plan.views.push_back({kTurn * i / 6, "views/1" + std::to_string(i), 1});
-  plan.placings[1] = set_down(part, rad_from_deg(180.0), 0.4);
+  plan.placings[1] = set_down(part, rad_from_deg(90.0), 0.4);
   const Reconstruction result = reconstruct(simulate_scan(part, plan));
   ASSERT_TRUE(result.registration && result.registration->placings.size() == 1);
   EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 1.25 * one_rms_mm);

@@ -122,7 +122,7 @@ class Joiner {
         static_cast<std::size_t>(std::max_element(clusters_.begin(),
                                                   clusters_.end(),
                                                   [](const ViewGroup& a, const ViewGroup& b) {
-                                                    return a.points.size() < b.points.size();
+                                                    return a.members.size() < b.members.size();
                                                   }) -
                                  clusters_.begin());
     out.reference = first_of(main);
