@@ -25,6 +25,8 @@
 #include "frangia/mesh/select_by_place.h"
 #include "frangia/mesh/surface_gap.h"
 
+#include "wanted.h"
+
 namespace frangia {
 namespace {
 
@@ -64,36 +66,53 @@ double peak_bytes(bool reset) {
   return 0.0;
 }
 
-/// Does `work` with a copy of the scan, and counts its memory in meshes.
+constexpr double kMeshes = 6.0;  // the memory that an edit may take, with the mesh itself
+
+/// Does `work` with a copy of the scan, counts its memory in meshes, and says whether it took at
+/// most `wanted_s`; its seconds.
 template <typename Work>
-void with_scan(benchmark::State& state, const Mesh& mesh, const Work& work) {
+double with_scan(benchmark::State& state, const Mesh& mesh, double wanted_s, const Work& work) {
+  double seconds = 0.0;
   for (auto iteration : state) {
     static_cast<void>(iteration);
     state.PauseTiming();
     const double before = peak_bytes(true);
     Mesh copy = mesh;
+    const Stopwatch watch;
     state.ResumeTiming();
     work(std::move(copy));
     state.PauseTiming();
-    state.counters["memory_meshes"] = (peak_bytes(false) - before) / bytes_of(mesh);
+    seconds = watch.seconds();
+    const double meshes = (peak_bytes(false) - before) / bytes_of(mesh);
+    state.counters["memory_meshes"] = meshes;
+    Wanted wanted;
+    if (wanted_s > 0.0) wanted.at_most("time", seconds, wanted_s, "s");
+    wanted.at_most("memory", meshes, kMeshes, "meshes");
+    wanted.say(state);
     state.ResumeTiming();
   }
+  return seconds;
 }
 
 void load_ply(benchmark::State& state) {
   static_cast<void>(scan(state));
   for (auto iteration : state) {
     static_cast<void>(iteration);
+    const Stopwatch watch;
     benchmark::DoNotOptimize(read_mesh(scan_path()));
+    Wanted wanted;
+    wanted.at_most("time", watch.seconds(), 1.0, "s");
+    wanted.say(state);
   }
 }
 
 void list(benchmark::State& state) {
-  with_scan(state, scan(state), [](Mesh mesh) { benchmark::DoNotOptimize(mesh_findings(mesh)); });
+  with_scan(
+      state, scan(state), 3.0, [](Mesh mesh) { benchmark::DoNotOptimize(mesh_findings(mesh)); });
 }
 
 void remove_small_islands(benchmark::State& state) {
-  with_scan(state, scan(state), [](Mesh mesh) {
+  with_scan(state, scan(state), 0.5, [](Mesh mesh) {
     benchmark::DoNotOptimize(remove_islands(std::move(mesh), 3.0));
   });
 }
@@ -114,7 +133,7 @@ Mesh with_holes(const Mesh& mesh, std::size_t count, double radius_mm) {
 void fill_50_small_holes(benchmark::State& state) {
   static const Mesh kHoled = with_holes(scan(state), 50, 0.8);
   state.counters["holes"] = static_cast<double>(boundary_loops(kHoled).size());
-  with_scan(state, kHoled, [](Mesh mesh) {
+  with_scan(state, kHoled, 1.0, [](Mesh mesh) {
     benchmark::DoNotOptimize(fill_holes(std::move(mesh), {.up_to_mm = 3.0}));
   });
 }
@@ -143,32 +162,34 @@ void fill_one_large_hole(benchmark::State& state) {
     if (loops[i].edges.size() > loops[largest].edges.size()) largest = i;
   if (loops.empty()) return;
   state.counters["edges"] = static_cast<double>(loops[largest].edges.size());
-  with_scan(state, mesh, [&](Mesh copy) {
-    const Mesh filled = fill_holes(std::move(copy), {.only = {largest}});
-    state.PauseTiming();
-    state.counters["holes_left_of_it"] =
-        static_cast<double>(boundary_loops(filled).size()) - static_cast<double>(loops.size() - 1);
-    state.ResumeTiming();
+  Mesh filled;
+  with_scan(state, mesh, 4.0, [&](Mesh copy) {
+    filled = fill_holes(std::move(copy), {.only = {largest}});
   });
+  state.counters["holes_left_of_it"] =
+      static_cast<double>(boundary_loops(filled).size()) - static_cast<double>(loops.size() - 1);
 }
+
+/// What decimation comes to.
+struct Decimated {
+  double seconds = 0.0;
+  double gap_mm = 0.0;  ///< the Hausdorff distance between it and the scan
+};
 
 /// What is wrong with a decimated mesh: edges that are not manifold, and how far it lies from the
 /// scan.
-void judge(benchmark::State& state, const Mesh& scan, const Mesh& few) {
+Decimated judge(benchmark::State& state, const Mesh& scan, const Mesh& few, double seconds) {
+  const double gap_mm = surface_gap_mm(RayScene(scan), RayScene(few), 0.1);
   state.counters["left"] = static_cast<double>(few.triangles.size());
   state.counters["non_manifold"] = static_cast<double>(count_non_manifold_edges(few));
-  state.counters["hausdorff_mm"] = surface_gap_mm(RayScene(scan), RayScene(few), 0.1);
+  state.counters["hausdorff_mm"] = gap_mm;
+  return {seconds, gap_mm};
 }
 
-void decimate_to_tenth(benchmark::State& state) {
-  const Mesh& mesh = scan(state);
-  Mesh few;
-  with_scan(state, mesh, [&](Mesh copy) {
-    const auto count =
-        static_cast<std::size_t>(kShare * static_cast<double>(copy.triangles.size()));
-    few = decimate(std::move(copy), {.triangles = count});
-  });
-  if (!few.empty()) judge(state, mesh, few);
+/// The peer's, which runs first.
+Decimated& cgal() {
+  static Decimated of_cgal;
+  return of_cgal;
 }
 
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -207,10 +228,12 @@ void decimate_to_tenth_by_cgal(benchmark::State& state) {
   using Policies = sms::GarlandHeckbert_plane_policies<Surface, Kernel>;
   const Mesh& mesh = scan(state);
   Mesh few;
+  double seconds = 0.0;
   for (auto iteration : state) {
     static_cast<void>(iteration);
     state.PauseTiming();
     Surface surface = surface_of(mesh);
+    const Stopwatch watch;
     state.ResumeTiming();
     const Policies policies(surface);
     sms::Count_ratio_stop_predicate<Surface> stop(kShare);
@@ -219,10 +242,31 @@ void decimate_to_tenth_by_cgal(benchmark::State& state) {
         stop,
         CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
     state.PauseTiming();
+    seconds = watch.seconds();
     few = mesh_of(surface);
     state.ResumeTiming();
   }
-  if (!few.empty()) judge(state, mesh, few);
+  if (!few.empty()) cgal() = judge(state, mesh, few, seconds);
+}
+
+void decimate_to_tenth(benchmark::State& state) {
+  const Mesh& mesh = scan(state);
+  Mesh few;
+  const double seconds = with_scan(state, mesh, 0.0, [&](Mesh copy) {
+    const auto count =
+        static_cast<std::size_t>(kShare * static_cast<double>(copy.triangles.size()));
+    few = decimate(std::move(copy), {.triangles = count});
+  });
+  if (few.empty()) return;
+  const Decimated own = judge(state, mesh, few, seconds);
+  Wanted wanted;
+  wanted.at_most("memory", state.counters["memory_meshes"], kMeshes, "meshes");
+  wanted.at_most("non-manifold", state.counters["non_manifold"], 0.0, "edges");
+  if (cgal().seconds > 0.0) {
+    wanted.at_most("time", own.seconds / cgal().seconds, 0.25, "of CGAL's");
+    wanted.at_most("Hausdorff", own.gap_mm, cgal().gap_mm, "mm, CGAL's");
+  }
+  wanted.say(state);
 }
 
 /// Undo and redo of a step that changes everything, both at once.
@@ -231,8 +275,14 @@ void undo_and_redo(benchmark::State& state, const EditStep& step) {
   history.apply(step);
   for (auto iteration : state) {
     static_cast<void>(iteration);
+    const Stopwatch watch;
     history.undo();
+    const double undo_s = watch.seconds();
     history.redo();
+    Wanted wanted;
+    wanted.at_most("undo", undo_s, 0.3, "s");
+    wanted.at_most("redo", watch.seconds() - undo_s, 0.3, "s");
+    wanted.say(state);
   }
   state.counters["delta_meshes"] = static_cast<double>(history.bytes()) / bytes_of(scan(state));
 }
@@ -246,10 +296,11 @@ BENCHMARK(list)->Apply(once);
 BENCHMARK(remove_small_islands)->Apply(once);
 BENCHMARK(fill_50_small_holes)->Apply(once);
 BENCHMARK(fill_one_large_hole)->Apply(once);
-BENCHMARK(decimate_to_tenth)->Apply(once);
 BENCHMARK(decimate_to_tenth_by_cgal)->Apply(once);
+BENCHMARK(decimate_to_tenth)->Apply(once);
 BENCHMARK_CAPTURE(undo_and_redo, decimate, EditStep{"decimate-to", "200000"})->Apply(once);
 BENCHMARK_CAPTURE(undo_and_redo, remove_islands, EditStep{"remove-islands", "3mm"})->Apply(once);
+BENCHMARK_CAPTURE(undo_and_redo, fill_holes, EditStep{"fill-holes", "3mm"})->Apply(once);
 BENCHMARK_CAPTURE(undo_and_redo, smooth, EditStep{"smooth", "1"})->Apply(once);
 
 }  // namespace

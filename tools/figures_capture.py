@@ -75,7 +75,7 @@ def steps():
     tell(f"| the same, steps taken for what was asked | {figure['corrected_plain']:.2f} | |\n")
 
 
-SHINY = "gloss = 100\nshininess = 12\n"
+SHINY = "gloss = 1000\nshininess = 12\n"
 
 
 def blade():

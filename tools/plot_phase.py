@@ -51,6 +51,45 @@ def stages(program, folder):
         plt.close(figure)
 
 
+def noise_points(program):
+    """RMS phase error against sigma_I / B of simulated plates at five exposures, by algorithm: the
+    decoded phase against that of the same frames without noise."""
+    import numpy as np
+    from PIL import Image
+
+    per_count = 20000 / 255  # electrons, as `frangia simulate` says
+
+    def image(path):
+        return np.asarray(Image.open(path), dtype=float)
+
+    with tempfile.TemporaryDirectory() as work:
+        def decoded(scan, algorithm):
+            out = os.path.join(work, "stages")
+            subprocess.run([program, "--quiet", "decode", scan, "--algorithm", algorithm, "--max-sigma", "2", "-o", out], check=True)
+            return image(os.path.join(out, "p20-wrapped.tiff")), image(os.path.join(out, "p20-modulation.tiff"))
+
+        def simulated(name, *options):
+            scan = os.path.join(work, name)
+            subprocess.run([program, "--quiet", "simulate", "plate", "--views", "1", *options, "-o", scan], check=True)
+            return scan
+
+        exact = simulated("exact", "--no-noise", "--bits", "16")
+        noisy = [simulated(f"noisy-{level}", "--exposure", str(level)) for level in (0.06, 0.12, 0.25, 0.5, 1)]
+        points = {}
+        for algorithm in ("least-squares", "global-carre", "carre"):
+            truth = decoded(exact, "least-squares")[0]
+            for scan in noisy:
+                phase, modulation = decoded(scan, algorithm)
+                mean = sum(image(os.path.join(scan, "views/000", f"p20-{k}.png")) for k in range(4)) / 4
+                error = np.angle(np.exp(1j * (phase - truth)))
+                sigma = np.sqrt(np.maximum(mean, 0) / per_count + (8 / per_count) ** 2 + 1 / 12)
+                known = np.isfinite(error) & (modulation > 4)
+                share = np.median(sigma[known] / modulation[known])
+                near = known & (abs(np.log(sigma / modulation / share)) < 0.05)
+                points.setdefault(algorithm, []).append((share, float(np.sqrt(np.mean(error[near] ** 2)))))
+    return points
+
+
 def main(program, bench, folder):
     os.makedirs(folder, exist_ok=True)
     stages(program, folder)
@@ -66,14 +105,16 @@ def main(program, bench, folder):
     chart(folder, "ripple.svg", "Ripple against step error", "step error, %",
           "peak-to-valley phase error, rad", ripple)
 
+    measured = noise_points(program)
+
     def noise(axes):
-        sigma = [0.001 * 1.2**i for i in range(30)]
+        for name, points in measured.items():
+            axes.loglog(*zip(*points), "o", markersize=4, label=f"{name}, simulated")
+        sigma = [0.01 * 1.2**i for i in range(20)]
         for row in table:
-            if row["name"] in ("4-step", "schwider", "hariharan", "surrel"):
-                axes.loglog(sigma, [row["noise_gain"] * s for s in sigma], label=row["name"])
-        for frames, style in ((4, "k--"), (11, "k:")):
-            axes.loglog(sigma, [math.sqrt(2 / frames) * s for s in sigma], style,
-                        label=f"Cramér-Rao bound, {frames} frames")
+            if row["name"] in ("carre", "global-carre"):  # as many frames as were simulated
+                axes.loglog(sigma, [row["noise_gain"] * s for s in sigma], linewidth=0.8, color="grey")
+        axes.loglog(sigma, [math.sqrt(2 / 4) * s for s in sigma], "k--", label="Cramér-Rao bound, 4 frames")
 
     chart(folder, "noise.svg", "Phase error against noise", "sigma_I / B", "sigma_phi, rad", noise)
 

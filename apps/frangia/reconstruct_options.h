@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "frangia/core/error.h"
+#include "frangia/rig/read_rig.h"
 #include "frangia/scan/reconstruct.h"
 
 namespace frangia {
@@ -27,6 +29,16 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
   verb.add_flag("--recover-saturated",
                 options.recover_saturated,
                 "recover the one saturated frame of four, 90 degrees apart, from the others");
+  verb.add_option_function<std::string>(
+      "--undo-response",
+      [&options](const std::string& path) {
+        options.response = read_rig(path).projector.response;
+        if (!options.response)
+          throw Error(ErrorKind::Input,
+                      path + " has no [projector.response]; `frangia response` writes one");
+      },
+      "a rig.toml whose [projector.response] the projector had while it showed the patterns "
+      "without its look-up table: undone in the phase");
   verb.add_option("--max-sigma",
                   options.wrap.max_sigma_rad,
                   "drop pixels whose phase is less certain than this, in rad")

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/phase/measure_fringe_response.h"
 #include "frangia/phase/measure_response.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/scan/scan_folder.h"
@@ -24,12 +25,15 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
   std::vector<FrameStack> ramps;
+  std::vector<FrameStack> fringes;
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     for (FrameStack& stack : read_frames(scan, i, run)) {
       if (stack.pattern.kind == PatternKind::Ramp) ramps.push_back(std::move(stack));
+      if (tells_response(stack.pattern)) fringes.push_back(std::move(stack));
     }
   }
-  const ResponseCurve left = measure_response(ramps);
+  const ResponseCurve left =
+      ramps.empty() ? measure_fringe_response(fringes) : measure_response(ramps);
   Rig rig = scan.rig;
   auto& response = rig.projector.response;
   response = response ? compose(*response, left) : left;
@@ -48,12 +52,14 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
 
 void add_response_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<ResponseArguments>();
-  CLI::App* verb =
-      program.add_subcommand("response", "measure a projector's response from a grey ramp");
+  CLI::App* verb = program.add_subcommand(
+      "response", "measure a projector's response from a grey ramp or fringes");
   verb->footer(
       "example:\n  frangia simulate plate --display-gamma 2.2 --ramp 17 -o ramp\n"
       "  frangia response ramp -o rig.toml");
-  verb->add_option("SCAN", arguments->scan, "a scan that holds a pattern of kind \"ramp\"")
+  verb->add_option("SCAN",
+                   arguments->scan,
+                   "a scan that holds a pattern of kind \"ramp\", or fringes of 6 frames or more")
       ->required();
   verb->add_option("-o,--output", arguments->output, "the rig.toml to write, with the response")
       ->required();

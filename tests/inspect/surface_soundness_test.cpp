@@ -29,7 +29,7 @@ TEST(SurfaceSoundness, CountsTrianglesThatWereTurned) {
 }
 
 TEST(SurfaceSoundness, ComparesErrorsWithTheirSigma) {
-  const Mesh truth = make_part("ball-bar");
+  const Mesh truth = make_part("plate");
   Mesh off = truth;
   for (auto& vertex : off.vertices_mm)
     vertex.z() += 100.0F;  // far above, where the nearest point is below

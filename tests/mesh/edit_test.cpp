@@ -16,6 +16,7 @@
 #include "frangia/mesh/remove_spikes.h"
 #include "frangia/mesh/select_by_place.h"
 #include "frangia/mesh/select_by_vertices.h"
+#include "frangia/mesh/self_intersections.h"
 #include "frangia/mesh/smooth.h"
 #include "frangia/mesh/stitch.h"
 #include "frangia/mesh/surface_gap.h"
@@ -131,6 +132,26 @@ TEST(FillHoles, ClosesAHoleInASphereAsTheSphereRunsWithin150Micrometres) {
   EXPECT_EQ(open_edges(filled), 0U);
   EXPECT_LT(farthest_from_ball(filled), 0.15);
   EXPECT_NEAR(volume_mm3(filled) / volume_mm3(ball()), 1.0, 0.001);
+}
+
+TEST(FillHoles, OfManyEdgesAreClosedOnTheSphereAndCrossNothing) {
+  const Mesh fine = sphere(Vector3d::Zero(), kRadius, 150);
+  const Mesh open = delete_selected(fine, select_by_ball(fine, {kRadius, 0.0, 0.0}, 14.0));
+  ASSERT_GT(boundary_loops(open)[0].edges.size(), 250U);  // more than are searched at once
+  const Mesh filled = fill_holes(open);
+  EXPECT_EQ(open_edges(filled), 0U);
+  EXPECT_LT(farthest_from_ball(filled), 0.15);
+  EXPECT_TRUE(self_intersections(filled).empty());
+  EXPECT_NEAR(mean_edge_mm(filled) / mean_edge_mm(open), 1.0, 0.15);
+}
+
+TEST(FillHoles, OfASheetOfNoiseStayWithinItsReach) {
+  Mesh rough = noisy(sphere(Vector3d::Zero(), kRadius, 60), 0.3);
+  rough = delete_selected(rough, select_by_ball(rough, {kRadius, 0.0, 0.0}, 15.0));
+  const Mesh filled = fill_holes(rough);
+  EXPECT_EQ(open_edges(filled), 0U);
+  for (const auto& vertex : filled.vertices_mm)
+    ASSERT_LT(vertex.norm(), 1.3F * static_cast<float>(kRadius));
 }
 
 TEST(FillHoles, MarksWhatItInventsAndLeavesTheMeasuredAsItWas) {

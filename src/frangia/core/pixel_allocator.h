@@ -6,10 +6,12 @@
 
 namespace frangia {
 
-/// Memory for `bytes`, never null; large ones on huge pages where the system has them, because
-/// touching 20 million pixels for the first time costs more than computing them.
+/// Memory for `bytes`, never null; large ones on huge pages where the system has them, and used
+/// again once they are given back, because touching 20 million pixels for the first time costs more
+/// than computing them. At most 768 MB are kept for that.
 [[nodiscard]] void* allocate_pixels(std::size_t bytes);
-void free_pixels(void* memory) noexcept;
+/// Gives back what `allocate_pixels(bytes)` gave.
+void free_pixels(void* memory, std::size_t bytes) noexcept;
 
 /// The allocator of an Image: elements made without a value stay uninitialised.
 template <typename T>
@@ -23,7 +25,7 @@ struct PixelAllocator {
   [[nodiscard]] T* allocate(std::size_t count) {
     return static_cast<T*>(allocate_pixels(count * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t /*count*/) noexcept { free_pixels(memory); }
+  void deallocate(T* memory, std::size_t count) noexcept { free_pixels(memory, count * sizeof(T)); }
 
   template <typename U>
   void construct(U* place) {

@@ -5,6 +5,7 @@
 #include "frangia/files/check_mesh.h"
 #include "frangia/files/file_writer.h"
 #include "frangia/files/pcd.h"
+#include "frangia/files/write_vertices.h"
 
 namespace frangia {
 namespace {
@@ -52,17 +53,7 @@ void write_pcd(const std::filesystem::path& path, const Mesh& mesh) {
   check_mesh(mesh, path);
   FileWriter file(path);
   write_header(file, mesh);
-  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
-    for (const float coordinate : mesh.vertices_mm[i])
-      file.binary(coordinate);
-    if (!mesh.normals.empty()) {
-      for (const float coordinate : mesh.normals[i])
-        file.binary(coordinate);
-    }
-    if (!mesh.sigma_mm.empty()) file.binary(mesh.sigma_mm[i]);
-    if (!mesh.views.empty()) file.binary(mesh.views[i]);
-    if (!mesh.vertex_marks.empty()) file.binary(static_cast<std::uint8_t>(mesh.vertex_marks[i]));
-  }
+  write_vertices(file, mesh);
   file.commit();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,28 +19,37 @@ class BoxTree {
   /// errors   Error(Input) when a triangle refers to a vertex that is not there
   explicit BoxTree(const Mesh& mesh);
 
-  /// Calls `work(triangle)` for each triangle whose box touches this one.
+  /// Leaves hold a few triangles each that lie near to each other.
+  [[nodiscard]] std::size_t leaves() const { return (order_.size() + kLeaf - 1) / kLeaf; }
+
+  /// Calls `work(a, b)` for each pair of triangles whose boxes touch, of which one is in this leaf
+  /// and the other in it or in a later one: over all leaves that is every pair once.
   template <typename Work>
-  void touching(const Eigen::AlignedBox3f& box, const Work& work) const {
-    if (!order_.empty()) visit(1, box, work);
+  void touching_pairs(std::size_t leaf, const Work& work) const {
+    visit_later({.node = 1, .begin = 0, .end = leaves_}, leaf, work);
   }
   [[nodiscard]] static Eigen::AlignedBox3f box_of(const Mesh& mesh, std::uint32_t triangle);
 
  private:
   static constexpr std::size_t kLeaf = 4;
+  /// A node and the leaves below it.
+  struct Branch {
+    std::size_t node, begin, end;
+  };
 
   template <typename Work>
-  void visit(std::size_t node, const Eigen::AlignedBox3f& box, const Work& work) const {
-    if (!boxes_[node].intersects(box)) return;
-    if (node < leaves_) {
-      visit(2 * node, box, work);
-      visit(2 * node + 1, box, work);
+  void visit_later(const Branch& at, std::size_t leaf, const Work& work) const {
+    if (at.end <= leaf || !boxes_[at.node].intersects(boxes_[leaves_ + leaf])) return;
+    if (at.node < leaves_) {
+      const std::size_t middle = (at.begin + at.end) / 2;
+      visit_later({2 * at.node, at.begin, middle}, leaf, work);
+      visit_later({2 * at.node + 1, middle, at.end}, leaf, work);
       return;
     }
-    const std::size_t begin = (node - leaves_) * kLeaf;
-    const std::size_t end = std::min(begin + kLeaf, order_.size());
-    for (std::size_t i = begin; i < end; ++i)
-      if (own_[i].intersects(box)) work(order_[i]);
+    const std::size_t end = std::min((at.begin + 1) * kLeaf, order_.size());
+    for (std::size_t i = leaf * kLeaf; i < std::min((leaf + 1) * kLeaf, order_.size()); ++i)
+      for (std::size_t k = std::max(at.begin * kLeaf, i + 1); k < end; ++k)
+        if (own_[i].intersects(own_[k])) work(order_[i], order_[k]);
   }
 
   std::vector<std::uint32_t> order_;

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
+#include "frangia/core/parallel.h"
+#include "frangia/mesh/cheapest_first.h"
 #include "frangia/mesh/collapse_cost.h"
 #include "frangia/mesh/collapse_topology.h"
 #include "frangia/mesh/distance_guard.h"
@@ -29,9 +30,9 @@ struct Candidate {
   std::uint32_t a = 0, b = 0;
   std::uint32_t version = 0;
 
-  bool operator<(const Candidate& other) const {  // the queue gives the largest first
-    if (cost != other.cost) return cost > other.cost;
-    return a != other.a ? a > other.a : b > other.b;
+  bool operator<(const Candidate& other) const {
+    if (cost != other.cost) return cost < other.cost;
+    return a != other.a ? a < other.a : b < other.b;
   }
 };
 
@@ -45,15 +46,21 @@ class Decimation {
         versions_(mesh.vertices_mm.size()) {}
 
   void run(const HalfEdges& edges, std::size_t target, DistanceGuard* guard, const Run& run) {
-    queue_edges(edges);
+    CheapestFirst<Candidate> queue(candidates_of(edges));
+    const auto outdated = [this](const Candidate& candidate) {
+      return candidate.version != versions_[candidate.a] + versions_[candidate.b] ||
+             topology_.gone(candidate.a) || topology_.gone(candidate.b);
+    };
     const std::size_t begin = topology_.living();
     std::size_t steps = 0;
-    while (topology_.living() > target && !queue_.empty()) {
-      const Candidate candidate = queue_.top();
-      queue_.pop();
-      if (candidate.version != versions_[candidate.a] + versions_[candidate.b]) continue;
-      if (topology_.gone(candidate.a) || topology_.gone(candidate.b)) continue;
-      try_join(candidate.a, candidate.b, guard);
+    while (topology_.living() > target) {
+      const auto candidate = queue.pop(outdated);
+      if (!candidate) break;
+      if (outdated(*candidate)) continue;
+      if (try_join(candidate->a, candidate->b, guard)) {
+        for (const std::uint32_t v : neighbors_)
+          if (const auto fresh = candidate_of(candidate->a, v)) queue.push(*fresh);
+      }
       if (++steps % 65'536 == 0) {
         run.report(static_cast<double>(begin - topology_.living()) /
                    static_cast<double>(begin - target));
@@ -67,15 +74,23 @@ class Decimation {
     return mesh_.vertices_mm[v].cast<double>();
   }
 
-  void queue_edges(const HalfEdges& edges) {
+  [[nodiscard]] std::vector<Candidate> candidates_of(const HalfEdges& edges) const {
+    constexpr std::size_t kChunk = 65'536;
+    std::vector<std::vector<Candidate>> found((edges.count() + kChunk - 1) / kChunk);
+    parallel_chunks(edges.count(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto edge = static_cast<std::uint32_t>(i);
+        if (edges.has_twin(edge) && edges.twin(edge) < edge) continue;
+        const auto candidate = candidate_of(from_of(mesh_, edge), to_of(mesh_, edge));
+        if (candidate) found[begin / kChunk].push_back(*candidate);
+      }
+    });
     std::vector<Candidate> all;
-    all.reserve(edges.count() / 2);
-    for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
-      if (edges.has_twin(edge) && edges.twin(edge) < edge) continue;
-      const auto candidate = candidate_of(from_of(mesh_, edge), to_of(mesh_, edge));
-      if (candidate) all.push_back(*candidate);
+    for (auto& some : found) {
+      all.insert(all.end(), some.begin(), some.end());
+      some = {};
     }
-    queue_ = std::priority_queue<Candidate>(std::less<Candidate>(), std::move(all));
+    return all;
   }
 
   [[nodiscard]] std::optional<Candidate> candidate_of(std::uint32_t a, std::uint32_t b) const {
@@ -88,16 +103,18 @@ class Decimation {
     return Candidate{static_cast<float>(cost), a, b, versions_[a] + versions_[b]};
   }
 
-  void try_join(std::uint32_t a, std::uint32_t b, DistanceGuard* guard) {
+  /// Whether they were joined; `neighbors_` are then those of a.
+  bool try_join(std::uint32_t a, std::uint32_t b, DistanceGuard* guard) {
     // The place as the mesh will have it, so that what is checked is what is kept.
     const Vector3d joint = cost_.joint(a, b).place.cast<float>().cast<double>();
-    if (!topology_.may_join(a, b)) return;
-    if (!stays_upright(a, b, joint) || !stays_upright(b, a, joint)) return;
+    if (!topology_.may_join(a, b)) return false;
+    if (!stays_upright(a, b, joint) || !stays_upright(b, a, joint)) return false;
     if (guard != nullptr) {
-      if (!guard->allows(topology_, mesh_, a, b, joint)) return;
+      if (!guard->allows(topology_, mesh_, a, b, joint)) return false;
       guard->accept();
     }
     join(a, b, joint);
+    return true;
   }
 
   /// No triangle at v that stays turns over or becomes a sliver.
@@ -135,8 +152,6 @@ class Decimation {
     }
     versions_[a] += 1 + versions_[b];
     topology_.neighbors(a, neighbors_);
-    for (const std::uint32_t v : neighbors_)
-      if (const auto candidate = candidate_of(a, v)) queue_.push(*candidate);
   }
 
   Mesh& mesh_;
@@ -145,7 +160,6 @@ class Decimation {
   CollapseTopology topology_;
   std::vector<std::uint32_t> versions_;
   std::vector<std::uint32_t> neighbors_;
-  std::priority_queue<Candidate> queue_;
 };
 
 Mesh decimate_to_count(Mesh mesh, std::size_t triangles, const Run& run) {

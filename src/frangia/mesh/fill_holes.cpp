@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -103,18 +104,21 @@ Mesh fill_holes(Mesh mesh, const FillHolesOptions& options, const Run& run) {
     require(number < loops.size(),
             "fill_holes: the mesh has no hole of this number; --list shows them");
   const auto base = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-  const Mesh before = mesh;
+  std::vector<std::pair<Rim, HolePatch>> patches;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const bool named = options.only.empty() ||
                        std::find(options.only.begin(), options.only.end(), i) != options.only.end();
     if (!named || loops[i].size_mm > options.up_to_mm) continue;
-    for (const Rim& rim : simple_rims(vertices_of(before, loops[i]))) {
+    for (Rim& rim : simple_rims(vertices_of(mesh, loops[i]))) {
       if (rim.size() < 3) continue;
-      append(mesh, patch_of(before, edges, rim, options.kind, run), rim, base);
+      HolePatch patch = patch_of(mesh, edges, rim, options.kind, run);
+      patches.emplace_back(std::move(rim), std::move(patch));
     }
     run.report((static_cast<double>(i) + 1.0) / static_cast<double>(loops.size()));
   }
-  if (mesh.triangles.size() > before.triangles.size()) renew_normals(mesh);
+  for (const auto& [rim, patch] : patches)
+    append(mesh, patch, rim, base);
+  if (!patches.empty()) renew_normals(mesh);
   return mesh;
 }
 

@@ -22,11 +22,11 @@ struct FillHolesOptions {
 
 /// The mesh with holes filled. All that is put in is marked as invented, and has no views.
 ///
-/// A hole that cannot be filled smoothly is closed flat; one whose flat filling would make the mesh
-/// non-manifold gets a fan about its middle. A note of `run` says so.
-/// errors   Error(Input) when Smooth is asked of a build without CGAL, or there is no such loop
-/// source   CGAL, Polygon Mesh Processing: triangulate_refine_and_fair_hole (Liepa 2003, Botsch
-/// 2004)
+/// A hole that would lead a smooth filling far out of its bounds gets a film of least area. A hole
+/// that cannot be filled smoothly is closed flat; one whose flat filling would make the mesh
+/// non-manifold gets a fan about its middle: a note of `run` says so.
+/// errors   Error(Input) when there is no such loop
+/// source   Liepa 2003, Filling Holes in Meshes; fair_patch.h
 [[nodiscard]] Mesh fill_holes(Mesh mesh, const FillHolesOptions& options = {}, const Run& run = {});
 
 }  // namespace frangia

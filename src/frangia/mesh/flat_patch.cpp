@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <limits>
 
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
+#include "frangia/mesh/fill_polygon.h"
 #include "frangia/mesh/hole_patch.h"
 #include "frangia/mesh/triangulate_polygon.h"
 
@@ -11,72 +11,38 @@ namespace frangia {
 namespace {
 
 using Eigen::Vector3d;
+using Rim = std::vector<std::uint32_t>;
 
-constexpr std::size_t kMostByArea = 120;  // the search takes the cube of it
+constexpr std::size_t kMostByArea = 100;  // of larger rims the shadow is the better guess
 
 Vector3d place(const Mesh& mesh, std::uint32_t vertex) {
   return mesh.vertices_mm[vertex].cast<double>();
 }
 
-/// Least areas of the pieces between corners i and j of the rim, and the corner that splits them.
-struct Pieces {
-  std::size_t count;
-  std::vector<double> areas;
-  std::vector<std::size_t> splits;
-
-  explicit Pieces(std::size_t corners)
-      : count(corners), areas(corners * corners, 0.0), splits(corners * corners, 0) {}
-  [[nodiscard]] std::size_t at(std::size_t i, std::size_t j) const { return i * count + j; }
-};
-
-void collect(const Pieces& pieces,
-             const std::vector<std::uint32_t>& rim,
-             std::size_t i,
-             std::size_t j,
-             std::vector<Mesh::Triangle>& triangles) {
-  if (j < i + 2) return;
-  const std::size_t k = pieces.splits[pieces.at(i, j)];
-  triangles.push_back({rim[j], rim[k], rim[i]});  // against the rim's own way round
-  collect(pieces, rim, i, k, triangles);
-  collect(pieces, rim, k, j, triangles);
+/// The direction of the plane that fits a line best, by the area of its shadow.
+Vector3d direction_of(const std::vector<Vector3d>& line) {
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i = 0; i < line.size(); ++i)
+    normal += (line[i] - line.front()).cross(line[(i + 1) % line.size()] - line.front());
+  return normal;
 }
 
-/// source  Barequet & Sharir 1995, Filling Gaps in the Boundary of a Polyhedron
-std::vector<Mesh::Triangle> least_area(const Mesh& mesh, const std::vector<std::uint32_t>& rim) {
-  Pieces pieces(rim.size());
-  for (std::size_t width = 2; width < rim.size(); ++width) {
-    for (std::size_t i = 0; i + width < rim.size(); ++i) {
-      const std::size_t j = i + width;
-      double best = std::numeric_limits<double>::infinity();
-      for (std::size_t k = i + 1; k < j; ++k) {
-        const Vector3d a = place(mesh, rim[i]);
-        const double own = (place(mesh, rim[k]) - a).cross(place(mesh, rim[j]) - a).norm();
-        const double area = pieces.areas[pieces.at(i, k)] + pieces.areas[pieces.at(k, j)] + own;
-        if (area >= best) continue;
-        best = area;
-        pieces.splits[pieces.at(i, j)] = k;
-      }
-      pieces.areas[pieces.at(i, j)] = best;
-    }
-  }
+std::vector<Mesh::Triangle> least_area(const std::vector<Vector3d>& line, const Rim& rim) {
   std::vector<Mesh::Triangle> triangles;
-  collect(pieces, rim, 0, rim.size() - 1, triangles);
+  const FillPolygonOptions options{.normals = {line.size(), direction_of(line)}, .barred = {}};
+  for (const auto& [a, b, c] : fill_polygon(line, options))
+    triangles.push_back({rim[a], rim[b], rim[c]});
   return triangles;
 }
 
-std::vector<Mesh::Triangle> by_shadow(const Mesh& mesh, std::vector<std::uint32_t> rim) {
-  std::reverse(rim.begin(), rim.end());  // the patch runs against the rim
-  Vector3d normal = Vector3d::Zero();
-  const Vector3d origin = place(mesh, rim.front());
-  for (std::size_t i = 0; i < rim.size(); ++i) {
-    const Vector3d next = place(mesh, rim[(i + 1) % rim.size()]) - origin;
-    normal += (place(mesh, rim[i]) - origin).cross(next);
-  }
+/// The triangles of the line's shadow on its plane; none when the shadow crosses itself.
+std::vector<Mesh::Triangle> by_shadow(const std::vector<Vector3d>& line, const Rim& rim) {
+  const Vector3d normal = direction_of(line);
   const Vector3d x = normal.unitOrthogonal();
   const Vector3d y = normal.normalized().cross(x);
   Polygon shadow;
-  for (const std::uint32_t vertex : rim) {
-    const Vector3d away = place(mesh, vertex) - origin;
+  for (const Vector3d& corner : line) {
+    const Vector3d away = corner - line.front();
     shadow.emplace_back(away.dot(x), away.dot(y));
   }
   std::vector<Mesh::Triangle> triangles;
@@ -92,10 +58,15 @@ std::vector<Mesh::Triangle> by_shadow(const Mesh& mesh, std::vector<std::uint32_
 
 }  // namespace
 
-HolePatch flat_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim) {
+HolePatch flat_patch(const Mesh& mesh, const Rim& boundary) {
   HolePatch patch;
-  if (rim.size() < 3) return patch;
-  patch.triangles = rim.size() <= kMostByArea ? least_area(mesh, rim) : by_shadow(mesh, rim);
+  if (boundary.size() < 3) return patch;
+  const Rim rim(boundary.rbegin(), boundary.rend());  // the patch runs against the boundary
+  std::vector<Vector3d> line;
+  for (const std::uint32_t vertex : rim)
+    line.push_back(place(mesh, vertex));
+  if (rim.size() > kMostByArea) patch.triangles = by_shadow(line, rim);
+  if (patch.triangles.empty()) patch.triangles = least_area(line, rim);
   return patch;
 }
 

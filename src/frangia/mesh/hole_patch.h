@@ -17,16 +17,17 @@ struct HolePatch {
 };
 
 /// The triangulation of the rim's corners with the least area; of larger holes that of its shadow
-/// on the plane that fits it best. None when the shadow crosses itself.
+/// on the plane that fits it best, as long as the shadow does not cross itself.
 [[nodiscard]] HolePatch flat_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim);
 
 /// A fan about the mean of the rim's corners: always there.
 [[nodiscard]] HolePatch fan_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim);
 
-/// As dense as the surface around the rim and curvature-continuous with it; none where CGAL has
-/// none.
+/// As dense as the surface around the rim and curved on as it is; patches of more than two million
+/// triangles get coarser inwards. None when the rim leaves no way.
 ///
-/// errors   Error(Input) in a build without CGAL
+/// The shape is found on few triangles that grow inwards, then cut along curves between their
+/// corners until they are as small as those outside.
 [[nodiscard]] HolePatch smooth_patch(const Mesh& mesh,
                                      const HalfEdges& edges,
                                      const std::vector<std::uint32_t>& rim);

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-constexpr std::size_t kChunk = 8192;
+constexpr std::size_t kChunk = 2048;  // leaves
 
 CornerPlaces corners_of(const Mesh& mesh, std::uint32_t triangle) {
   const auto& t = mesh.triangles[triangle];
@@ -123,16 +123,14 @@ Mesh close_loops_at(Mesh mesh, const std::vector<std::uint8_t>& rim, const Run& 
 
 Pairs self_intersections(const Mesh& mesh, const Run& run) {
   const BoxTree tree(mesh);
-  const std::size_t count = mesh.triangles.size();
+  const std::size_t count = tree.leaves();
   std::vector<Pairs> found((count + kChunk - 1) / kChunk);
   parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     Pairs& pairs = found[begin / kChunk];
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto triangle = static_cast<std::uint32_t>(i);
-      const CornerPlaces own = corners_of(mesh, triangle);
-      tree.touching(BoxTree::box_of(mesh, triangle), [&](std::uint32_t other) {
-        if (other > triangle && cross(own, corners_of(mesh, other))) {
-          pairs.emplace_back(triangle, other);
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      tree.touching_pairs(leaf, [&](std::uint32_t a, std::uint32_t b) {
+        if (cross(corners_of(mesh, a), corners_of(mesh, b))) {
+          pairs.emplace_back(std::min(a, b), std::max(a, b));
         }
       });
     }

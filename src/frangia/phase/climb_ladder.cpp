@@ -1,5 +1,6 @@
 #include "frangia/phase/climb_ladder.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -32,26 +33,22 @@ struct RungLanes {
   const float* less_precision;
 };
 
-/// Phase of a rung, and its variance as a fraction: a division takes longer than all the rest.
-struct Lanes {
-  alignas(64) Lane phase;
-  alignas(64) Lane over;
-  alignas(64) Lane under;
+/// Wrapped phase of a rung, and its variance as a fraction: a division takes longer than all the
+/// rest.
+struct Rung {
+  float phase;
+  float over;
+  float under;
 };
 
-FRANGIA_VECTORISED void take_map(RungLanes rung, std::size_t n, Lanes& __restrict out) {
-  for (std::size_t i = 0; i < n; ++i) {
-    out.phase[i] = rung.phase[i];
-    out.over[i] = 1.0F;
-    out.under[i] = rung.precision[i];
-  }
-}
-
-FRANGIA_VECTORISED void take_beat(RungLanes rung, std::size_t n, Lanes& __restrict out) {
-  for (std::size_t i = 0; i < n; ++i) {
-    out.phase[i] = rung.phase[i] - rung.less[i];
-    out.over[i] = rung.precision[i] + rung.less_precision[i];
-    out.under[i] = rung.precision[i] * rung.less_precision[i];
+template <bool IsBeat>
+[[gnu::always_inline]] inline Rung rung_at(const RungLanes& rung, std::size_t i) {
+  if constexpr (IsBeat) {
+    return {rung.phase[i] - rung.less[i],
+            rung.precision[i] + rung.less_precision[i],
+            rung.precision[i] * rung.less_precision[i]};
+  } else {
+    return {rung.phase[i], 1.0F, rung.precision[i]};
   }
 }
 
@@ -65,56 +62,86 @@ struct Margins {
   float least;  ///< so that one step alone is
 };
 
+[[gnu::always_inline]] inline std::int32_t judge(float margin, float over, Margins margins) {
+  return (margin >= margins.safe * over ? 0 : kUnsafe) |
+         (margin < margins.least * over ? kDoubtful : 0);
+}
+
 /// The first step: nothing to lift, but noise slips over at the ends of the single fringe.
-FRANGIA_VECTORISED void start(Lanes& __restrict at,
+template <bool IsBeat>
+FRANGIA_VECTORISED void start(const RungLanes& rung,
                               std::size_t n,
                               float centre,
                               Margins margins,
+                              float* __restrict absolute,
                               std::int32_t* __restrict state) {
   for (std::size_t i = 0; i < n; ++i) {
-    const float away = at.phase[i] - centre;
+    const Rung at = rung_at<IsBeat>(rung, i);
+    const float away = at.phase - centre;
     const float from_centre = away - kTurnRad * nearest(away * kPerTurn);
     const float left = 3.14159265F - std::fabs(from_centre);
-    const float margin = (left > 0.0F ? left * left : 0.0F) * at.under[i];
-    at.phase[i] = centre + from_centre;
-    state[i] = (margin >= margins.safe * at.over[i] ? 0 : kUnsafe) |
-               (margin < margins.least * at.over[i] ? kDoubtful : 0);
+    const float margin = (left > 0.0F ? left * left : 0.0F) * at.under;
+    absolute[i] = centre + from_centre;
+    state[i] = judge(margin, at.over, margins);
   }
 }
 
-/// The next finer step, lifted to where the coarse one expects it; `fine` takes its place.
-FRANGIA_VECTORISED void lift(const Lanes& __restrict coarse,
+/// A step and the next finer one.
+struct Lift {
+  RungLanes coarse;
+  RungLanes fine;
+  float ratio;  ///< of their fringes
+  Margins margins;
+};
+
+/// The next finer step, lifted to where the coarse one expects it.
+template <bool CoarseIsBeat, bool FineIsBeat>
+FRANGIA_VECTORISED void lift(const Lift& step,
                              std::size_t n,
-                             float ratio,
-                             Margins margins,
-                             Lanes& __restrict fine,
+                             const float* __restrict coarse,
+                             float* __restrict fine,
                              std::int32_t* __restrict state) {
   constexpr float kMargin = 9.86960440F;  // pi squared
+  const Lift by = step;
   for (std::size_t i = 0; i < n; ++i) {
-    const float over =
-        ratio * ratio * coarse.over[i] * fine.under[i] + fine.over[i] * coarse.under[i];
-    const float margin = kMargin * (coarse.under[i] * fine.under[i]);
-    const float apart = ratio * coarse.phase[i] - fine.phase[i];
-    state[i] |= (margin >= margins.safe * over ? 0 : kUnsafe) |
-                (margin < margins.least * over ? kDoubtful : 0);
-    fine.phase[i] += kTurnRad * nearest(apart * kPerTurn);
+    const Rung from = rung_at<CoarseIsBeat>(by.coarse, i);
+    const Rung to = rung_at<FineIsBeat>(by.fine, i);
+    const float over = by.ratio * by.ratio * from.over * to.under + to.over * from.under;
+    const float margin = kMargin * (from.under * to.under);
+    const float apart = by.ratio * coarse[i] - to.phase;
+    state[i] |= judge(margin, over, by.margins);
+    fine[i] = to.phase + kTurnRad * nearest(apart * kPerTurn);
   }
 }
 
-/// One map's share in the slope of phase over frequency: how far it lies from the finest one's.
-FRANGIA_VECTORISED void weigh(const float* __restrict phase,
-                              const float* __restrict precision,
+/// A map's part in the slope of phase over frequency.
+struct Part {
+  const float* phase;
+  const float* precision;
+  float ratio;  ///< of its fringes to the finest one's
+};
+
+/// Two maps' share in the slope of phase over frequency: how far they lie from the finest one's.
+/// The first two set the sums.
+template <bool IsFirst>
+FRANGIA_VECTORISED void weigh(const Part& first,
+                              const Part& second,
                               const float* __restrict at,
                               std::size_t n,
-                              float ratio,
                               float* __restrict sum,
                               float* __restrict weights) {
+  const Part a = first;
+  const Part b = second;
   for (std::size_t i = 0; i < n; ++i) {
-    const float away = phase[i] - ratio * at[i];
-    const float apart = away - kTurnRad * nearest(away * kPerTurn);
-    const float weight = ratio * precision[i];
-    sum[i] += weight * apart;
-    weights[i] += weight * ratio;
+    const float away_a = a.phase[i] - a.ratio * at[i];
+    const float away_b = b.phase[i] - b.ratio * at[i];
+    const float weight_a = a.ratio * a.precision[i];
+    const float weight_b = b.ratio * b.precision[i];
+    const float found = weight_a * (away_a - kTurnRad * nearest(away_a * kPerTurn)) +
+                        weight_b * (away_b - kTurnRad * nearest(away_b * kPerTurn));
+    const float weight = weight_a * a.ratio + weight_b * b.ratio;
+    sum[i] = IsFirst ? found : sum[i] + found;
+    weights[i] = IsFirst ? weight : weights[i] + weight;
   }
 }
 
@@ -125,9 +152,18 @@ FRANGIA_VECTORISED void finish(const float* __restrict at,
                                float* __restrict absolute,
                                float* __restrict sigma) {
   for (std::size_t i = 0; i < n; ++i) {
-    absolute[i] = at[i] + sum[i] / weights[i];
-    sigma[i] = 1.0F / std::sqrt(weights[i]);
+    const float variance = 1.0F / weights[i];
+    absolute[i] = at[i] + sum[i] * variance;
+    sigma[i] = std::sqrt(variance);
   }
+}
+
+/// Whether any of them is not 0.
+FRANGIA_VECTORISED bool any_of(const std::int32_t* state, std::size_t n) {
+  std::int32_t all = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    all |= state[i];
+  return all != 0;
 }
 
 /// The lanes of a step; a map that stands alone is less nothing.
@@ -140,8 +176,11 @@ RungLanes lanes_of(const LadderStep& step, const LadderClimb::Input& maps) {
           maps.precision[less]};
 }
 
-void take(const LadderStep& step, const LadderClimb::Input& maps, std::size_t n, Lanes& out) {
-  (step.less < 0 ? take_map : take_beat)(lanes_of(step, maps), n, out);
+using LiftLanes = void (*)(const Lift&, std::size_t, const float*, float*, std::int32_t*);
+
+LiftLanes lift_between(const LadderStep& coarse, const LadderStep& fine) {
+  if (coarse.less < 0) return fine.less < 0 ? LiftLanes{lift<false, false>} : lift<false, true>;
+  return fine.less < 0 ? LiftLanes{lift<true, false>} : lift<true, true>;
 }
 
 }  // namespace
@@ -175,36 +214,62 @@ void LadderClimb::climb(const Input& maps,
                         float* absolute_rad,
                         float* sigma_rad,
                         std::int32_t* doubtful) const {
-  std::array<Lanes, 2> lanes;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
+  alignas(64) std::array<Lane, 2> lanes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   const Margins margins{static_cast<float>(safe_sigmas_ * safe_sigmas_),
                         static_cast<float>(least_sigmas_ * least_sigmas_)};
-  take(steps_.front(), maps, n, lanes[0]);
-  start(lanes[0], n, static_cast<float>(centre_rad_), margins, doubtful);
+  RungLanes coarse = lanes_of(steps_.front(), maps);
+  (steps_.front().less < 0 ? start<false> : start<true>)(coarse,
+                                                         n,
+                                                         static_cast<float>(centre_rad_),
+                                                         margins,
+                                                         lanes[0].data(),
+                                                         doubtful);
   for (std::size_t k = 1; k < steps_.size(); ++k) {
-    Lanes& fine = lanes[k % 2];
-    take(steps_[k], maps, n, fine);
+    const RungLanes fine = lanes_of(steps_[k], maps);
     const double ratio = steps_[k].per_unit / steps_[k - 1].per_unit;
-    lift(lanes[(k - 1) % 2], n, static_cast<float>(ratio), margins, fine, doubtful);
+    lift_between(steps_[k - 1], steps_[k])({coarse, fine, static_cast<float>(ratio), margins},
+                                           n,
+                                           lanes[(k - 1) % 2].data(),
+                                           lanes[k % 2].data(),
+                                           doubtful);
+    coarse = fine;
   }
-  const Lane& at = lanes[(steps_.size() - 1) % 2].phase;
-  alignas(64) Lane sum{};
-  alignas(64) Lane weights{};
-  for (std::size_t m = 0; m < ratios_.size(); ++m) {
-    weigh(maps.phase_rad[m],
-          maps.precision[m],
-          at.data(),
-          n,
-          static_cast<float>(ratios_[m]),
-          sum.data(),
-          weights.data());
-  }
-  finish(at.data(), sum.data(), weights.data(), n, absolute_rad, sigma_rad);
+  fit_slope(maps, lanes[(steps_.size() - 1) % 2].data(), n, absolute_rad, sigma_rad);
   // What is not safe by a margin is looked at again, exactly.
-  for (std::size_t i = 0; i < n; ++i) {
-    if (doubtful[i] == 0) continue;
-    const bool exact = (doubtful[i] & kDoubtful) == 0 && maps.lost[i] == 0;
-    doubtful[i] = exact && wrong_chance(maps, i) <= max_wrong_order_ ? 0 : 1;
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t begin = 0; begin < n; begin += kBlock) {
+    const std::size_t end = std::min(n, begin + kBlock);
+    if (!any_of(doubtful + begin, end - begin)) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (doubtful[i] == 0) continue;
+      const bool exact = (doubtful[i] & kDoubtful) == 0 && maps.lost[i] == 0;
+      doubtful[i] = exact && wrong_chance(maps, i) <= max_wrong_order_ ? 0 : 1;
+    }
   }
+}
+
+void LadderClimb::fit_slope(const Input& maps,
+                            const float* at,
+                            std::size_t n,
+                            float* absolute_rad,
+                            float* sigma_rad) const {
+  alignas(64) Lane sum;      // NOLINT(cppcoreguidelines-pro-type-member-init): set by the first two
+  alignas(64) Lane weights;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  for (std::size_t m = 0; m < ratios_.size(); m += 2) {
+    // An odd last one goes with itself at no weight.
+    const bool pair = m + 1 < ratios_.size();
+    const std::size_t other = pair ? m + 1 : m;
+    (m == 0 ? weigh<true>
+            : weigh<false>)({maps.phase_rad[m], maps.precision[m], static_cast<float>(ratios_[m])},
+                            {maps.phase_rad[other],
+                             maps.precision[other],
+                             pair ? static_cast<float>(ratios_[other]) : 0.0F},
+                            at,
+                            n,
+                            sum.data(),
+                            weights.data());
+  }
+  finish(at, sum.data(), weights.data(), n, absolute_rad, sigma_rad);
 }
 
 double LadderClimb::wrong_chance(const Input& maps, std::size_t i) const {

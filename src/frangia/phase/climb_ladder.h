@@ -36,6 +36,12 @@ class LadderClimb {
              std::int32_t* doubtful) const;
 
  private:
+  /// The least-squares slope of phase over frequency through all maps, the finest being `at`.
+  void fit_slope(const Input& maps,
+                 const float* at,
+                 std::size_t n,
+                 float* absolute_rad,
+                 float* sigma_rad) const;
   /// The chance that one of pixel i's orders is wrong.
   [[nodiscard]] double wrong_chance(const Input& maps, std::size_t i) const;
 

@@ -15,11 +15,14 @@
 #include "frangia/core/parallel.h"
 #include "frangia/core/vectorised.h"
 #include "frangia/phase/climb_ladder.h"
+#include "frangia/phase/wrap_quarters.h"
 #include "frangia/phase/wrap_tile.h"
 
 namespace frangia {
 namespace {
 
+/// Not a power of two: lanes that are a power of two apart share one set of the cache's lines.
+constexpr std::size_t kLane = kTilePixels + 16;
 constexpr std::size_t kChunk = 64 * kTilePixels;
 
 using Fates = std::array<std::int32_t, kTilePixels>;
@@ -43,29 +46,6 @@ FRANGIA_VECTORISED void find_precision(const WrapTile& __restrict tile,
   }
 }
 
-/// The same where sine and cosine are equally noisy, each by itself.
-FRANGIA_VECTORISED void find_even_precision(const WrapTile& __restrict tile,
-                                            std::size_t n,
-                                            TileNoise f,
-                                            float* __restrict precision,
-                                            float* __restrict least) {
-  const float floor = f.variance_floor * f.sine_gain;
-  const float slope = f.variance_slope * f.sine_gain;
-  for (std::size_t i = 0; i < n; ++i) {
-    const float s = tile.sine[i];
-    const float c = tile.cosine[i];
-    const float mean = tile.mean[i] > 0.0F ? tile.mean[i] : 0.0F;
-    const float found = (s * s + c * c) / (floor + slope * mean);
-    precision[i] = found;
-    least[i] = found < least[i] ? found : least[i];
-  }
-}
-
-bool is_even(const TileNoise& noise) {
-  return std::abs(noise.sine_gain - noise.cosine_gain) < 1e-6F * noise.sine_gain &&
-         std::abs(noise.cross_gain) < 1e-6F * noise.sine_gain;
-}
-
 FRANGIA_VECTORISED void find_lost(const float* __restrict least,
                                   const std::uint16_t* __restrict top,
                                   std::size_t n,
@@ -78,6 +58,13 @@ FRANGIA_VECTORISED void find_lost(const float* __restrict least,
     const std::int32_t dim = least[i] >= min_precision ? 0 : kUnmodulated;
     fate[i] = static_cast<std::int32_t>(top[i]) >= white ? kSaturated : dim;
   }
+}
+
+FRANGIA_VECTORISED bool any_measured(const std::int32_t* fate, std::size_t n) {
+  std::int32_t measured = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    measured |= fate[i] == 0 ? 1 : 0;
+  return measured != 0;
 }
 
 FRANGIA_VECTORISED void discard(const std::int32_t* __restrict doubtful,
@@ -112,10 +99,11 @@ class TileDecoder {
         noises_(noises),
         ladder_(ladder),
         min_precision_(min_precision),
-        lanes_(2 * maps.size()) {
+        lanes_(2 * maps.size() * kLane) {
     for (std::size_t m = 0; m < maps.size(); ++m) {
-      phase_.push_back(lanes_[2 * m].data());
-      precision_.push_back(lanes_[2 * m + 1].data());
+      phase_.push_back(lane(2 * m));
+      precision_.push_back(lane(2 * m + 1));
+      quarters_.push_back(are_quarters(maps[m].algorithm));
     }
   }
 
@@ -123,31 +111,43 @@ class TileDecoder {
     tile_.top.fill(0);
     least_.fill(std::numeric_limits<float>::max());
     for (std::size_t m = 0; m < maps_.size(); ++m) {
+      float* phase = lane(2 * m);
+      float* precision = lane(2 * m + 1);
+      if (quarters_[m]) {
+        wrap_quarters(*maps_[m].stack,
+                      maps_[m].algorithm,
+                      noises_[m],
+                      at,
+                      n,
+                      {phase, precision, least_.data(), tile_.top.data()});
+        continue;
+      }
       sum_frames(*maps_[m].stack, maps_[m].algorithm, at, n, tile_);
-      find_tile_phase(tile_, n, lanes_[2 * m].data());
-      const auto find = is_even(noises_[m]) ? find_even_precision : find_precision;
-      find(tile_, n, noises_[m], lanes_[2 * m + 1].data(), least_.data());
+      find_tile_phase(tile_, n, phase);
+      find_precision(tile_, n, noises_[m], precision, least_.data());
     }
     find_lost(
         least_.data(), tile_.top.data(), n, min_precision_, noises_.front().white, fates_.data());
     float* phase = out.phase_rad.pixels().data() + at;
     float* sigma = out.sigma_rad.pixels().data() + at;
-    if (std::find(fates_.begin(), fates_.begin() + static_cast<std::ptrdiff_t>(n), 0) !=
-        fates_.begin() + static_cast<std::ptrdiff_t>(n))
+    if (any_measured(fates_.data(), n))
       ladder_.climb({phase_, precision_, fates_.data()}, n, phase, sigma, doubtful_.data());
     discard(doubtful_.data(), n, fates_.data(), phase, sigma);
     narrow(fates_.data(), n, out.fate.pixels().data() + at);
   }
 
  private:
+  float* lane(std::size_t k) { return lanes_.data() + k * kLane; }
+
   std::span<const SequenceFrames> maps_;
   std::span<const TileNoise> noises_;
   const LadderClimb& ladder_;
   float min_precision_;
   WrapTile tile_;
-  std::vector<Lane> lanes_;  ///< phase and precision of each map
+  std::vector<float> lanes_;  ///< phase and precision of each map
   std::vector<const float*> phase_;
   std::vector<const float*> precision_;
+  std::vector<bool> quarters_;  ///< whether each map's frames are a quarter turn apart
   alignas(64) Lane least_{};
   Fates fates_{};
   Fates doubtful_{};

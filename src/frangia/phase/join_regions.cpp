@@ -72,9 +72,20 @@ std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& reg
       const int fringes = static_cast<int>(std::lround(jump / kTurnRad));
       rows[static_cast<std::size_t>(y)].push_back({a, b, fringes, smooth});
     };
-    for (int x = 0; x < width; ++x) {
-      if (x + 1 < width) look(x, x + 1, y, regions.smooth_right(x, y) != 0);
-      if (y + 1 < height) look(x, x, y + 1, regions.smooth_below(x, y) != 0);
+    // Most blocks lie within one region, and so do the pixels to their right and below.
+    const std::int32_t* here = &phase.region(0, y);
+    const std::int32_t* below = y + 1 < height ? here + width : here;
+    constexpr int kBlock = 32;
+    for (int begin = 0; begin < width; begin += kBlock) {
+      const int end = std::min(width, begin + kBlock);
+      const int last = std::min(width - 1, end);
+      if (std::equal(here + begin, here + last, here + begin + 1) &&
+          std::equal(here + begin, here + end, below + begin))
+        continue;
+      for (int x = begin; x < end; ++x) {
+        if (x + 1 < width) look(x, x + 1, y, regions.smooth_right(x, y) != 0);
+        if (y + 1 < height) look(x, x, y + 1, regions.smooth_below(x, y) != 0);
+      }
     }
   });
   std::vector<Contact> all;

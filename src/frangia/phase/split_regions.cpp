@@ -1,134 +1,32 @@
 #include "frangia/phase/split_regions.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
-#include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/pixel_allocator.h"
 #include "frangia/core/vectorised.h"
 #include "frangia/phase/pixel_runs.h"
+#include "frangia/phase/smooth_jumps.h"
 
 namespace frangia {
 namespace {
 
 using Mask = Image<std::uint8_t>;
 
-/// Wrapped jumps between two rows, or a row and itself one pixel on; NaN where an end is missing.
-FRANGIA_VECTORISED void find_jumps(const float* from, const float* to, int count, float* jump) {
-  for (int x = 0; x < count; ++x) {
-    const float difference = to[x] - from[x];
-    const float down = difference > 3.14159265F ? 6.28318531F : 0.0F;
-    const float up = difference < -3.14159265F ? 6.28318531F : 0.0F;
-    jump[x] = difference - down + up;
-  }
-}
-
-struct Limits {
-  float departure;  ///< from the jumps before and behind
-  float jump;
-};
-
-/// Whether each jump is smooth: small, and not far outside the ones before and behind it. One that
-/// is missing is passed over, and a lone jump has no departure.
-FRANGIA_VECTORISED void judge_jumps(const float* before,
-                                    const float* here,
-                                    const float* behind,
-                                    int count,
-                                    Limits limits,
-                                    std::uint8_t* smooth) {
-  for (int x = 0; x < count; ++x) {
-    const float jump = here[x];
-    const float one = before[x] == before[x] ? before[x] : behind[x];
-    const float two = behind[x] == behind[x] ? behind[x] : before[x];
-    const float low = one < two ? one : two;
-    const float high = one < two ? two : one;
-    const std::int32_t below = low - jump > limits.departure ? 1 : 0;
-    const std::int32_t above = jump - high > limits.departure ? 1 : 0;
-    const std::int32_t small = std::fabs(jump) <= limits.jump ? 1 : 0;
-    smooth[x] = static_cast<std::uint8_t>(small & ~(below | above) & 1);
-  }
-}
-
-/// Standard deviation of the jumps' noise along x (dx = 1) or y, from the differences of
-/// neighbouring ones, in some rows of the image.
-float jump_noise(const Image<float>& phase, int dx, int dy) {
-  constexpr int kSamples = 400'000;
-  std::vector<float> differences;
-  const int stride = std::max(1, static_cast<int>(phase.pixels().size() / kSamples));
-  for (int y = dy; y + dy < phase.height(); y += stride) {
-    for (int x = dx; x + dx < phase.width(); ++x) {
-      const float bend = phase(x - dx, y - dy) - 2.0F * phase(x, y) + phase(x + dx, y + dy);
-      if (std::isnan(bend)) continue;
-      differences.push_back(std::fabs(bend - 6.28318531F * std::round(bend / 6.28318531F)));
-    }
-  }
-  if (differences.empty()) return 0.0F;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  // a - 2b + c has variance 6 sigma^2, a jump has 2 sigma^2.
-  return *middle / 0.6745F / std::sqrt(3.0F);
-}
-
-Mask smooth_right(const Image<float>& phase, const SplitOptions& options) {
-  const int width = phase.width();
-  const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase, 1, 0), options.max_jump_rad};
-  Mask smooth(width, phase.height(), Unfilled{});
-  parallel_rows(phase.height(), [&](int y) {
-    std::vector<float> jump(row + 2, kMissing);  // one more at each end
-    const float* from = phase.pixels().data() + static_cast<std::size_t>(y) * row;
-    find_jumps(from, from + 1, width - 1, jump.data() + 1);
-    judge_jumps(jump.data(), jump.data() + 1, jump.data() + 2, width, limits, &smooth(0, y));
-  });
-  return smooth;
-}
-
-Mask smooth_below(const Image<float>& phase, const SplitOptions& options) {
-  constexpr int kBand = 32;  // rows that share their jumps
-  const int width = phase.width();
-  const int height = phase.height();
-  const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase, 0, 1), options.max_jump_rad};
-  Mask smooth(width, height, Unfilled{});
-  parallel_rows((height + kBand - 1) / kBand, [&](int band) {
-    std::vector<float> before(row);
-    std::vector<float> here(row);
-    std::vector<float> behind(row);
-    const auto jumps_below = [&](int y, std::vector<float>& jump) {
-      if (y < 0 || y + 1 >= height) {
-        std::fill(jump.begin(), jump.end(), kMissing);
-        return;
-      }
-      const float* from = phase.pixels().data() + static_cast<std::size_t>(y) * row;
-      find_jumps(from, from + row, width, jump.data());
-    };
-    jumps_below(band * kBand - 1, before);
-    jumps_below(band * kBand, here);
-    for (int y = band * kBand; y < std::min(height, (band + 1) * kBand); ++y) {
-      jumps_below(y + 1, behind);
-      judge_jumps(before.data(), here.data(), behind.data(), width, limits, &smooth(0, y));
-      std::swap(before, here);
-      std::swap(here, behind);
-    }
-  });
-  return smooth;
-}
-
 /// 1 where a pixel and its neighbour are both measured but their jump is not smooth.
-FRANGIA_VECTORISED void mark_broken(const float* a,
-                                    const float* b,
-                                    const std::uint8_t* smooth,
+FRANGIA_VECTORISED void mark_broken(const float* __restrict a,
+                                    const float* __restrict b,
+                                    const std::uint8_t* __restrict smooth,
                                     int count,
-                                    std::uint8_t* broken_a,
-                                    std::uint8_t* broken_b) {
+                                    std::uint8_t* __restrict broken) {
   for (int x = 0; x < count; ++x) {
     const float both = a[x] + b[x];
     const auto cut = static_cast<std::uint8_t>((both == both ? 1 : 0) & (smooth[x] ^ 1));
-    broken_a[x] = static_cast<std::uint8_t>(broken_a[x] | cut);
-    if (broken_b != nullptr) broken_b[x] = static_cast<std::uint8_t>(broken_b[x] | cut);
+    broken[x] = static_cast<std::uint8_t>(broken[x] | cut);
   }
 }
 
@@ -136,19 +34,20 @@ FRANGIA_VECTORISED void mark_broken(const float* a,
 Mask broken_pixels(const Image<float>& phase, const Regions& regions) {
   const int width = phase.width();
   const int height = phase.height();
-  Mask broken(width, height, 0);
-  std::vector<std::uint8_t> right(static_cast<std::size_t>(width));
-  for (int y = 0; y < height; ++y) {
-    const float* row = &phase.pixels()[static_cast<std::size_t>(y) * right.size()];
-    std::fill(right.begin(), right.end(), std::uint8_t{0});
-    mark_broken(row, row + 1, &regions.smooth_right(0, y), width - 1, right.data(), nullptr);
-    for (int x = 0; x + 1 < width; ++x) {
-      if (right[static_cast<std::size_t>(x)] != 0) broken(x, y) = broken(x + 1, y) = 1;
-    }
-    if (y + 1 == height) break;
-    mark_broken(
-        row, row + width, &regions.smooth_below(0, y), width, &broken(0, y), &broken(0, y + 1));
-  }
+  Mask broken(width, height, Unfilled{});
+  const auto row_of = [&](const auto& image, int y) {
+    return image.pixels().data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+  };
+  parallel_rows(height, [&](int y) {
+    std::vector<std::uint8_t> right(static_cast<std::size_t>(width) + 1, 0);
+    const float* row = row_of(phase, y);
+    mark_broken(row, row + 1, row_of(regions.smooth_right, y), width - 1, right.data() + 1);
+    std::uint8_t* out = &broken(0, y);
+    for (std::size_t x = 0; x + 1 < right.size(); ++x)
+      out[x] = static_cast<std::uint8_t>(right[x] | right[x + 1]);
+    if (y > 0) mark_broken(row - width, row, row_of(regions.smooth_below, y - 1), width, out);
+    if (y + 1 < height) mark_broken(row, row + width, row_of(regions.smooth_below, y), width, out);
+  });
   return broken;
 }
 
@@ -185,34 +84,43 @@ void dilate(int radius, Mask& mask) {
   });
 }
 
-struct Pixel {
-  int x;
-  int y;
-};
+/// Pixels in raster order, as their index; a large one, so its memory is an image's.
+using Front = std::vector<std::uint32_t, PixelAllocator<std::uint32_t>>;
 
 /// Spreads labels over smooth jumps, breadth first, into pixels that `allowed` admits.
 template <typename Allowed>
-void spread(std::vector<Pixel>& front, Regions& regions, const Allowed& allowed) {
-  auto& label = regions.label;
+void spread(Front& front, Regions& regions, const Allowed& allowed) {
+  const auto width = static_cast<std::uint32_t>(regions.label.width());
+  const auto height = static_cast<std::uint32_t>(regions.label.height());
+  const auto label = regions.label.pixels();
+  const auto right = regions.smooth_right.pixels();
+  const auto below = regions.smooth_below.pixels();
   for (std::size_t head = 0; head < front.size(); ++head) {
-    const auto [x, y] = front[head];
-    const auto visit = [&](int u, int v, bool smooth) {
-      if (!smooth || label(u, v) >= 0 || !allowed(u, v)) return;
-      label(u, v) = label(x, y);
-      front.push_back({u, v});
+    const std::uint32_t at = front[head];
+    const std::int32_t own = label[at];
+    const auto visit = [&](std::uint32_t to, std::uint8_t smooth) {
+      if (smooth == 0 || label[to] >= 0 || !allowed(to)) return;
+      label[to] = own;
+      front.push_back(to);
     };
-    if (x > 0) visit(x - 1, y, regions.smooth_right(x - 1, y) != 0);
-    if (x + 1 < label.width()) visit(x + 1, y, regions.smooth_right(x, y) != 0);
-    if (y > 0) visit(x, y - 1, regions.smooth_below(x, y - 1) != 0);
-    if (y + 1 < label.height()) visit(x, y + 1, regions.smooth_below(x, y) != 0);
+    const std::uint32_t x = at % width;
+    if (x > 0) visit(at - 1, right[at - 1]);
+    if (x + 1 < width) visit(at + 1, right[at]);
+    if (at >= width) visit(at - width, below[at - width]);
+    if (at / width + 1 < height) visit(at + width, below[at]);
   }
 }
 
-/// Gives each connected set of admitted, unlabelled pixels the next label.
+/// Runs of pixels that hang together over smooth jumps, and the set that each belongs to.
+struct RunSets {
+  PixelRuns all;
+  RunForest forest;
+};
+
 template <typename Allowed>
-void label_all(Regions& regions, const Allowed& allowed) {
+RunSets connect_runs(const Regions& regions, const Allowed& allowed) {
   const int height = regions.label.height();
-  const PixelRuns all = find_runs(
+  PixelRuns all = find_runs(
       regions.label.width(),
       height,
       [&](int x, int y) { return regions.label(x, y) < 0 && allowed(x, y); },
@@ -220,43 +128,122 @@ void label_all(Regions& regions, const Allowed& allowed) {
   RunForest forest(all.runs.size());
   for (int y = 1; y < height; ++y) {
     meet_row_above(all, y, [&](std::size_t a, std::size_t b, std::int32_t begin, std::int32_t end) {
-      for (std::int32_t x = begin; x < end; ++x) {
-        if (regions.smooth_below(x, y - 1) == 0) continue;
-        forest.join(a, b, 0);
-        return;
-      }
+      const std::uint8_t* smooth = &regions.smooth_below(0, y - 1);
+      if (std::find(smooth + begin, smooth + end, 1) != smooth + end) forest.join(a, b, 0);
     });
   }
-  // A root is the first run of its set.
-  std::vector<std::int32_t> label(all.runs.size());
-  for (std::size_t i = 0; i < label.size(); ++i) {
-    const std::size_t root = forest.root(i).run;
-    label[i] = root == i ? regions.count++ : label[root];
-  }
-  parallel_rows(height, [&](int y) {
+  return {std::move(all), std::move(forest)};
+}
+
+/// Writes a label into each run that has one.
+void label_runs(const PixelRuns& all, const std::vector<std::int32_t>& label, Regions& regions) {
+  parallel_rows(regions.label.height(), [&](int y) {
     const auto row = static_cast<std::size_t>(y);
     for (std::size_t i = all.first[row]; i < all.first[row + 1]; ++i) {
-      std::fill(&regions.label(all.runs[i].begin, y),
-                &regions.label(all.runs[i].begin, y) + (all.runs[i].end - all.runs[i].begin),
-                label[i]);
+      if (label[i] < 0) continue;
+      std::int32_t* begin = &regions.label(all.runs[i].begin, y);
+      std::fill(begin, begin + (all.runs[i].end - all.runs[i].begin), label[i]);
     }
   });
 }
 
-/// Labelled pixels beside measured ones that have no label yet.
-std::vector<Pixel> rims(const Image<float>& phase, const Image<std::int32_t>& label) {
-  std::vector<Pixel> front;
+/// Gives each connected set of admitted, unlabelled pixels the next label.
+template <typename Allowed>
+void label_all(Regions& regions, const Allowed& allowed) {
+  RunSets sets = connect_runs(regions, allowed);
+  // A root is the first run of its set.
+  std::vector<std::int32_t> label(sets.all.runs.size());
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    const std::size_t root = sets.forest.root(i).run;
+    label[i] = root == i ? regions.count++ : label[root];
+  }
+  label_runs(sets.all, label, regions);
+}
+
+constexpr std::int32_t kNoLabel = -1;
+constexpr std::int32_t kSeveral = -2;
+
+/// The one label that smooth jumps lead to from a run, kNoLabel or kSeveral.
+std::int32_t label_beside(const Regions& regions, int y, PixelRun run) {
+  std::int32_t found = kNoLabel;
+  const auto meet = [&](int x, int v, std::uint8_t smooth) {
+    const std::int32_t label = regions.label(x, v);
+    if (smooth == 0 || label < 0 || label == found) return;
+    found = found == kNoLabel ? label : kSeveral;
+  };
+  if (run.begin > 0) meet(run.begin - 1, y, regions.smooth_right(run.begin - 1, y));
+  if (run.end < regions.label.width()) meet(run.end, y, regions.smooth_right(run.end - 1, y));
+  for (std::int32_t x = run.begin; x < run.end && found != kSeveral; ++x) {
+    if (y > 0) meet(x, y - 1, regions.smooth_below(x, y - 1));
+    if (y + 1 < regions.label.height()) meet(x, y + 1, regions.smooth_below(x, y));
+  }
+  return found;
+}
+
+/// Labels at once the sets of unlabelled pixels that border on a single label: what `spread` would
+/// do a pixel at a time.
+template <typename Allowed>
+void label_beside_one(Regions& regions, const Allowed& allowed) {
+  RunSets sets = connect_runs(regions, allowed);
+  std::vector<std::int32_t> beside(sets.all.runs.size());
+  parallel_rows(regions.label.height(), [&](int y) {
+    const auto row = static_cast<std::size_t>(y);
+    for (std::size_t i = sets.all.first[row]; i < sets.all.first[row + 1]; ++i)
+      beside[i] = label_beside(regions, y, sets.all.runs[i]);
+  });
+  std::vector<std::int32_t> of_set(beside.size(), kNoLabel);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    std::int32_t& known = of_set[sets.forest.root(i).run];
+    if (beside[i] == kNoLabel || beside[i] == known) continue;
+    known = known == kNoLabel ? beside[i] : kSeveral;
+  }
+  for (std::size_t i = 0; i < beside.size(); ++i)
+    beside[i] = of_set[sets.forest.root(i).run];
+  label_runs(sets.all, beside, regions);
+}
+
+/// 1 where a pixel or one beside it is near a cut: elsewhere no pixel waits for a label.
+FRANGIA_VECTORISED void mark_near(const std::uint8_t* above,
+                                  const std::uint8_t* here,
+                                  const std::uint8_t* below,
+                                  std::size_t count,
+                                  std::uint8_t* __restrict near) {
+  for (std::size_t x = 0; x < count; ++x)
+    near[x] = static_cast<std::uint8_t>(above[x] | here[x] | below[x]);
+}
+
+/// Labelled pixels beside measured ones that have no label yet, which are near a cut.
+Front rims(const Image<float>& phase, const Image<std::int32_t>& label, const Mask& near_cut) {
+  const int width = label.width();
+  const int height = label.height();
   const auto waits = [&](int x, int y) {
-    return x >= 0 && y >= 0 && x < label.width() && y < label.height() && label(x, y) < 0 &&
+    return x >= 0 && y >= 0 && x < width && y < height && label(x, y) < 0 &&
            !std::isnan(phase(x, y));
   };
-  for (int y = 0; y < label.height(); ++y) {
-    for (int x = 0; x < label.width(); ++x) {
-      if (label(x, y) < 0) continue;
-      if (waits(x - 1, y) || waits(x + 1, y) || waits(x, y - 1) || waits(x, y + 1))
-        front.push_back({x, y});
+  std::vector<std::vector<std::uint32_t>> rows(static_cast<std::size_t>(height));
+  parallel_rows(height, [&](int y) {
+    std::vector<std::uint8_t> near(static_cast<std::size_t>(width));
+    mark_near(&near_cut(0, std::max(0, y - 1)),
+              &near_cut(0, y),
+              &near_cut(0, std::min(height - 1, y + 1)),
+              near.size(),
+              near.data());
+    const auto begin = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width);
+    int done = 0;
+    for (auto next = std::find(near.begin(), near.end(), 1); next != near.end();
+         next = std::find(next + 1, near.end(), 1)) {
+      const int x = static_cast<int>(next - near.begin());
+      for (int u = std::max(done, x - 1); u <= std::min(width - 1, x + 1); ++u) {
+        done = u + 1;
+        if (label(u, y) < 0) continue;
+        if (waits(u - 1, y) || waits(u + 1, y) || waits(u, y - 1) || waits(u, y + 1))
+          rows[static_cast<std::size_t>(y)].push_back(begin + static_cast<std::uint32_t>(u));
+      }
     }
-  }
+  });
+  Front front;
+  for (const auto& row : rows)
+    front.insert(front.end(), row.begin(), row.end());
   return front;
 }
 
@@ -266,15 +253,17 @@ Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options) 
   const Image<float>& phase = wrapped.phase_rad;
   Regions regions{.label = Image<std::int32_t>(phase.width(), phase.height(), -1),
                   .count = 0,
-                  .smooth_right = smooth_right(phase, options),
-                  .smooth_below = smooth_below(phase, options)};
+                  .smooth_right = smooth_right(phase, options.jumps),
+                  .smooth_below = smooth_below(phase, options.jumps)};
   Mask near_cut = broken_pixels(phase, regions);
   dilate(options.neck_radius_px, near_cut);
   const auto measured = [&](int x, int y) { return !std::isnan(phase(x, y)); };
   label_all(regions, [&](int x, int y) { return measured(x, y) && near_cut(x, y) == 0; });
-  std::vector<Pixel> front = rims(phase, regions.label);
-  spread(front, regions, measured);  // the rims around the cores
-  label_all(regions, measured);      // what no core reaches
+  // The rims around the cores: most belong to one, for the others the nearest one is sought.
+  label_beside_one(regions, [&](int x, int y) { return near_cut(x, y) != 0 && measured(x, y); });
+  Front front = rims(phase, regions.label, near_cut);
+  spread(front, regions, [&](std::uint32_t at) { return !std::isnan(phase.pixels()[at]); });
+  label_all(regions, measured);  // what no core reaches
   return regions;
 }
 

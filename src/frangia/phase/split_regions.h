@@ -3,15 +3,12 @@
 #include <cstdint>
 
 #include "frangia/phase/phase_map.h"
+#include "frangia/phase/smooth_jumps.h"
 
 namespace frangia {
 
 struct SplitOptions {
-  /// How far a jump between neighbours may lie from those beside it, besides the noise that the
-  /// jumps themselves show: a crease bends the phase by less, a depth step by any amount.
-  float slack_rad = 0.1F;
-  /// A fringe is at least three pixels wide, as the paper asks.
-  float max_jump_rad = 2.09F;
+  JumpOptions jumps;
   /// Regions that only hang together through a neck of twice this width beside a cut are two: a
   /// depth step whose height varies looks smooth where it passes a whole number of fringes.
   int neck_radius_px = 12;

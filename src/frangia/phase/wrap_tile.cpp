@@ -9,6 +9,8 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/vectorised.h"
+#include "frangia/phase/fast_atan2.h"
+#include "frangia/phase/wrap_quarters.h"
 
 namespace frangia {
 namespace {
@@ -94,15 +96,6 @@ FRANGIA_VECTORISED void set_quarters(std::array<const T*, 4> frames,
   }
 }
 
-/// Whether `set_quarters` finds what these weights ask for.
-bool are_quarters(const std::array<Weights, 4>& w) {
-  constexpr float kNothing = 1e-9F;
-  const auto is = [](float a, float b) { return std::fabs(a - b) < kNothing; };
-  return is(w[0].sine, 0.0F) && is(w[2].sine, 0.0F) && is(w[1].sine, -w[3].sine) &&
-         is(w[1].cosine, 0.0F) && is(w[3].cosine, 0.0F) && is(w[2].cosine, -w[0].cosine) &&
-         is(w[1].mean, w[0].mean) && is(w[2].mean, w[0].mean) && is(w[3].mean, w[0].mean);
-}
-
 /// The brightest of the frames, in their own narrow numbers: many at once.
 template <typename T>
 FRANGIA_VECTORISED void raise_top(const T* __restrict a,
@@ -148,28 +141,6 @@ FRANGIA_VECTORISED void finish_carre(std::size_t n, float c, float s, WrapTile& 
   }
 }
 
-/// atan2 by an odd polynomial on [0, 1], error 2.7e-7 rad; without a branch, so that it vectorises.
-[[gnu::always_inline]] inline float fast_atan2(float y, float x) {
-  const float ax = std::fabs(x);
-  const float ay = std::fabs(y);
-  const float large = ax > ay ? ax : ay;
-  const float small = ax > ay ? ay : ax;
-  const float t = small / (large > 0.0F ? large : 1.0F);
-  const float t2 = t * t;
-  // In pairs of powers, so that the products need not wait for each other.
-  const float t4 = t2 * t2;
-  const float t8 = t4 * t4;
-  const float low =
-      (0.9999998864F - 0.3333259703F * t2) + (0.1998590676F - 0.1416122916F * t2) * t4;
-  const float high =
-      (0.1049894598F - 0.07234857177F * t2) + (0.03978122134F - 0.01440135652F * t2) * t4;
-  const float p = low + t8 * (high + 0.002456724222F * t8);
-  float angle = p * t;
-  angle = ay > ax ? 1.57079632679F - angle : angle;
-  angle = x < 0.0F ? 3.14159265359F - angle : angle;
-  return y < 0.0F ? -angle : angle;
-}
-
 void add_carre(const FrameStack& stack,
                const PhaseAlgorithm& algorithm,
                std::size_t at,
@@ -205,7 +176,7 @@ void sum_all(const FrameStack& stack,
   } else {
     const std::array<Weights, 4> four = {weights(0), weights(1), weights(2), weights(3)};
     const std::array<const T*, 4> frames = {pixels(0), pixels(1), pixels(2), pixels(3)};
-    if (count == 4 && are_quarters(four)) {
+    if (are_quarters(algorithm)) {
       set_quarters<T>(frames, n, four, tile);
     } else {
       set_four<T>(frames, n, four, tile);

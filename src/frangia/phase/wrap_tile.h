@@ -51,7 +51,7 @@ void sum_frames(const FrameStack& stack,
                 std::size_t n,
                 WrapTile& tile);
 
-/// The phase of each pixel whose sums are known, in (-pi, pi]; error below 3e-7 rad.
+/// The phase of each pixel whose sums are known, in (-pi, pi]; error below 5e-7 rad.
 void find_tile_phase(const WrapTile& tile, std::size_t n, float* phase_rad);
 
 }  // namespace frangia

@@ -1,5 +1,7 @@
 #include "frangia/scan/capture_folder.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -29,9 +31,10 @@ void write_plan(const Scan& plan, const std::filesystem::path& folder, const std
 }
 
 bool same_plan(const std::filesystem::path& a, const std::filesystem::path& b) {
-  for (const auto* name : {"scan.toml", "rig.toml", "asked.txt"})
-    if (text_of(a / name) != text_of(b / name)) return false;
-  return true;
+  constexpr std::array kFiles = {"scan.toml", "rig.toml", "asked.txt"};
+  return std::all_of(kFiles.begin(), kFiles.end(), [&](const char* name) {
+    return text_of(a / name) == text_of(b / name);
+  });
 }
 
 /// The temporary files of a session that was killed: ".NAME.PROCESS.tmp".

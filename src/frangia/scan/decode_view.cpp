@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/phase/correct_response.h"
 #include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/find_ladder.h"
@@ -105,6 +106,15 @@ FittedAlgorithm fit(const FrameStack& taken,
   return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
 }
 
+/// Undoes the projector's response, where it is to be undone, in the map found last.
+void undo_response(const DecodeOptions& options,
+                   const PhaseAlgorithm& algorithm,
+                   const std::vector<double>& shifts_rad,
+                   DecodedView& out) {
+  if (options.response)
+    correct_response(response_table(*options.response, algorithm, shifts_rad), out.wrapped.back());
+}
+
 /// One pattern's frames to its wrapped phase, and what is to be said of them.
 void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
   const FittedAlgorithm fitted = fit(taken, out.noise, options, run);
@@ -112,6 +122,7 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
     out.wrapped.push_back(
         merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
     out.verdicts.push_back(judge_frames(taken, fitted, out.wrapped.back(), out.noise));
+    undo_response(options, least_squares(fitted.shifts_rad), fitted.shifts_rad, out);
     return;
   }
   FrameStack recovered;
@@ -124,6 +135,7 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
   const FrameStack& stack = options.recover_saturated ? recovered : taken;
   out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
   out.verdicts.push_back(judge_frames(stack, fitted, out.wrapped.back(), out.noise));
+  undo_response(options, fitted.algorithm, fitted.shifts_rad, out);
 }
 
 /// All patterns in one pass; what is to be said of them comes from some of their rows.
@@ -145,7 +157,7 @@ void decode_at_once(std::span<const FrameStack* const> fringes,
 }
 
 bool are_plain_frames(std::span<const FrameStack* const> fringes, const DecodeOptions& options) {
-  return !options.recover_saturated &&
+  return !options.recover_saturated && !options.response &&
          std::all_of(fringes.begin(), fringes.end(), [](const FrameStack* stack) {
            return stack->pattern.exposure_count() == 1;
          });

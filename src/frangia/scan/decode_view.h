@@ -27,6 +27,8 @@ struct DecodeOptions {
   std::string algorithm = "auto";  ///< see `fit_algorithm`
   /// Recover the one saturated frame of four, instead of discarding the pixel as the paper does.
   bool recover_saturated = false;
+  /// Of a projector that showed the patterns without its look-up table: undone in the phase.
+  std::optional<ResponseCurve> response;
   /// Keep the wrapped maps. Without them a sequence is decoded in one pass over its frames, where
   /// its steps are safe for all pixels that `wrap` keeps.
   bool keep_maps = true;

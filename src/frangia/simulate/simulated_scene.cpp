@@ -48,7 +48,7 @@ void check(const SimulateOptions& options, const Rig& rig) {
   check_range("line width", options.line_sigma_mm, 1e-3, 100.0);
   check_range("line spill", options.line_spill, 0.0, 1.0);
   check_range("texture", options.texture, 0.0, 1.0);
-  check_range("gloss", options.gloss, 0.0, 100.0);
+  check_range("gloss", options.gloss, 0.0, 1000.0);
   check_range("shininess", options.shininess, 1.0, kMany);
   check_range("speckle", options.speckle, 0.0, 1.0);
   check_range("speckle grain", options.speckle_grain_px, 0.0, 50.0);

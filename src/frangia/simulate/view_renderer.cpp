@@ -32,21 +32,22 @@ double phase_at(const Pattern& pattern, const LightSample& sample) {
   return kTurn * static_cast<double>(vertical ? sample.u : sample.v) / pattern.period_px;
 }
 
-/// What the projector makes of light that is asked of it: corrected by the rig's look-up table,
-/// then bent by the display's gamma about the brightest value.
+/// What the projector makes of light that is asked of it, between its dark and its bright:
+/// corrected by the rig's look-up table, then bent by the display's gamma.
 double shown(double linear, const SimulatedScene& scene) {
   const auto& response = scene.rig.projector.response;
   if (scene.options.display_gamma == 1.0 && !response) return linear;
-  const double peak = 1.0 + scene.options.contrast;
-  double level = std::max(linear, 0.0) / peak;
+  const double dark = 1.0 - scene.options.contrast;  // its black is not quite black
+  const double span = 2.0 * scene.options.contrast;
+  double level = std::clamp((linear - dark) / span, 0.0, 1.0);
   if (response) level = response->level_of(level);
-  return peak * std::pow(level, scene.options.display_gamma);
+  return dark + span * std::pow(level, scene.options.display_gamma);
 }
 
 /// The light asked for in one frame that is no fringe.
 double asked(const Pattern& pattern, int frame, const LightSample& sample, double contrast) {
   if (pattern.kind == PatternKind::Ramp)
-    return (1.0 + contrast) * pattern.levels[static_cast<std::size_t>(frame)];
+    return 1.0 - contrast + 2.0 * contrast * pattern.levels[static_cast<std::size_t>(frame)];
   const bool vertical = pattern.direction == FringeDirection::Vertical;
   return is_lit(pattern, frame, static_cast<double>(vertical ? sample.u : sample.v))
              ? 1.0 + contrast

@@ -100,10 +100,10 @@ bool collapse_once(Mesh& mesh, std::span<const std::uint8_t> sharp, float shorte
   const std::vector<Pair> edges = short_edges(mesh, shortest_mm);
   const Stars stars(mesh, edges);
   std::vector<bool> touched(mesh.vertices_mm.size(), false);
-  const auto is_sharp = [&](Vertex v) { return v < sharp.size() && sharp[v] != 0; };
+  const auto sharpness = [&](Vertex v) { return v < sharp.size() ? sharp[v] : std::uint8_t{0}; };
   bool any = false;
   for (auto [a, b] : edges) {
-    if (!is_sharp(a) && is_sharp(b)) std::swap(a, b);
+    if (sharpness(a) < sharpness(b)) std::swap(a, b);
     const std::vector<Vertex> of_a = neighbours(mesh, stars, a);
     const std::vector<Vertex> of_b = neighbours(mesh, stars, b);
     const auto is_touched = [&](Vertex v) { return touched[v]; };
@@ -111,7 +111,7 @@ bool collapse_once(Mesh& mesh, std::span<const std::uint8_t> sharp, float shorte
         std::any_of(of_b.begin(), of_b.end(), is_touched) || !keeps_manifold(of_a, of_b, b)) {
       continue;
     }
-    const bool alike = is_sharp(a) == is_sharp(b);
+    const bool alike = sharpness(a) == sharpness(b);
     const Eigen::Vector3f point =
         alike ? Eigen::Vector3f(0.5F * (mesh.vertices_mm[a] + mesh.vertices_mm[b]))
               : mesh.vertices_mm[a];

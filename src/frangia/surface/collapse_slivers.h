@@ -9,10 +9,10 @@ namespace frangia {
 
 /// Joins vertices that an edge shorter than `shortest_mm` connects, in place.
 ///
-/// A vertex on an edge of the object stays where it is when the other one is not; two alike meet in
-/// the middle. Nothing is joined that would fold a triangle over or make the mesh non-manifold.
-/// Returns whether any was joined.
-/// shape    `sharp`: not 0 for a vertex on an edge or a corner of the object; further ones are not
+/// The sharper of two vertices stays where it is: on a corner of the object, then on an edge; two
+/// alike meet in the middle. Nothing is joined that would fold a triangle over or make the mesh
+/// non-manifold. Returns whether any was joined. shape    `sharp`: 1 for a vertex on an edge of the
+/// object, 2 on a corner; further ones are on none
 bool collapse_slivers(Mesh& mesh, std::span<const std::uint8_t> sharp, float shortest_mm);
 
 }  // namespace frangia

@@ -38,7 +38,11 @@ struct Questioner {
       if (pixel != nullptr && pixel->window != WindowKind::Small &&
           -pixel->normal.dot(p) > kFlattest * p.norm()) {
         support(evidence,
-                {p, pixel->normal, pixel->normal.dot(p) + pixel->through_mm, kRim * pixel->weight},
+                {p,
+                 pixel->normal,
+                 pixel->normal.dot(p) + pixel->through_mm,
+                 kRim * pixel->weight,
+                 true},
                 outward);
       }
       return;
@@ -51,7 +55,7 @@ struct Questioner {
                : view.nearest_face(u, v, p);
     const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
-      support(evidence, {p, plane.normal, distance, quad->weight}, outward);
+      support(evidence, {p, plane.normal, distance, quad->weight, is_at_rim(u, v)}, outward);
     } else if (distance > through_mm && is_clear(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
       // That it sees through is as sure however well it knows what lies behind: what speaks for the
@@ -76,6 +80,11 @@ struct Questioner {
     return true;
   }
 
+  [[nodiscard]] bool is_at_rim(float u, float v) const {
+    return view.quad_at(u - 1.0F, v) == nullptr || view.quad_at(u + 1.0F, v) == nullptr ||
+           view.quad_at(u, v - 1.0F) == nullptr || view.quad_at(u, v + 1.0F) == nullptr;
+  }
+
   /// The face that slopes as the view says, or a new one.
   static Evidence::Face& face_for(Evidence& evidence, const Eigen::Vector3f& normal) {
     const auto agreement = [&](const Evidence::Face& face) {
@@ -92,6 +101,7 @@ struct Questioner {
     const Eigen::Vector3f& normal;
     float distance_mm;
     float weight;
+    bool at_rim;  ///< a pixel beside saw nothing
   };
 
   void support(Evidence& evidence, const Word& word, int outward) const {
@@ -113,11 +123,14 @@ struct Questioner {
     face.offset_squared += w * word.distance_mm * word.distance_mm;
     face.noise += w * variance;
     face.noise_squared += w * w * variance;
-    // A lens is known, and light spread evenly over a pixel, to this and no better.
-    constexpr float kOff_px = 0.02F;
+    // A lens is known, and light spread evenly over a pixel, to this and no better. A pixel at the
+    // rim sees the part with a share from 1 to 1/2 of its square, whose middle is 0 to 1/4 off.
+    constexpr float kWithin_px = 0.02F;
+    constexpr float kAtRim_px = 0.144F;  // RMS of even odds
+    const float off_px = word.at_rim ? kAtRim_px : kWithin_px;
     const float pixel_mm = word.point.z() * pixel_rad;
     face.lateral_squared +=
-        w * w * kOff_px * kOff_px * pixel_mm * pixel_mm * std::max(0.0F, 1.0F - cosine2);
+        w * w * off_px * off_px * pixel_mm * pixel_mm * std::max(0.0F, 1.0F - cosine2);
     face.spacing += w * pixel_mm / std::sqrt(cosine);
     face.normal += w * normal;
     ++face.views;

@@ -13,6 +13,8 @@
 #include "frangia/surface/cell_loops.h"
 #include "frangia/surface/collapse_slivers.h"
 #include "frangia/surface/flip_caps.h"
+#include "frangia/surface/sharpen_edges.h"
+#include "frangia/surface/unfold_mesh.h"
 
 namespace frangia {
 namespace {
@@ -243,6 +245,16 @@ void add_pinched(Mesh& mesh, const Crossings& crossings, std::span<const Quad> q
   }
 }
 
+/// Takes slivers and caps away.
+void smooth_out(Mesh& mesh, const std::vector<std::uint8_t>& sharp, float voxel_mm) {
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    const bool joined = collapse_slivers(mesh, sharp, 2.0F * kSliver * voxel_mm);
+    const bool turned = flip_caps(mesh, kSliver * voxel_mm);
+    if (!joined && !turned) break;
+  }
+}
+
 }  // namespace
 
 Mesh mesh_quads(PlacedVertices vertices,
@@ -270,12 +282,11 @@ Mesh mesh_quads(PlacedVertices vertices,
       mesh.triangles.push_back(triangle);
   }
   add_pinched(mesh, crossings, quads);
-  const auto sliver_mm = kSliver * static_cast<float>(crossings.voxel_mm);
-  for (int round = 0; round < kRounds; ++round) {
-    const bool joined = collapse_slivers(mesh, vertices.sharp, 2.0F * sliver_mm);
-    const bool turned = flip_caps(mesh, sliver_mm);
-    if (!joined && !turned) break;
-  }
+  const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
+  smooth_out(mesh, vertices.sharp, voxel_mm);
+  const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
+  smooth_out(mesh, sharp, voxel_mm);
+  unfold_mesh(mesh, sharp);
   return std::move(vertices.mesh);
 }
 

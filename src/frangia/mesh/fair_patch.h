@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/mesh/patch_mesh.h"
+
+namespace frangia {
+
+/// The triangles of the mesh that touch a hole's rim. Vertices are numbered as in the patch: the
+/// corners of the rim first, then `outer_mm`.
+struct PatchSurroundings {
+  std::vector<Eigen::Vector3d> outer_mm;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Moves the inner vertices of a patch so that the surface runs on from its surroundings: the mean
+/// curvature changes as evenly as it can, and the direction at the rim is that of the triangles
+/// outside. On a sphere the patch comes to lie on the sphere.
+///
+/// False when there is no such surface; places are then undefined.
+/// source   Botsch & Kobbelt 2004, An Intuitive Framework for Real-Time Freeform Modeling;
+///          Schneider & Kobbelt 2001, Geometric Fairing of Irregular Meshes
+[[nodiscard]] bool fair_patch(PatchMesh& patch, const PatchSurroundings& around);
+
+/// Unit normals of a patch's vertices, those of the rim with the triangles outside.
+[[nodiscard]] std::vector<Eigen::Vector3d> normals_of(const PatchMesh& patch,
+                                                      const PatchSurroundings& around);
+
+}  // namespace frangia

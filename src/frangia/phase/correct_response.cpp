@@ -1,0 +1,80 @@
+#include "frangia/phase/correct_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/parallel.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kPhases = 2880;  ///< of the projector, over a fringe
+constexpr std::size_t kPlaces = 1024;  ///< of the table
+
+/// What the algorithm finds of a phase.
+double found_of(double phase,
+                const ResponseCurve& response,
+                const PhaseAlgorithm& algorithm,
+                const std::vector<double>& shifts_rad) {
+  std::vector<double> light;
+  for (const double shift : shifts_rad)
+    light.push_back(response.light_of(0.5 + 0.5 * std::cos(phase + shift)));
+  return phase_of(algorithm, light);
+}
+
+}  // namespace
+
+ResponseTable response_table(const ResponseCurve& response,
+                             const PhaseAlgorithm& algorithm,
+                             const std::vector<double>& shifts_rad) {
+  // Unwrapped from the first on, so that it rises over the whole fringe.
+  std::vector<double> true_phase;
+  std::vector<double> found;
+  for (std::size_t i = 0; i <= kPhases; ++i) {
+    const double phase = -kPi + kTurn * static_cast<double>(i) / kPhases;
+    const double seen = found_of(phase, response, algorithm, shifts_rad);
+    true_phase.push_back(phase);
+    found.push_back(found.empty() ? phase + wrap_rad(seen - phase)
+                                  : found.back() + wrap_rad(seen - found.back()));
+    require(found.size() == 1 || found.back() > found[found.size() - 2],
+            "the projector's response is so bent that its fringes do not tell their phase; correct "
+            "the patterns that it shows instead");
+  }
+  ResponseTable table;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i <= kPlaces; ++i) {
+    double seen = -kPi + kTurn * static_cast<double>(i) / kPlaces;
+    while (seen < found.front())
+      seen += kTurn;
+    while (seen > found.back())
+      seen -= kTurn;
+    const auto above = std::lower_bound(found.begin() + 1, found.end() - 1, seen);
+    k = static_cast<std::size_t>(above - found.begin());
+    const double within = (seen - found[k - 1]) / (found[k] - found[k - 1]);
+    table.correction_rad.push_back(
+        static_cast<float>(std::lerp(true_phase[k - 1], true_phase[k], within) - seen));
+  }
+  return table;
+}
+
+void correct_response(const ResponseTable& table, WrappedPhase& phase) {
+  const auto places = static_cast<float>(table.correction_rad.size() - 1);
+  const auto step = static_cast<float>(kTurn) / places;
+  parallel_rows(phase.phase_rad.height(), [&](int y) {
+    for (int x = 0; x < phase.phase_rad.width(); ++x) {
+      float& value = phase.phase_rad(x, y);
+      if (std::isnan(value)) continue;
+      const float place = std::clamp((value + static_cast<float>(kPi)) / step, 0.0F, places - 0.5F);
+      const auto k = static_cast<std::size_t>(place);
+      const float rise = table.correction_rad[k + 1] - table.correction_rad[k];
+      value = static_cast<float>(wrap_rad(static_cast<double>(
+          value + table.correction_rad[k] + rise * (place - static_cast<float>(k)))));
+      phase.sigma_rad(x, y) *= 1.0F + rise / step;
+    }
+  });
+}
+
+}  // namespace frangia

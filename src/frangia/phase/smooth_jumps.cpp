@@ -1,0 +1,118 @@
+#include "frangia/phase/smooth_jumps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/vectorised.h"
+
+namespace frangia {
+namespace {
+
+/// Wrapped jumps between two rows, or a row and itself one pixel on; NaN where an end is missing.
+FRANGIA_VECTORISED void find_jumps(const float* from, const float* to, int count, float* jump) {
+  for (int x = 0; x < count; ++x) {
+    const float difference = to[x] - from[x];
+    const float down = difference > 3.14159265F ? 6.28318531F : 0.0F;
+    const float up = difference < -3.14159265F ? 6.28318531F : 0.0F;
+    jump[x] = difference - down + up;
+  }
+}
+
+struct Limits {
+  float departure;  ///< from the jumps before and behind
+  float jump;
+};
+
+/// Whether each jump is smooth: small, and not far outside the ones before and behind it. One that
+/// is missing is passed over, and a lone jump has no departure.
+FRANGIA_VECTORISED void judge_jumps(const float* before,
+                                    const float* here,
+                                    const float* behind,
+                                    int count,
+                                    Limits limits,
+                                    std::uint8_t* smooth) {
+  for (int x = 0; x < count; ++x) {
+    const float jump = here[x];
+    const float one = before[x] == before[x] ? before[x] : behind[x];
+    const float two = behind[x] == behind[x] ? behind[x] : before[x];
+    const float low = one < two ? one : two;
+    const float high = one < two ? two : one;
+    const std::int32_t below = low - jump > limits.departure ? 1 : 0;
+    const std::int32_t above = jump - high > limits.departure ? 1 : 0;
+    const std::int32_t small = std::fabs(jump) <= limits.jump ? 1 : 0;
+    smooth[x] = static_cast<std::uint8_t>(small & ~(below | above) & 1);
+  }
+}
+
+/// Standard deviation of the jumps' noise along x (dx = 1) or y, from the differences of
+/// neighbouring ones, in some rows of the image.
+float jump_noise(const Image<float>& phase, int dx, int dy) {
+  constexpr int kSamples = 400'000;
+  std::vector<float> differences;
+  const int stride = std::max(1, static_cast<int>(phase.pixels().size() / kSamples));
+  for (int y = dy; y + dy < phase.height(); y += stride) {
+    for (int x = dx; x + dx < phase.width(); ++x) {
+      const float bend = phase(x - dx, y - dy) - 2.0F * phase(x, y) + phase(x + dx, y + dy);
+      if (std::isnan(bend)) continue;
+      differences.push_back(std::fabs(bend - 6.28318531F * std::round(bend / 6.28318531F)));
+    }
+  }
+  if (differences.empty()) return 0.0F;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  // a - 2b + c has variance 6 sigma^2, a jump has 2 sigma^2.
+  return *middle / 0.6745F / std::sqrt(3.0F);
+}
+
+}  // namespace
+
+Image<std::uint8_t> smooth_right(const Image<float>& phase_rad, const JumpOptions& options) {
+  const int width = phase_rad.width();
+  const auto row = static_cast<std::size_t>(width);
+  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase_rad, 1, 0), options.max_jump_rad};
+  Image<std::uint8_t> smooth(width, phase_rad.height(), Unfilled{});
+  parallel_rows(phase_rad.height(), [&](int y) {
+    std::vector<float> jump(row + 2, kMissing);  // one more at each end
+    const float* from = phase_rad.pixels().data() + static_cast<std::size_t>(y) * row;
+    find_jumps(from, from + 1, width - 1, jump.data() + 1);
+    judge_jumps(jump.data(), jump.data() + 1, jump.data() + 2, width, limits, &smooth(0, y));
+  });
+  return smooth;
+}
+
+Image<std::uint8_t> smooth_below(const Image<float>& phase_rad, const JumpOptions& options) {
+  constexpr int kBand = 32;  // rows that share their jumps
+  const int width = phase_rad.width();
+  const int height = phase_rad.height();
+  const auto row = static_cast<std::size_t>(width);
+  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase_rad, 0, 1), options.max_jump_rad};
+  Image<std::uint8_t> smooth(width, height, Unfilled{});
+  parallel_rows((height + kBand - 1) / kBand, [&](int band) {
+    std::vector<float> before(row);
+    std::vector<float> here(row);
+    std::vector<float> behind(row);
+    const auto jumps_below = [&](int y, std::vector<float>& jump) {
+      if (y < 0 || y + 1 >= height) {
+        std::fill(jump.begin(), jump.end(), kMissing);
+        return;
+      }
+      const float* from = phase_rad.pixels().data() + static_cast<std::size_t>(y) * row;
+      find_jumps(from, from + row, width, jump.data());
+    };
+    jumps_below(band * kBand - 1, before);
+    jumps_below(band * kBand, here);
+    for (int y = band * kBand; y < std::min(height, (band + 1) * kBand); ++y) {
+      jumps_below(y + 1, behind);
+      judge_jumps(before.data(), here.data(), behind.data(), width, limits, &smooth(0, y));
+      std::swap(before, here);
+      std::swap(here, behind);
+    }
+  });
+  return smooth;
+}
+
+}  // namespace frangia
