@@ -1,24 +1,25 @@
 #include "paste_verb.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/files/ending_of.h"
-#include "frangia/files/write_mesh.h"
 #include "frangia/scan/paste_scans.h"
+
+#include "write_options.h"
 
 namespace frangia {
 namespace {
 
 struct PasteArguments {
   std::vector<std::filesystem::path> scans;
-  std::vector<std::filesystem::path> outputs;
-  std::size_t dxf_faces = 200000;
+  MeshOutputs outputs;
   bool no_register = false;
   PasteScansOptions options;
 };
@@ -52,9 +53,17 @@ void print_result(const PastedScans& result,
                               {"rms_after_mm", result.registration->rms_after_mm},
                               {"overlap", result.registration->overlap}};
     }
+    json["poses"] = result.placed ? "found" : "given";
+    json["left_out"] = nlohmann::ordered_json::array();
+    if (result.placed) {
+      for (const std::size_t scan : result.placed->left_out)
+        json["left_out"].push_back(scan);
+    }
     for (const auto& [stage, seconds] : stages)
       json["seconds"][stage] = seconds;
     json["warnings"] = terminal.warnings();
+    for (const auto& path : arguments.outputs.paths)
+      json["outputs"].push_back(path.string());
     fmt::print("{}\n", json.dump(2));
     return;
   }
@@ -63,25 +72,19 @@ void print_result(const PastedScans& result,
              result.points,
              scans,
              result.mesh.triangles.size());
-  for (const auto& path : arguments.outputs)
+  for (const auto& path : arguments.outputs.paths)
     fmt::print("wrote {}\n", path.string());
 }
 
 void paste(PasteArguments& arguments, Terminal& terminal) {
-  for (const auto& path : arguments.outputs) {
-    check_mesh_ending(path);
-    const AtomicFile probe(path);  // an output that cannot be written is told before the work
-  }
+  arguments.outputs.check();
   arguments.options.register_poses = !arguments.no_register;
   const Run run = terminal.run();
   run.stage("files");
   const std::vector<RangeScan> scans = read_all(arguments.scans);
   const PastedScans result = paste_scans(scans, arguments.options, run);
   run.stage("files");
-  for (const auto& path : arguments.outputs) {
-    const bool dxf = ending_of(path) == ".dxf";
-    write_mesh(path, dxf ? at_most(result.mesh, arguments.dxf_faces, run) : result.mesh, {});
-  }
+  arguments.outputs.write_all(result.mesh, run);
   print_result(result, scans.size(), arguments, terminal);
 }
 
@@ -93,16 +96,21 @@ void add_paste_verb(CLI::App& program, Terminal& terminal) {
       program.add_subcommand("paste", "paste range scans of other scanners into one mesh");
   verb->footer(
       "example:\n  frangia paste bun000.ply bun045.ply -o bunny.ply\n"
-      "  frangia paste bun.conf -o bunny.ply");
+      "  frangia paste bun.conf -o bunny.ply -o bunny.dxf\n"
+      "  frangia paste front.ply back.ply side.ply --poses shape -o part.stl");
   verb->add_option("SCANS",
                    arguments->scans,
                    "range scans as .ply: with faces, with Stanford's grid, or of points that face "
-                   "+z; all in one frame, or named with their poses in a .conf")
+                   "+z; all in one frame, each in its own, or named with their poses in a .conf")
       ->required();
-  verb->add_option(
-          "-o,--output", arguments->outputs, "where to write the mesh; may be given more than once")
-      ->required()
-      ->allow_extra_args(false);
+  add_mesh_outputs(*verb, arguments->outputs);
+  static const std::map<std::string, ScanPoses> kPoses = {
+      {"auto", ScanPoses::Auto}, {"given", ScanPoses::Given}, {"shape", ScanPoses::Shape}};
+  verb->add_option("--poses",
+                   arguments->options.poses,
+                   "where the scans stand: given, as the files say; shape, found from their shape; "
+                   "auto (the default), found when what the files say cannot be")
+      ->transform(CLI::CheckedTransformer(kPoses).description(""));
   verb->add_flag("--no-register", arguments->no_register, "take the poses as they are");
   verb->add_option("--reach",
                    arguments->options.registration.reach_mm,
@@ -120,8 +128,6 @@ void add_paste_verb(CLI::App& program, Terminal& terminal) {
                    arguments->options.finish.tolerance_mm,
                    "fewer triangles, never farther than this from the mesh, in mm")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--dxf-faces", arguments->dxf_faces, "the most triangles of a DXF; 0 for all")
-      ->capture_default_str();
   verb->callback([arguments, &terminal] { paste(*arguments, terminal); });
 }
 

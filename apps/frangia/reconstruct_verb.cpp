@@ -12,7 +12,6 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/files/ending_of.h"
 #include "frangia/files/ply.h"
-#include "frangia/files/write_mesh.h"
 #include "frangia/scan/reconstruct.h"
 
 #include "reconstruct_options.h"
@@ -24,12 +23,10 @@ namespace {
 
 struct ReconstructArguments {
   std::filesystem::path scan;
-  std::vector<std::filesystem::path> outputs;
-  std::size_t dxf_faces = 200000;
+  MeshOutputs outputs;
   std::filesystem::path raw;
   bool no_register = false;
   ReconstructOptions options;
-  WriteOptions write;
 };
 
 double peak_memory_mb() {
@@ -58,6 +55,13 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
   json["angles_deg"] = nlohmann::ordered_json::array();
   for (const double angle : report.angles_rad)
     json["angles_deg"].push_back(deg_from_rad(angle));
+  json["placings"] = nlohmann::ordered_json::array();
+  for (const Eigen::Isometry3d& placing : report.placings) {
+    nlohmann::ordered_json rows;
+    for (int row = 0; row < 3; ++row)
+      rows.push_back({placing(row, 0), placing(row, 1), placing(row, 2), placing(row, 3)});
+    json["placings"].push_back(rows);
+  }
   json["kept_rig"] = report.kept_rig;
   json["not_determined"] = report.open;
   json["left_out"] = report.outliers;
@@ -81,7 +85,7 @@ void print_result(const Reconstruction& result,
       json["seconds"][stage] = seconds;
     json["peak_memory_mb"] = peak_memory_mb();
     json["warnings"] = terminal.warnings();
-    for (const auto& path : arguments.outputs)
+    for (const auto& path : arguments.outputs.paths)
       json["outputs"].push_back(path.string());
     fmt::print("{}\n", json.dump(2));
     return;
@@ -95,18 +99,14 @@ void print_result(const Reconstruction& result,
   for (const auto& [stage, seconds] : stages)
     fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
   fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
-  for (const auto& path : arguments.outputs)
+  for (const auto& path : arguments.outputs.paths)
     fmt::print("wrote {}\n", path.string());
 }
 
 void write_outputs(const Reconstruction& result,
                    const ReconstructArguments& arguments,
                    const Run& run) {
-  for (const auto& path : arguments.outputs) {
-    const bool dxf = ending_of(path) == ".dxf";
-    write_mesh(
-        path, dxf ? at_most(result.mesh, arguments.dxf_faces, run) : result.mesh, arguments.write);
-  }
+  arguments.outputs.write_all(result.mesh, run);
   if (arguments.raw.empty()) return;
   Mesh points;
   points.vertices_mm = result.raw.points_mm;
@@ -115,10 +115,7 @@ void write_outputs(const Reconstruction& result,
 }
 
 void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
-  for (const auto& path : arguments.outputs) {
-    check_mesh_ending(path);
-    const AtomicFile probe(path);  // an output that cannot be written is told before the work
-  }
+  arguments.outputs.check();
   arguments.options.keep_raw = !arguments.raw.empty();
   if (arguments.options.keep_raw) {
     require(ending_of(arguments.raw) == ".ply",
@@ -176,14 +173,7 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia reconstruct ball-bar -o ball-bar.dxf -o ball-bar.ply --clip-below 1");
   verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
       ->required();
-  verb->add_option("-o,--output", arguments->outputs, output_help())
-      ->required()
-      ->allow_extra_args(false);
-  add_write_options(*verb, arguments->write);
-  verb->add_option("--dxf-faces",
-                   arguments->dxf_faces,
-                   "the most triangles that a DXF gets, simplified to it; 0 for all")
-      ->capture_default_str();
+  add_mesh_outputs(*verb, arguments->outputs);
   add_views_options(*verb, *arguments);
   add_surface_options(*verb, *arguments);
   add_decode_options(*verb, arguments->options.decode);

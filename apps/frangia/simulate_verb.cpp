@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/random.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/scan/simulate_scan.h"
@@ -26,6 +28,7 @@ struct SimulateArguments {
   std::string rig = "digital";
   std::filesystem::path output;
   int views = 8;
+  std::vector<double> rounds_deg;
   PatternPlan patterns;
   SimulateOptions options;
   bool no_noise = false;
@@ -49,6 +52,12 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
   verb.add_option("--views", arguments.views, "stops of the turntable, evenly over a turn")
       ->check(CLI::Range(1, 3600))
       ->capture_default_str();
+  verb.add_option("--rounds",
+                  arguments.rounds_deg,
+                  "further rounds of as many views, in each of which the part is tilted by so many "
+                  "degrees and set down anyhow, such as 180 or 90,180")
+      ->delimiter(',')
+      ->check(CLI::Range(-360.0, 360.0));
   verb.add_option("--shifts", arguments.patterns.shifts, "frames of each fringe pattern")
       ->check(CLI::Range(3, 360))
       ->capture_default_str();
@@ -149,6 +158,21 @@ Rig rig_of(const std::string& name, const Run& run) {
   return std::filesystem::path(name).has_extension() ? read_rig(name, run) : rig_preset(name);
 }
 
+/// The stops of every round, and how the part stands in the further ones.
+void add_rounds(Scan& plan, const Mesh& part, const SimulateArguments& arguments) {
+  const int rounds = 1 + static_cast<int>(arguments.rounds_deg.size());
+  for (int i = 0; i < rounds * arguments.views; ++i) {
+    plan.views.push_back({kTurn * (i % arguments.views) / arguments.views,
+                          fmt::format("views/{:03}", i),
+                          i / arguments.views});
+  }
+  for (int round = 1; round < rounds; ++round) {
+    const double tilt_deg = arguments.rounds_deg[static_cast<std::size_t>(round) - 1];
+    const auto stream = hash(arguments.options.seed, static_cast<std::uint64_t>(round));
+    plan.placings[round] = set_down(part, rad_from_deg(tilt_deg), kTurn * uniform_from(stream));
+  }
+}
+
 void simulate(SimulateArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
   SimulateOptions& options = arguments.options;
@@ -163,10 +187,8 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   plan.name = std::filesystem::path(arguments.part).stem().string();
   plan.rig = rig_of(arguments.rig, run);
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
-  for (int i = 0; i < arguments.views; ++i) {
-    plan.views.push_back({kTurn * i / arguments.views, fmt::format("views/{:03}", i)});
-  }
   const Mesh part = part_of(arguments.part);
+  add_rounds(plan, part, arguments);
   run.stage("render");
   const Scan scan = simulate_scan(part, plan, options, run);
   const auto seconds = terminal.stage_seconds();
@@ -196,6 +218,7 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
   verb->footer(
       "Example:\n"
       "  frangia simulate bust --rig carducci -o bust-scan\n"
+      "  frangia simulate bracket --rounds 90 -o bracket-stood-and-laid\n"
       "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5 -o bracket-scan");
   auto arguments = std::make_shared<SimulateArguments>();
   add_scan_options(*verb, *arguments);

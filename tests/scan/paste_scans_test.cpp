@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,13 +25,15 @@ Eigen::Isometry3d turned(double angle_rad, const Eigen::Vector3d& axis, const Ei
 
 /// What a scanner that looks along -z sees of a part that was turned about z: a grid of points with
 /// noise, joined to triangles, in the scanner's own frame.
-RangeScan scan_of(const RayScene& part, double turn_rad, unsigned seed, bool joined) {
+RangeScan scan_of(
+    const RayScene& part, double turn_rad, unsigned seed, bool joined, double above_rad = 0.0) {
   constexpr int kSide = 160;
   constexpr double kStep_mm = 0.7;
   constexpr double kNoise_mm = 0.02;
   // The scanner's y is the part's z: it looks at the part from the side.
   Eigen::Isometry3d scan_from_part = turned(-M_PI / 2.0, Eigen::Vector3d::UnitX(), {0, -35, 0});
-  scan_from_part = scan_from_part * turned(turn_rad, Eigen::Vector3d::UnitZ(), {0, 0, 0});
+  scan_from_part = turned(above_rad, Eigen::Vector3d::UnitX(), {0, 0, 0}) * scan_from_part *
+                   turned(turn_rad, Eigen::Vector3d::UnitZ(), {0, 0, 0});
   const Eigen::Isometry3d part_from_scan = scan_from_part.inverse();
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, kNoise_mm);
@@ -97,6 +100,37 @@ TEST(PasteScans, PutsPosesRightThatAreOff) {
   EXPECT_LT(surface_error(pasted.mesh, part).rms_mm, 0.07);
   ASSERT_TRUE(pasted.registration.has_value());
   EXPECT_LT(pasted.registration->rms_after_mm, 0.3 * pasted.registration->rms_before_mm);
+}
+
+/// Scans from all sides and a little above, each in a frame of its own that nobody knows.
+std::vector<RangeScan> lost_scans(const RayScene& part, unsigned count) {
+  std::vector<RangeScan> scans;
+  for (unsigned i = 0; i < count; ++i) {
+    RangeScan scan = scan_of(part, 2.0 * M_PI * i / count, i + 1, true, 0.6);
+    const Eigen::Isometry3d anyhow = turned(1.0 + i, {1.0, 0.3 * i, -0.5}, {10.0 * i, 30.0, -5.0});
+    for (Eigen::Vector3f& point : scan.mesh.vertices_mm)
+      point = (anyhow * point.cast<double>()).cast<float>();
+    scan.world_from_scan = Eigen::Isometry3d::Identity();
+    scan.path = "scan-" + std::to_string(i) + ".ply";
+    scans.push_back(std::move(scan));
+  }
+  return scans;
+}
+
+TEST(PasteScans, FindsPosesThatNobodyKnows) {
+  const RayScene part(make_part("bust"));
+  const PastedScans pasted = paste_scans(lost_scans(part, 6));
+  ASSERT_TRUE(pasted.placed.has_value());
+  EXPECT_TRUE(pasted.placed->left_out.empty());
+  // The mesh is in the frame of the first scan: bring it back into the part's.
+  ASSERT_EQ(pasted.placed->reference, 0U);
+  const Eigen::Isometry3d anyhow = turned(1.0, {1.0, 0.0, -0.5}, {0.0, 30.0, -5.0});
+  const Eigen::Isometry3d part_from_mesh =
+      scan_of(part, 0.0, 1, true, 0.6).world_from_scan * anyhow.inverse();
+  Mesh mesh = pasted.mesh;
+  for (Eigen::Vector3f& point : mesh.vertices_mm)
+    point = (part_from_mesh * point.cast<double>()).cast<float>();
+  EXPECT_LT(surface_error(mesh, part).rms_mm, 0.07);
 }
 
 TEST(PasteScans, TakesPointsWithoutTriangles) {

@@ -180,6 +180,7 @@ std::vector<RangeScan> read_scan_poses(const std::filesystem::path& path) {
     const Eigen::Quaterniond as_written(turn[3], turn[0], turn[1], turn[2]);
     scan.world_from_scan.linear() = as_written.normalized().conjugate().toRotationMatrix();
     scan.world_from_scan.translation() = move;
+    scan.posed = true;
     scans.push_back(std::move(scan));
   }
   if (!(!scans.empty())) {

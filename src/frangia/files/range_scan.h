@@ -14,6 +14,7 @@ struct RangeScan {
   std::filesystem::path path;
   Mesh mesh;  ///< its points, in its own frame; triangles between neighbours, none of loose points
   Eigen::Isometry3d world_from_scan = Eigen::Isometry3d::Identity();
+  bool posed = false;  ///< by a .conf; else the scan is in a frame that others may or may not share
 };
 
 /// A PLY: with faces, with Stanford's `range_grid` (`obj_info num_cols` and `num_rows`), whose

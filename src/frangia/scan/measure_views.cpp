@@ -98,7 +98,8 @@ MeasuredViews measure_views(const Scan& scan,
       all.loose.push_back({all.views.size(), std::move(region)});
     all.coarsest = one.decoded.coarsest;
     all.unwrapped_in_space = one.decoded.relative.has_value();
-    all.stops.push_back({scan.views[i].angle_rad, scan.views[i].folder.string()});
+    all.stops.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
+    all.rounds.push_back(scan.views[i].round);
     all.views.add({std::move(one.range), scan.rig.rig_from_object(scan.views[i].angle_rad)});
     all.points += one.points;
   }

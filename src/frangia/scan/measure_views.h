@@ -21,6 +21,7 @@ namespace frangia {
 struct MeasuredViews {
   ViewStore views;
   std::vector<RegisteredView> stops;  ///< of the turntable, one a view
+  std::vector<int> rounds;            ///< of the scan, one a view
   std::vector<LoosePart> loose;       ///< regions whose fringe their view cannot tell
   Pattern coarsest;                   ///< pattern that was decoded
   bool unwrapped_in_space = false;    ///< so that whole patches may be fringes off

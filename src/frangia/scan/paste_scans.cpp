@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/mesh/ray_scene.h"
+#include "frangia/views/map_views.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -175,6 +178,45 @@ View view_of(const RangeScan& scan, const Stand& stand, const Lens& lens, std::s
   return view;
 }
 
+/// Whether the scans' own poses cannot be meant.
+bool poses_unknown(const std::vector<RangeScan>& scans,
+                   const ViewStore& views,
+                   const std::vector<PlaneMap>& maps,
+                   const Lens& lens,
+                   const PasteScansOptions& options) {
+  if (options.poses != ScanPoses::Auto) return options.poses == ScanPoses::Shape;
+  const bool posed =
+      std::any_of(scans.begin(), scans.end(), [](const RangeScan& scan) { return scan.posed; });
+  return !posed && !poses_can_be(views, maps, lens, options.registration.reach_mm);
+}
+
+/// Poses found and refined, as the options say.
+void bring_together(PastedScans& out,
+                    ViewStore& views,
+                    const std::vector<RangeScan>& scans,
+                    const Lens& lens,
+                    const PasteScansOptions& options,
+                    const Run& run) {
+  if (scans.size() < 2) {
+    run.note("one scan alone has nothing to be registered with");
+    return;
+  }
+  if (!options.register_poses && options.poses != ScanPoses::Shape) return;
+  auto maps = map_views(views, lens);
+  RegisterPosesOptions registration = options.registration;
+  if (poses_unknown(scans, views, maps, lens, options)) {
+    std::vector<std::string> names;
+    for (const RangeScan& scan : scans)
+      names.push_back(scan.path.string());
+    out.placed = place_views(views, maps, lens, names, run);
+    run.note(out.placed->text());
+    registration.reach_mm = out.placed->near_mm;
+  }
+  if (!options.register_poses) return;
+  out.registration = register_poses(views, std::move(maps), lens, registration, run);
+  if (out.registration->iterations > 0) run.note(out.registration->text());
+}
+
 }  // namespace
 
 PastedScans paste_scans(const std::vector<RangeScan>& scans,
@@ -196,10 +238,7 @@ PastedScans paste_scans(const std::vector<RangeScan>& scans,
     views.add(view_of(scans[i], stands[i], lens, out.points));
   }
   run.stage("views");
-  if (options.register_poses && scans.size() > 1) {
-    out.registration = register_poses(views, lens, options.registration, run);
-    if (out.registration->iterations > 0) run.note(out.registration->text());
-  }
+  bring_together(out, views, scans, lens, options, run);
   run.stage("surface");
   out.mesh = finish_mesh(paste_views(views, lens, options.paste, run), options.finish, run);
   return out;

@@ -9,12 +9,21 @@
 #include "frangia/scan/finish_mesh.h"
 #include "frangia/surface/mesh.h"
 #include "frangia/surface/paste_views.h"
+#include "frangia/views/place_views.h"
 #include "frangia/views/register_poses.h"
 
 namespace frangia {
 
+/// Where the poses of scans come from, before they are refined.
+enum class ScanPoses {
+  Auto,   ///< as they are when they can be right or a .conf gave them, else from the shape
+  Given,  ///< as they are
+  Shape   ///< found from the shape alone
+};
+
 struct PasteScansOptions {
-  bool register_poses = true;  ///< refine the poses that the scans came with
+  ScanPoses poses = ScanPoses::Auto;
+  bool register_poses = true;  ///< refine the poses
   RegisterPosesOptions registration;
   PasteOptions paste;
   FinishOptions finish;
@@ -22,7 +31,8 @@ struct PasteScansOptions {
 
 struct PastedScans {
   Mesh mesh;
-  std::size_t points = 0;  ///< of all scans, as they are looked at
+  std::size_t points = 0;             ///< of all scans, as they are looked at
+  std::optional<PlacedViews> placed;  ///< when poses were found from the shape
   std::optional<PosesReport> registration;
 };
 
@@ -31,8 +41,9 @@ struct PastedScans {
 /// Each scan is looked at through a camera of our own, which stands before it where its triangles
 /// face, with pixels as far apart as its points; its noise is estimated from how neighbours
 /// scatter.
-/// units    mm, the frame of the poses
-/// errors   Error(Input) when a scan has no points, and as paste_views
+/// units    mm, the frame of the poses; that of the first scan placed when they were found
+/// missing  a scan whose pose cannot be found is named and left out
+/// errors   Error(Input) when a scan has no points or no pose can be found, and as paste_views
 [[nodiscard]] PastedScans paste_scans(const std::vector<RangeScan>& scans,
                                       const PasteScansOptions& options = {},
                                       const Run& run = {});

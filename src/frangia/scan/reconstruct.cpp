@@ -1,10 +1,13 @@
 #include "frangia/scan/reconstruct.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/scan/join_rounds.h"
 #include "frangia/scan/measure_views.h"
 #include "frangia/views/clip_views.h"
 
@@ -64,13 +67,48 @@ double clear_platter(ViewStore& views,
 }
 
 /// Refines the turntable by what the views saw.
-RegistrationReport bring_together(MeasuredViews& all,
-                                  const Rig& rig,
-                                  const RegisterOptions& options,
-                                  const Run& run) {
-  auto report = register_views(all.views, rig.camera.lens, *rig.turntable, all.stops, options, run);
-  if (report.iterations > 0) run.note(report.text());
-  return report;
+void bring_together(Round& round, const Rig& rig, const RegisterOptions& options, const Run& run) {
+  MeasuredViews& all = round.measured;
+  round.registration =
+      register_views(all.views, rig.camera.lens, *rig.turntable, all.stops, options, run);
+}
+
+/// Everything that needs the views of one round alone. Returns the points that were numbered.
+std::size_t prepare(Round& round,
+                    const Scan& scan,
+                    const Image<Eigen::Vector2f>& rays,
+                    const ReconstructOptions& options,
+                    double& platter_height_mm,
+                    const Run& run) {
+  MeasuredViews& all = round.measured;
+  const Lens& camera = scan.rig.camera.lens;
+  const std::size_t numbered = number_by_views(all, scan.rig, rays, options, run);
+  all.points += numbered;
+  if (all.points == 0) return 0;
+  clip(all.views, camera, options, run);
+  if (!options.keep_platter && scan.rig.turntable)
+    platter_height_mm = clear_platter(all.views, camera, options.platter, run);
+  if (options.register_views && scan.rig.turntable)
+    bring_together(round, scan.rig, options.registration, run);
+  return numbered;
+}
+
+/// Clips again, on the refined table: each view as it stands on it, whatever its round.
+void clip_on_table(Round& round,
+                   const Rig& rig,
+                   const ReconstructOptions& options,
+                   const Run& run) {
+  ViewStore& views = round.measured.views;
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    poses.push_back(views.rig_from_object(i));
+    if (!round.registration) continue;
+    views.set_rig_from_object(
+        i, round.registration->table.rig_from_object(round.registration->angles_rad[i]));
+  }
+  clip(views, rig.camera.lens, options, run);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views.set_rig_from_object(i, poses[i]);
 }
 
 }  // namespace
@@ -88,22 +126,31 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   run.stage("views");
   Reconstruction out;
   out.views = all.views.size();
-  out.points = all.points + number_by_views(all, scan.rig, rays, options, run);
+  out.points = all.points;
+  const std::vector<int> numbers = all.rounds;
+  std::vector<Round> rounds = split_rounds(std::move(all), numbers);
+  for (Round& round : rounds)
+    out.points += prepare(round, scan, rays, options, out.platter_height_mm, run);
   if (out.points == 0) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: no view has a lit pixel; check light, exposure and white_level",
                             scan.folder.string()));
   }
-  clip(all.views, camera, options, run);
-  if (!options.keep_platter && scan.rig.turntable)
-    out.platter_height_mm = clear_platter(all.views, camera, options.platter, run);
-  if (options.register_views && scan.rig.turntable)
-    out.registration = bring_together(all, scan.rig, options.registration, run);
-  clip(all.views, camera, options, run);  // again, in the frame of the refined axis
+  Round whole = rounds.size() == 1
+                    ? std::move(rounds.front())
+                    : join_rounds(std::move(rounds),
+                                  scan.rig,
+                                  {scan.placings, options.register_views, options.registration},
+                                  run);
+  if (whole.registration && whole.registration->iterations > 0)
+    run.note(whole.registration->text());
+  clip_on_table(whole, scan.rig, options, run);
+  out.registration = whole.registration;
 
   run.stage("surface");
-  if (options.keep_raw) out.raw = collect_points(all.views, camera, run);
-  out.mesh = finish_mesh(paste_views(all.views, camera, options.paste, run), options.finish, run);
+  const ViewStore& views = whole.measured.views;
+  if (options.keep_raw) out.raw = collect_points(views, camera, run);
+  out.mesh = finish_mesh(paste_views(views, camera, options.paste, run), options.finish, run);
   return out;
 }
 

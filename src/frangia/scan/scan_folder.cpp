@@ -21,6 +21,7 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kMinShifts = 3;
+constexpr int kMostRounds = 1000;
 
 std::string file_name_part(TomlReader& reader, std::string_view key) {
   std::string name = reader.text(key);
@@ -134,8 +135,36 @@ ScanView read_view(TomlReader reader, bool has_turntable, const Run& run) {
       rad_from_deg(has_turntable ? reader.number("angle_deg") : reader.number_or("angle_deg", 0.0));
   view.folder = reader.text("folder");
   if (view.folder.is_absolute()) reader.fail("folder", "must be relative to the scan folder");
+  if (reader.has("round")) view.round = reader.integer("round", 0, kMostRounds);
   reader.warn_of_the_rest(run);
   return view;
+}
+
+/// Rough is enough: people type two digits. What is returned is a rotation to all of them.
+Eigen::Matrix3d rough_rotation(TomlReader& reader, std::string_view key) {
+  constexpr double kRough = 0.05;
+  const auto rows = reader.rows(key, 3, 3);
+  Eigen::Matrix3d matrix;
+  for (int i = 0; i < 9; ++i)
+    matrix(i / 3, i % 3) = rows[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
+  if ((matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm() > kRough ||
+      matrix.determinant() < 0.0)
+    reader.fail(
+        key,
+        "is not a rotation: its rows must be of unit length, at right angles, and right-handed");
+  return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
+}
+
+/// How the part stands in one round: `rotation` and `shift_mm`.
+void read_placing(TomlReader reader, std::map<int, Eigen::Isometry3d>& placings, const Run& run) {
+  const int round = reader.integer("round", 1, kMostRounds);
+  Eigen::Isometry3d placing = Eigen::Isometry3d::Identity();
+  placing.linear() = rough_rotation(reader, "rotation");
+  const std::vector<double> shift_mm = reader.numbers("shift_mm", 3);
+  placing.translation() = Eigen::Vector3d(shift_mm[0], shift_mm[1], shift_mm[2]);
+  if (!placings.emplace(round, placing).second)
+    reader.fail("round", fmt::format("is {}, which is given twice", round));
+  reader.warn_of_the_rest(run);
 }
 
 /// The frame number in "NAME-12.png" or "NAME-12@1.png", or -1.
@@ -275,6 +304,8 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run) {
   for (const TomlReader& view : reader.tables("view")) {
     scan.views.push_back(read_view(view, scan.rig.turntable.has_value(), run));
   }
+  for (const TomlReader& round : reader.tables("round"))
+    read_placing(round, scan.placings, run);
   if (scan.patterns.empty()) reader.fail("[[pattern]]", "is missing; a scan needs at least one");
   if (scan.views.empty()) reader.fail("[[view]]", "is missing; a scan needs at least one");
   std::set<std::string> names;
@@ -287,6 +318,25 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run) {
   return scan;
 }
 
+std::string toml_of(const std::map<int, Eigen::Isometry3d>& placings) {
+  std::string text;
+  for (const auto& [round, placing] : placings) {
+    text += fmt::format("\n[[round]]\nround = {}\nrotation = [", round);
+    for (int row = 0; row < 3; ++row) {
+      text += fmt::format("{}[{:.12g}, {:.12g}, {:.12g}]",
+                          row == 0 ? "" : ", ",
+                          placing.linear()(row, 0),
+                          placing.linear()(row, 1),
+                          placing.linear()(row, 2));
+    }
+    text += fmt::format("]\nshift_mm = [{:.12g}, {:.12g}, {:.12g}]\n",
+                        placing.translation().x(),
+                        placing.translation().y(),
+                        placing.translation().z());
+  }
+  return text;
+}
+
 void write_scan(const Scan& scan) {
   write_rig(scan.folder / "rig.toml", scan.rig);
   std::string text =
@@ -297,7 +347,9 @@ void write_scan(const Scan& scan) {
     text += fmt::format("\n[[view]]\nangle_deg = {:.10g}\nfolder = {}\n",
                         deg_from_rad(view.angle_rad),
                         quoted(view.folder.generic_string()));
+    if (view.round != 0) text += fmt::format("round = {}\n", view.round);
   }
+  text += toml_of(scan.placings);
   AtomicFile file(scan.folder / "scan.toml");
   file.stream() << text;
   file.commit();

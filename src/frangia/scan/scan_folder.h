@@ -2,8 +2,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
 #include "frangia/frames/frame_stack.h"
@@ -15,6 +18,7 @@ namespace frangia {
 struct ScanView {
   double angle_rad = 0.0;        ///< commanded table angle
   std::filesystem::path folder;  ///< relative to the scan
+  int round = 0;                 ///< views of one round share one placing of the part on the table
 };
 
 /// What scan.toml and rig.toml say: everything but the images.
@@ -24,12 +28,18 @@ struct Scan {
   Rig rig;
   std::vector<Pattern> patterns;  ///< in the order captured
   std::vector<ScanView> views;
+  /// Roughly how the part stands in a round, where that is known: what takes it from its place in
+  /// round 0, in the object frame.
+  std::map<int, Eigen::Isometry3d> placings{};
 };
 
 /// A scan folder, as docs/scan-format.md describes it. Keys it does not know are warned of by name.
 ///
 /// errors   Error(Input) that names the file and the key
 [[nodiscard]] Scan read_scan(const std::filesystem::path& folder, const Run& run = {});
+
+/// The `[[round]]` tables of placings, as scan.toml has them.
+[[nodiscard]] std::string toml_of(const std::map<int, Eigen::Isometry3d>& placings);
 
 /// Writes scan.toml and rig.toml into `scan.folder`.
 void write_scan(const Scan& scan);

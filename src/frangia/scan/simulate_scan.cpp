@@ -1,6 +1,8 @@
 #include "frangia/scan/simulate_scan.h"
 
+#include <map>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
+#include "frangia/mesh/transform_mesh.h"
 #include "frangia/simulate/render_view.h"
 #include "frangia/simulate/simulated_scene.h"
 
@@ -69,7 +72,55 @@ Run part_of(const Run& run, std::size_t index, std::size_t count) {
   return part;
 }
 
+/// The views of one round, and the part as it stands in it.
+struct SimulatedRound {
+  std::vector<SimulatedView> views;
+  SimulatedScene scene;
+};
+
+std::vector<SimulatedRound> make_rounds(const Mesh& part,
+                                        const Scan& plan,
+                                        const SimulateOptions& options) {
+  std::map<int, std::vector<SimulatedView>> views;
+  for (std::size_t i = 0; i < plan.views.size(); ++i)
+    views[plan.views[i].round].push_back({i, plan.views[i].angle_rad});
+  std::vector<SimulatedRound> rounds;
+  for (auto& [round, stops] : views) {
+    const auto placing = plan.placings.find(round);
+    const Mesh placed =
+        placing == plan.placings.end() ? part : transform_mesh(part, placing->second);
+    SimulatedScene scene = make_simulated_scene(placed, plan.rig, stops, options);
+    rounds.push_back({std::move(stops), std::move(scene)});
+  }
+  return rounds;
+}
+
+void render_round(const SimulatedRound& round, const Scan& plan, const Run& run) {
+  for (const SimulatedView& view : round.views) {
+    const Run view_run = part_of(run, view.index, plan.views.size());
+    const std::filesystem::path folder = plan.folder / plan.views[view.index].folder;
+    const auto stacks = render_view(round.scene, plan.patterns, view, view_run);
+    std::filesystem::remove_all(folder);
+    make_folder(folder);
+    write_frames(folder, stacks);
+    run.check();
+  }
+}
+
 }  // namespace
+
+Eigen::Isometry3d set_down(const Mesh& part, double tilt_rad, double turn_rad) {
+  Eigen::Isometry3d placing = Eigen::Isometry3d::Identity();
+  placing.linear() = (Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()) *
+                      Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitX()))
+                         .toRotationMatrix();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : part.vertices_mm)
+    box.extend(placing * vertex.cast<double>());
+  placing.translation() = -box.center();
+  placing.translation().z() = -box.min().z();
+  return placing;
+}
 
 Scan simulate_scan(const Mesh& part,
                    const Scan& plan,
@@ -77,24 +128,19 @@ Scan simulate_scan(const Mesh& part,
                    const Run& run) {
   require(!plan.patterns.empty() && !plan.views.empty(),
           "simulate_scan: a scan needs at least one pattern and one view");
-  std::vector<SimulatedView> views;
-  for (std::size_t i = 0; i < plan.views.size(); ++i)
-    views.push_back({i, plan.views[i].angle_rad});
-  const SimulatedScene scene = make_simulated_scene(part, plan.rig, views, options);
-
+  const std::vector<SimulatedRound> rounds = make_rounds(part, plan, options);
   const std::filesystem::path mark = claim(plan.folder);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const Run view_run = part_of(run, i, views.size());
-    const std::filesystem::path folder = plan.folder / plan.views[i].folder;
-    const auto stacks = render_view(scene, plan.patterns, views[i], view_run);
-    std::filesystem::remove_all(folder);
-    make_folder(folder);
-    write_frames(folder, stacks);
-    run.check();
-  }
+  for (const SimulatedRound& round : rounds)
+    render_round(round, plan, run);
   write_ply(plan.folder / "truth.ply", part);
+  if (!plan.placings.empty()) {
+    AtomicFile truth(plan.folder / "truth-rounds.toml");
+    truth.stream() << toml_of(plan.placings);
+    truth.commit();
+  }
   Scan scan = plan;
-  scan.rig = scene.known_rig;
+  scan.rig = rounds.front().scene.known_rig;
+  scan.placings.clear();
   write_scan(scan);
   std::filesystem::remove(mark);
   return scan;

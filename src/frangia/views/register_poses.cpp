@@ -9,8 +9,8 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
 #include "frangia/views/fast_lens.h"
-#include "frangia/views/plane_map.h"
 
 namespace frangia {
 namespace {
@@ -146,15 +146,13 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 
-Poses make_poses(const ViewStore& views, const Lens& camera, double reach_mm) {
-  constexpr std::size_t kMap = 250000;
-  const CameraRays rays(camera);
-  Poses poses{{}, {}, {}, FastLens(camera), reach_mm};
-  LocalPlanes planes;
+Poses make_poses(const ViewStore& views,
+                 std::vector<PlaneMap> maps,
+                 const Lens& camera,
+                 double reach_mm) {
+  Poses poses{std::move(maps), {}, {}, FastLens(camera), reach_mm};
   for (std::size_t i = 0; i < views.size(); ++i) {
-    planes = local_planes(views.load(i), rays, {}, std::move(planes));
-    poses.maps.push_back(plane_map(planes, rays, kMap));
-    poses.spots.push_back(pick_spots(poses.maps.back(), kSpots));
+    poses.spots.push_back(pick_spots(poses.maps[i], kSpots));
     poses.rig_from_world.push_back(views.rig_from_object(i));
   }
   return poses;
@@ -163,12 +161,14 @@ Poses make_poses(const ViewStore& views, const Lens& camera, double reach_mm) {
 }  // namespace
 
 PosesReport register_poses(ViewStore& views,
+                           std::vector<PlaneMap> maps,
                            const Lens& camera,
                            const RegisterPosesOptions& options,
                            const Run& run) {
+  require(maps.size() == views.size(), "register_poses: each view needs its map");
   PosesReport report;
   if (views.size() < 2) return report;
-  Poses poses = make_poses(views, camera, options.reach_mm);
+  Poses poses = make_poses(views, std::move(maps), camera, options.reach_mm);
   constexpr double kTukey = 4.685 * 1.4826;
   constexpr double kFewest = 0.05;  // of all spots: fewer pairs are chance
   for (int i = 0; i < options.max_iterations; ++i) {

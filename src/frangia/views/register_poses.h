@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "frangia/core/run.h"
 #include "frangia/rig/lens.h"
+#include "frangia/views/plane_map.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -26,10 +28,12 @@ struct PosesReport {
 /// All views at once, each with a rigid pose of its own; the first is held. Sets the poses of
 /// `views`.
 ///
+/// shape    `maps`: one a view, as map_views makes them
 /// missing  views that do not overlap keep their poses, with a warning
 /// source   projective association, Blais & Levine 1995; symmetric distance, Rusinkiewicz 2019;
 ///          Gauss-Newton with Tukey's biweight
 [[nodiscard]] PosesReport register_poses(ViewStore& views,
+                                         std::vector<PlaneMap> maps,
                                          const Lens& camera,
                                          const RegisterPosesOptions& options = {},
                                          const Run& run = {});

@@ -14,40 +14,59 @@ namespace {
 constexpr float kSameSide = 0.7F;  // cosine between normals of one surface
 constexpr std::size_t kChunk = 512;
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
+/// How the distance of a pair changes with the unknowns.
+struct Slopes {
+  Eigen::Matrix<double, 2, 1> tilt, shift;
+  double angle_to = 0.0;
+  double angle_from = 0.0;
+  Eigen::Matrix<double, 6, 1> round_to, round_from;
+};
 
-/// How points of one view go into another, and how that changes with the unknowns.
+/// How points of one view go into another, and how that changes with the unknowns: back to the
+/// table at angle 0, to the part's place in the other round, and on to the other angle.
 struct Turn {
-  Eigen::Matrix3d rotation;
+  Eigen::Matrix3d back, forth;
+  Eigen::Isometry3d across_rounds;
+  Eigen::Matrix3d rotation;  ///< of all three
   Eigen::Vector3d centre;
   Eigen::Vector3d axis;
   Eigen::Matrix<double, 3, 2> sideways;
 
   Turn(const TableState& state, std::size_t from, std::size_t to)
-      : rotation(Eigen::AngleAxisd(state.angles_rad[to] - state.angles_rad[from], state.table.axis)
-                     .matrix()),
+      : back(Eigen::AngleAxisd(-state.angles_rad[from], state.table.axis).matrix()),
+        forth(Eigen::AngleAxisd(state.angles_rad[to], state.table.axis).matrix()),
+        across_rounds(state.placing(state.round_of(to)) *
+                      state.placing(state.round_of(from)).inverse()),
+        rotation(forth * across_rounds.linear() * back),
         centre(state.table.point_mm),
         axis(state.table.axis),
         sideways(across(state.table)) {}
 
-  [[nodiscard]] Eigen::Vector3d apply(const Eigen::Vector3d& point) const {
-    return centre + rotation * (point - centre);
+  /// `point` relative to the table's point, on the table at angle 0.
+  [[nodiscard]] Eigen::Vector3d placed(const Eigen::Vector3d& point) const {
+    return across_rounds * (back * (point - centre) + centre) - centre;
   }
-  /// Of normal . point by the two tilts, the two shifts, and the angle between the views.
-  [[nodiscard]] Eigen::Matrix<double, 1, 5> slope(const Eigen::Vector3d& normal,
-                                                  const Eigen::Vector3d& point) const {
-    const Eigen::Vector3d arm = point - centre;
-    const Eigen::Vector3d turned = rotation * arm;
-    Eigen::Matrix<double, 1, 5> row;
-    row.head<2>() =
-        normal.transpose() * (rotation * cross_matrix(arm) - cross_matrix(turned)) * sideways;
-    row.segment<2>(2) = (normal - rotation.transpose() * normal).transpose() * sideways;
-    row[4] = normal.dot(axis.cross(turned));
-    return row;
+  [[nodiscard]] Eigen::Vector3d apply(const Eigen::Vector3d& point) const {
+    return centre + forth * placed(point);
+  }
+  [[nodiscard]] Slopes slopes(const Eigen::Vector3d& normal, const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d seen = point - centre;
+    const Eigen::Vector3d start = back * seen;
+    const Eigen::Vector3d end = placed(point);
+    const Eigen::Vector3d arrived = forth * end;
+    const Eigen::Vector3d at_end = forth.transpose() * normal;
+    const Eigen::Vector3d at_start = across_rounds.linear().transpose() * at_end;
+    const Eigen::Vector3d at_seen = back.transpose() * at_start;
+    const Eigen::Vector3d turned = arrived.cross(normal);
+    Slopes by;
+    by.tilt = sideways.transpose() *
+              (turned - end.cross(at_end) + start.cross(at_start) - seen.cross(at_seen));
+    by.shift = sideways.transpose() * (normal - at_end + at_start - at_seen);
+    by.angle_to = axis.dot(turned);
+    by.angle_from = -axis.dot(start.cross(at_start));
+    by.round_to << at_end, end.cross(at_end);
+    by.round_from << -at_start, -start.cross(at_start);
+    return by;
   }
 };
 
@@ -57,11 +76,12 @@ struct Summer {
   const FastLens& lens;
   const TableState& state;
   double gate_mm;
+  std::size_t closing;
   BundleSums sums;
 
   Summer(std::span<const PlaneMap> all, const FastLens& camera, const TableState& now, double gate)
-      : maps(all), lens(camera), state(now), gate_mm(gate) {
-    const auto unknowns = static_cast<Eigen::Index>(all.size() + 3);
+      : maps(all), lens(camera), state(now), gate_mm(gate), closing(now.closing_view()) {
+    const Eigen::Index unknowns = now.unknowns();
     sums.hessian = Eigen::MatrixXd::Zero(unknowns, unknowns);
     sums.gradient = Eigen::VectorXd::Zero(unknowns);
     sums.met.assign(all.size(), 0);
@@ -116,11 +136,10 @@ struct Summer {
     const double trust = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
     const double weight = trust / (std::pow(static_cast<double>(spot.sigma_mm), 2) +
                                    std::pow(static_cast<double>(target.sigma_mm), 2));
-    const Eigen::Matrix<double, 1, 5> slope = turn.slope(normal, spot.point_mm.cast<double>());
-    add_row(slope, weight, distance, from, to);
-    const std::size_t last = maps.size() - 1;
-    if (last > 1 && std::min(from, to) == 0 && std::max(from, to) == last) {
-      const double by_last = to == last ? slope[4] : -slope[4];
+    const Slopes slopes = turn.slopes(normal, spot.point_mm.cast<double>());
+    add_row(slopes, weight, distance, from, to);
+    if (closing > 1 && std::min(from, to) == 0 && std::max(from, to) == closing) {
+      const double by_last = to == closing ? slopes.angle_to : slopes.angle_from;
       sums.closing_weight += weight * by_last * by_last;
       sums.closing_pull += weight * by_last * distance;
     }
@@ -129,27 +148,54 @@ struct Summer {
     return std::abs(distance);
   }
 
-  void add_row(const Eigen::Matrix<double, 1, 5>& slope,
-               double weight,
-               double distance,
-               std::size_t from,
-               std::size_t to) {
-    // The axis, then the angles of both views, turned against each other; view 0 has no unknown.
-    std::array<Eigen::Index, 6> places{
-        0, 1, 2, 3, static_cast<Eigen::Index>(to) + 3, static_cast<Eigen::Index>(from) + 3};
-    const std::array<double, 6> values{slope[0], slope[1], slope[2], slope[3], slope[4], -slope[4]};
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (places[i] == 3 && i >= 4) continue;
-      sums.gradient[places[i]] += weight * values[i] * distance;
-      for (std::size_t j = 0; j < 6; ++j) {
-        if (places[j] == 3 && j >= 4) continue;
-        sums.hessian(places[i], places[j]) += weight * values[i] * values[j];
-      }
+  /// The unknowns that a pair depends on.
+  struct Row {
+    std::array<Eigen::Index, 18> places{};
+    std::array<double, 18> values{};
+    std::size_t count = 0;
+
+    void add(Eigen::Index place, double value) {
+      places.at(count) = place;
+      values.at(count++) = value;
+    }
+  };
+
+  [[nodiscard]] Row row_of(const Slopes& by, std::size_t from, std::size_t to) const {
+    Row row;
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      row.add(i, by.tilt[i]);
+      row.add(i + 2, by.shift[i]);
+    }
+    if (to != 0) row.add(static_cast<Eigen::Index>(to) + 3, by.angle_to);
+    if (from != 0) row.add(static_cast<Eigen::Index>(from) + 3, by.angle_from);
+    const std::size_t round_to = state.round_of(to);
+    const std::size_t round_from = state.round_of(from);
+    if (round_to == round_from) return row;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      if (round_to != 0) row.add(state.place_of_round(round_to) + i, by.round_to[i]);
+      if (round_from != 0) row.add(state.place_of_round(round_from) + i, by.round_from[i]);
+    }
+    return row;
+  }
+
+  void add_row(const Slopes& by, double weight, double distance, std::size_t from, std::size_t to) {
+    const Row row = row_of(by, from, to);
+    for (std::size_t i = 0; i < row.count; ++i) {
+      sums.gradient[row.places[i]] += weight * row.values[i] * distance;
+      for (std::size_t j = 0; j < row.count; ++j)
+        sums.hessian(row.places[i], row.places[j]) += weight * row.values[i] * row.values[j];
     }
   }
 };
 
 }  // namespace
+
+std::size_t TableState::closing_view() const {
+  std::size_t last = 0;
+  for (std::size_t view = 0; view < angles_rad.size(); ++view)
+    if (round_of(view) == 0) last = view;
+  return last;
+}
 
 Eigen::Matrix<double, 3, 2> across(const Turntable& table) {
   Eigen::Vector3d least = Eigen::Vector3d::Zero();
@@ -212,6 +258,16 @@ TableState moved(const TableState& state, const Eigen::VectorXd& step) {
   next.table.point_mm += sides * step.segment<2>(2);
   for (std::size_t view = 1; view < state.angles_rad.size(); ++view) {
     next.angles_rad[view] += step[static_cast<Eigen::Index>(view) + 3];
+  }
+  const Eigen::Vector3d& centre = state.table.point_mm;  // not yet moved, as the slopes have it
+  for (std::size_t round = 1; round <= state.placings.size(); ++round) {
+    const auto part = step.segment<6>(state.place_of_round(round));
+    const Eigen::Vector3d turn = part.tail<3>();
+    Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
+    if (turn.norm() > 0.0)
+      move.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+    move.translation() = centre + part.head<3>() - move.linear() * centre;
+    next.placings[round - 1] = move * state.placings[round - 1];
   }
   return next;
 }

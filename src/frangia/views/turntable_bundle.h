@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "frangia/rig/rig.h"
 #include "frangia/views/fast_lens.h"
@@ -12,10 +12,31 @@
 
 namespace frangia {
 
-/// What moves when views are registered: the axis and the angle of each view.
+/// What moves when views are registered: the axis, the angle of each view, and how the part stands
+/// in each round but the first.
 struct TableState {
   Turntable table;
   std::vector<double> angles_rad;
+  std::vector<std::size_t> rounds;  ///< of each view; empty: all in the first
+  std::vector<Eigen::Isometry3d>
+      placings{};  ///< of each further round: what takes the part from its
+                   ///< place in the first, both at angle 0, rig frame
+
+  [[nodiscard]] std::size_t round_of(std::size_t view) const {
+    return rounds.empty() ? 0 : rounds[view];
+  }
+  [[nodiscard]] Eigen::Isometry3d placing(std::size_t round) const {
+    return round == 0 ? Eigen::Isometry3d::Identity() : placings[round - 1];
+  }
+  [[nodiscard]] Eigen::Index unknowns() const {
+    return static_cast<Eigen::Index>(angles_rad.size() + 3 + 6 * placings.size());
+  }
+  /// Where the unknowns of a further round begin.
+  [[nodiscard]] Eigen::Index place_of_round(std::size_t round) const {
+    return static_cast<Eigen::Index>(angles_rad.size() + 3 + 6 * (round - 1));
+  }
+  /// The view whose turn closes with that of the first: the last of the first round.
+  [[nodiscard]] std::size_t closing_view() const;
 };
 
 /// How the views fit together in one state, and which way to go: the normal equations of all
@@ -23,15 +44,16 @@ struct TableState {
 ///
 /// shape    unknowns: two tilts of the axis and two shifts, about and along `across`; then the
 /// angles of
-///          views 1, 2, ...; view 0 is held
+///          views 1, 2, ...; view 0 is held; then three shifts and three turns of each further
+///          round's placing, about the table's point
 /// units    rad, mm
 struct BundleSums {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;
   double squares = 0.0;         ///< sum of w r^2
-  double closing_weight = 0.0;  ///< sum of w s^2 of the pairs of the last view and the first, s the
-                                ///< slope by the last one's angle
-  double closing_pull = 0.0;    ///< sum of w s r of them
+  double closing_weight = 0.0;  ///< sum of w s^2 of the pairs of the closing view and the first, s
+                                ///< the slope by the last one's angle
+  double closing_pull = 0.0;        ///< sum of w s r of them
   std::vector<float> distances_mm;  ///< of all pairs, without sign
   std::vector<std::size_t> met;     ///< by view: its spots that lie on a surface another view saw
   std::vector<std::size_t> faced;   ///< by view: its spots that another view looked at

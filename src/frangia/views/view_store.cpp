@@ -1,5 +1,6 @@
 #include "frangia/views/view_store.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <unistd.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/missing.h"
 
 namespace frangia {
 namespace {
@@ -95,6 +97,12 @@ void ViewStore::replace(std::size_t index, const View& view) {
       "ViewStore::replace: the grid has another size");
   entry.rig_from_object = view.rig_from_object;
   write(entry, view);
+}
+
+void ViewStore::clear(std::size_t index) {
+  View view = load(index);
+  std::fill(view.range.depth_mm.pixels().begin(), view.range.depth_mm.pixels().end(), kMissing);
+  replace(index, view);
 }
 
 View ViewStore::load(std::size_t index) const {

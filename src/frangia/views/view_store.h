@@ -25,6 +25,8 @@ class ViewStore {
   void add(const View& view);
   /// Replaces view `index`; the grid must have the size it had.
   void replace(std::size_t index, const View& view);
+  /// Takes all points of view `index` away: it stays, but saw nothing.
+  void clear(std::size_t index);
   [[nodiscard]] View load(std::size_t index) const;
   /// The pose alone, without reading the grid.
   [[nodiscard]] const Eigen::Isometry3d& rig_from_object(std::size_t index) const {

@@ -1,0 +1,243 @@
+#include "frangia/views/join_by_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "frangia/views/find_places.h"
+#include "frangia/views/surface_features.h"
+
+namespace frangia {
+namespace {
+
+/// A place that was found for two groups.
+struct Candidate {
+  std::size_t to = 0;
+  std::size_t from = 0;
+  GroupPlace place;
+};
+
+std::vector<Candidate> all_candidates(std::span<const ViewGroup> groups,
+                                      const GroupViews& views,
+                                      const PlaceScale& scale,
+                                      const Run& run) {
+  constexpr double kRadius = 5.0;  // of a feature, in spacings
+  constexpr std::size_t kMost = 6;
+  std::vector<Eigen::MatrixXf> features;
+  for (const ViewGroup& group : groups)
+    features.push_back(surface_features(group.points, kRadius * scale.spacing_mm));
+  std::vector<Candidate> candidates;
+  const auto pairs = static_cast<double>(groups.size() * (groups.size() - 1)) / 2.0;
+  double done = 0.0;
+  for (std::size_t to = 0; to < groups.size(); ++to) {
+    for (std::size_t from = to + 1; from < groups.size(); ++from) {
+      run.report(done / pairs);
+      done += 1.0;
+      const auto places =
+          find_places({groups[to], features[to]}, {groups[from], features[from]}, views, scale);
+      for (std::size_t i = 0; i < std::min(places.size(), kMost); ++i)
+        candidates.push_back({to, from, places[i]});
+    }
+  }
+  return candidates;
+}
+
+bool may_hold(const GroupFit& fit, const JoinByShapeOptions& options) {
+  return fit.overlap >= options.min_overlap && fit.contradiction() <= options.max_contradiction &&
+         fit.firmness >= options.min_firmness;
+}
+
+/// How far apart surfaces that are one come to lie: the least of all that may be right.
+double usual_residual(const std::vector<Candidate>& candidates, const JoinByShapeOptions& options) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& candidate : candidates) {
+    if (may_hold(candidate.place.fit, options))
+      least = std::min(least, candidate.place.fit.residual_mm);
+  }
+  return least;
+}
+
+/// Joins clusters, those that fit best first, as long as any fit together.
+class Joiner {
+ public:
+  Joiner(std::span<const ViewGroup> groups,
+         const GroupViews& views,
+         std::vector<Candidate> candidates,
+         const JoinByShapeOptions& options)
+      : views_(views),
+        options_(options),
+        usual_mm_(usual_residual(candidates, options)),
+        candidates_(std::move(candidates)),
+        clusters_(groups.begin(), groups.end()),
+        cluster_from_group_(groups.size(), Eigen::Isometry3d::Identity()) {
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      cluster_of_.push_back(i);
+    sort_candidates();
+  }
+
+  /// False when no two clusters fit together any more.
+  bool join_next(JoinedGroups& out) {
+    for (const Candidate& candidate : candidates_) {
+      const std::size_t to = std::min(cluster_of_[candidate.to], cluster_of_[candidate.from]);
+      const std::size_t from = std::max(cluster_of_[candidate.to], cluster_of_[candidate.from]);
+      if (to == from || !tried_.insert(stage_of(to, from)).second) continue;
+      const std::vector<GroupPlace> places = places_of(to, from);
+      if (places.empty() || !holds(places[0].fit, 1.0)) continue;
+      if (rivalled(places)) {
+        out.ambiguous[candidate.from] = out.ambiguous[candidate.to] = true;
+        continue;
+      }
+      out.joints.push_back({from, to, places[0].fit});
+      join(to, from, places[0].to_from);
+      return true;
+    }
+    return false;
+  }
+
+  /// Looks for places of whole clusters on each other, which have more in common than their groups.
+  void search_clusters(const Run& run) {
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < clusters_.size(); ++i)
+      if (!clusters_[i].members.empty()) left.push_back(i);
+    std::vector<ViewGroup> thinned;
+    for (const std::size_t i : left)
+      thinned.push_back(
+          {clusters_[i].members, thin_points(clusters_[i].points, options_.spacing_mm)});
+    for (Candidate& found : all_candidates(thinned, views_, {options_.spacing_mm}, run)) {
+      found.to = first_of(left[found.to]);
+      found.from = first_of(left[found.from]);
+      found.place.to_from = cluster_from_group_[found.to].inverse() * found.place.to_from *
+                            cluster_from_group_[found.from];
+      candidates_.push_back(found);
+    }
+    sort_candidates();
+    tried_.clear();
+  }
+
+  /// The frame of the largest cluster's first group becomes that of all in it.
+  void tell(JoinedGroups& out) const {
+    const auto main =
+        static_cast<std::size_t>(std::max_element(clusters_.begin(),
+                                                  clusters_.end(),
+                                                  [](const ViewGroup& a, const ViewGroup& b) {
+                                                    return a.members.size() < b.members.size();
+                                                  }) -
+                                 clusters_.begin());
+    out.reference = first_of(main);
+    const Eigen::Isometry3d reference_from_cluster = cluster_from_group_[out.reference].inverse();
+    out.reference_from_group.resize(cluster_of_.size());
+    for (std::size_t i = 0; i < cluster_of_.size(); ++i) {
+      if (cluster_of_[i] == main)
+        out.reference_from_group[i] = reference_from_cluster * cluster_from_group_[i];
+    }
+  }
+
+ private:
+  /// Two clusters as they are now: what does not fit is looked at again only when one has grown.
+  using Stage = std::array<std::size_t, 4>;
+  [[nodiscard]] Stage stage_of(std::size_t a, std::size_t b) const {
+    return {a, clusters_[a].members.size(), b, clusters_[b].members.size()};
+  }
+
+  void sort_candidates() {
+    std::stable_sort(
+        candidates_.begin(), candidates_.end(), [&](const Candidate& a, const Candidate& b) {
+          return a.place.score(usual_mm_) > b.place.score(usual_mm_);
+        });
+  }
+  /// Of the groups of a cluster.
+  [[nodiscard]] std::size_t first_of(std::size_t cluster) const {
+    return static_cast<std::size_t>(std::find(cluster_of_.begin(), cluster_of_.end(), cluster) -
+                                    cluster_of_.begin());
+  }
+
+  /// `slack` 1 as the options say, more is easier.
+  [[nodiscard]] bool holds(const GroupFit& fit, double slack) const {
+    return fit.overlap >= options_.min_overlap / slack &&
+           fit.contradiction() <= slack * options_.max_contradiction &&
+           fit.firmness >= options_.min_firmness / slack &&
+           fit.residual_mm <= slack * options_.max_residual * usual_mm_;
+  }
+  /// Whether another place would nearly do as well as the first.
+  [[nodiscard]] bool rivalled(const std::vector<GroupPlace>& places) const {
+    constexpr double kSlack = 3.0;
+    return std::any_of(places.begin() + 1, places.end(), [&](const GroupPlace& other) {
+      return holds(other.fit, kSlack) &&
+             other.score(usual_mm_) > options_.max_runner_up * places[0].score(usual_mm_);
+    });
+  }
+
+  /// Places of one cluster on another: where the candidates of their groups put it, refined by all
+  /// their views.
+  [[nodiscard]] std::vector<GroupPlace> places_of(std::size_t to, std::size_t from) const {
+    constexpr std::size_t kMost = 30;
+    std::vector<Eigen::Isometry3d> starts;
+    for (const Candidate& candidate : candidates_) {
+      const std::size_t a = cluster_of_[candidate.to];
+      const std::size_t b = cluster_of_[candidate.from];
+      if (std::min(a, b) != to || std::max(a, b) != from || starts.size() == kMost) continue;
+      const Eigen::Isometry3d a_from_b = cluster_from_group_[candidate.to] *
+                                         candidate.place.to_from *
+                                         cluster_from_group_[candidate.from].inverse();
+      starts.push_back(a == to ? a_from_b : a_from_b.inverse());
+    }
+    const PlaceScale scale{options_.spacing_mm};
+    auto places = refine_places(clusters_[to], clusters_[from], starts, views_, scale);
+    if (places.empty()) return places;
+    sort_places(places, usual_mm_);
+    constexpr double kFirm = 0.02;
+    if (places[0].fit.firmness < kFirm) {
+      for (const Eigen::Isometry3d& start : places_beside(places[0], scale))
+        starts.push_back(start);
+    }
+    places = refine_places(clusters_[to], clusters_[from], starts, views_, scale);
+    sort_places(places, usual_mm_);
+    std::stable_partition(places.begin(), places.end(), [&](const GroupPlace& place) {
+      return holds(place.fit, 1.0);
+    });
+    return places;
+  }
+
+  void join(std::size_t to, std::size_t from, const Eigen::Isometry3d& to_from) {
+    clusters_[to] = join_groups(clusters_[to], clusters_[from], to_from);
+    clusters_[from] = {};
+    for (std::size_t group = 0; group < cluster_of_.size(); ++group) {
+      if (cluster_of_[group] != from) continue;
+      cluster_of_[group] = to;
+      cluster_from_group_[group] = to_from * cluster_from_group_[group];
+    }
+  }
+
+  GroupViews views_;
+  JoinByShapeOptions options_;
+  double usual_mm_;
+  std::vector<Candidate> candidates_;
+  std::vector<ViewGroup> clusters_;
+  std::vector<std::size_t> cluster_of_;
+  std::vector<Eigen::Isometry3d> cluster_from_group_;
+  std::set<Stage> tried_;
+};
+
+}  // namespace
+
+JoinedGroups join_by_shape(std::span<const ViewGroup> groups,
+                           const GroupViews& views,
+                           const JoinByShapeOptions& options,
+                           const Run& run) {
+  JoinedGroups out;
+  out.ambiguous.assign(groups.size(), false);
+  Joiner joiner(groups, views, all_candidates(groups, views, {options.spacing_mm}, run), options);
+  for (bool again = true; again;) {
+    const std::size_t joints = out.joints.size();
+    while (joiner.join_next(out))
+      run.check();
+    again = out.joints.size() > joints && out.joints.size() + 1 < groups.size();
+    if (again) joiner.search_clusters(run);
+  }
+  joiner.tell(out);
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,145 @@
+#include "frangia/scan/join_rounds.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/inspect/surface_error.h"
+#include "frangia/scan/reconstruct.h"
+
+#include "scan/small_scan.h"
+#include "support/analytic_views.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::Shape;
+using testing::small_lens;
+using testing::TemporaryFolder;
+
+/// A ball with lumps on all sides, no two alike.
+double lumpy(const Eigen::Vector3d& p) {
+  static const std::vector<std::pair<Eigen::Vector3d, double>> kBalls = {
+      {{0.0, 0.0, 0.0}, 28.0},
+      {{24.0, 6.0, 8.0}, 12.0},
+      {{4.0, 26.0, -6.0}, 9.0},
+      {{-20.0, 16.0, 12.0}, 10.0},
+      {{-22.0, -14.0, -4.0}, 13.0},
+      {{2.0, -24.0, 14.0}, 11.0},
+      {{16.0, -20.0, -10.0}, 8.0},
+      {{0.0, 4.0, 26.0}, 10.0}};
+  double nearest = 1e9;
+  for (const auto& [centre, radius] : kBalls)
+    nearest = std::min(nearest, (p - centre).norm() - radius);
+  return nearest;
+}
+
+/// A part on a table that a camera looks down on, in several rounds.
+struct Rounds {
+  Rig rig;
+  std::vector<Round> rounds;
+  std::vector<std::string> warnings;
+  Run run;
+
+  Rounds() {
+    rig.camera.lens = small_lens(160, 800.0);
+    rig.turntable = Turntable{{2.0, 8.0, 650.0}, Eigen::Vector3d(0.03, -0.9, -0.4).normalized()};
+    run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  }
+  void take(const Shape& shape, const Eigen::Isometry3d& placing) {
+    constexpr int kViews = 5;
+    Round round{static_cast<int>(rounds.size()), {}, {}};
+    const Eigen::Isometry3d back = placing.inverse();
+    for (int i = 0; i < kViews; ++i) {
+      const double angle_rad = kTurn * i / kViews;
+      round.measured.views.add(
+          testing::snapshot([&](const Eigen::Vector3d& p) { return shape(back * p); },
+                            rig.camera.lens,
+                            rig.rig_from_object(angle_rad),
+                            {.seed = static_cast<std::uint32_t>(10 * round.number + i + 1)}));
+      round.measured.stops.push_back({angle_rad, "views/" + std::to_string(i), 0});
+    }
+    rounds.push_back(std::move(round));
+  }
+};
+
+Eigen::Isometry3d turned_over() {
+  Eigen::Isometry3d placing = Eigen::Isometry3d::Identity();
+  placing.linear() = (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
+                      Eigen::AngleAxisd(2.9, Eigen::Vector3d::UnitX()))
+                         .toRotationMatrix();
+  placing.translation() = Eigen::Vector3d(3.0, -2.0, 4.0);
+  return placing;
+}
+
+void expect_near(const Eigen::Isometry3d& found, const Eigen::Isometry3d& wanted) {
+  const Eigen::Isometry3d off = wanted.inverse() * found;
+  EXPECT_LT(off.translation().norm(), 0.02);
+  EXPECT_LT(Eigen::AngleAxisd(off.rotation()).angle(), rad_from_deg(0.05));
+}
+
+TEST(JoinRounds, FindsHowThePartWasTurnedOver) {
+  Rounds all;
+  all.take(lumpy, Eigen::Isometry3d::Identity());
+  all.take(lumpy, turned_over());
+  const Round joined = join_rounds(std::move(all.rounds), all.rig, {}, all.run);
+  EXPECT_TRUE(all.warnings.empty()) << all.warnings.front();
+  ASSERT_TRUE(joined.registration.has_value());
+  EXPECT_EQ(joined.measured.views.size(), 10U);
+  ASSERT_EQ(joined.registration->placings.size(), 1U);
+  expect_near(joined.registration->placings[0], turned_over());
+  EXPECT_LT(joined.registration->rms_after_mm, 0.035);
+}
+
+TEST(JoinRounds, StartsFromARoughPlacingThatIsGiven) {
+  Rounds all;
+  all.take(lumpy, Eigen::Isometry3d::Identity());
+  all.take(lumpy, turned_over());
+  Eigen::Isometry3d rough = turned_over();
+  rough.rotate(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()));
+  rough.translation().x() += 1.5;
+  JoinRoundsOptions options;
+  options.placings[1] = rough;
+  const Round joined = join_rounds(std::move(all.rounds), all.rig, options, all.run);
+  ASSERT_EQ(joined.registration->placings.size(), 1U);
+  expect_near(joined.registration->placings[0], turned_over());
+}
+
+TEST(JoinRounds, NamesARoundThatFitsNoOtherAndLeavesItOut) {
+  Rounds all;
+  all.take(lumpy, Eigen::Isometry3d::Identity());
+  all.take(testing::box({30.0, 18.0, 22.0}), Eigen::Isometry3d::Identity());
+  const Round joined = join_rounds(std::move(all.rounds), all.rig, {}, all.run);
+  ASSERT_EQ(all.warnings.size(), 1U);
+  EXPECT_NE(all.warnings[0].find("round 1 (views/0 to views/4)"), std::string::npos)
+      << all.warnings[0];
+  EXPECT_EQ(joined.measured.views.size(), 5U);
+}
+
+TEST(Reconstruct, MeasuresTheBottomOfABracketThatWasLaidDown) {
+  const TemporaryFolder folder;
+  const TemporaryFolder folder_of_one;
+  const Mesh part = make_part("bracket");
+  Scan plan = testing::small_scan(folder_of_one.path(), "bracket", "digital", 6, {});
+  const RayScene truth(part);
+  const double one_rms_mm = surface_error(reconstruct(plan).mesh, truth).rms_mm;
+  plan.folder = folder.path();
+  for (int i = 0; i < 6; ++i)
+    plan.views.push_back({kTurn * i / 6, "views/1" + std::to_string(i), 1});
+  plan.placings[1] = set_down(part, rad_from_deg(90.0), 0.4);
+  const Reconstruction result = reconstruct(simulate_scan(part, plan));
+  ASSERT_TRUE(result.registration && result.registration->placings.size() == 1);
+  EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 1.25 * one_rms_mm);
+  const auto below = std::count_if(
+      result.mesh.vertices_mm.begin(), result.mesh.vertices_mm.end(), [](const auto& vertex) {
+        return std::abs(vertex.z()) < 0.2F && vertex.template head<2>().norm() < 20.0F;
+      });
+  EXPECT_GT(below, 100);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,139 @@
+#include "frangia/views/place_views.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "frangia/core/random.h"
+#include "frangia/views/map_views.h"
+
+#include "support/analytic_views.h"
+
+namespace frangia {
+namespace {
+
+using testing::around_table;
+using testing::Shape;
+using testing::small_lens;
+
+/// A ball with lumps on all sides, no two alike.
+double lumpy(const Eigen::Vector3d& p) {
+  static const std::vector<std::pair<Eigen::Vector3d, double>> kBalls = {
+      {{0.0, 0.0, 0.0}, 28.0},
+      {{24.0, 6.0, 8.0}, 12.0},
+      {{4.0, 26.0, -6.0}, 9.0},
+      {{-20.0, 16.0, 12.0}, 10.0},
+      {{-22.0, -14.0, -4.0}, 13.0},
+      {{2.0, -24.0, 14.0}, 11.0},
+      {{16.0, -20.0, -10.0}, 8.0},
+      {{0.0, 4.0, 26.0}, 10.0}};
+  double nearest = 1e9;
+  for (const auto& [centre, radius] : kBalls)
+    nearest = std::min(nearest, (p - centre).norm() - radius);
+  return nearest;
+}
+
+double vase(const Eigen::Vector3d& p) {
+  const double wide = 25.0 + 4.0 * std::sin(0.12 * p.z());
+  return 0.8 * std::max(std::hypot(p.x(), p.y()) - wide, std::abs(p.z()) - 30.0);
+}
+
+/// Views whose poses were thrown away: each stands anywhere in its own frame.
+struct Lost {
+  Lens camera = small_lens(200, 1000.0);
+  std::vector<Eigen::Isometry3d> truth;
+  ViewStore views;
+  std::vector<std::string> names;
+  std::vector<std::string> warnings;
+
+  Lost(const Shape& shape, std::vector<Eigen::Isometry3d> poses) : truth(std::move(poses)) {
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      // Held anyhow: a turn about the line of sight that nobody knows.
+      truth[i].linear() =
+          Eigen::AngleAxisd(kTurn * uniform_from(hash(7, i)), Eigen::Vector3d::UnitZ()) *
+          truth[i].linear();
+      views.add(
+          testing::snapshot(shape, camera, truth[i], {.seed = static_cast<std::uint32_t>(i + 1)}));
+      views.set_rig_from_object(i, Eigen::Isometry3d::Identity());
+      names.push_back("scan-" + std::to_string(i) + ".ply");
+    }
+  }
+  PlacedViews place() {
+    Run run;
+    run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+    auto maps = map_views(views, camera, 40000);
+    return place_views(views, maps, camera, names, run);
+  }
+  /// How far the part's middle is from where it should be, and by how much it is turned.
+  [[nodiscard]] double off_mm(std::size_t i, std::size_t reference) const {
+    const Eigen::Isometry3d wanted = truth[i] * truth[reference].inverse();
+    const Eigen::Isometry3d got =
+        views.rig_from_object(i) * views.rig_from_object(reference).inverse();
+    const Eigen::Isometry3d off = wanted.inverse() * got;
+    const Eigen::Vector3d middle = truth[reference].translation();
+    return (off * middle - middle).norm() + 38.0 * Eigen::AngleAxisd(off.rotation()).angle();
+  }
+  [[nodiscard]] bool empty(std::size_t i) const {
+    const View view = views.load(i);
+    const auto depth = view.range.depth_mm.pixels();
+    return std::all_of(depth.begin(), depth.end(), [](float z) { return std::isnan(z); });
+  }
+};
+
+TEST(PlaceViews, FindsThePosesThatWereThrownAway) {
+  Lost lost(lumpy, around_table(6, 0.3, 650.0));
+  const PlacedViews placed = lost.place();
+  EXPECT_EQ(placed.placed, 6U);
+  EXPECT_TRUE(lost.warnings.empty()) << lost.warnings.front();
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_LT(lost.off_mm(i, placed.reference), 0.1) << i;
+}
+
+TEST(PlaceViews, NamesAndEmptiesAViewThatOverlapsNoOther) {
+  auto poses = around_table(3, 0.3, 650.0);
+  poses[1] = around_table(12, 0.3, 650.0)[1];
+  poses[2] = around_table(12, 0.3, 650.0)[7];  // sees the other side
+  Lost lost(lumpy, poses);
+  const PlacedViews placed = lost.place();
+  ASSERT_EQ(placed.left_out, std::vector<std::size_t>{2});
+  ASSERT_EQ(lost.warnings.size(), 1U);
+  EXPECT_NE(lost.warnings[0].find("scan-2.ply"), std::string::npos) << lost.warnings[0];
+  EXPECT_TRUE(lost.empty(2));
+  EXPECT_LT(lost.off_mm(1, 0), 0.1);
+}
+
+TEST(PlaceViews, GuessesNothingForARoundPart) {
+  Lost lost(vase, around_table(4, 0.3, 650.0));
+  try {
+    static_cast<void>(lost.place());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
+    EXPECT_NE(std::string(error.what()).find("look alike"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PlaceViews, GivesTheSameForAnyNumberOfThreads) {
+  const auto find = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Lost lost(lumpy, {around_table(6, 0.3, 650.0)[0], around_table(6, 0.3, 650.0)[1]});
+    static_cast<void>(lost.place());
+    return lost.views.rig_from_object(1).matrix();
+  };
+  EXPECT_EQ(find(1), find(2));
+}
+
+TEST(PosesCanBe, TellsAFrameThatIsSharedFromOneThatIsNot) {
+  Lost lost(lumpy, around_table(4, 0.3, 650.0));
+  const auto maps = map_views(lost.views, lost.camera, 40000);
+  EXPECT_FALSE(poses_can_be(lost.views, maps, lost.camera, 3.0));
+  for (std::size_t i = 0; i < 4; ++i)
+    lost.views.set_rig_from_object(i, lost.truth[i]);
+  EXPECT_TRUE(poses_can_be(lost.views, maps, lost.camera, 3.0));
+}
+
+}  // namespace
+}  // namespace frangia
