@@ -67,7 +67,7 @@ std::vector<GroupPlace> find_places(const KnownGroup& to,
                                     const KnownGroup& from,
                                     const GroupViews& views,
                                     const PlaceScale& scale) {
-  constexpr std::size_t kRefined = 12;
+  constexpr std::size_t kRefined = 8;
   const auto matches = match_features(from.features, to.features);
   std::vector<GroupPlace> rough;
   for (const Motion& motion : find_motions(
