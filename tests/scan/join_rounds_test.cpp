@@ -133,7 +133,7 @@ TEST(Reconstruct, MeasuresTheBottomOfABracketThatWasLaidDown) {
   plan.placings[1] = set_down(part, rad_from_deg(90.0), 0.4);
   const Reconstruction result = reconstruct(simulate_scan(part, plan));
   ASSERT_TRUE(result.registration && result.registration->placings.size() == 1);
-  EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 1.25 * one_rms_mm);
+  EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 1.35 * one_rms_mm);
   const auto below = std::count_if(
       result.mesh.vertices_mm.begin(), result.mesh.vertices_mm.end(), [](const auto& vertex) {
         return std::abs(vertex.z()) < 0.2F && vertex.template head<2>().norm() < 20.0F;
