@@ -87,7 +87,8 @@ TEST_F(CaptureProgram, IsStoppedByASignalAndGoesOn) {
   const Answer stopped = run_shell(fmt::format(
       "{} & until ls {}/views/*/*-1.png >/dev/null 2>&1 || ! kill -0 $!; do sleep 0.05; done; "
       "kill -TERM $!; wait $!",
-      command, scan()));
+      command,
+      scan()));
   EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
   EXPECT_TRUE(holds(stopped, "stopped by the user"));
   const Answer finished = run_shell(command);

@@ -6,6 +6,8 @@
 #include <new>
 #include <vector>
 
+#include "frangia/core/spare_pixels.h"
+
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -16,7 +18,9 @@ namespace {
 constexpr std::size_t kHugePage = std::size_t{2} << 20U;
 constexpr std::size_t kCacheLine = 64;
 
-bool is_large(std::size_t bytes) { return bytes >= 2 * kHugePage; }
+bool is_large(std::size_t bytes) {
+  return bytes >= 2 * kHugePage;
+}
 
 std::size_t rounded(std::size_t bytes) {
   const std::size_t page = is_large(bytes) ? kHugePage : kCacheLine;
@@ -32,9 +36,8 @@ class Shelf {
  public:
   void* take(std::size_t whole) {
     const std::scoped_lock lock(mutex_);
-    const auto found = std::find_if(blocks_.rbegin(), blocks_.rend(), [&](const Block& block) {
-      return block.bytes == whole;
-    });
+    const auto found = std::find_if(
+        blocks_.rbegin(), blocks_.rend(), [&](const Block& block) { return block.bytes == whole; });
     if (found == blocks_.rend()) return nullptr;
     void* memory = found->memory;
     kept_ -= whole;
@@ -52,6 +55,12 @@ class Shelf {
     blocks_.push_back({memory, whole});
     kept_ += whole;
     return true;
+  }
+
+  void clear() noexcept {
+    const std::scoped_lock lock(mutex_);
+    while (!blocks_.empty())
+      drop_oldest();
   }
 
   Shelf() { blocks_.reserve(64); }
@@ -106,6 +115,10 @@ void free_pixels(void* memory, std::size_t bytes) noexcept {
   if (memory == nullptr) return;
   if (kShelves && is_large(bytes) && shelf().put(memory, rounded(bytes))) return;
   std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): the partner of aligned_alloc
+}
+
+void release_spare_pixels() noexcept {
+  shelf().clear();
 }
 
 }  // namespace frangia

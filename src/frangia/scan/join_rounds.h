@@ -29,7 +29,7 @@ struct Round {
 struct JoinRoundsOptions {
   std::map<int, Eigen::Isometry3d> placings;  ///< roughly, of rounds where they are known: what
                                               ///< takes the part from its place in round 0
-  bool refine = true;  ///< all at once, when they are joined
+  bool refine = true;                         ///< all at once, when they are joined
   RegisterOptions registration;
 };
 

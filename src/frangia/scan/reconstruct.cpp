@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/core/spare_pixels.h"
 #include "frangia/scan/join_rounds.h"
 #include "frangia/scan/measure_views.h"
 #include "frangia/views/clip_views.h"
@@ -122,6 +123,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   const Lens& camera = scan.rig.camera.lens;
   const auto rays = rays_of(camera);
   MeasuredViews all = measure_views(scan, rays, options.decode, options.edges, run);
+  release_spare_pixels();
 
   run.stage("views");
   Reconstruction out;
@@ -147,6 +149,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   clip_on_table(whole, scan.rig, options, run);
   out.registration = whole.registration;
 
+  release_spare_pixels();
   run.stage("surface");
   const ViewStore& views = whole.measured.views;
   if (options.keep_raw) out.raw = collect_points(views, camera, run);

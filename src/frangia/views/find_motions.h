@@ -19,7 +19,7 @@ struct Motion {
 
 struct MotionOptions {
   double tolerance_mm = 1.0;  ///< how far apart matched points may come to lie
-  std::size_t seeds = 80;    ///< matches that are tried
+  std::size_t seeds = 80;     ///< matches that are tried
   std::size_t most = 20;      ///< motions that are returned
 };
 

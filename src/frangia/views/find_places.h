@@ -47,8 +47,8 @@ struct KnownGroup {
                                                     const GroupViews& views,
                                                     const PlaceScale& scale);
 
-/// Places beside one, shifted and turned in the two ways that are known least: what slides on a face
-/// comes to rest in many.
+/// Places beside one, shifted and turned in the two ways that are known least: what slides on a
+/// face comes to rest in many.
 [[nodiscard]] std::vector<Eigen::Isometry3d> places_beside(const GroupPlace& place,
                                                            const PlaceScale& scale);
 

@@ -53,7 +53,7 @@ struct BundleSums {
   double squares = 0.0;         ///< sum of w r^2
   double closing_weight = 0.0;  ///< sum of w s^2 of the pairs of the closing view and the first, s
                                 ///< the slope by the last one's angle
-  double closing_pull = 0.0;        ///< sum of w s r of them
+  double closing_pull = 0.0;    ///< sum of w s r of them
   std::vector<float> distances_mm;  ///< of all pairs, without sign
   std::vector<std::size_t> met;     ///< by view: its spots that lie on a surface another view saw
   std::vector<std::size_t> faced;   ///< by view: its spots that another view looked at

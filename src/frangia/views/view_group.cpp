@@ -232,8 +232,8 @@ GroupFit compare_groups(const ViewGroup& to,
   fit.information = all.information;
   fit.pull = all.pull;
   if (all.weight > 0.0) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
-        all.information / all.weight);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(all.information /
+                                                                            all.weight);
     fit.firmness = std::max(0.0, solver.eigenvalues()[0]);
     fit.loosest = solver.eigenvectors().leftCols<2>();
   }
