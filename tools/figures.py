@@ -3,31 +3,25 @@
 The scans of ../shared are measured where they are; simulated ones are made here. Each figure is printed
 beside the command that reproduces it.
 """
-import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import numpy
+
+from figure_report import Report, ask
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 REPORT = pathlib.Path(sys.argv[2])
 SHARED = pathlib.Path(__file__).resolve().parent.parent.parent / "shared" / "scans"
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-figures-"))
 
-lines = []
-
-
-def tell(text=""):
-    print(text, flush=True)
-    lines.append(text)
+report = Report()
+tell = report.tell
 
 
 def run(*arguments):
-    """The program's JSON answer."""
-    result = subprocess.run([PROGRAM, "--json", *map(str, arguments)], check=True, capture_output=True, text=True)
-    return json.loads(result.stdout)
+    return ask(PROGRAM, *arguments)
 
 
 def read_ply(path):
@@ -376,6 +370,4 @@ block_edges()
 worn_table()
 large()
 edits()
-temporary = REPORT.with_suffix(".tmp")
-temporary.write_text("\n".join(lines).rstrip() + "\n")
-temporary.replace(REPORT)
+report.write(REPORT)

@@ -8,24 +8,20 @@ import subprocess
 import sys
 import tempfile
 
+from figure_report import Report, ask
+
 PROGRAM, TESTS = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 REPORT = pathlib.Path(sys.argv[3])
 KILLS = sys.argv[4] if len(sys.argv) > 4 else "200"
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-capture-"))
 
-lines = []
-
-
-def tell(text=""):
-    print(text, flush=True)
-    lines.append(text)
+report = Report()
+tell = report.tell
 
 
 def run(*arguments):
-    """The program's JSON answer."""
-    result = subprocess.run([PROGRAM, "--json", *map(str, arguments)], check=True, capture_output=True, text=True)
-    return json.loads(result.stdout)
+    return ask(PROGRAM, *arguments)
 
 
 def figure_of(program, test):
@@ -139,6 +135,4 @@ def overhead():
 tell("# Figures of capturing\n\nMeasured by `./run figures`, which writes this file; not edited by hand.\n")
 for study in (accuracy, gige, steps, blade, overhead, kills):
     study()
-temporary = REPORT.with_suffix(".tmp")
-temporary.write_text("\n".join(lines).rstrip() + "\n")
-temporary.replace(REPORT)
+report.write(REPORT)

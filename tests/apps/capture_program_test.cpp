@@ -1,7 +1,5 @@
 // frangia scan, devices and calibrate piezo as a user meets them: exit codes and one sentence.
-#include <array>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,31 +7,16 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
 namespace {
 
-struct Answer {
-  int exit_code = -1;
-  std::string output;  ///< standard output and error
-};
-
-Answer run_shell(const std::string& script) {
-  Answer answer;
-  std::FILE* pipe = ::popen(("{ " + script + "; } 2>&1").c_str(), "r");  // NOLINT(cert-env33-c)
-  std::array<char, 4096> buffer{};
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    answer.output.append(buffer.data(), got);
-  answer.exit_code = WEXITSTATUS(::pclose(pipe));
-  return answer;
-}
-
-Answer run_program(const std::string& arguments) {
-  return run_shell(fmt::format("{} {}", FRANGIA_PROGRAM, arguments));
-}
+using testing::Answer;
+using testing::run_program;
+using testing::run_shell;
 
 class CaptureProgram : public ::testing::Test {
  protected:

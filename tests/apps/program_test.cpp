@@ -1,37 +1,21 @@
 // The program as a user meets it: exit codes, one sentence on standard error, nothing half-written.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
 namespace {
 
+using testing::Answer;
+using testing::run_program;
 using testing::TemporaryFolder;
-
-struct Answer {
-  int exit_code = -1;
-  std::string output;  ///< standard output and error
-};
-
-Answer run_program(const std::string& arguments) {
-  const std::string command = fmt::format("{{ {} {}; }} 2>&1", FRANGIA_PROGRAM, arguments);
-  Answer answer;
-  std::FILE* pipe = ::popen(command.c_str(), "r");  // NOLINT(cert-env33-c)
-  std::array<char, 4096> buffer{};
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    answer.output.append(buffer.data(), got);
-  answer.exit_code = WEXITSTATUS(::pclose(pipe));
-  return answer;
-}
 
 std::string quoted(const std::filesystem::path& path) {
   return "'" + path.string() + "'";

@@ -1,42 +1,26 @@
 // What the program says of scans that cannot be put together: one clear sentence each.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include "frangia/files/ply.h"
 
 #include "scan/small_scan.h"
+#include "support/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
 namespace {
 
+using testing::Answer;
+using testing::run_program;
 using testing::TemporaryFolder;
-
-struct Answer {
-  int exit_code = -1;
-  std::string output;  ///< standard output and error
-};
-
-Answer run_program(const std::string& arguments) {
-  const std::string command = fmt::format("{{ {} {}; }} 2>&1", FRANGIA_PROGRAM, arguments);
-  Answer answer;
-  std::FILE* pipe = ::popen(command.c_str(), "r");  // NOLINT(cert-env33-c)
-  std::array<char, 4096> buffer{};
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    answer.output.append(buffer.data(), got);
-  answer.exit_code = WEXITSTATUS(::pclose(pipe));
-  return answer;
-}
 
 class Together : public ::testing::Test {
  protected:

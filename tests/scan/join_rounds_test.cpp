@@ -17,26 +17,10 @@
 namespace frangia {
 namespace {
 
+using testing::lumpy;
 using testing::Shape;
 using testing::small_lens;
 using testing::TemporaryFolder;
-
-/// A ball with lumps on all sides, no two alike.
-double lumpy(const Eigen::Vector3d& p) {
-  static const std::vector<std::pair<Eigen::Vector3d, double>> kBalls = {
-      {{0.0, 0.0, 0.0}, 28.0},
-      {{24.0, 6.0, 8.0}, 12.0},
-      {{4.0, 26.0, -6.0}, 9.0},
-      {{-20.0, 16.0, 12.0}, 10.0},
-      {{-22.0, -14.0, -4.0}, 13.0},
-      {{2.0, -24.0, 14.0}, 11.0},
-      {{16.0, -20.0, -10.0}, 8.0},
-      {{0.0, 4.0, 26.0}, 10.0}};
-  double nearest = 1e9;
-  for (const auto& [centre, radius] : kBalls)
-    nearest = std::min(nearest, (p - centre).norm() - radius);
-  return nearest;
-}
 
 /// A part on a table that a camera looks down on, in several rounds.
 struct Rounds {
@@ -124,16 +108,17 @@ TEST(Reconstruct, MeasuresTheBottomOfABracketThatWasLaidDown) {
   const TemporaryFolder folder;
   const TemporaryFolder folder_of_one;
   const Mesh part = make_part("bracket");
-  Scan plan = testing::small_scan(folder_of_one.path(), "bracket", "digital", 6, {});
+  const SimulateOptions mixed{.samples_per_px = 4};  // as a camera's pixels mix an edge
+  Scan plan = testing::small_scan(folder_of_one.path(), "bracket", "digital", 6, mixed);
   const RayScene truth(part);
   const double one_rms_mm = surface_error(reconstruct(plan).mesh, truth).rms_mm;
   plan.folder = folder.path();
   for (int i = 0; i < 6; ++i)
     plan.views.push_back({kTurn * i / 6, "views/1" + std::to_string(i), 1});
   plan.placings[1] = set_down(part, rad_from_deg(90.0), 0.4);
-  const Reconstruction result = reconstruct(simulate_scan(part, plan));
+  const Reconstruction result = reconstruct(simulate_scan(part, plan, mixed));
   ASSERT_TRUE(result.registration && result.registration->placings.size() == 1);
-  EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 1.35 * one_rms_mm);
+  EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 1.25 * one_rms_mm);
   const auto below = std::count_if(
       result.mesh.vertices_mm.begin(), result.mesh.vertices_mm.end(), [](const auto& vertex) {
         return std::abs(vertex.z()) < 0.2F && vertex.template head<2>().norm() < 20.0F;

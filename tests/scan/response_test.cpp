@@ -17,6 +17,21 @@
 namespace frangia {
 namespace {
 
+/// RMS of what the phases differ where both are measured, in rad.
+double rms_apart(const WrappedPhase& found, const WrappedPhase& truth) {
+  double square = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < found.fate.pixels().size(); ++i) {
+    const double error =
+        wrap_rad(static_cast<double>(found.phase_rad.pixels()[i] - truth.phase_rad.pixels()[i]));
+    if (std::isnan(error)) continue;
+    square += error * error;
+    count += 1.0;
+  }
+  EXPECT_GT(count, 1000.0);
+  return std::sqrt(square / count);
+}
+
 /// RMS phase error of three 120 degree frames, which even and odd harmonics both bend, against
 /// those of a display without gamma.
 double phase_error(const Rig& rig, double gamma, ResponseCurve* measured) {
@@ -38,18 +53,8 @@ double phase_error(const Rig& rig, double gamma, ResponseCurve* measured) {
   const PhaseAlgorithm algorithm = least_squares(patterns[0].shifts_rad);
   const WrappedPhase found = wrap_phase(bent[0], algorithm, {});
   const WrappedPhase truth = wrap_phase(true_frames[0], algorithm, {});
-  double square = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < found.fate.pixels().size(); ++i) {
-    const double error =
-        wrap_rad(static_cast<double>(found.phase_rad.pixels()[i] - truth.phase_rad.pixels()[i]));
-    if (std::isnan(error)) continue;
-    square += error * error;
-    count += 1.0;
-  }
-  EXPECT_GT(count, 1000.0);
   if (measured != nullptr) *measured = measure_response({&bent[1], 1});
-  return std::sqrt(square / count);
+  return rms_apart(found, truth);
 }
 
 TEST(MeasureResponse, OfAGammaOf2_2TakesItsPhaseErrorAwayWhenPatternsAreCorrected) {
@@ -104,17 +109,7 @@ TEST(CorrectResponse, TakesThePhaseErrorOfAGammaOf2_2AwayInTheFramesDecoded) {
   WrappedPhase found = wrap_phase(bent[0], algorithm, {});
   correct_response(response_table(gamma, algorithm, shifts), found);
   const WrappedPhase truth = wrap_phase(straight[0], algorithm, {});
-  double square = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < found.fate.pixels().size(); ++i) {
-    const double error =
-        wrap_rad(static_cast<double>(found.phase_rad.pixels()[i] - truth.phase_rad.pixels()[i]));
-    if (std::isnan(error)) continue;
-    square += error * error;
-    count += 1.0;
-  }
-  EXPECT_GT(count, 1000.0);
-  EXPECT_LT(std::sqrt(square / count), 0.005);  // above 0.1 without
+  EXPECT_LT(rms_apart(found, truth), 0.005);  // above 0.1 without
 }
 
 TEST(MeasureResponse, RefusesAScanWithoutARampAndOneInTheDark) {

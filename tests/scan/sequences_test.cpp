@@ -43,14 +43,14 @@ Measured measure(const PatternPlan& patterns, SimulateOptions options = {}) {
 TEST(Sequences, EachMeasuresTheSamePart) {
   for (const char* name : {"doubling", "negative-exponential", "heterodyne", "gray"}) {
     const Measured found = measure({.sequence = name});
-    EXPECT_GT(found.points, 10000U) << name;
+    EXPECT_GT(found.points, 30000U) << name;
     EXPECT_LT(found.error.rms_mm, 0.1) << name;
   }
 }
 
 TEST(Sequences, GrayCodeNeedsNoInvertedFrames) {
   const Measured found = measure({.sequence = "gray", .inverted = false});
-  EXPECT_GT(found.points, 10000U);
+  EXPECT_GT(found.points, 30000U);
   EXPECT_LT(found.error.rms_mm, 0.1);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -38,6 +39,23 @@ inline Shape floor_at(double z_mm) {
 
 inline Shape both(const Shape& one, const Shape& other) {
   return [=](const Eigen::Vector3d& p) { return std::min(one(p), other(p)); };
+}
+
+/// A ball with lumps on all sides, no two alike.
+inline double lumpy(const Eigen::Vector3d& p) {
+  static const std::vector<std::pair<Eigen::Vector3d, double>> kBalls = {
+      {{0.0, 0.0, 0.0}, 28.0},
+      {{24.0, 6.0, 8.0}, 12.0},
+      {{4.0, 26.0, -6.0}, 9.0},
+      {{-20.0, 16.0, 12.0}, 10.0},
+      {{-22.0, -14.0, -4.0}, 13.0},
+      {{2.0, -24.0, 14.0}, 11.0},
+      {{16.0, -20.0, -10.0}, 8.0},
+      {{0.0, 4.0, 26.0}, 10.0}};
+  double nearest = 1e9;
+  for (const auto& [centre, radius] : kBalls)
+    nearest = std::min(nearest, (p - centre).norm() - radius);
+  return nearest;
 }
 
 inline Lens small_lens(int size_px = 300, double focal_px = 1500.0) {

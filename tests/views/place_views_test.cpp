@@ -16,25 +16,9 @@ namespace frangia {
 namespace {
 
 using testing::around_table;
+using testing::lumpy;
 using testing::Shape;
 using testing::small_lens;
-
-/// A ball with lumps on all sides, no two alike.
-double lumpy(const Eigen::Vector3d& p) {
-  static const std::vector<std::pair<Eigen::Vector3d, double>> kBalls = {
-      {{0.0, 0.0, 0.0}, 28.0},
-      {{24.0, 6.0, 8.0}, 12.0},
-      {{4.0, 26.0, -6.0}, 9.0},
-      {{-20.0, 16.0, 12.0}, 10.0},
-      {{-22.0, -14.0, -4.0}, 13.0},
-      {{2.0, -24.0, 14.0}, 11.0},
-      {{16.0, -20.0, -10.0}, 8.0},
-      {{0.0, 4.0, 26.0}, 10.0}};
-  double nearest = 1e9;
-  for (const auto& [centre, radius] : kBalls)
-    nearest = std::min(nearest, (p - centre).norm() - radius);
-  return nearest;
-}
 
 double vase(const Eigen::Vector3d& p) {
   const double wide = 25.0 + 4.0 * std::sin(0.12 * p.z());

@@ -124,13 +124,7 @@ class AravisCamera final : public CameraDevice {
 
   CameraSettings configure(const CameraSettings& settings, const Deadline& deadline) override {
     deadline.check();
-    if (!(settings.exposure_ms >= info_.min_exposure_ms &&
-          settings.exposure_ms <= info_.max_exposure_ms)) {
-      fail(fmt::format("an exposure of {} ms is outside its range, {} to {}",
-                       settings.exposure_ms,
-                       info_.min_exposure_ms,
-                       info_.max_exposure_ms));
-    }
+    check_exposure(settings.exposure_ms);
     Fault fault;
     arv_camera_set_exposure_time(camera_.get(), 1000.0 * settings.exposure_ms, fault.out());
     check("set its exposure", fault);

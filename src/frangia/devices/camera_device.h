@@ -61,6 +61,10 @@ class CameraDevice : public Device {
   /// An incomplete frame is returned as such, for the caller to count and to take again.
   /// errors   Error(Device) when no frame has come by the deadline, or the camera is gone
   [[nodiscard]] virtual CapturedFrame take(const FrameLabel& label, const Deadline& deadline) = 0;
+
+ protected:
+  /// errors   Error(Device) when the exposure is out of the camera's range
+  void check_exposure(double exposure_ms) const;
 };
 
 }  // namespace frangia

@@ -34,14 +34,7 @@ void LineShifter::make_safe() noexcept {
 }
 
 void LineShifter::drive(double command, const Deadline& deadline) {
-  if (!(command >= info_.min_command && command <= info_.max_command)) {
-    device_fault(*this,
-                 fmt::format("{:.6g} {} is outside its range, {:.6g} to {:.6g}",
-                             command,
-                             info_.unit,
-                             info_.min_command,
-                             info_.max_command));
-  }
+  check_command(command);
   if (!started_) start(deadline);
   line_.send(fill_command(protocol_.set, command), deadline);
   if (!protocol_.settled_query.empty()) wait_until_settled(deadline);

@@ -16,4 +16,14 @@ void PhaseShifter::set_pitch(double fringes_per_degree, const Deadline& /*deadli
                            fringes_per_degree));
 }
 
+void PhaseShifter::check_command(double command) const {
+  if (command >= info().min_command && command <= info().max_command) return;
+  device_fault(*this,
+               fmt::format("{:.6g} {} is outside its range, {:.6g} to {:.6g}",
+                           command,
+                           info().unit,
+                           info().min_command,
+                           info().max_command));
+}
+
 }  // namespace frangia

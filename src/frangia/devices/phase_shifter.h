@@ -31,6 +31,10 @@ class PhaseShifter : public Device {
   /// Sets the pitch of the fringes, for interferometers that can; others accept only their own.
   /// errors   Error(Device) when it is another than `info().fringes_per_degree`
   virtual void set_pitch(double fringes_per_degree, const Deadline& deadline);
+
+ protected:
+  /// errors   Error(Device) when the command is outside of the range
+  void check_command(double command) const;
 };
 
 }  // namespace frangia

@@ -64,13 +64,7 @@ class V4l2Camera final : public CameraDevice {
 
   CameraSettings configure(const CameraSettings& settings, const Deadline& deadline) override {
     deadline.check();
-    if (!(settings.exposure_ms >= info_.min_exposure_ms &&
-          settings.exposure_ms <= info_.max_exposure_ms)) {
-      fail(fmt::format("an exposure of {} ms is outside its range, {} to {}",
-                       settings.exposure_ms,
-                       info_.min_exposure_ms,
-                       info_.max_exposure_ms));
-    }
+    check_exposure(settings.exposure_ms);
     if (settings.black_level_counts != 0.0) fail("its black level cannot be set; leave it at 0");
     if (settings.gain_db != 0.0) fail("its gain has no known unit; leave it at 0 dB");
     const int units = static_cast<int>(std::lround(settings.exposure_ms / kExposureUnit_ms));

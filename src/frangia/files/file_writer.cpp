@@ -28,6 +28,15 @@ void FileWriter::number(std::size_t value) {
   text(digits_of(value, space));
 }
 
+void FileWriter::line(std::string_view keyword, const Eigen::Vector3f& vector) {
+  text(keyword);
+  for (const float coordinate : vector) {
+    text(" ");
+    number(coordinate);
+  }
+  text("\n");
+}
+
 void FileWriter::flush() {
   file_.stream().write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   buffer_.clear();

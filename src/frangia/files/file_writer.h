@@ -6,6 +6,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include <Eigen/Core>
+
 #include "frangia/core/atomic_file.h"
 
 namespace frangia {
@@ -25,6 +27,8 @@ class FileWriter {
   /// The shortest digits that read back as the same number.
   void number(float value);
   void number(std::size_t value);
+  /// A line: a keyword and three numbers.
+  void line(std::string_view keyword, const Eigen::Vector3f& vector);
 
   /// The bytes of a number, lowest first.
   template <typename Number>

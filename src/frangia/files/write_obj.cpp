@@ -9,15 +9,6 @@
 namespace frangia {
 namespace {
 
-void write_vector(FileWriter& file, std::string_view keyword, const Eigen::Vector3f& vector) {
-  file.text(keyword);
-  for (const float coordinate : vector) {
-    file.text(" ");
-    file.number(coordinate);
-  }
-  file.text("\n");
-}
-
 void write_face(FileWriter& file, const Mesh& mesh, std::size_t triangle) {
   file.text("f");
   for (const std::size_t corner : mesh.triangles[triangle]) {
@@ -37,9 +28,9 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
   FileWriter file(path);
   file.text("# Frangia; lengths in mm\n");
   for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
-    write_vector(file, "v", vertex);
+    file.line("v", vertex);
   for (const Eigen::Vector3f& normal : mesh.normals)
-    write_vector(file, "vn", normal);
+    file.line("vn", normal);
   constexpr std::array<std::string_view, 3> kGroups{"measured", "moved", "invented"};
   const bool marked = !mesh.vertex_marks.empty() || !mesh.triangle_marks.empty();
   Mark group = Mark::Measured;

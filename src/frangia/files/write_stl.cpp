@@ -35,22 +35,13 @@ void write_binary(FileWriter& file, const Mesh& mesh) {
   }
 }
 
-void write_vector(FileWriter& file, std::string_view keyword, const Eigen::Vector3f& vector) {
-  file.text(keyword);
-  for (const float coordinate : vector) {
-    file.text(" ");
-    file.number(coordinate);
-  }
-  file.text("\n");
-}
-
 void write_ascii(FileWriter& file, const Mesh& mesh) {
   file.text("solid frangia\n");
   for (const Mesh::Triangle& triangle : mesh.triangles) {
-    write_vector(file, " facet normal", normal_of(mesh, triangle));
+    file.line(" facet normal", normal_of(mesh, triangle));
     file.text("  outer loop\n");
     for (const std::uint32_t corner : triangle)
-      write_vector(file, "   vertex", mesh.vertices_mm[corner]);
+      file.line("   vertex", mesh.vertices_mm[corner]);
     file.text("  endloop\n endfacet\n");
   }
   file.text("endsolid frangia\n");

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
 
 namespace frangia {
@@ -48,15 +49,6 @@ void remove_remnants(const std::filesystem::path& folder) {
 }
 
 }  // namespace
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  }
-}
 
 bool claim_folder(const Scan& plan, const std::string& asked) {
   const std::filesystem::path kept = plan.folder / "capture";

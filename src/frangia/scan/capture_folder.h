@@ -6,11 +6,6 @@
 
 namespace frangia {
 
-/// Makes a folder, and those above it.
-///
-/// errors   Error(File) that names it
-void make_folder(const std::filesystem::path& folder);
-
 /// Lays a plan down in its folder, in `capture/`, or makes sure that it is the one that lies there
 /// already; takes away what a killed session left half written. Returns whether it lay there.
 ///

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/make_folder.h"
 #include "frangia/frames/png.h"
 #include "frangia/scan/capture_devices.h"
 #include "frangia/scan/capture_folder.h"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/atomic_file.h"
+#include "frangia/core/make_folder.h"
 #include "frangia/core/parallel.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
@@ -17,15 +18,6 @@
 
 namespace frangia {
 namespace {
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  }
-}
 
 /// Says in the folder that a simulation is under way, or was interrupted: only then are images that
 /// lie there already ours to replace.

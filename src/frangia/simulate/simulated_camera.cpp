@@ -93,14 +93,7 @@ class SimulatedCamera final : public CameraDevice {
   }
 
   CameraSettings configure(const CameraSettings& settings, const Deadline& /*deadline*/) override {
-    if (!(settings.exposure_ms >= info_.min_exposure_ms &&
-          settings.exposure_ms <= info_.max_exposure_ms)) {
-      device_fault(*this,
-                   fmt::format("an exposure of {} ms is outside its range, {} to {}",
-                               settings.exposure_ms,
-                               info_.min_exposure_ms,
-                               info_.max_exposure_ms));
-    }
+    check_exposure(settings.exposure_ms);
     bench_->camera = settings;
     bench_->camera.gain_db = std::clamp(settings.gain_db, 0.0, info_.max_gain_db);
     return bench_->camera;

@@ -42,14 +42,7 @@ class SimulatedPiezo final : public PhaseShifter {
 
   void drive(double command, const Deadline& deadline) override {
     deadline.check();
-    if (!(command >= info_.min_command && command <= info_.max_command)) {
-      device_fault(*this,
-                   fmt::format("{:.6g} {} is outside its range, {:.6g} to {:.6g}",
-                               command,
-                               info_.unit,
-                               info_.min_command,
-                               info_.max_command));
-    }
+    check_command(command);
     go(command, command == info_.min_command ? 0.0 : not_settled_);  // at rest it takes its time
   }
 

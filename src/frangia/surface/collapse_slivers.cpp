@@ -39,18 +39,6 @@ std::vector<Pair> short_edges(const Mesh& mesh, float shortest_mm) {
   return edges;
 }
 
-/// The vertices joined to `v`, each as often as a triangle says so: twice, or once at the rim.
-std::vector<Vertex> neighbours(const Mesh& mesh, const Stars& stars, Vertex v) {
-  std::vector<Vertex> found;
-  for (const std::uint32_t t : stars.of(v)) {
-    for (const Vertex other : mesh.triangles[t]) {
-      if (other != v) found.push_back(other);
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 /// Joining a and b keeps the mesh manifold: they share no more neighbours than triangles, and no
 /// rim runs through both ends of an edge within.
 bool keeps_manifold(std::vector<Vertex> of_a, std::vector<Vertex> of_b, Vertex b) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -39,5 +40,19 @@ class Stars {
   std::vector<std::uint32_t> place_;
   std::vector<std::vector<std::uint32_t>> triangles_;
 };
+
+/// The vertices joined to `v`, each as often as a triangle says so: twice, or once at the rim.
+[[nodiscard]] inline std::vector<std::uint32_t> neighbours(const Mesh& mesh,
+                                                           const Stars& stars,
+                                                           std::uint32_t v) {
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t t : stars.of(v)) {
+    for (const std::uint32_t other : mesh.triangles[t]) {
+      if (other != v) found.push_back(other);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 }  // namespace frangia

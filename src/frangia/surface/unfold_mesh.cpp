@@ -41,19 +41,6 @@ std::vector<std::uint32_t> find_folds(const Mesh& mesh, float least) {
   return folds;
 }
 
-/// The corners of the triangles around a vertex but itself, each as often as it is one: twice, or
-/// once at the rim.
-std::vector<Vertex> neighbours(const Mesh& mesh, const Stars& stars, Vertex v) {
-  std::vector<Vertex> found;
-  for (const std::uint32_t t : stars.of(v)) {
-    for (const Vertex other : mesh.triangles[t]) {
-      if (other != v) found.push_back(other);
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 /// How much of the triangles around a vertex is folded: 0 when nothing is.
 float folded_around(const Mesh& mesh, const Stars& stars, Vertex v) {
   constexpr float kUpright = 0.4F;
