@@ -8,7 +8,7 @@ namespace frangia {
 namespace {
 
 constexpr double kSharpCosine = 0.8;  // of 37 degrees between two triangles
-constexpr float kAtEdges = 0.15F;      // of the bound: edges are shape rather than noise
+constexpr float kAtEdges = 0.15F;     // of the bound: edges are shape rather than noise
 
 /// The vertices of which two neighbouring triangles turn from each other like an edge of the part.
 std::vector<std::uint8_t> on_sharp_edges(const Mesh& mesh, const HalfEdges& edges) {
