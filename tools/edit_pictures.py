@@ -51,6 +51,8 @@ edit(bust, face, "--keep-largest", 1, "--select-box", "-40,-40,62,40,40,100", "-
 mask = WORK / "mask.ply"
 edit(face, mask, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
 
+if not ONLY or "preview" in ONLY:
+    run("edit", bust, "--remove-islands", "60mm", "--fill-holes", "200mm", "--preview", OUT / "preview.png")
 picture("remove-islands", bust, ["--remove-islands", "60mm"])
 largest = WORK / "largest.ply"
 edit(bust, largest, "--keep-largest", 1)
