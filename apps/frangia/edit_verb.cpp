@@ -131,7 +131,7 @@ Change draw_preview(const Mesh& before,
   ShadeOptions options;
   options.width_px = 640;
   options.height_px = 640;
-  options.samples_across = 3;
+  options.samples_across = 2;
   write_png(path, edit_picture(before, after, preview, options, run));
   return {count_of(preview.going), count_of(preview.coming)};
 }
