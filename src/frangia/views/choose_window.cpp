@@ -62,20 +62,21 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
 }
 
 /// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
-/// or more of it than the phase knows of, but without structure. An edge leaves structure over.
+/// or, of a loud one, more of it than the phase knows of, but without structure. An edge leaves
+/// structure over.
 ChosenWindow round_window(const Image<float>& image,
                           const Eigen::Vector2i& at,
                           const PixelNoise& noise,
+                          const PatchFit& patch,
                           bool loud) {
   constexpr float kRound = 1.3F;  // in variance
   constexpr float kLoud = 9.0F;
   constexpr float kStructure = 0.0F;
-  const PatchFit patch = fit_patch(image, at);
   const float expected = noise.variance(patch.window);
   const float rest = patch.window.rest;
+  if (!(rest < (loud ? kLoud : kRound) * expected)) return kNoWindow;  // and for NaN
   const bool quiet = rest < kRound * expected;
-  const bool noisy = patch.structure < kStructure && rest < (loud ? kLoud : kRound) * expected;
-  if (!noisy && !(loud && quiet)) return kNoWindow;  // and for NaN
+  if (!(loud && quiet) && !(structure_of(image, at, patch.window) < kStructure)) return kNoWindow;
   return {patch.window,
           WindowKind::Centred,
           patch.variance,
@@ -101,10 +102,17 @@ ChosenWindow choose_window(const Image<float>& image,
     const float off = fit.mean - image(at.x(), at.y());
     return off * off < kFarthest * kFarthest * noise.variance(fit);
   };
-  const WindowFit& centred = fits.at(at.x(), at.y());
+  const WindowFit centred = fits.at(at.x(), at.y());
+  const auto patch = [&]() -> PatchFit {
+    if (fits.radius != kPatchRadius || std::isnan(centred.mean)) return fit_patch(image, at);
+    PatchFit whole{centred, middle_variance(kPatchRadius)};
+    whole.window.mean = centred.middle;
+    whole.window.variance = centred.rest;
+    return whole;
+  };
   if (good(centred)) return chosen(centred, WindowKind::Centred, middle_variance(fits.radius));
   if (!std::isnan(centred.mean)) {
-    const ChosenWindow round = round_window(image, at, noise, false);
+    const ChosenWindow round = round_window(image, at, noise, patch(), false);
     if (round.kind == WindowKind::Centred) return round;
   }
   const WindowFit close = small_fit(image, at.x(), at.y());
@@ -112,7 +120,7 @@ ChosenWindow choose_window(const Image<float>& image,
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
   // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
   if (std::isnan(centred.mean) || !good(large)) {
-    const ChosenWindow round = round_window(image, at, noise, true);
+    const ChosenWindow round = round_window(image, at, noise, patch(), true);
     if (round.kind == WindowKind::Centred) return round;
   }
   if (good(large) && near(large)) return chosen(large, WindowKind::Beside, kAtCorner);

@@ -34,6 +34,36 @@ void fit_size(Image<T>& image, int width, int height) {
   if (image.width() != width || image.height() != height) image = Image<T>(width, height);
 }
 
+/// A row of inverse depths and their noise.
+struct GridRow {
+  const float* q;
+  const float* noise;
+};
+struct LinkRow {
+  Link which;
+  std::uint8_t* links;
+  int count;
+};
+
+/// Links pixels to those beside them. Missing ones are linked to none.
+[[gnu::target_clones("avx2", "default")]] void link_row(const GridRow& from,
+                                                        const GridRow& to,
+                                                        float steepest,
+                                                        const LinkRow& row) {
+  const auto [q, noise] = from;
+  const auto [other_q, other_noise] = to;
+  const auto [which, links, count] = row;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float here = q[x];
+    const float there = other_q[x];
+    const float slope = std::max(here, there) * steepest;
+    const float far = kNoiseSigmas * std::max(noise[x], other_noise[x]);
+    const bool linked = std::abs(here - there) < slope + far;  // false for NaN
+    links[x] = static_cast<std::uint8_t>(links[x] | (linked ? which : 0));
+  }
+}
+
 Grid link_pixels(const RangeGrid& range, const Lens& camera) {
   const int width = range.depth_mm.width();
   const int height = range.depth_mm.height();
@@ -49,19 +79,17 @@ Grid link_pixels(const RangeGrid& range, const Lens& camera) {
     }
   });
   const auto steepest = static_cast<float>(kSteepest / camera.focal_px.mean());
-  const auto linked = [&](int x, int y, int to_x, int to_y) {
-    const float here = grid.q(x, y);
-    const float there = grid.q(to_x, to_y);
-    const float slope = std::max(here, there) * steepest;
-    const float noise = kNoiseSigmas * std::max(grid.noise(x, y), grid.noise(to_x, to_y));
-    return std::abs(here - there) < slope + noise;  // false for NaN
-  };
   parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const bool right = x + 1 < width && linked(x, y, x + 1, y);
-      const bool down = y + 1 < height && linked(x, y, x, y + 1);
-      grid.links(x, y) = static_cast<std::uint8_t>((right ? kRight : 0) | (down ? kDown : 0));
-    }
+    std::uint8_t* links = &grid.links(0, y);
+    link_row({&grid.q(0, y), &grid.noise(0, y)},
+             {&grid.q(0, y) + 1, &grid.noise(0, y) + 1},
+             steepest,
+             {kRight, links, width - 1});
+    if (y + 1 == height) return;
+    link_row({&grid.q(0, y), &grid.noise(0, y)},
+             {&grid.q(0, y + 1), &grid.noise(0, y + 1)},
+             steepest,
+             {kDown, links, width});
   });
   return grid;
 }
@@ -117,12 +145,13 @@ Corners corners_of(int x, int y) {
 }
 
 /// Whether the corners of a quad lie on one face.
-bool is_smooth(const Image<LocalPlanes::Plane>& planes, int x, int y, float crease_cosine) {
-  const Eigen::Vector3f& a = planes(x, y).normal;
-  const Eigen::Vector3f& b = planes(x + 1, y).normal;
-  const Eigen::Vector3f& c = planes(x, y + 1).normal;
-  const Eigen::Vector3f& d = planes(x + 1, y + 1).normal;
-  return std::min({a.dot(b), a.dot(c), a.dot(d), b.dot(c), b.dot(d), c.dot(d)}) > crease_cosine;
+bool is_smooth(const std::array<const LocalPlanes::Plane*, 4>& corners, float crease_cosine) {
+  float least = 1.0F;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      least = std::min(least, corners[i]->normal.dot(corners[j]->normal));
+  }
+  return least > crease_cosine;
 }
 
 /// Whether the faces of a quad bulge or gape: whether its corners lie behind one another's planes.
@@ -151,18 +180,18 @@ LocalPlanes::Quad quad_of(const Grid& grid,
       !has(grid, x + 1, y, kDown)) {
     return {};
   }
-  const auto corners = corners_of(x, y);
-  const bool whole = std::all_of(corners.begin(), corners.end(), [&](const auto& corner) {
-    return view.has_plane(corner.x(), corner.y());
-  });
-  if (!whole) return {};
+  const std::array<const LocalPlanes::Plane*, 4> corners{&view.planes(x, y),
+                                                         &view.planes(x + 1, y),
+                                                         &view.planes(x, y + 1),
+                                                         &view.planes(x + 1, y + 1)};
   LocalPlanes::Quad quad;
-  for (const auto& corner : corners) {
-    quad.distance_mm += 0.25F * view.planes(corner.x(), corner.y()).distance_mm;
-    quad.weight += 0.25F * view.planes(corner.x(), corner.y()).weight;
+  for (const LocalPlanes::Plane* corner : corners) {
+    if (!(corner->distance_mm > 0.0F)) return {};
+    quad.distance_mm += 0.25F * corner->distance_mm;
+    quad.weight += 0.25F * corner->weight;
   }
-  quad.kind = is_smooth(view.planes, x, y, crease_cosine) ? LocalPlanes::Kind::Smooth
-                                                          : crease_of(view, rays, x, y);
+  quad.kind =
+      is_smooth(corners, crease_cosine) ? LocalPlanes::Kind::Smooth : crease_of(view, rays, x, y);
   return quad;
 }
 
