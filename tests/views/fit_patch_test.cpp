@@ -35,9 +35,7 @@ TEST(FitPatch, IsExactOnAParaboloidWithPixelsMissing) {
 TEST(FitPatch, FindsOfAWholePatchWhatAWindowDoes) {
   Image<float> image = paraboloid();
   image(2, 4) += 0.2F;
-  Image<WindowFit> windows(7, 1);
-  fit_windows(image, kPatchRadius, 3, windows);
-  const WindowFit& window = windows(3, 0);
+  const WindowFit window = fit_windows(image, kPatchRadius, 3, 1).at(3, 0);
   const PatchFit patch = fit_patch(image, {3, 3});
   EXPECT_NEAR(patch.variance, middle_variance(kPatchRadius), 1e-5F);
   EXPECT_NEAR(window.middle, patch.window.middle, 1e-5F);

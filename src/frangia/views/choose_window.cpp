@@ -8,7 +8,7 @@
 namespace frangia {
 namespace {
 
-const ChosenWindow kNoWindow{kNoFit, WindowKind::None, 1.0F, 0.0F};
+const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
 
 /// The window of 3 x 3 pixels about (x, y), by hand; NaN as in `fit_windows`.
 WindowFit small_fit(const Image<float>& q, int x, int y) {
@@ -79,8 +79,8 @@ ChosenWindow round_window(const Image<float>& image,
   if (!(loud && quiet) && !(structure_of(image, at, patch.window) < kStructure)) return kNoWindow;
   return {patch.window,
           WindowKind::Centred,
-          patch.variance,
-          std::sqrt(std::max(expected, quiet ? 0.0F : rest))};
+          patch.window.middle,
+          patch.variance * std::max(expected, quiet ? 0.0F : rest)};
 }
 
 }  // namespace
@@ -89,11 +89,11 @@ ChosenWindow choose_window(const Image<float>& image,
                            const WindowRows& fits,
                            const Eigen::Vector2i& at,
                            const PixelNoise& noise) {
-  constexpr float kFits = 2.0F;      // in variance
   constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
   constexpr float kAtCorner = 0.2F;  // of a pixel's variance, what a plane has at a corner
-  const auto chosen = [&](const WindowFit& fit, WindowKind kind, float variance) {
-    return ChosenWindow{fit, kind, variance, std::sqrt(noise.variance(fit))};
+  const auto centred_on = [&](const WindowFit& fit, int radius) {
+    const float variance = middle_variance(radius) * noise.variance(fit);
+    return ChosenWindow{fit, WindowKind::Centred, fit.middle, variance};
   };
   const auto good = [&](const WindowFit& fit) {
     return fit.variance < kFits * noise.variance(fit);  // false for NaN
@@ -110,22 +110,23 @@ ChosenWindow choose_window(const Image<float>& image,
     whole.window.variance = centred.rest;
     return whole;
   };
-  if (good(centred)) return chosen(centred, WindowKind::Centred, middle_variance(fits.radius));
+  if (good(centred)) return centred_on(centred, fits.radius);
   if (!std::isnan(centred.mean)) {
     const ChosenWindow round = round_window(image, at, noise, patch(), false);
     if (round.kind == WindowKind::Centred) return round;
   }
   const WindowFit close = small_fit(image, at.x(), at.y());
-  if (good(close)) return chosen(close, WindowKind::Centred, middle_variance(1));
+  if (good(close)) return centred_on(close, 1);
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
   // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
   if (std::isnan(centred.mean) || !good(large)) {
     const ChosenWindow round = round_window(image, at, noise, patch(), true);
     if (round.kind == WindowKind::Centred) return round;
   }
-  if (good(large) && near(large)) return chosen(large, WindowKind::Beside, kAtCorner);
+  if (good(large) && near(large))
+    return {large, WindowKind::Beside, large.mean, kAtCorner * noise.variance(large)};
   const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
-  if (near(small)) return chosen(small, WindowKind::Small, 1.0F);
+  if (near(small)) return {small, WindowKind::Small, image(at.x(), at.y()), noise.variance(small)};
   return kNoWindow;
 }
 

@@ -181,59 +181,60 @@ Span seen_columns(const Image<float>& image, int first_row, int rows) {
 
 }  // namespace
 
-void fit_windows(const Image<float>& image, int radius, int first, Image<WindowFit>& fits) {
+WindowFits::WindowFits(int width, int rows) : values_(width, rows * kFigures, kMissing) {}
+
+WindowFit WindowFits::at(int x, int row) const {
+  const auto figure = [&](Figure which) { return values_(x, row * kFigures + which); };
+  return {figure(kMean),
+          figure(kSlopeX),
+          figure(kSlopeY),
+          figure(kVariance),
+          figure(kMiddle),
+          figure(kRest),
+          figure(kBendX),
+          figure(kBendY),
+          figure(kTwist)};
+}
+
+WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows) {
   require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
+  WindowFits fits(image.width(), rows);
   const int side = 2 * radius + 1;
-  const Span seen = seen_columns(image, first - radius, fits.height() + 2 * radius);
-  const int inner = std::max(0, seen.end - seen.begin - 2 * radius);  // windows in a row
+  const Span seen = seen_columns(image, first - radius, rows + 2 * radius);
+  const int inner = seen.end - seen.begin - 2 * radius;  // windows in a row
+  if (inner <= 0) return fits;
   const auto width = static_cast<std::size_t>(inner);
-  std::vector<float> kept(width * static_cast<std::size_t>(4 * side + 9));
-  const auto row_of = [&](int i) { return kept.data() + static_cast<std::size_t>(i) * width; };
+  std::vector<float> kept(width * static_cast<std::size_t>(4 * side));
   const auto lines_of = [&](int y) {
-    const int slot = 4 * ((y + side) % side);
-    return Lines{row_of(slot), row_of(slot + 1), row_of(slot + 2), row_of(slot + 3)};
+    float* slot = kept.data() + static_cast<std::size_t>(4 * (y % side)) * width;
+    return Lines{slot, slot + width, slot + 2 * width, slot + 3 * width};
   };
-  const int last = 4 * side;
-  const Windows found{row_of(last),
-                      row_of(last + 1),
-                      row_of(last + 2),
-                      row_of(last + 3),
-                      row_of(last + 4),
-                      row_of(last + 5),
-                      row_of(last + 6),
-                      row_of(last + 7),
-                      row_of(last + 8)};
   int next = std::max(0, first - radius);  // the first row whose lines are not known
-  for (int row = 0; row < fits.height(); ++row) {
+  for (int row = 0; row < rows; ++row) {
     const int top = first + row - radius;
-    const bool within = top >= 0 && top + side <= image.height() && inner > 0;
-    if (within) {
-      for (; next < top + side; ++next)
-        fit_lines(&image(seen.begin, next), inner, radius, lines_of(next));
-      std::array<Lines, 7> rows;
-      for (int j = 0; j < side; ++j)
-        rows[static_cast<std::size_t>(j)] = lines_of(top + j);
-      join_lines(rows, inner, radius, found);
-    }
-    const int begin = within ? seen.begin + radius : fits.width();
-    const int end = within ? begin + inner : fits.width();
-    for (int x = 0; x < begin; ++x)
-      fits(x, row) = kNoFit;
-    for (int x = begin; x < end; ++x) {
-      const int i = x - begin;
-      fits(x, row) = {found.mean[i],
-                      found.slope_x[i],
-                      found.slope_y[i],
-                      found.variance[i],
-                      found.middle[i],
-                      found.rest[i],
-                      found.bend_x[i],
-                      found.bend_y[i],
-                      found.twist[i]};
-    }
-    for (int x = end; x < fits.width(); ++x)
-      fits(x, row) = kNoFit;
+    if (top < 0 || top + side > image.height()) continue;
+    for (; next < top + side; ++next)
+      fit_lines(&image(seen.begin, next), inner, radius, lines_of(next));
+    std::array<Lines, 7> lines;
+    for (int j = 0; j < side; ++j)
+      lines[static_cast<std::size_t>(j)] = lines_of(top + j);
+    const auto of = [&](WindowFits::Figure figure) {
+      return fits.row(figure, row) + seen.begin + radius;
+    };
+    join_lines(lines,
+               inner,
+               radius,
+               {of(WindowFits::kMean),
+                of(WindowFits::kSlopeX),
+                of(WindowFits::kSlopeY),
+                of(WindowFits::kVariance),
+                of(WindowFits::kMiddle),
+                of(WindowFits::kRest),
+                of(WindowFits::kBendX),
+                of(WindowFits::kBendY),
+                of(WindowFits::kTwist)});
   }
+  return fits;
 }
 
 }  // namespace frangia

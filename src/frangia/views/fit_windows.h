@@ -27,13 +27,41 @@ inline constexpr WindowFit kNoFit{
   return radius == 1 ? 5.0F / 9.0F : radius == 2 ? 27.0F / 175.0F : 11.0F / 147.0F;
 }
 
-/// Least-squares planes over the (2 radius + 1)^2 window about each pixel of the rows from `first`
-/// on.
+/// The fits about some pixels, each figure in rows of its own: loops over them become vector code.
+class WindowFits {
+ public:
+  enum Figure : int {
+    kMean,
+    kSlopeX,
+    kSlopeY,
+    kVariance,
+    kMiddle,
+    kRest,
+    kBendX,
+    kBendY,
+    kTwist,
+    kFigures
+  };
+
+  WindowFits(int width, int rows);
+
+  [[nodiscard]] int width() const { return values_.width(); }
+  [[nodiscard]] float* row(Figure figure, int row) { return &values_(0, row * kFigures + figure); }
+  [[nodiscard]] const float* row(Figure figure, int row) const {
+    return &values_(0, row * kFigures + figure);
+  }
+  [[nodiscard]] WindowFit at(int x, int row) const;
+
+ private:
+  Image<float> values_;
+};
+
+/// Least-squares planes over the (2 radius + 1)^2 window about each pixel of `rows` rows from
+/// `first` on.
 ///
-/// shape    `fits` has the image's width and as many rows as are wanted
 /// missing  NaN in the image; a window that holds one, or leaves the image, has NaN everywhere
 /// errors   Error(Input) unless the radius is 1, 2 or 3
 /// source   `middle`: Savitzky & Golay 1964, in two dimensions
-void fit_windows(const Image<float>& image, int radius, int first, Image<WindowFit>& fits);
+[[nodiscard]] WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows);
 
 }  // namespace frangia
