@@ -54,7 +54,7 @@ Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
 
 /// Of the two strands of surface through a pinched face, the one around the inside corner that is
 /// lower along the face's first axis gets a vertex of its own.
-bool is_pinched(const Crossings& crossings,
+bool is_pinched(const Crossings::Around& around,
                 const Quad& quad,
                 std::size_t side,
                 bool outside_is_up) {
@@ -62,7 +62,7 @@ bool is_pinched(const Crossings& crossings,
   const Eigen::Vector3i one = cell_of(quad, side);
   const Eigen::Vector3i other = cell_of(quad, side + 1);
   const auto pinched = [&](const Eigen::Vector3i& cell, const Eigen::Vector3i& neighbour) {
-    const auto address = crossings.at(cell);
+    const auto address = around.at(cell);
     const int face = 2 * across + (neighbour[across] > cell[across] ? 1 : 0);
     return (cell_loops()[address.block->inside[address.voxel]].pinched_faces >> face & 1) != 0;
   };
@@ -78,6 +78,7 @@ void add_quads(std::vector<Quad>& quads,
                std::span<const Evidence> evidence,
                std::size_t block) {
   const Crossings::Block& cells = *crossings.blocks[block];
+  const Crossings::Around around = crossings.around(block);
   for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (cells.axes[at] == 0) continue;
@@ -89,7 +90,7 @@ void add_quads(std::vector<Quad>& quads,
       if ((cells.axes[at] >> quad.axis & 1) == 0) continue;
       bool whole = evidence[quad.crossing].holds();
       for (std::size_t corner = 0; whole && corner < 4; ++corner) {
-        const auto cell = crossings.at(cell_of(quad, corner));
+        const auto cell = around.at(cell_of(quad, corner));
         whole = cell.block != nullptr && cell.block->inside[cell.voxel] != 0;
         if (!whole) break;
         const int edge = 4 * quad.axis - kRing[corner][0] - 2 * kRing[corner][1];
@@ -100,7 +101,7 @@ void add_quads(std::vector<Quad>& quads,
       if (whole) {
         quad.pinched = 0;
         for (std::size_t side = 0; side < 4; ++side) {
-          if (is_pinched(crossings, quad, side, crossings.outward[quad.crossing] > 0)) {
+          if (is_pinched(around, quad, side, crossings.outward[quad.crossing] > 0)) {
             quad.pinched |= 1U << side;
           }
         }
@@ -119,11 +120,16 @@ std::vector<Quad> find_quads(const Crossings& crossings, std::span<const Evidenc
       add_quads(parts[begin / kChunk], crossings, evidence, block);
     }
   });
-  std::vector<Quad> quads;
-  for (auto& part : parts) {
-    quads.insert(quads.end(), part.begin(), part.end());
-    part = {};
-  }
+  std::vector<std::size_t> starts{0};
+  for (const auto& part : parts)
+    starts.push_back(starts.back() + part.size());
+  std::vector<Quad> quads(starts.back());
+  parallel_chunks(parts.size(), 1, [&](std::size_t begin, std::size_t) {
+    std::copy(parts[begin].begin(),
+              parts[begin].end(),
+              quads.begin() + static_cast<std::ptrdiff_t>(starts[begin]));
+    parts[begin] = {};
+  });
   return quads;
 }
 
@@ -262,7 +268,9 @@ Mesh mesh_quads(PlacedVertices vertices,
                 std::span<const Evidence> evidence) {
   Mesh& mesh = vertices.mesh;
   const std::vector<Quad> quads = find_quads(crossings, evidence);
+
   std::vector<Cut> cuts = cut_quads(mesh, crossings, evidence, quads);
+
   constexpr int kRounds = 3;  // pulling one quad's vertices back may fold the next
   for (int round = 0; round < kRounds; ++round) {
     bool folded = false;
@@ -282,11 +290,16 @@ Mesh mesh_quads(PlacedVertices vertices,
       mesh.triangles.push_back(triangle);
   }
   add_pinched(mesh, crossings, quads);
+
   const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
   smooth_out(mesh, vertices.sharp, voxel_mm);
+
   const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
+
   smooth_out(mesh, sharp, voxel_mm);
+
   unfold_mesh(mesh, sharp);
+
   return std::move(vertices.mesh);
 }
 

@@ -8,7 +8,7 @@
 namespace frangia {
 namespace {
 
-const ChosenWindow kNoWindow{kNoFit, WindowKind::None, 1.0F, 0.0F};
+const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
 
 /// The window of 3 x 3 pixels about (x, y), by hand; NaN as in `fit_windows`.
 WindowFit small_fit(const Image<float>& q, int x, int y) {
@@ -62,24 +62,25 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
 }
 
 /// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
-/// or more of it than the phase knows of, but without structure. An edge leaves structure over.
+/// or, of a loud one, more of it than the phase knows of, but without structure. An edge leaves
+/// structure over.
 ChosenWindow round_window(const Image<float>& image,
                           const Eigen::Vector2i& at,
                           const PixelNoise& noise,
+                          const PatchFit& patch,
                           bool loud) {
   constexpr float kRound = 1.3F;  // in variance
   constexpr float kLoud = 9.0F;
   constexpr float kStructure = 0.0F;
-  const PatchFit patch = fit_patch(image, at);
   const float expected = noise.variance(patch.window);
   const float rest = patch.window.rest;
+  if (!(rest < (loud ? kLoud : kRound) * expected)) return kNoWindow;  // and for NaN
   const bool quiet = rest < kRound * expected;
-  const bool noisy = patch.structure < kStructure && rest < (loud ? kLoud : kRound) * expected;
-  if (!noisy && !(loud && quiet)) return kNoWindow;  // and for NaN
+  if (!(loud && quiet) && !(structure_of(image, at, patch.window) < kStructure)) return kNoWindow;
   return {patch.window,
           WindowKind::Centred,
-          patch.variance,
-          std::sqrt(std::max(expected, quiet ? 0.0F : rest))};
+          patch.window.middle,
+          patch.variance * std::max(expected, quiet ? 0.0F : rest)};
 }
 
 }  // namespace
@@ -88,11 +89,11 @@ ChosenWindow choose_window(const Image<float>& image,
                            const WindowRows& fits,
                            const Eigen::Vector2i& at,
                            const PixelNoise& noise) {
-  constexpr float kFits = 2.0F;      // in variance
   constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
   constexpr float kAtCorner = 0.2F;  // of a pixel's variance, what a plane has at a corner
-  const auto chosen = [&](const WindowFit& fit, WindowKind kind, float variance) {
-    return ChosenWindow{fit, kind, variance, std::sqrt(noise.variance(fit))};
+  const auto centred_on = [&](const WindowFit& fit, int radius) {
+    const float variance = middle_variance(radius) * noise.variance(fit);
+    return ChosenWindow{fit, WindowKind::Centred, fit.middle, variance};
   };
   const auto good = [&](const WindowFit& fit) {
     return fit.variance < kFits * noise.variance(fit);  // false for NaN
@@ -101,23 +102,31 @@ ChosenWindow choose_window(const Image<float>& image,
     const float off = fit.mean - image(at.x(), at.y());
     return off * off < kFarthest * kFarthest * noise.variance(fit);
   };
-  const WindowFit& centred = fits.at(at.x(), at.y());
-  if (good(centred)) return chosen(centred, WindowKind::Centred, middle_variance(fits.radius));
+  const WindowFit centred = fits.at(at.x(), at.y());
+  const auto patch = [&]() -> PatchFit {
+    if (fits.radius != kPatchRadius || std::isnan(centred.mean)) return fit_patch(image, at);
+    PatchFit whole{centred, middle_variance(kPatchRadius)};
+    whole.window.mean = centred.middle;
+    whole.window.variance = centred.rest;
+    return whole;
+  };
+  if (good(centred)) return centred_on(centred, fits.radius);
   if (!std::isnan(centred.mean)) {
-    const ChosenWindow round = round_window(image, at, noise, false);
+    const ChosenWindow round = round_window(image, at, noise, patch(), false);
     if (round.kind == WindowKind::Centred) return round;
   }
   const WindowFit close = small_fit(image, at.x(), at.y());
-  if (good(close)) return chosen(close, WindowKind::Centred, middle_variance(1));
+  if (good(close)) return centred_on(close, 1);
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
   // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
   if (std::isnan(centred.mean) || !good(large)) {
-    const ChosenWindow round = round_window(image, at, noise, true);
+    const ChosenWindow round = round_window(image, at, noise, patch(), true);
     if (round.kind == WindowKind::Centred) return round;
   }
-  if (good(large) && near(large)) return chosen(large, WindowKind::Beside, kAtCorner);
+  if (good(large) && near(large))
+    return {large, WindowKind::Beside, large.mean, kAtCorner * noise.variance(large)};
   const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
-  if (near(small)) return chosen(small, WindowKind::Small, 1.0F);
+  if (near(small)) return {small, WindowKind::Small, image(at.x(), at.y()), noise.variance(small)};
   return kNoWindow;
 }
 
