@@ -1,5 +1,6 @@
 #include "frangia/mesh/smooth_limits.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "frangia/core/error.h"
@@ -9,24 +10,32 @@ namespace {
 
 constexpr double kSharpCosine = 0.8;  // of 37 degrees between two triangles
 constexpr float kAtEdges = 0.15F;     // of the bound: edges are shape rather than noise
+constexpr float kBesideEdges = 0.5F;  // of the bound: some of these vertices lie on the edge too
 
-/// The vertices of which two neighbouring triangles turn from each other like an edge of the part.
-std::vector<std::uint8_t> on_sharp_edges(const Mesh& mesh, const HalfEdges& edges) {
+/// The share of its bound that each vertex may move by: less where two triangles turn from each
+/// other like an edge of the part.
+std::vector<float> shares_at_edges(const Mesh& mesh, const HalfEdges& edges) {
   std::vector<Eigen::Vector3f> normals;
   normals.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3f& p = mesh.vertices_mm[a];
     normals.push_back((mesh.vertices_mm[b] - p).cross(mesh.vertices_mm[c] - p).stableNormalized());
   }
-  std::vector<std::uint8_t> sharp(mesh.vertices_mm.size());
+  std::vector<float> shares(mesh.vertices_mm.size(), 1.0F);
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (!edges.has_twin(edge)) continue;
     const float cosine = normals[edge / 3].dot(normals[edges.twin(edge) / 3]);
     if (!(static_cast<double>(cosine) < kSharpCosine)) continue;
-    sharp[from_of(mesh, edge)] = 1;
-    sharp[to_of(mesh, edge)] = 1;
+    shares[from_of(mesh, edge)] = kAtEdges;
+    shares[to_of(mesh, edge)] = kAtEdges;
   }
-  return sharp;
+  for (const Mesh::Triangle& triangle : mesh.triangles) {
+    const bool beside = std::any_of(
+        triangle.begin(), triangle.end(), [&](std::uint32_t v) { return shares[v] == kAtEdges; });
+    for (const std::uint32_t vertex : triangle)
+      if (beside) shares[vertex] = std::min(shares[vertex], kBesideEdges);
+  }
+  return shares;
 }
 
 }  // namespace
@@ -51,12 +60,11 @@ SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const Smoot
   }
   if (options.max_sigmas == 0.0) return;
   if (mesh.sigma_mm.empty()) return;
-  const std::vector<std::uint8_t> sharp = on_sharp_edges(mesh, edges);
+  const std::vector<float> shares = shares_at_edges(mesh, edges);
   for (std::size_t v = 0; v < mesh.sigma_mm.size(); ++v) {
     const float sigma = mesh.sigma_mm[v];
     const bool known = std::isfinite(sigma) && sigma > 0.0F;
-    const float share = sharp[v] != 0 ? kAtEdges : 1.0F;
-    reach_mm_.push_back(known ? share * static_cast<float>(options.max_sigmas) * sigma : 0.0F);
+    reach_mm_.push_back(known ? shares[v] * static_cast<float>(options.max_sigmas) * sigma : 0.0F);
   }
 }
 
