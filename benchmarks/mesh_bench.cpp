@@ -14,6 +14,7 @@
 #include <benchmark/benchmark.h>
 
 #include "frangia/files/read_mesh.h"
+#include "frangia/files/write_mesh.h"
 #include "frangia/mesh/boundary_loops.h"
 #include "frangia/mesh/change_selection.h"
 #include "frangia/mesh/connected_parts.h"
@@ -32,9 +33,12 @@ namespace {
 
 constexpr double kShare = 0.1;  // of the triangles that decimation leaves
 
-std::filesystem::path scan_path() {
+std::filesystem::path data_path(const char* name) {
   const char* const folder = std::getenv("FRANGIA_BENCH_DATA");
-  return std::filesystem::path(folder == nullptr ? "out/bench/data" : folder) / "scan.ply";
+  return std::filesystem::path(folder == nullptr ? "out/bench/data" : folder) / name;
+}
+std::filesystem::path scan_path() {
+  return data_path("scan.ply");
 }
 
 /// The scan; an empty mesh, and the benchmark skipped, when there is none.
@@ -246,7 +250,9 @@ void decimate_to_tenth_by_cgal(benchmark::State& state) {
     few = mesh_of(surface);
     state.ResumeTiming();
   }
-  if (!few.empty()) cgal() = judge(state, mesh, few, seconds);
+  if (few.empty()) return;
+  cgal() = judge(state, mesh, few, seconds);
+  write_mesh(data_path("tenth-by-cgal.ply"), few);  // for MeshLab, in ./run figures
 }
 
 void decimate_to_tenth(benchmark::State& state) {
@@ -259,6 +265,7 @@ void decimate_to_tenth(benchmark::State& state) {
   });
   if (few.empty()) return;
   const Decimated own = judge(state, mesh, few, seconds);
+  write_mesh(data_path("tenth.ply"), few);
   Wanted wanted;
   wanted.at_most("memory", state.counters["memory_meshes"], kMeshes, "meshes");
   wanted.at_most("non-manifold", state.counters["non_manifold"], 0.0, "edges");

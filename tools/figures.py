@@ -1,4 +1,4 @@
-"""Measures the figures of docs/figures.md anew: python3 tools/figures.py PROGRAM docs/figures.md
+"""Measures the figures of docs/figures.md anew: python3 tools/figures.py PROGRAM docs/figures.md out/bench/data
 
 The scans of ../shared are measured where they are; simulated ones are made here. Each figure is printed
 beside the command that reproduces it.
@@ -10,9 +10,11 @@ import tempfile
 import numpy
 
 from figure_report import Report, ask
+from figures_decimation import decimation
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 REPORT = pathlib.Path(sys.argv[2])
+BENCH_DATA = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else "out/bench/data")
 SHARED = pathlib.Path(__file__).resolve().parent.parent.parent / "shared" / "scans"
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-figures-"))
 
@@ -313,7 +315,7 @@ def from_edges(points, edges):
 
 def edits():
     tell("## Edits")
-    tell("What `frangia edit` makes of simulated scans, digital rig, 8 views. The head is the bust; its noise is the spread of 0.02 mm that was put on every vertex of a scan without noise, along its normal, each for itself, and is measured as what the vertices differ from where they were, along that normal. Noise of a scan is in part longer than an edge, which smoothing that keeps the shape cannot tell from shape: the last rows have a scan with a twelfth of the light (`--exposure 0.08`) against the truth. The block is the one with sharp edges above.\n")
+    tell("What `frangia edit` makes of simulated scans, digital rig, 8 views. The head is the bust; its noise is the spread of 0.02 mm that was put on every vertex of a scan without noise, along its normal, each for itself, and is measured as what the vertices differ from where they were, along that normal. The last rows have a scan with a twelfth of the light (`--exposure 0.08`) against the truth: its noise is in part longer than an edge, and smoothing as much of it as of the other takes shape as well. How much, the scan without noise tells. The block is the one with sharp edges above.\n")
     tell("| | measured | wanted |\n|---|---|---|")
     bar, mesh, filled = WORK / "edit-bar", WORK / "edit-bar.ply", WORK / "edit-filled.ply"
     run("simulate", "ball-bar", "--rig", "digital", "--samples", 4, "-o", bar)
@@ -353,11 +355,17 @@ def edits():
         tell(f"| farthest that `{' '.join(map(str, steps))}` moves one of {on_edge.sum()} vertices on the block's edges, mm | {moved.max():.3f} | at most 0.03 |")
     dim = WORK / "edit-dim"
     run("simulate", "bust", "--rig", "digital", "--samples", 4, "--exposure", 0.08, "-o", dim)
+    clean = WORK / "edit-clean.ply"
+    run("edit", WORK / "edit-head.ply", "-o", clean)
     run("reconstruct", dim, "-o", mesh)
-    for steps in ([], ["--smooth", 10], ["--smooth-keeping-edges", 4]):
+    for steps in ([], ["--smooth", 10], ["--smooth", 25], ["--smooth-keeping-edges", 4], ["--smooth-keeping-edges", 6]):
+        after = f" after `{' '.join(map(str, steps))}`" if steps else ""
         run("edit", mesh, *steps, "-o", smooth)
         error = run("inspect", smooth, "--reference", dim / "truth.ply")
-        tell(f"| a head with little light{' after `' + ' '.join(map(str, steps)) + '`' if steps else ''}: error, RMS mm | {error['rms_mm']:.4f} | |")
+        run("edit", clean, "--max-sigmas", 0, *steps, "-o", smooth)
+        lost = run("inspect", smooth, "--reference", scan / "truth.ply")
+        tell(f"| a head with little light{after}: error, RMS mm | {error['rms_mm']:.4f} | |")
+        tell(f"| the head without noise{after}, moved as far as it likes: error, RMS mm | {lost['rms_mm']:.4f} | |")
     tell()
 
 
@@ -370,4 +378,5 @@ block_edges()
 worn_table()
 large()
 edits()
+decimation(tell, BENCH_DATA)
 report.write(REPORT)

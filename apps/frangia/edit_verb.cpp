@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/error.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
@@ -126,6 +127,9 @@ Change draw_preview(const Mesh& before,
                     const EditState& after,
                     const std::filesystem::path& path,
                     const Run& run) {
+  if (before.empty()) {
+    throw Error(ErrorKind::Input, "the mesh has no triangles: there is nothing to draw");
+  }
   run.stage("preview");
   const EditPreview preview = edit_preview(before, after.mesh, run);
   ShadeOptions options;

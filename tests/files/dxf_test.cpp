@@ -206,6 +206,9 @@ TEST_F(ReadDxf, NamesTheLineOfAFault) {
   EXPECT_NE(error("0\nMESH\n92\n1\n10\n0\n93\n4\n90\n3\n90\n0\n90\n0\n90\n7\n0\nENDSEC\n")
                 .find("vertex 7"),
             std::string::npos);
+  const std::string face = "0\n3DFACE\n10\n0\n11\n1\n12\n0\n22\n1\n13\n0\n23\n1\n";
+  EXPECT_NE(error(face + "0\n").find("cut short"), std::string::npos);
+  EXPECT_NE(error(face).find("after 1 triangles"), std::string::npos);
   const auto binary = put("binary.dxf", std::string("AutoCAD Binary DXF\r\n\x1a\0", 22));
   EXPECT_NE(error_of([&] { return read_dxf(binary); }).find("save it as text"), std::string::npos);
 }

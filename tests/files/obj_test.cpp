@@ -78,6 +78,10 @@ TEST_F(ReadObj, RefusesAFaceOfAVertexThatIsNotThere) {
             std::string::npos);
 }
 
+TEST_F(ReadObj, RefusesWhatHasNoVertex) {
+  EXPECT_NE(error_reading("\x01\x02 solid\n").find("no OBJ file"), std::string::npos);
+}
+
 TEST_F(ReadObj, RefusesAVertexThatIsNotFinite) {
   EXPECT_NE(error_reading("v 0 0 0\nv nan 0 0\n").find("vertex 1"), std::string::npos);
 }

@@ -88,7 +88,11 @@ class DxfReader {
         more = groups_.next();
       }
     }
+    cut_short_ = !more && !section_.empty();
   }
+
+  /// Whether the file ends within a section.
+  [[nodiscard]] bool cut_short() const { return cut_short_; }
 
   Mesh take() {
     for (auto& corner : corners_)
@@ -301,6 +305,7 @@ class DxfReader {
   }
 
   DxfGroups groups_;
+  bool cut_short_ = false;
   std::string section_;
   double mm_per_unit_ = 1.0;
   std::size_t blocks_ = 0;
@@ -330,6 +335,12 @@ Mesh read_dxf(const std::filesystem::path& path, const Run& run) {
                             path.string(),
                             skipped.empty() ? "" : ", only ",
                             skipped));
+  }
+  if (reader.cut_short()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: it ends within a section, after {} triangles; it was cut short",
+                            path.string(),
+                            mesh.triangles.size()));
   }
   if (!skipped.empty()) {
     run.warn(fmt::format("{}: left out {}, which are no meshes", path.string(), skipped));

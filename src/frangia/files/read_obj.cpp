@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
 #include "frangia/files/add_polygon.h"
 #include "frangia/files/check_mesh.h"
 #include "frangia/files/obj.h"
@@ -106,6 +107,10 @@ class ObjReader {
 Mesh read_obj(const std::filesystem::path& path) {
   const std::string text = read_bytes(path);
   Mesh mesh = ObjReader(path, text).read();
+  if (mesh.vertices_mm.empty()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: no vertex is in it; it is empty, or no OBJ file", path.string()));
+  }
   check_mesh(mesh, path);
   return mesh;
 }

@@ -19,6 +19,13 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+/// What an error says behind the name of the function that says it: users know the operation's.
+std::string without_function(const std::string& text) {
+  const std::size_t colon = text.find(": ");
+  const bool named = colon != std::string::npos && text.find(' ') > colon;
+  return named ? text.substr(colon + 2) : text;
+}
+
 }  // namespace
 
 bool EditState::operator==(const EditState& other) const {
@@ -73,10 +80,9 @@ void apply_step(EditState& state, const EditStep& step, const Run& run) {
   try {
     edit_operation(step.operation).apply(state, step.value, run);
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::Input || std::string(error.what()).starts_with(step.operation)) {
-      throw;
-    }
-    throw Error(ErrorKind::Input, fmt::format("{}: {}", step.operation, error.what()));
+    if (error.kind() != ErrorKind::Input) throw;
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: {}", step.operation, without_function(error.what())));
   }
   // What was selected is told by numbers of triangles, which a change of them takes away.
   if (state.selection.size() != state.mesh.triangles.size()) state.selection.clear();
