@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -95,9 +96,9 @@ class Session {
 };
 
 bool asks_for_history(const EditArguments& arguments) {
-  for (const EditStep& step : arguments.steps)
-    if (step.operation == kUndo || step.operation == kRedo) return true;
-  return false;
+  return std::any_of(arguments.steps.begin(), arguments.steps.end(), [](const EditStep& step) {
+    return step.operation == kUndo || step.operation == kRedo;
+  });
 }
 
 /// What can be found wrong before the work is found before it.
