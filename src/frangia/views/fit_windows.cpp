@@ -181,10 +181,22 @@ Span seen_columns(const Image<float>& image, int first_row, int rows) {
 
 }  // namespace
 
-WindowFits::WindowFits(int width, int rows) : values_(width, rows * kFigures, kMissing) {}
+WindowFits::WindowFits(int width, int rows)
+    : width_(width),
+      values_(std::make_unique_for_overwrite<float[]>(  // NOLINT(*-avoid-c-arrays)
+          static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * kFigures))) {}
+
+void WindowFits::set_missing_beside(int begin, int end, int row) {
+  for (int figure = 0; figure < kFigures; ++figure) {
+    float* values = this->row(static_cast<Figure>(figure), row);
+    std::fill(values, values + begin, kMissing);
+    std::fill(values + end, values + width_, kMissing);
+  }
+}
 
 WindowFit WindowFits::at(int x, int row) const {
-  const auto figure = [&](Figure which) { return values_(x, row * kFigures + which); };
+  const float* first = values_.get() + place(kMean, row) + x;
+  const auto figure = [&](Figure which) { return first[std::ptrdiff_t{width_} * which]; };
   return {figure(kMean),
           figure(kSlopeX),
           figure(kSlopeY),
@@ -202,8 +214,7 @@ WindowFits fit_windows(const Image<float>& image, int radius, int first, int row
   const int side = 2 * radius + 1;
   const Span seen = seen_columns(image, first - radius, rows + 2 * radius);
   const int inner = seen.end - seen.begin - 2 * radius;  // windows in a row
-  if (inner <= 0) return fits;
-  const auto width = static_cast<std::size_t>(inner);
+  const auto width = static_cast<std::size_t>(std::max(0, inner));
   std::vector<float> kept(width * static_cast<std::size_t>(4 * side));
   const auto lines_of = [&](int y) {
     float* slot = kept.data() + static_cast<std::size_t>(4 * (y % side)) * width;
@@ -212,7 +223,11 @@ WindowFits fit_windows(const Image<float>& image, int radius, int first, int row
   int next = std::max(0, first - radius);  // the first row whose lines are not known
   for (int row = 0; row < rows; ++row) {
     const int top = first + row - radius;
-    if (top < 0 || top + side > image.height()) continue;
+    if (inner <= 0 || top < 0 || top + side > image.height()) {
+      fits.set_missing_beside(0, 0, row);
+      continue;
+    }
+    fits.set_missing_beside(seen.begin + radius, seen.begin + radius + inner, row);
     for (; next < top + side; ++next)
       fit_lines(&image(seen.begin, next), inner, radius, lines_of(next));
     std::array<Lines, 7> lines;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+
 #include "frangia/core/image.h"
 #include "frangia/core/missing.h"
 
@@ -45,15 +48,22 @@ class WindowFits {
 
   WindowFits(int width, int rows);
 
-  [[nodiscard]] int width() const { return values_.width(); }
-  [[nodiscard]] float* row(Figure figure, int row) { return &values_(0, row * kFigures + figure); }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] float* row(Figure figure, int row) { return values_.get() + place(figure, row); }
   [[nodiscard]] const float* row(Figure figure, int row) const {
-    return &values_(0, row * kFigures + figure);
+    return values_.get() + place(figure, row);
   }
   [[nodiscard]] WindowFit at(int x, int row) const;
+  /// Windows [begin, end) of a row are yet to be written; all others have no fit.
+  void set_missing_beside(int begin, int end, int row);
 
  private:
-  Image<float> values_;
+  [[nodiscard]] std::size_t place(Figure figure, int row) const {
+    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(row * kFigures + figure);
+  }
+
+  int width_;
+  std::unique_ptr<float[]> values_;  // NOLINT(*-avoid-c-arrays): not written twice, as a vector's
 };
 
 /// Least-squares planes over the (2 radius + 1)^2 window about each pixel of `rows` rows from
