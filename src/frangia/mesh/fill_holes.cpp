@@ -125,6 +125,7 @@ void fill(const Mesh& mesh, const HalfEdges& edges, Filling& filling, const Run&
 
 std::vector<PatchCrossings> crossings_of(const Mesh& mesh, const std::vector<Filling>& fillings) {
   std::vector<HolePatch> patches;
+  patches.reserve(fillings.size());
   for (const Filling& filling : fillings)
     patches.push_back(filling.patch);
   return patch_crossings(mesh, patches);
