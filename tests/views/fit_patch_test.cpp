@@ -56,7 +56,7 @@ TEST(FitPatch, SeesStructureInAnEdgeAndNoneInNoise) {
     for (int x = 0; x < 5; ++x)
       edge(x, y) = std::abs(static_cast<float>(x) - 1.5F);
   }
-  EXPECT_GT(fit_patch(edge, {2, 2}).structure, 0.05F);
+  EXPECT_GT(fit_patch(edge, {2, 2}).window.structure, 0.05F);
   std::mt19937 random(2);
   std::normal_distribution<float> normal;
   int none = 0;
@@ -64,7 +64,7 @@ TEST(FitPatch, SeesStructureInAnEdgeAndNoneInNoise) {
     Image<float> noise(5, 5);
     for (float& value : noise.pixels())
       value = normal(random);
-    none += fit_patch(noise, {2, 2}).structure < 0.0F ? 1 : 0;
+    none += fit_patch(noise, {2, 2}).window.structure < 0.0F ? 1 : 0;
   }
   EXPECT_GT(none, 180);
 }

@@ -63,18 +63,18 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
 
 /// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
 /// or more of it than the phase knows of, but without structure. An edge leaves structure over.
-ChosenWindow round_window(const Image<float>& image,
-                          const Eigen::Vector2i& at,
-                          const PixelNoise& noise,
-                          bool loud) {
-  constexpr float kRound = 1.3F;  // in variance
+ChosenWindow round_window(const PatchFit& patch, const PixelNoise& noise, bool loud) {
+  constexpr float kRound = 1.3F;   // in variance
+  constexpr float kUneven = 2.0F;  // pixels differ in their noise
   constexpr float kLoud = 9.0F;
   constexpr float kStructure = 0.0F;
-  const PatchFit patch = fit_patch(image, at);
+  constexpr float kNone = -0.08F;  // what most noise is below, and hardly an edge
   const float expected = noise.variance(patch.window);
   const float rest = patch.window.rest;
+  const float structure = patch.window.structure;
   const bool quiet = rest < kRound * expected;
-  const bool noisy = patch.structure < kStructure && rest < (loud ? kLoud : kRound) * expected;
+  const float most = loud ? kLoud : structure < kNone ? kUneven : kRound;
+  const bool noisy = structure < kStructure && rest < most * expected;
   if (!noisy && !(loud && quiet)) return kNoWindow;  // and for NaN
   return {patch.window,
           WindowKind::Centred,
@@ -82,12 +82,38 @@ ChosenWindow round_window(const Image<float>& image,
           std::sqrt(std::max(expected, quiet ? 0.0F : rest))};
 }
 
+/// The paraboloid of a whole window, as `fit_patch` has it.
+PatchFit whole_patch(const WindowFit& fit, int radius) {
+  PatchFit patch{fit, middle_variance(radius)};
+  patch.window.mean = fit.middle;
+  patch.window.variance = fit.rest;
+  return patch;
+}
+
+/// A window that follows the surface, with the middle of the wider one about the same pixel where
+/// that follows it, too.
+ChosenWindow widened(ChosenWindow chosen, const WindowFit& wide, int radius) {
+  constexpr float kUneven = 2.5F;  // in variance
+  constexpr float kSame = 0.7F;    // of a pixel's noise: two and a half times what chance does
+  constexpr float kStructure = 0.05F;
+  const float expected = chosen.noise * chosen.noise;
+  const float off = wide.middle - chosen.fit.middle;
+  if (wide.structure < kStructure && wide.rest < kUneven * expected &&
+      off * off < kSame * kSame * expected) {
+    chosen.fit.middle = wide.middle;
+    chosen.kind = WindowKind::Wide;
+    chosen.variance = middle_variance(radius);
+  }
+  return chosen;
+}
+
 }  // namespace
 
 ChosenWindow choose_window(const Image<float>& image,
                            const WindowRows& fits,
                            const Eigen::Vector2i& at,
-                           const PixelNoise& noise) {
+                           const PixelNoise& noise,
+                           const WindowRows* wider) {
   constexpr float kFits = 2.0F;      // in variance
   constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
   constexpr float kAtCorner = 0.2F;  // of a pixel's variance, what a plane has at a corner
@@ -101,18 +127,28 @@ ChosenWindow choose_window(const Image<float>& image,
     const float off = fit.mean - image(at.x(), at.y());
     return off * off < kFarthest * kFarthest * noise.variance(fit);
   };
+  const auto follows = [&](const ChosenWindow& found) {
+    return wider == nullptr ? found : widened(found, wider->at(at.x(), at.y()), wider->radius);
+  };
   const WindowFit& centred = fits.at(at.x(), at.y());
-  if (good(centred)) return chosen(centred, WindowKind::Centred, middle_variance(fits.radius));
-  if (!std::isnan(centred.mean)) {
-    const ChosenWindow round = round_window(image, at, noise, false);
-    if (round.kind == WindowKind::Centred) return round;
+  if (good(centred))
+    return follows(chosen(centred, WindowKind::Centred, middle_variance(fits.radius)));
+  const bool whole = !std::isnan(centred.mean);
+  if (whole) {
+    const ChosenWindow round = round_window(whole_patch(centred, fits.radius), noise, false);
+    if (round.kind == WindowKind::Centred) return follows(round);
+    // What looks like structure in few pixels may be seen as noise among more of them.
+    const ChosenWindow found =
+        follows(chosen(whole_patch(centred, fits.radius).window, WindowKind::Centred, 1.0F));
+    if (found.kind == WindowKind::Wide) return found;
   }
   const WindowFit close = small_fit(image, at.x(), at.y());
   if (good(close)) return chosen(close, WindowKind::Centred, middle_variance(1));
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
   // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
-  if (std::isnan(centred.mean) || !good(large)) {
-    const ChosenWindow round = round_window(image, at, noise, true);
+  if (!whole || !good(large)) {
+    const ChosenWindow round =
+        round_window(whole ? whole_patch(centred, fits.radius) : fit_patch(image, at), noise, true);
     if (round.kind == WindowKind::Centred) return round;
   }
   if (good(large) && near(large)) return chosen(large, WindowKind::Beside, kAtCorner);

@@ -24,9 +24,13 @@ struct WindowRows {
   Image<WindowFit> fits;
 };
 
-/// About the pixel, so that its slope is that at the pixel, curved or not; beside it; or of 3 x 3
-/// pixels.
-enum class WindowKind : std::uint8_t { None, Centred, Beside, Small };
+/// About the pixel, so that its slope is that at the pixel, curved or not, and the same with the
+/// middle of a wider one; beside it; or of 3 x 3 pixels.
+enum class WindowKind : std::uint8_t { None, Centred, Wide, Beside, Small };
+
+[[nodiscard]] constexpr bool is_about_pixel(WindowKind kind) {
+  return kind == WindowKind::Centred || kind == WindowKind::Wide;
+}
 
 /// What a pixel's value is uncertain by.
 struct PixelNoise {
@@ -48,14 +52,17 @@ struct ChosenWindow {
 
 /// The plane that an image follows at a pixel, never rounded off by what lies across an edge: that
 /// of the window about the pixel when it fits as well as noise allows, else of 3 x 3 pixels about
-/// it, else of the best window that holds the pixel, large or small.
+/// it, else of the best window that holds the pixel, large or small. Where the window about the
+/// pixel does, and a wider one leaves nothing over but noise, the middle is that of the wider one.
 ///
-/// shape    one pixel, in one of the rows
+/// shape    one pixel, in one of the rows; `wider` may be null
 /// missing  NaN where the pixel lies off even the best plane: there the image is rougher than its
-/// pixels source   Kuwahara et al. 1976
+///          pixels
+/// source   Kuwahara et al. 1976
 [[nodiscard]] ChosenWindow choose_window(const Image<float>& image,
                                          const WindowRows& fits,
                                          const Eigen::Vector2i& at,
-                                         const PixelNoise& noise);
+                                         const PixelNoise& noise,
+                                         const WindowRows* wider = nullptr);
 
 }  // namespace frangia

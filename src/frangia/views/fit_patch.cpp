@@ -75,7 +75,7 @@ PatchFit fit_patch(const Image<float>& image, const Eigen::Vector2i& at) {
       ++count;
     }
   }
-  const PatchFit none{kNoFit, kMissing, kMissing};
+  const PatchFit none{kNoFit, kMissing};
   if (count < kFewest) return none;
   const Eigen::LDLT<Matrix6> solver(normal);
   const Vector6 fit = solver.solve(pull);
@@ -88,7 +88,7 @@ PatchFit fit_patch(const Image<float>& image, const Eigen::Vector2i& at) {
   out.window.slope_y = fit[2];
   out.window.rest = std::max(0.0F, squares - fit.dot(pull)) / static_cast<float>(count - 6);
   out.window.variance = out.window.rest;
-  out.structure = structure_of(image, at, fit, here);
+  out.window.structure = structure_of(image, at, fit, here);
   return out;
 }
 

@@ -12,9 +12,6 @@ namespace frangia {
 struct PatchFit {
   WindowFit window;       ///< about the pixel: `middle` and slopes are the paraboloid's there
   float variance = 0.0F;  ///< what is left in `middle` of a pixel's noise
-  /// Correlation of what is left over at neighbouring pixels: of noise it is negative, of an edge
-  /// or a step positive.
-  float structure = 0.0F;
 };
 
 /// Least squares over the pixels that are not missing.

@@ -1,6 +1,7 @@
 #include "frangia/views/fit_windows.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -19,14 +20,20 @@ struct RowOfFits {
         variance(mean),
         middle(mean),
         rest(mean),
-        explained(mean) {}
+        structure(mean),
+        bend_x(mean),
+        bend_y(mean),
+        twist(mean) {}
   std::vector<float> mean;
   std::vector<float> slope_x;
   std::vector<float> slope_y;
   std::vector<float> variance;
   std::vector<float> middle;
   std::vector<float> rest;
-  std::vector<float> explained;  ///< of the squares about the plane, by the paraboloid
+  std::vector<float> structure;
+  std::vector<float> bend_x;  ///< of the paraboloid, about its plane
+  std::vector<float> bend_y;
+  std::vector<float> twist;
 };
 
 /// Sums over one side of a window of the powers of the place, which make its fits orthogonal.
@@ -44,6 +51,8 @@ struct Moments {
       sum += bend(i) * bend(i);
     return sum;
   }
+  /// In how many pairs of neighbours along a side a place is.
+  static constexpr float pairs(int i) { return i == 0 || i == 2 * kRadius ? 1.0F : 2.0F; }
   static constexpr float kPerCount = 1.0F / (kSide * kSide);
   static constexpr float kPerSpread = 1.0F / (kSide * kSide * kSquare);
   static constexpr float kPerBend = 1.0F / (kSide * spread());
@@ -59,10 +68,10 @@ template <int kRadius>
   float* mean = fits.mean.data();
   float* slope_x = fits.slope_x.data();
   float* slope_y = fits.slope_y.data();
-  float* variance = fits.variance.data();
   float* middle = fits.middle.data();
-  float* rest = fits.rest.data();
-  float* explained = fits.explained.data();
+  float* bent_x = fits.bend_x.data();
+  float* bent_y = fits.bend_y.data();
+  float* twisted = fits.twist.data();
   const std::ptrdiff_t inner = width - 2 * kRadius;
   for (std::ptrdiff_t x = 0; x < inner; ++x) {
     float sum = 0.0F;
@@ -90,22 +99,64 @@ template <int kRadius>
     slope_x[x] = along_x * M::kPerSpread;
     slope_y[x] = along_y * M::kPerSpread;
     middle[x] = mean[x] - (bend_x + bend_y) * M::kPerBend * M::kSquare;
-    explained[x] = (bend_x * bend_x + bend_y * bend_y) * M::kPerBend + twist * twist * M::kPerTwist;
+    bent_x[x] = bend_x * M::kPerBend;
+    bent_y[x] = bend_y * M::kPerBend;
+    twisted[x] = twist * M::kPerTwist;
   }
-  // About the plane rather than from the sum of squares, which would cancel all digits.
+}
+
+/// What the fits leave over; about them rather than from sums of squares, which would cancel all
+/// digits.
+template <int kRadius>
+[[gnu::always_inline]] inline void judge_row_of(const float* top,
+                                                std::ptrdiff_t width,
+                                                RowOfFits& fits) {
+  using M = Moments<kRadius>;
+  constexpr int kSide = M::kSide;
+  const float* mean = fits.mean.data();
+  const float* slope_x = fits.slope_x.data();
+  const float* slope_y = fits.slope_y.data();
+  const float* bend_x = fits.bend_x.data();
+  const float* bend_y = fits.bend_y.data();
+  const float* twist = fits.twist.data();
+  float* variance = fits.variance.data();
+  float* rest = fits.rest.data();
+  float* structure = fits.structure.data();
+  const std::ptrdiff_t inner = width - 2 * kRadius;
   for (std::ptrdiff_t x = 0; x < inner; ++x) {
     float squares = 0.0F;
+    float products = 0.0F;
+    float paired = 0.0F;
+    std::array<float, static_cast<std::size_t>(kSide)> above{};
     for (int j = 0; j < kSide; ++j) {
+      const auto down = static_cast<float>(j - kRadius);
+      const float of_row = mean[x] + down * slope_y[x] + M::bend(j) * bend_y[x];
+      const float along = slope_x[x] + down * twist[x];
+      float before = 0.0F;
       for (int i = 0; i < kSide; ++i) {
-        const float plane = mean[x] + static_cast<float>(j - kRadius) * slope_y[x] +
-                            static_cast<float>(i - kRadius) * slope_x[x];
-        const float off = top[j * width + x + i] - plane;
+        const float fit = of_row + static_cast<float>(i - kRadius) * along + M::bend(i) * bend_x[x];
+        const float off = top[j * width + x + i] - fit;
         squares += off * off;
+        paired += (M::pairs(i) + M::pairs(j)) * off * off;
+        const auto column = static_cast<std::size_t>(i);
+        products += off * (before + above[column]);
+        above[column] = before = off;
       }
     }
-    variance[x] = squares * (1.0F / (kSide * kSide - 3));
-    rest[x] = std::max(0.0F, squares - explained[x]) * (1.0F / (kSide * kSide - 6));
+    const float bends = bend_x[x] * bend_x[x] + bend_y[x] * bend_y[x];
+    const float explained = bends / M::kPerBend + twist[x] * twist[x] / M::kPerTwist;
+    variance[x] = (squares + explained) * (1.0F / (kSide * kSide - 3));
+    rest[x] = squares * (1.0F / std::max(1, kSide * kSide - 6));
+    structure[x] = paired > 0.0F ? 2.0F * products / paired : 0.0F;
   }
+}
+
+template <int kRadius>
+[[gnu::always_inline]] inline void fit_and_judge(const float* top,
+                                                 std::ptrdiff_t width,
+                                                 RowOfFits& fits) {
+  fit_row_of<kRadius>(top, width, fits);
+  judge_row_of<kRadius>(top, width, fits);
 }
 
 /// One body for each instruction set: without contraction they give the same bytes.
@@ -113,9 +164,9 @@ template <int kRadius>
                                                                   std::ptrdiff_t width,
                                                                   int radius,
                                                                   RowOfFits& fits) {
-  if (radius == 1) fit_row_of<1>(top, width, fits);
-  if (radius == 2) fit_row_of<2>(top, width, fits);
-  if (radius == 3) fit_row_of<3>(top, width, fits);
+  if (radius == 1) fit_and_judge<1>(top, width, fits);
+  if (radius == 2) fit_and_judge<2>(top, width, fits);
+  if (radius == 3) fit_and_judge<3>(top, width, fits);
 }
 
 }  // namespace
@@ -136,7 +187,8 @@ void fit_windows(const Image<float>& image, int radius, int first, Image<WindowF
                                        found.slope_y[from],
                                        found.variance[from],
                                        found.middle[from],
-                                       found.rest[from]}
+                                       found.rest[from],
+                                       found.structure[from]}
                            : kNoFit;
     }
   }

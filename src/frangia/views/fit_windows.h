@@ -13,10 +13,14 @@ struct WindowFit {
   float variance = 0.0F;  ///< of the values about the plane
   float middle = 0.0F;    ///< what the best paraboloid has at the window's centre
   float rest = 0.0F;      ///< variance of the values about that paraboloid
+  /// Correlation of what the paraboloid leaves over at neighbouring pixels: of noise it is
+  /// negative, however loud, of an edge or a step positive.
+  float structure = 0.0F;
 };
 
 /// What a window has that cannot be fitted.
-inline constexpr WindowFit kNoFit{kMissing, kMissing, kMissing, kMissing, kMissing, kMissing};
+inline constexpr WindowFit kNoFit{
+    kMissing, kMissing, kMissing, kMissing, kMissing, kMissing, kMissing};
 
 /// What is left in `middle` of a pixel's noise, in variance.
 [[nodiscard]] constexpr float middle_variance(int radius) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "frangia/core/error.h"
@@ -81,7 +82,7 @@ struct Pixel {
 Pixel settled(const ChosenWindow& chosen, const Pixel& measured) {
   if (chosen.kind == WindowKind::Beside)
     return {chosen.fit.mean, measured.noise * std::sqrt(chosen.variance)};
-  if (chosen.kind != WindowKind::Centred) return measured;
+  if (!is_about_pixel(chosen.kind)) return measured;
   return {chosen.fit.middle, measured.noise * std::sqrt(chosen.variance)};
 }
 
@@ -98,7 +99,7 @@ LocalPlanes::Plane plane_of(const ChosenWindow& chosen,
   const float cosine = distance * pixel.q;
   // Beside a rim or an edge neither slope nor pixel is what it is in the middle of a face.
   constexpr float kDoubt = 3.0F;
-  const float doubt = chosen.kind == WindowKind::Centred ? 1.0F : kDoubt;
+  const float doubt = is_about_pixel(chosen.kind) ? 1.0F : kDoubt;
   const float sigma_mm = doubt * pixel.noise / (pixel.q * pixel.q);
   return {-distance * abc,
           distance,
@@ -189,13 +190,18 @@ LocalPlanes local_planes(const View& view,
   parallel_chunks(static_cast<std::size_t>(height), kRows, [&](std::size_t begin, std::size_t end) {
     const WindowRows fits(
         grid.q, options.radius, static_cast<int>(begin), static_cast<int>(end - begin));
+    std::optional<WindowRows> wider;
+    if (options.wide_radius > 0) {
+      wider.emplace(
+          grid.q, options.wide_radius, static_cast<int>(begin), static_cast<int>(end - begin));
+    }
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       for (int x = 0; x < width; ++x) {
         out.planes(x, y) = {};
         out.inverse_depth(x, y) = grid.q(x, y);
         if (std::isnan(grid.q(x, y))) continue;
-        const ChosenWindow chosen =
-            choose_window(grid.q, fits, {x, y}, {grid.noise(x, y), jitter_px});
+        const ChosenWindow chosen = choose_window(
+            grid.q, fits, {x, y}, {grid.noise(x, y), jitter_px}, wider ? &*wider : nullptr);
         if (std::isnan(chosen.fit.mean)) continue;
         const Pixel pixel = settled(chosen, {grid.q(x, y), chosen.noise});
         out.inverse_depth(x, y) = pixel.q;

@@ -149,6 +149,7 @@ struct LocalPlanesOptions {
   int radius = 2;           ///< of the windows, px
   double crease_rad = 0.3;  ///< neighbouring planes that differ by more belong to different faces
   int reach_px = 0;         ///< how far planes are carried on beside what was seen
+  int wide_radius = 0;  ///< of the windows that are used where the surface allows, px; 0 for none
 };
 
 /// The local plane at each pixel, by least squares over a square window.
