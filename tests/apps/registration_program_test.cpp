@@ -46,18 +46,6 @@ class Together : public ::testing::Test {
   void write_scan_of(const std::string& part, int views) const {
     static_cast<void>(testing::small_scan(folder_.path() / "scan", part, "digital", views, {}));
   }
-  /// The scan with one view's frames taken of a part that stands elsewhere, as after a knock.
-  void knock_the_part_at(std::size_t view, const std::string& part, int views) const {
-    SimulateOptions knocked;
-    knocked.samples_per_px = 4;
-    knocked.axis_offset_mm = 9.0;
-    static_cast<void>(
-        testing::small_scan(folder_.path() / "knocked", part, "digital", views, knocked));
-    const auto folder = std::filesystem::path("views") / std::to_string(view);
-    std::filesystem::copy(folder_.path() / "knocked" / folder,
-                          folder_.path() / "scan" / folder,
-                          std::filesystem::copy_options::overwrite_existing);
-  }
   static void expect_told(const Answer& answer, int exit_code, const std::string& what) {
     EXPECT_EQ(answer.exit_code, exit_code) << answer.output;
     EXPECT_NE(answer.output.find(what), std::string::npos) << answer.output;
@@ -111,21 +99,6 @@ TEST_F(Together, AViewAloneKeepsTheRigAndSaysSo) {
   expect_told(run_program("reconstruct " + path("scan") + " --voxel 0.0001 -o " + path("b.ply")),
               3,
               "mm fit");
-}
-
-TEST_F(Together, ViewsThatDoNotOverlapKeepTheRigAndSaySo) {
-  write_scan_of("blade", 2);  // from in front and from behind
-  expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
-              0,
-              "the views do not overlap");
-}
-
-TEST_F(Together, AViewOfAPartThatWasMovedIsNamedAndLeftOut) {
-  write_scan_of("bracket", 6);
-  knock_the_part_at(2, "bracket", 6);
-  const Answer answer = run_program("--json reconstruct " + path("scan") + " -o " + path("a.ply"));
-  expect_told(answer, 0, "fits no other view and is left out: was the part moved?");
-  EXPECT_NE(answer.output.find("view views/2"), std::string::npos) << answer.output;
 }
 
 TEST_F(Together, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSaysSo) {

@@ -1,11 +1,14 @@
 #include "frangia/views/fit_windows.h"
 
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/random.h"
 
 namespace frangia {
 namespace {
@@ -48,6 +51,30 @@ TEST(FitWindows, LeavesOutWindowsWithAHoleOrOverTheRim) {
   EXPECT_FALSE(std::isnan(fits(10, 7).mean));
   EXPECT_TRUE(std::isnan(fits(1, 7).mean));
   EXPECT_TRUE(std::isnan(fits(12, 10).mean));
+}
+
+TEST(FitWindows, TellsNoiseFromAnEdgeHoweverLoudItIs) {
+  for (const int radius : {2, 3}) {
+    Image<float> edge(20, 12);
+    Image<float> noise(20, 12);
+    for (int y = 0; y < 12; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        edge(x, y) = static_cast<float>(std::abs(x - 9));
+        noise(x, y) =
+            100.0F * static_cast<float>(uniform_from(hash(static_cast<std::uint64_t>(x + 20 * y))));
+      }
+    }
+    Image<WindowFit> fits(20, 4);
+    fit_windows(edge, radius, 4, fits);
+    EXPECT_GT(fits(8, 1).structure, 0.1F);  // a pixel beside the edge
+    fit_windows(noise, radius, 4, fits);
+    float sum = 0.0F;
+    for (int y = 0; y < 4; ++y) {
+      for (int x = 3; x < 17; ++x)
+        sum += fits(x, y).structure;
+    }
+    EXPECT_LT(sum / 56.0F, -0.05F);
+  }
 }
 
 TEST(FitWindows, RefusesOtherRadii) {
