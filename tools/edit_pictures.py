@@ -51,6 +51,8 @@ edit(bust, face, "--keep-largest", 1, "--select-box", "-40,-40,62,40,40,100", "-
 mask = WORK / "mask.ply"
 edit(face, mask, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
 
+if not ONLY or "preview" in ONLY:
+    run("edit", bust, "--remove-islands", "60mm", "--fill-holes", "200mm", "--preview", OUT / "preview.png")
 picture("remove-islands", bust, ["--remove-islands", "60mm"])
 largest = WORK / "largest.ply"
 edit(bust, largest, "--keep-largest", 1)
@@ -135,5 +137,34 @@ def loose(vertices, triangles):
 
 picture("remove-spikes", broken("spikes", spikes), ["--remove-spikes"])
 picture("remove-self-intersections", broken("crossing", crossing), ["--remove-self-intersections"])
+
+
+def ball(centre, radius, rings=48):
+    """Vertices and triangles of a sphere of rings and meridians."""
+    from math import cos, pi, sin
+
+    vertices = [[centre[0], centre[1], centre[2] + radius]]
+    for i in range(1, rings):
+        for j in range(2 * rings):
+            polar, turn = pi * i / rings, pi * j / rings
+            vertices.append([centre[0] + radius * sin(polar) * cos(turn), centre[1] + radius * sin(polar) * sin(turn), centre[2] + radius * cos(polar)])
+    vertices.append([centre[0], centre[1], centre[2] - radius])
+    at = lambda i, j: 1 + (i - 1) * 2 * rings + j % (2 * rings)
+    faces = []
+    for j in range(2 * rings):
+        faces += [[0, at(1, j), at(1, j + 1)], [len(vertices) - 1, at(rings - 1, j + 1), at(rings - 1, j)]]
+        for i in range(1, rings - 1):
+            faces += [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]]
+    return vertices, faces
+
+
+if not ONLY or "unite" in ONLY:
+    (v, f), (w, g) = ball((0, 0, 0), 10), ball((12, 2, 4), 8)
+    bodies, united = WORK / "bodies.ply", WORK / "united.ply"
+    write_ply(bodies, v + w, f + [[i + len(v) for i in t] for t in g])
+    edit(bodies, united, "--remove-self-intersections")
+    for mesh in (bodies, united):
+        edit(mesh, mesh, "--cut", "0,1,0,0.5mm")
+    show("unite", bodies, united, "--azimuth", -80)
 picture("orient", broken("turned", turned), ["--orient"])
 picture("stitch", broken("loose", loose), ["--stitch", "0.1mm"], "--edges")

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,10 +11,14 @@
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
+#include "frangia/frames/png.h"
+#include "frangia/inspect/edit_picture.h"
 #include "frangia/mesh/edit_history.h"
+#include "frangia/mesh/edit_preview.h"
 #include "frangia/mesh/edit_script.h"
 
 #include "edit_findings.h"
+#include "picture_file.h"
 #include "verbs.h"
 #include "write_options.h"
 
@@ -30,6 +35,7 @@ struct EditArguments {
   std::vector<std::filesystem::path> outputs;
   std::vector<EditStep> steps;  ///< in the order given
   std::filesystem::path save_script;
+  std::filesystem::path preview;
   WriteOptions write;
   bool list = false;
 };
@@ -72,9 +78,10 @@ class Session {
       static_cast<void>(history_->undo());
   }
 
-  [[nodiscard]] const Mesh& mesh() const {
-    return history_ != nullptr ? history_->mesh() : state_.mesh;
+  [[nodiscard]] const EditState& state() const {
+    return history_ != nullptr ? history_->state() : state_;
   }
+  [[nodiscard]] const Mesh& mesh() const { return state().mesh; }
   [[nodiscard]] EditScript script() const {
     if (history_ != nullptr) return {history_->steps(), history_->done()};
     return {steps_, steps_.size()};
@@ -96,6 +103,7 @@ bool asks_for_history(const EditArguments& arguments) {
 std::vector<EditScript> checked(const EditArguments& arguments) {
   for (const auto& path : arguments.outputs)
     check_mesh_ending(path);
+  if (!arguments.preview.empty()) check_picture_ending(arguments.preview);
   std::vector<EditScript> scripts;
   for (const EditStep& step : arguments.steps) {
     if (step.operation == kScript) {
@@ -107,9 +115,35 @@ std::vector<EditScript> checked(const EditArguments& arguments) {
   return scripts;
 }
 
-void report(const Mesh& mesh, const EditArguments& arguments, Terminal& terminal, const Run& run) {
+/// How many triangles an edit takes or moves, and how many it makes.
+struct Change {
+  std::size_t going = 0;
+  std::size_t coming = 0;
+};
+
+/// Draws what the steps would do.
+Change draw_preview(const Mesh& before,
+                    const EditState& after,
+                    const std::filesystem::path& path,
+                    const Run& run) {
+  run.stage("preview");
+  const EditPreview preview = edit_preview(before, after.mesh, run);
+  ShadeOptions options;
+  options.width_px = 640;
+  options.height_px = 640;
+  options.samples_across = 2;
+  write_png(path, edit_picture(before, after, preview, options, run));
+  return {count_of(preview.going), count_of(preview.coming)};
+}
+
+void report(const Mesh& mesh,
+            const std::optional<Change>& change,
+            const EditArguments& arguments,
+            Terminal& terminal,
+            const Run& run) {
   if (terminal.json) {
     nlohmann::ordered_json json = findings_json(mesh_findings(mesh, run));
+    if (change) json["preview"] = {{"going", change->going}, {"coming", change->coming}};
     for (const auto& stage : terminal.stage_seconds())
       json["seconds"][stage.first] = stage.second;
     fmt::print("{}\n", json.dump(2));
@@ -121,13 +155,21 @@ void report(const Mesh& mesh, const EditArguments& arguments, Terminal& terminal
     terminal.finish();
     fmt::print("{} triangles\n", mesh.triangles.size());
   }
+  if (change && !terminal.json && !terminal.quiet) {
+    fmt::print("preview: {} triangles would go or move, {} would come: {}\n",
+               change->going,
+               change->coming,
+               arguments.preview.string());
+  }
 }
 
 void edit(const EditArguments& arguments, Terminal& terminal) {
   const std::vector<EditScript> scripts = checked(arguments);
   const Run run = terminal.run();
   run.stage("read");
-  Session session(read_mesh(arguments.mesh, run), asks_for_history(arguments));
+  Mesh mesh = read_mesh(arguments.mesh, run);
+  const Mesh before = arguments.preview.empty() ? Mesh() : mesh;
+  Session session(std::move(mesh), asks_for_history(arguments));
   auto script = scripts.begin();
   for (const EditStep& step : arguments.steps) {
     if (step.operation == kScript) {
@@ -142,8 +184,12 @@ void edit(const EditArguments& arguments, Terminal& terminal) {
   for (const auto& path : arguments.outputs)
     write_mesh(path, session.mesh(), arguments.write);
   if (!arguments.save_script.empty()) write_edit_script(arguments.save_script, session.script());
+  std::optional<Change> change;
+  if (!arguments.preview.empty()) {
+    change = draw_preview(before, session.state(), arguments.preview, run);
+  }
   run.stage("list");
-  report(session.mesh(), arguments, terminal, run);
+  report(session.mesh(), change, arguments, terminal, run);
 }
 
 void add_operations(CLI::App& verb, EditArguments& arguments) {
@@ -211,6 +257,11 @@ void add_edit_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("-o,--output", arguments->outputs, output_help())->allow_extra_args(false);
   add_write_options(*verb, arguments->write);
   verb->add_flag("--list", arguments->list, "show what the result has and what is wrong with it");
+  verb->add_option("--preview",
+                   arguments->preview,
+                   "draw what the steps would do: before, what goes or moves in violet, and after, "
+                   "what is moved yellow, invented blue, selected violet")
+      ->type_name("FILE.png");
   add_operations(*verb, *arguments);
   add_history(*verb, *arguments);
   verb->callback([arguments, &terminal] { edit(*arguments, terminal); });

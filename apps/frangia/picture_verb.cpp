@@ -7,14 +7,13 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/error.h"
-#include "frangia/files/ending_of.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/contact_sheet.h"
 #include "frangia/inspect/shade_mesh.h"
 
+#include "picture_file.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -30,11 +29,7 @@ struct PictureArguments {
 
 void draw(PictureArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  if (ending_of(arguments.output) != ".png") {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: a picture is written as .png; name such a file",
-                            arguments.output.string()));
-  }
+  check_picture_ending(arguments.output);
   arguments.shade.azimuth_rad = rad_from_deg(arguments.azimuth_deg);
   arguments.shade.elevation_rad = rad_from_deg(arguments.elevation_deg);
   std::vector<Image<Rgb>> pictures;

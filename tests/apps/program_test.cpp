@@ -83,6 +83,18 @@ TEST_F(Program, DecodesTheStagesOfOneView) {
   EXPECT_NE(answer.output.find("white: measured"), std::string::npos) << answer.output;
 }
 
+TEST_F(Program, ShowsWhatAnEditWouldDoAndWritesNoMesh) {
+  const auto mesh = out("box.off");
+  std::ofstream(mesh) << "OFF\n4 4 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n"
+                         "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  const std::string edit = "edit " + quoted(mesh) + " --select-plane 0,0,1,8mm --delete --preview ";
+  const Answer answer = run_program(edit + quoted(out("look.png")));
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_NE(answer.output.find("would go or move"), std::string::npos) << answer.output;
+  EXPECT_GT(std::filesystem::file_size(out("look.png")), 1000U);
+  EXPECT_EQ(run_program(edit + quoted(out("look.jpg"))).exit_code, 3);
+}
+
 TEST_F(Program, SaysUsageErrorsWithTwo) {
   EXPECT_EQ(run_program("").exit_code, 2);
   EXPECT_EQ(run_program("fly").exit_code, 2);

@@ -133,19 +133,6 @@ TEST(SelfIntersections, AreFoundOfAFoldAndOfRepeatedTriangles) {
   EXPECT_EQ(self_intersections(fold).size(), 1U);
 }
 
-TEST(SelfIntersections, RemovedLeaveAMeshThatCrossesNowhereAndIsClosed) {
-  Mesh mesh = ball();
-  // A dent through the other side.
-  for (auto& vertex : mesh.vertices_mm) {
-    if (vertex.x() > 19.0F) vertex.x() -= 42.0F;
-  }
-  ASSERT_FALSE(self_intersections(mesh).empty());
-  const Mesh mended = remove_self_intersections(mesh);
-  EXPECT_TRUE(self_intersections(mended).empty());
-  EXPECT_EQ(mesh_findings(mended).non_manifold_edges, 0U);
-  EXPECT_TRUE(boundary_loops(mended).empty());
-}
-
 TEST(MeshFindings, KnowABoxWithAHole) {
   Mesh mesh = box({0, 0, 0}, {10, 20, 30});
   MeshFindings found = mesh_findings(mesh);

@@ -32,6 +32,21 @@ TEST(FitPatch, IsExactOnAParaboloidWithPixelsMissing) {
   EXPECT_NEAR(fit.window.rest, 0.0F, 1e-9F);
 }
 
+TEST(FitPatch, FindsOfAWholePatchWhatAWindowDoes) {
+  Image<float> image = paraboloid();
+  image(2, 4) += 0.2F;
+  const WindowFit window = fit_windows(image, kPatchRadius, 3, 1).at(3, 0);
+  const PatchFit patch = fit_patch(image, {3, 3});
+  EXPECT_NEAR(patch.variance, middle_variance(kPatchRadius), 1e-5F);
+  EXPECT_NEAR(window.middle, patch.window.middle, 1e-5F);
+  EXPECT_NEAR(window.slope_x, patch.window.slope_x, 1e-5F);
+  EXPECT_NEAR(window.slope_y, patch.window.slope_y, 1e-5F);
+  EXPECT_NEAR(window.bend_x, patch.window.bend_x, 1e-5F);
+  EXPECT_NEAR(window.bend_y, patch.window.bend_y, 1e-5F);
+  EXPECT_NEAR(window.twist, patch.window.twist, 1e-5F);
+  EXPECT_NEAR(window.rest, patch.window.rest, 1e-6F);
+}
+
 TEST(FitPatch, KnowsWhatItLeavesOfTheNoise) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
@@ -56,7 +71,7 @@ TEST(FitPatch, SeesStructureInAnEdgeAndNoneInNoise) {
     for (int x = 0; x < 5; ++x)
       edge(x, y) = std::abs(static_cast<float>(x) - 1.5F);
   }
-  EXPECT_GT(fit_patch(edge, {2, 2}).window.structure, 0.05F);
+  EXPECT_GT(structure_of(edge, {2, 2}, fit_patch(edge, {2, 2}).window), 0.05F);
   std::mt19937 random(2);
   std::normal_distribution<float> normal;
   int none = 0;
@@ -64,7 +79,7 @@ TEST(FitPatch, SeesStructureInAnEdgeAndNoneInNoise) {
     Image<float> noise(5, 5);
     for (float& value : noise.pixels())
       value = normal(random);
-    none += fit_patch(noise, {2, 2}).window.structure < 0.0F ? 1 : 0;
+    none += structure_of(noise, {2, 2}, fit_patch(noise, {2, 2}).window) < 0.0F ? 1 : 0;
   }
   EXPECT_GT(none, 180);
 }

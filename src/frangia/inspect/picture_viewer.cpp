@@ -30,8 +30,9 @@ PictureViewer fitted_viewer(const Mesh& mesh, const ShadeOptions& options) {
   const double ce = std::cos(options.elevation_rad);
   const double se = std::sin(options.elevation_rad);
   viewer.axes << -sa, ca, 0.0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se;
+  const auto& shown = options.fit_to_mm.empty() ? mesh.vertices_mm : options.fit_to_mm;
   Eigen::AlignedBox3d box;
-  for (const auto& vertex : mesh.vertices_mm)
+  for (const auto& vertex : shown)
     box.extend(viewer.axes * vertex.cast<double>());
   viewer.target = viewer.axes.transpose() * box.center();
 
@@ -44,7 +45,7 @@ PictureViewer fitted_viewer(const Mesh& mesh, const ShadeOptions& options) {
     viewer.distance = 2.0 * box.sizes().norm() + 1.0;
     return viewer;
   }
-  for (const auto& vertex : mesh.vertices_mm) {
+  for (const auto& vertex : shown) {
     const Vector3d p = viewer.axes * vertex.cast<double>() - box.center();
     const double needed =
         std::max(std::abs(p.x()) / half.x(), std::abs(p.y()) / half.y()) / kHalfField + p.z();

@@ -22,7 +22,8 @@ struct PictureViewer {
   [[nodiscard]] Ray ray(double x, double y) const;
 };
 
-/// The viewer of these options, so far away that the whole mesh is in the picture with a margin.
+/// The viewer of these options, so far away that the whole mesh, or what
+/// it is to fit to, is in the picture with a margin.
 [[nodiscard]] PictureViewer fitted_viewer(const Mesh& mesh, const ShadeOptions& options);
 
 }  // namespace frangia

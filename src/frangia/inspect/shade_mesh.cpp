@@ -125,6 +125,8 @@ class Painter {
 
   [[nodiscard]] Vector3d base_color(const RayHit& hit, bool inside) const {
     if (inside) return {0.62, 0.20, 0.13};
+    if (!options_.highlighted.empty() && options_.highlighted[hit.triangle] != 0)
+      return {0.46, 0.13, 0.62};
     if (options_.show_marks && mark_of(scene_.mesh(), hit.triangle) != Mark::Measured) {
       const bool moved = mark_of(scene_.mesh(), hit.triangle) == Mark::Moved;
       return moved ? Vector3d(0.80, 0.58, 0.12) : Vector3d(0.12, 0.36, 0.72);
@@ -224,6 +226,8 @@ Image<Rgb> shade_mesh(const Mesh& mesh, const ShadeOptions& options, const Run& 
           "shade_mesh: the picture needs a width, a height and samples above 0");
   require(options.values.empty() || options.values.size() == mesh.vertices_mm.size(),
           "shade_mesh: there must be one value a vertex");
+  require(options.highlighted.empty() || options.highlighted.size() == mesh.triangles.size(),
+          "shade_mesh: there must be one highlight a triangle");
   const Painter painter(mesh, options);
   Image<Rgb> picture(options.width_px, options.height_px);
   const double half = 0.5 * std::min(options.width_px, options.height_px);

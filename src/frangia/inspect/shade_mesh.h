@@ -7,6 +7,7 @@
 #include "frangia/core/run.h"
 #include "frangia/frames/color_map.h"
 #include "frangia/frames/png.h"
+#include "frangia/mesh/selection.h"
 #include "frangia/surface/mesh.h"
 
 namespace frangia {
@@ -24,6 +25,10 @@ struct ShadeOptions {
   bool show_edges = false;  ///< of the triangles, as thin lines
   bool show_marks = false;  ///< what was moved in yellow, what was invented in blue
 
+  Selection highlighted;  ///< triangles shown in violet; empty: none
+  /// What the picture must hold, so that two meshes are seen from one place; empty: the mesh.
+  std::vector<Eigen::Vector3f> fit_to_mm;
+
   std::vector<float> values;  ///< one a vertex, shown as colours; empty for plain plaster
   float value_min = 0.0F;     ///< the colour map's two ends
   float value_max = 1.0F;
@@ -35,7 +40,9 @@ struct ShadeOptions {
 /// Gouraud shading with two lights, a rim and a soft sky; the inside shows in red where a hole lets
 /// one see it.
 /// missing  vertices whose value is NaN are grey
-/// errors   Error(Input) for an empty mesh, values that are not one a vertex, or an empty picture
+/// errors   Error(Input) for an empty mesh, values that are not one a vertex, highlights that are
+/// not
+///          one a triangle, or an empty picture
 [[nodiscard]] Image<Rgb> shade_mesh(const Mesh& mesh,
                                     const ShadeOptions& options = {},
                                     const Run& run = {});

@@ -28,6 +28,11 @@ class BoxTree {
   void touching_pairs(std::size_t leaf, const Work& work) const {
     visit_later({.node = 1, .begin = 0, .end = leaves_}, leaf, work);
   }
+  /// Calls `work(a)` for each triangle whose box touches this one.
+  template <typename Work>
+  void touching(const Eigen::AlignedBox3f& box, const Work& work) const {
+    visit({.node = 1, .begin = 0, .end = leaves_}, box, work);
+  }
   [[nodiscard]] static Eigen::AlignedBox3f box_of(const Mesh& mesh, std::uint32_t triangle);
 
  private:
@@ -36,6 +41,19 @@ class BoxTree {
   struct Branch {
     std::size_t node, begin, end;
   };
+
+  template <typename Work>
+  void visit(const Branch& at, const Eigen::AlignedBox3f& box, const Work& work) const {
+    if (!boxes_[at.node].intersects(box)) return;
+    if (at.node < leaves_) {
+      const std::size_t middle = (at.begin + at.end) / 2;
+      visit({2 * at.node, at.begin, middle}, box, work);
+      visit({2 * at.node + 1, middle, at.end}, box, work);
+      return;
+    }
+    for (std::size_t i = at.begin * kLeaf; i < std::min((at.begin + 1) * kLeaf, order_.size()); ++i)
+      if (own_[i].intersects(box)) work(order_[i]);
+  }
 
   template <typename Work>
   void visit_later(const Branch& at, std::size_t leaf, const Work& work) const {

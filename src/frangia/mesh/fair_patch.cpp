@@ -191,6 +191,13 @@ void take_shape(PatchMesh& patch, const std::vector<Vector3d>& places) {
     patch.move(v, places[v]);
 }
 
+/// The patch goes by this share of the way to another shape.
+void blend_shape(PatchMesh& patch, const std::vector<Vector3d>& other, double share) {
+  for (std::uint32_t v = patch.rim(); v < patch.count(); ++v)
+    patch.move(v, (1.0 - share) * patch.place(v) + share * other[v]);
+  patch.settle();
+}
+
 double farthest_moved(const PatchMesh& patch, const std::vector<Vector3d>& from) {
   double farthest = 0.0;
   for (std::uint32_t v = 0; v < patch.count(); ++v)
@@ -250,7 +257,7 @@ std::vector<Vector3d> normals_of(const PatchMesh& patch, const PatchSurroundings
   return normals;
 }
 
-bool fair_patch(PatchMesh& patch, const PatchSurroundings& around) {
+bool fair_patch(PatchMesh& patch, const PatchSurroundings& around, double curvature) {
   if (patch.count() == patch.rim()) return true;
   const Whole whole(patch, around);
   const std::vector<Vector3d> before = shape_of(patch);
@@ -258,12 +265,14 @@ bool fair_patch(PatchMesh& patch, const PatchSurroundings& around) {
   const double size = reach.diagonal().norm();
   const Vector3d more = Vector3d::Constant(kReach * size);
   reach = Eigen::AlignedBox3d(reach.min() - more, reach.max() + more);
-  if (!curve_on(patch, whole) || !within(patch, reach)) {
-    take_shape(patch, before);
-    patch.settle();
-    return solve_film(patch, whole) && within(patch, reach);
-  }
-  even_curvature(patch, around, kEvening * size);
+  const bool curved = curvature > 0.0 && curve_on(patch, whole) && within(patch, reach);
+  if (curved) even_curvature(patch, around, kEvening * size);
+  if (curved && curvature >= 1.0) return true;
+  const std::vector<Vector3d> full = shape_of(patch);
+  take_shape(patch, before);
+  patch.settle();
+  if (!solve_film(patch, whole) || !within(patch, reach)) return false;
+  if (curved) blend_shape(patch, full, curvature);
   return true;
 }
 

@@ -21,10 +21,14 @@ struct PatchSurroundings {
 /// curvature changes as evenly as it can, and the direction at the rim is that of the triangles
 /// outside. On a sphere the patch comes to lie on the sphere.
 ///
+/// With less than all of the `curvature` it lies so far between that and a film of least area.
+///
 /// False when there is no such surface; places are then undefined.
 /// source   Botsch & Kobbelt 2004, An Intuitive Framework for Real-Time Freeform Modeling;
 ///          Schneider & Kobbelt 2001, Geometric Fairing of Irregular Meshes
-[[nodiscard]] bool fair_patch(PatchMesh& patch, const PatchSurroundings& around);
+[[nodiscard]] bool fair_patch(PatchMesh& patch,
+                              const PatchSurroundings& around,
+                              double curvature = 1.0);
 
 /// Unit normals of a patch's vertices, those of the rim with the triangles outside.
 [[nodiscard]] std::vector<Eigen::Vector3d> normals_of(const PatchMesh& patch,

@@ -22,7 +22,10 @@ struct FillHolesOptions {
 
 /// The mesh with holes filled. All that is put in is marked as invented, and has no views.
 ///
-/// A hole that would lead a smooth filling far out of its bounds gets a film of least area. A hole
+/// A smooth filling that would cross itself, another one or the mesh gives way to one with half of
+/// the curvature, to a film of least area, or to a flat one, whichever crosses least: a note of
+/// `run` says so, a warning where all cross, and a build without CGAL does not see it. One that
+/// would go far out of its bounds gives way to a film. A hole
 /// that cannot be filled smoothly is closed flat; one whose flat filling would make the mesh
 /// non-manifold gets a fan about its middle: a note of `run` says so.
 /// errors   Error(Input) when there is no such loop

@@ -23,6 +23,11 @@ struct HolePatch {
 /// A fan about the mean of the rim's corners: always there.
 [[nodiscard]] HolePatch fan_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim);
 
+struct SmoothPatchOptions {
+  double curvature = 1.0;  ///< share of the surroundings': 0 is a film of least area
+  bool coarse = false;     ///< the shape alone, of few triangles: a fraction of the work
+};
+
 /// As dense as the surface around the rim and curved on as it is; patches of more than two million
 /// triangles get coarser inwards. None when the rim leaves no way.
 ///
@@ -30,6 +35,7 @@ struct HolePatch {
 /// corners until they are as small as those outside.
 [[nodiscard]] HolePatch smooth_patch(const Mesh& mesh,
                                      const HalfEdges& edges,
-                                     const std::vector<std::uint32_t>& rim);
+                                     const std::vector<std::uint32_t>& rim,
+                                     const SmoothPatchOptions& options = {});
 
 }  // namespace frangia

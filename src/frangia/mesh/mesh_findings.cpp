@@ -1,9 +1,9 @@
 #include "frangia/mesh/mesh_findings.h"
 
-#include "frangia/core/error.h"
 #include "frangia/mesh/half_edges.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/self_intersections.h"
+#include "frangia/mesh/triangles_cross.h"
 #include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
@@ -33,11 +33,7 @@ MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
     open = open || edges.is_boundary(edge);
   found.closed = !open && found.non_manifold_edges == 0 && !mesh.empty();
   run.check();
-  try {
-    found.self_intersections = self_intersections(mesh, run).size();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::Input) throw;
-  }
+  if (can_tell_what_crosses()) found.self_intersections = self_intersections(mesh, run).size();
   return found;
 }
 

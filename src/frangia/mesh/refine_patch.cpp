@@ -16,30 +16,41 @@ namespace {
 
 constexpr double kWidening = 0.2;       // how much edges grow on the way inwards, for the shape
 constexpr double kMostTriangles = 2e6;  // of one patch; larger ones get coarser inwards
+constexpr double kMostOfWanted = 8.0;   // triangles, of what the patch's area asks for
+constexpr int kMostRounds = 40;
 
 }  // namespace
 
 PatchRefinement::PatchRefinement(PatchMesh& patch, std::vector<PatchSpacing> spacing)
     : patch_(patch), spacing_(std::move(spacing)) {}
 
-void PatchRefinement::coarsely() {
-  for (std::uint32_t begin = patch_.count() + 1; begin != patch_.count();) {
+bool PatchRefinement::coarsely() {
+  std::uint32_t begin = patch_.count() + 1;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (begin == patch_.count()) return true;
     begin = patch_.count();
     const std::uint32_t triangles = patch_.half_edges() / 3;
     for (std::uint32_t t = 0; t < triangles; ++t)
       split_if_large(t);
   }
+  return false;
 }
 
-void PatchRefinement::finely(const PatchSurroundings& around) {
-  const double coarser = coarser_than_around();
-  for (std::uint32_t begin = patch_.count() + 1; begin != patch_.count();) {
+bool PatchRefinement::finely(const PatchSurroundings& around, double curvature) {
+  const double wanted = triangles_as_around();
+  const double coarser = std::max(1.0, std::sqrt(wanted / kMostTriangles));
+  const double most = kMostOfWanted * std::min(wanted, kMostTriangles) + 3.0 * patch_.half_edges();
+  std::uint32_t begin = patch_.count() + 1;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (begin == patch_.count()) return true;
     begin = patch_.count();
     const std::vector<Vector3d> normals = normals_of(patch_, around);
     const std::uint32_t edges = patch_.half_edges();
     for (std::uint32_t edge = 0; edge < edges; ++edge)
-      split_if_long(edge, normals, coarser);
+      split_if_long(edge, {normals, coarser, curvature});
+    if (patch_.half_edges() / 3.0 > most) return false;
   }
+  return false;
 }
 
 double PatchRefinement::wide(const PatchSpacing& at) {
@@ -66,8 +77,8 @@ void PatchRefinement::split_if_large(std::uint32_t triangle) {
   spacing_.push_back(mean);
 }
 
-/// How many times longer edges must be than around the rim to keep the patch's size in bounds.
-double PatchRefinement::coarser_than_around() const {
+/// How many triangles the patch takes when they are as small as around the rim.
+double PatchRefinement::triangles_as_around() const {
   double triangles = 0.0;
   for (std::uint32_t edge = 0; edge < patch_.half_edges(); edge += 3) {
     const Vector3d& a = patch_.place(patch_.from(edge));
@@ -76,13 +87,12 @@ double PatchRefinement::coarser_than_around() const {
     const double side = spacing_[patch_.from(edge)].edge_mm;
     triangles += 0.5 * (b - a).cross(c - a).norm() / (std::sqrt(0.1875) * side * side);
   }
-  return std::max(1.0, std::sqrt(triangles / kMostTriangles));
+  return triangles;
 }
 
-void PatchRefinement::split_if_long(std::uint32_t edge,
-                                    const std::vector<Vector3d>& normals,
-                                    double coarser) {
+void PatchRefinement::split_if_long(std::uint32_t edge, const Cut& cut) {
   constexpr double kLong = 1.4;  // halves are then as much too short as the whole was too long
+  const std::vector<Vector3d>& normals = cut.normals;
   const std::uint32_t a = patch_.from(edge);
   const std::uint32_t b = patch_.to(edge);
   if (patch_.twin(edge) == PatchMesh::kRim || a >= normals.size() || b >= normals.size()) return;
@@ -90,11 +100,11 @@ void PatchRefinement::split_if_long(std::uint32_t edge,
   const double length = way.norm();
   const PatchSpacing mean{0.5 * (spacing_[a].edge_mm + spacing_[b].edge_mm),
                           0.5 * (spacing_[a].inwards_mm + spacing_[b].inwards_mm)};
-  const double allowed = std::min(coarser * mean.edge_mm, wide(mean));
+  const double allowed = std::min(cut.coarser * mean.edge_mm, wide(mean));
   if (!(length > kLong * allowed)) return;
   const Vector3d leaving = way - normals[a] * normals[a].dot(way);
   const Vector3d arriving = way - normals[b] * normals[b].dot(way);
-  Vector3d bulge = (leaving - arriving) / 8.0;
+  Vector3d bulge = cut.curvature * (leaving - arriving) / 8.0;
   if (bulge.norm() > 0.15 * length) bulge *= 0.15 * length / bulge.norm();
   patch_.split_edge(edge, patch_.place(a) + 0.5 * way + bulge);
   spacing_.push_back(mean);

@@ -23,20 +23,24 @@ class PatchRefinement {
   PatchRefinement(PatchMesh& patch, std::vector<PatchSpacing> spacing);
 
   /// Puts a vertex into each triangle that is large for its corners, until none is. Triangles grow
-  /// with their distance from the rim.
+  /// with their distance from the rim. False when there is no end to it.
   /// source  Liepa 2003, Filling Holes in Meshes
-  void coarsely();
+  [[nodiscard]] bool coarsely();
 
-  /// Cuts edges that are longer than those around the rim, along the curve between their ends.
-  void finely(const PatchSurroundings& around);
+  /// Cuts edges that are longer than those around the rim, along this share of the curve between
+  /// their ends. False when there is no end to it: the patch is crumpled.
+  [[nodiscard]] bool finely(const PatchSurroundings& around, double curvature = 1.0);
 
  private:
   [[nodiscard]] static double wide(const PatchSpacing& at);
-  [[nodiscard]] double coarser_than_around() const;
+  [[nodiscard]] double triangles_as_around() const;
   void split_if_large(std::uint32_t triangle);
-  void split_if_long(std::uint32_t edge,
-                     const std::vector<Eigen::Vector3d>& normals,
-                     double coarser);
+  struct Cut {
+    const std::vector<Eigen::Vector3d>& normals;
+    double coarser;    ///< how many times longer edges may be than around the rim
+    double curvature;  ///< share of the curve
+  };
+  void split_if_long(std::uint32_t edge, const Cut& cut);
 
   PatchMesh& patch_;
   std::vector<PatchSpacing> spacing_;

@@ -8,8 +8,8 @@
 #include "frangia/mesh/fill_holes.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/orient.h"
+#include "frangia/mesh/remove_self_intersections.h"
 #include "frangia/mesh/remove_spikes.h"
-#include "frangia/mesh/self_intersections.h"
 #include "frangia/mesh/stitch.h"
 
 namespace frangia {
@@ -101,7 +101,7 @@ std::vector<EditOperation> repairing_edits() {
            {"remove-self-intersections",
             kGroup,
             "",
-            "drop triangles that cross others and close what they leave",
+            "unite closed parts that cross; elsewhere drop what crosses and close what it leaves",
             [](EditState&s, const Text&, const Run&run) {
               s.mesh = remove_self_intersections(std::move(s.mesh), run);
             }},

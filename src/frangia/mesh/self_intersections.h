@@ -14,21 +14,12 @@ namespace frangia {
 /// they share; ascending, the lower number first. Triangles without area count not.
 ///
 /// errors   Error(Input) when a triangle refers to a vertex that is not there, or in a build
-/// without
-///          CGAL
+///          without CGAL
 /// source   CGAL, Intersecting Sequences of dD Iso-oriented Boxes; exact predicates
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const Run& run = {});
 
 /// The triangles that are in any such pair.
 [[nodiscard]] Selection select_self_intersections(const Mesh& mesh, const Run& run = {});
-
-/// The mesh without triangles that cross others, and with what their going opens closed flat and
-/// marked as invented; again, and by a ring of triangles more each time, until nothing crosses or
-/// five rounds are over.
-///
-/// A hole that was there stays, unless one of the triangles touched it.
-/// errors   as self_intersections
-[[nodiscard]] Mesh remove_self_intersections(Mesh mesh, const Run& run = {});
 
 }  // namespace frangia

@@ -118,7 +118,10 @@ HolePatch hole_patch_of(const PatchMesh& patch, const Rim& rim, std::size_t mesh
 
 }  // namespace
 
-HolePatch smooth_patch(const Mesh& mesh, const HalfEdges& edges, const Rim& boundary) {
+HolePatch smooth_patch(const Mesh& mesh,
+                       const HalfEdges& edges,
+                       const Rim& boundary,
+                       const SmoothPatchOptions& options) {
   if (boundary.size() < 3) return {};
   Rim rim(boundary.rbegin(), boundary.rend());  // the patch runs against the mesh's boundary
   const auto joined = [&](std::size_t a, std::size_t b) {
@@ -140,9 +143,8 @@ HolePatch smooth_patch(const Mesh& mesh, const HalfEdges& edges, const Rim& boun
   while (spacing.size() < patch.count())
     spacing.push_back(spacing.front());
   PatchRefinement refinement(patch, std::move(spacing));
-  refinement.coarsely();
-  if (!fair_patch(patch, around)) return {};
-  refinement.finely(around);
+  if (!refinement.coarsely() || !fair_patch(patch, around, options.curvature)) return {};
+  if (!options.coarse && !refinement.finely(around, options.curvature)) return {};
   return hole_patch_of(patch, rim, mesh.vertices_mm.size());
 }
 

@@ -52,6 +52,10 @@ bool fold(const CornerPlaces& a, std::size_t far_a, const CornerPlaces& b, std::
 
 }  // namespace
 
+bool can_tell_what_crosses() {
+  return true;
+}
+
 bool triangles_cross(const CornerPlaces& a, const CornerPlaces& b) {
   const auto in_b = shared_of(a, b);
   const auto in_a = shared_of(b, a);
@@ -74,6 +78,10 @@ bool triangles_cross(const CornerPlaces& a, const CornerPlaces& b) {
 }  // namespace frangia
 #else
 namespace frangia {
+
+bool can_tell_what_crosses() {
+  return false;
+}
 
 bool triangles_cross(const CornerPlaces& /*a*/, const CornerPlaces& /*b*/) {
   throw Error(ErrorKind::Input,

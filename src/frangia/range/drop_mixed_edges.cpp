@@ -1,5 +1,6 @@
 #include "frangia/range/drop_mixed_edges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -48,6 +49,7 @@ bool is_low_step(const Grid& grid, int x, int y, int dx, int dy) {
     return inside ? depth(u, v) : kMissing;
   };
   const float jump = at(1) - at(-1);
+  if (std::isnan(jump)) return false;
   const float before = at(-1) - at(-3);  // over two pixels, as the jump
   const float behind = at(3) - at(1);
   const float pixel_mm = (grid.rays(x, y) - grid.rays(x + dx, y + dy)).norm() * at(-1);
@@ -102,18 +104,29 @@ void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& drop)
   }
 }
 
+/// Marks the pixel of each low step and those next to it across the step.
 void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
+  enum Step : std::uint8_t { kAcross = 1, kDown = 2 };
   const int width = drop.width();
   const int height = drop.height();
+  Image<std::uint8_t> steps(width, height, 0);
   parallel_rows(height, [&](int y) {
+    const bool within = y > 0 && y + 1 < height;
     for (int x = 0; x < width; ++x) {
-      for (int k = -1; k <= 1; ++k) {
-        const int u = x + k;
-        const int v = y + k;
-        const bool across = u > 0 && u + 1 < width && is_low_step(grid, u, y, 1, 0);
-        const bool down = v > 0 && v + 1 < height && is_low_step(grid, x, v, 0, 1);
-        if (across || down) drop(x, y) = 1;
-      }
+      const bool across = x > 0 && x + 1 < width && is_low_step(grid, x, y, 1, 0);
+      const bool down = within && is_low_step(grid, x, y, 0, 1);
+      steps(x, y) = static_cast<std::uint8_t>((across ? kAcross : 0) | (down ? kDown : 0));
+    }
+  });
+  parallel_rows(height, [&](int y) {
+    const int above = std::max(0, y - 1);
+    const int below = std::min(height - 1, y + 1);
+    for (int x = 0; x < width; ++x) {
+      const int left = std::max(0, x - 1);
+      const int right = std::min(width - 1, x + 1);
+      const int across = steps(left, y) | steps(x, y) | steps(right, y);
+      const int down = steps(x, above) | steps(x, y) | steps(x, below);
+      if ((across & kAcross) != 0 || (down & kDown) != 0) drop(x, y) = 1;
     }
   });
 }

@@ -28,27 +28,86 @@ constexpr std::size_t voxel_at(int x, int y, int z) {
   return static_cast<std::size_t>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
 }
 
-Corners corners_of(const DistanceField& field, const Eigen::Vector3i& place) {
-  std::array<const DistanceField::Block*, 8> around{};
+/// The block at a place and those next to it in the upward directions, by bits x, y, z.
+using Around = std::array<const DistanceField::Block*, 8>;
+Around blocks_around(const DistanceField& field, const Eigen::Vector3i& place) {
+  Around around{};
   for (int i = 0; i < 8; ++i) {
     const auto found = field.index.find(
         block_key(place.x() + (i & 1), place.y() + (i >> 1 & 1), place.z() + (i >> 2)));
     if (found != field.index.end())
       around[static_cast<std::size_t>(i)] = &field.blocks[found->second];
   }
+  return around;
+}
+
+Corners corners_of(const DistanceField& field, const Eigen::Vector3i& place) {
+  const Around around = blocks_around(field, place);
+  const auto distance_of = [](const DistanceField::Voxel& voxel) {
+    return voxel.weight > 0.0F ? voxel.weighted_mm / voxel.weight : kMissing;
+  };
   Corners corners;
+  corners.distance.fill(kMissing);
   for (int z = 0; z <= kEdge; ++z) {
     for (int y = 0; y <= kEdge; ++y) {
-      for (int x = 0; x <= kEdge; ++x) {
-        const auto* block =
-            around[static_cast<std::size_t>((x >> 3) | (y >> 3) << 1 | (z >> 3) << 2)];
-        const auto voxel = block != nullptr ? (*block)[voxel_at(x, y, z)] : DistanceField::Voxel{};
-        corners.distance[Corners::at(x, y, z)] =
-            voxel.weight > 0.0F ? voxel.weighted_mm / voxel.weight : kMissing;
+      const auto row = static_cast<std::size_t>((y >> 3) << 1 | (z >> 3) << 2);
+      float* to = &corners.distance[Corners::at(0, y, z)];
+      if (const auto* block = around[row]) {
+        const DistanceField::Voxel* from = &(*block)[voxel_at(0, y, z)];
+        for (int x = 0; x < kEdge; ++x)
+          to[x] = distance_of(from[x]);
       }
+      if (const auto* block = around[row | 1]) to[kEdge] = distance_of((*block)[voxel_at(0, y, z)]);
     }
   }
   return corners;
+}
+
+/// Bit x of a row of corners.
+struct RowBits {
+  unsigned seen = 0;
+  unsigned inside = 0;
+};
+using CornerBits = std::array<std::array<RowBits, Corners::kSide>, Corners::kSide>;  ///< [z][y]
+
+CornerBits bits_of(const Corners& corners) {
+  CornerBits bits{};
+  for (int z = 0; z <= kEdge; ++z) {
+    for (int y = 0; y <= kEdge; ++y) {
+      RowBits& row = bits[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)];
+      for (int x = 0; x <= kEdge; ++x) {
+        const float d = corners.distance[Corners::at(x, y, z)];
+        row.seen |= static_cast<unsigned>(!std::isnan(d)) << static_cast<unsigned>(x);
+        row.inside |= static_cast<unsigned>(d < 0.0F) << static_cast<unsigned>(x);
+      }
+    }
+  }
+  return bits;
+}
+
+/// Bit x: the surface may cross the cell (x, y, z), all of whose corners were seen.
+unsigned crossed_cells(const CornerBits& bits, std::size_t y, std::size_t z) {
+  unsigned seen = ~0U;
+  unsigned any = 0;
+  unsigned all = ~0U;
+  for (const RowBits& row : {bits[z][y], bits[z][y + 1], bits[z + 1][y], bits[z + 1][y + 1]}) {
+    seen &= row.seen & row.seen >> 1;
+    any |= row.inside | row.inside >> 1;
+    all &= row.inside & row.inside >> 1;
+  }
+  return seen & any & ~all;
+}
+
+/// Bit x: the surface may cross an edge that goes up from voxel (x, y, z).
+unsigned crossed_edges(const CornerBits& bits, std::size_t y, std::size_t z) {
+  const RowBits& row = bits[z][y];
+  const auto differ = [&](unsigned seen, unsigned inside) {
+    return row.seen & seen & (row.inside ^ inside);
+  };
+  const RowBits& beside = bits[z][y + 1];
+  const RowBits& above = bits[z + 1][y];
+  return differ(row.seen >> 1, row.inside >> 1) | differ(beside.seen, beside.inside) |
+         differ(above.seen, above.inside);
 }
 
 /// What one block holds, before the blocks are numbered through.
@@ -87,7 +146,6 @@ void add_crossings(Found& found,
   const int z = voxel.z() & 7;
   const float here = corners.distance[Corners::at(x, y, z)];
   const std::size_t i = voxel_at(x, y, z);
-  found.block->first_crossing[i] = static_cast<std::uint32_t>(found.points_mm.size());
   for (int axis = 0; axis < 3; ++axis) {
     const float there =
         corners.distance[Corners::at(x + (axis == 0), y + (axis == 1), z + (axis == 2))];
@@ -103,24 +161,35 @@ void add_crossings(Found& found,
 
 std::unique_ptr<Found> search(const DistanceField& field, const Eigen::Vector3i& place) {
   const Corners corners = corners_of(field, place);
+  const CornerBits bits = bits_of(corners);
   bool any_inside = false;
   bool any_outside = false;
-  for (const float d : corners.distance) {
-    any_inside = any_inside || d < 0.0F;
-    any_outside = any_outside || d >= 0.0F;
+  for (const auto& layer : bits) {
+    for (const RowBits& row : layer) {
+      any_inside = any_inside || row.inside != 0;
+      any_outside = any_outside || (row.seen & ~row.inside) != 0;
+    }
   }
   if (!any_inside || !any_outside) return nullptr;
   const auto edge_mm = static_cast<float>(field.voxel_mm);
   auto found = std::make_unique<Found>();
-  for (int z = 0; z < kEdge; ++z) {
-    for (int y = 0; y < kEdge; ++y) {
-      for (int x = 0; x < kEdge; ++x) {
-        const std::size_t i = voxel_at(x, y, z);
+  for (int row = 0; row < kEdge * kEdge; ++row) {
+    const int y = row % kEdge;
+    const int z = row / kEdge;
+    const unsigned cells =
+        crossed_cells(bits, static_cast<std::size_t>(y), static_cast<std::size_t>(z));
+    const unsigned edges =
+        crossed_edges(bits, static_cast<std::size_t>(y), static_cast<std::size_t>(z));
+    for (int x = 0; x < kEdge; ++x) {
+      const std::size_t i = voxel_at(x, y, z);
+      found->block->first_vertex[i] = found->vertices;
+      found->block->first_crossing[i] = static_cast<std::uint32_t>(found->points_mm.size());
+      if ((cells >> x & 1U) != 0) {
         found->block->inside[i] = pattern_at(corners, x, y, z, kLargestJump * edge_mm);
-        found->block->first_vertex[i] = found->vertices;
         found->vertices += cell_loops()[found->block->inside[i]].count;
-        add_crossings(*found, corners, place * kEdge + Eigen::Vector3i(x, y, z), edge_mm);
       }
+      if ((edges >> x & 1U) != 0)
+        add_crossings(*found, corners, place * kEdge + Eigen::Vector3i(x, y, z), edge_mm);
     }
   }
   const bool empty = found->points_mm.empty() && found->vertices == 0;
@@ -129,13 +198,20 @@ std::unique_ptr<Found> search(const DistanceField& field, const Eigen::Vector3i&
 
 }  // namespace
 
-Crossings::Address Crossings::at(const Eigen::Vector3i& voxel) const {
-  const auto found = index.find(block_key(voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3));
-  if (found == index.end()) return {};
-  return {blocks[found->second].get(), voxel_at(voxel.x(), voxel.y(), voxel.z())};
+Crossings::Around Crossings::around(std::size_t block) const {
+  Around around;
+  around.low = places[block] * kEdge;
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3i place =
+        places[block] + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const auto found = index.find(block_key(place));
+    if (found != index.end())
+      around.blocks[static_cast<std::size_t>(i)] = blocks[found->second].get();
+  }
+  return around;
 }
 
-std::uint32_t Crossings::crossing(const Eigen::Vector3i& voxel, int axis) const {
+std::uint32_t Crossings::Around::crossing(const Eigen::Vector3i& voxel, int axis) const {
   const Address address = at(voxel);
   const unsigned lower =
       address.block->axes[address.voxel] & ((1U << static_cast<unsigned>(axis)) - 1U);

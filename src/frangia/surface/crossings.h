@@ -36,14 +36,30 @@ struct Crossings {
   std::vector<std::int8_t> outward;  ///< axis + 1, negative when outside is at the lower end
   std::size_t vertices = 0;          ///< one a loop
 
-  /// The voxel's block and its place in there.
+  /// A voxel's block and its place in there.
   struct Address {
     const Block* block = nullptr;  ///< null where there is none
     std::size_t voxel = 0;
   };
-  [[nodiscard]] Address at(const Eigen::Vector3i& voxel) const;
-  /// The crossing on the edge from `voxel` along `axis`, which must be there.
-  [[nodiscard]] std::uint32_t crossing(const Eigen::Vector3i& voxel, int axis) const;
+
+  /// A block and those that touch it: what is asked for beside a voxel is found without a search.
+  struct Around {
+    std::array<const Block*, 27> blocks{};  ///< the block itself in the middle, x runs fastest
+    Eigen::Vector3i low = Eigen::Vector3i::Zero();  ///< the middle block's lowest voxel
+
+    /// `voxel` is in one of the blocks.
+    [[nodiscard]] Address at(const Eigen::Vector3i& voxel) const {
+      constexpr int kEdge = DistanceField::kEdge;
+      const Eigen::Vector3i from = voxel - low;
+      const int block =
+          ((from.x() + kEdge) >> 3) + 3 * ((from.y() + kEdge) >> 3) + 9 * ((from.z() + kEdge) >> 3);
+      const int within = (from.x() & 7) | (from.y() & 7) << 3 | (from.z() & 7) << 6;
+      return {blocks[static_cast<std::size_t>(block)], static_cast<std::size_t>(within)};
+    }
+    /// The crossing on the edge from `voxel` along `axis`, which must be there.
+    [[nodiscard]] std::uint32_t crossing(const Eigen::Vector3i& voxel, int axis) const;
+  };
+  [[nodiscard]] Around around(std::size_t block) const;
 };
 
 /// Finds them: only cells all of whose corners were seen, and where the distance runs through zero

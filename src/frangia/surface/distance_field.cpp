@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frangia/core/parallel.h"
+#include "frangia/surface/blocks_near.h"
 #include "frangia/views/fast_lens.h"
 
 namespace frangia {
@@ -11,15 +12,10 @@ namespace {
 
 constexpr int kEdge = DistanceField::kEdge;
 
-/// Voxels around a measured point within which the field is wanted: a cell's corners are one from a
-/// point in it, and the next point looked at is kStep voxels away.
-constexpr float kMargin = 1.75F;
-constexpr double kStep = 1.05;
-
 /// Of a guess beside what was seen, in 1/mm^2: it counts where nobody knows better.
 constexpr float kBesideWeight = 1e-6F;
 
-/// Distance of a voxel from what a view saw, at the voxel's pixel.
+/// Distance of voxels from what a view saw, a row of a block at a time.
 struct Sampler {
   const LocalPlanes& view;
   FastLens lens;
@@ -34,27 +30,129 @@ struct Sampler {
         back(static_cast<float>(band.back_mm)),
         guess(static_cast<float>(band.guess_mm)) {}
 
-  void add(DistanceField::Voxel& cell, float u, float v, const Eigen::Vector3f& point) const {
-    const LocalPlanes::Quad* quad = view.quad_or_beside(u, v);
-    if (quad == nullptr || !(point.z() > 0.0F)) return;
-    float weight = quad->weight;
-    float distance = 0.0F;
-    if (quad->kind == LocalPlanes::Kind::Smooth) {
-      distance = (1.0F - point.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
-    } else if (quad->kind == LocalPlanes::Kind::Beside) {
-      distance = view.beside_mm(u, v, point);
-      weight = kBesideWeight;
-    } else {
-      distance = view.nearest_face(u, v, point).in_front_mm(point);
-    }
-    if (!(distance < front && distance > -back)) return;
-    // Behind its surface a view can only guess: the object may be thin, or end beside the ray.
-    const float depth = distance < 0.0F ? distance / guess : 0.0F;
+  /// What a view's word on a voxel counts, 0 outside the band. Behind its surface a view can only
+  /// guess: the object may be thin, or end beside the ray.
+  [[nodiscard]] float weighed(float weight, float distance) const {
+    const float depth = std::min(distance, 0.0F) / guess;
     const float trust = 1.0F / ((1.0F + depth * depth) * (1.0F + depth * depth));
-    cell.weighted_mm += weight * trust * distance;
-    cell.weight += weight * trust;
+    return distance < front && distance > -back ? weight * trust : 0.0F;
   }
 };
+
+/// Eight voxels in a row, seen from the view.
+struct Row {
+  template <typename T>
+  using Eight = std::array<T, kEdge>;
+
+  alignas(32) Eight<float> u{};
+  alignas(32) Eight<float> v{};
+  alignas(32) Eight<float> depth{};
+  alignas(32) Eight<std::int32_t> pixel{};
+  alignas(32) Eight<std::int32_t> quad{};
+  alignas(32) Eight<std::int32_t> kind{};  ///< of the quad; 0 outside the image
+  alignas(32) Eight<float> weight{};
+  alignas(32) Eight<float> weighted{};
+};
+
+/// Where the voxels lie in the image. Points behind the camera and NaN lie outside.
+[[gnu::always_inline]] inline void look_up(Row& row,
+                                           const Sampler& sampler,
+                                           const Eigen::Vector3f& start,
+                                           const Eigen::Vector3f& step) {
+  const FastLens lens = sampler.lens;
+  const std::int32_t width = sampler.view.quads.width();
+  const auto right = static_cast<float>(width);
+  const auto bottom = static_cast<float>(sampler.view.quads.height());
+  const float fx = start.x();
+  const float fy = start.y();
+  const float fz = start.z();
+  const float sx = step.x();
+  const float sy = step.y();
+  const float sz = step.z();
+  for (std::size_t i = 0; i < kEdge; ++i) {
+    const auto at = static_cast<float>(static_cast<std::int32_t>(i));
+    const float z = fz + at * sz;
+    float u = 0.0F;
+    float v = 0.0F;
+    lens.project(fx + at * sx, fy + at * sy, z, u, v);
+    row.depth[i] = z;
+    row.u[i] = u;
+    row.v[i] = v;
+  }
+  for (std::size_t i = 0; i < kEdge; ++i) {
+    float u = row.u[i];
+    float v = row.v[i];
+    float z = row.depth[i];
+    z = u >= 0.0F ? z : -1.0F;
+    z = v >= 0.0F ? z : -1.0F;
+    z = u < right ? z : -1.0F;
+    z = v < bottom ? z : -1.0F;
+    u = z > 0.0F ? u : 0.0F;
+    v = z > 0.0F ? v : 0.0F;
+    const auto x = static_cast<std::int32_t>(u);
+    const auto y = static_cast<std::int32_t>(v);
+    row.u[i] = u;
+    row.v[i] = v;
+    row.depth[i] = z;
+    row.quad[i] = y * width + x;
+    row.pixel[i] = y * width + x + y;  // a row of pixels is one longer
+  }
+  const LocalPlanes::Quad* quads = sampler.view.quads.pixels().data();
+  for (std::size_t i = 0; i < kEdge; ++i) {
+    const auto kind = static_cast<std::int32_t>(quads[row.quad[i]].kind);
+    row.kind[i] = row.depth[i] > 0.0F ? kind : 0;
+  }
+}
+
+/// The voxels over smooth quads. What is strewn over memory is fetched first: the rest is vector
+/// code.
+[[gnu::always_inline]] inline void weigh_smooth(Row& row, const Sampler& sampler) {
+  constexpr auto kSmooth = static_cast<std::int32_t>(LocalPlanes::Kind::Smooth);
+  const Sampler how = sampler;
+  const std::int32_t width = how.view.inverse_depth.width();
+  const float* q = how.view.inverse_depth.pixels().data();
+  const LocalPlanes::Quad* quads = how.view.quads.pixels().data();
+  alignas(32) Row::Eight<float> upper_left;
+  alignas(32) Row::Eight<float> upper_right;
+  alignas(32) Row::Eight<float> lower_left;
+  alignas(32) Row::Eight<float> lower_right;
+  alignas(32) Row::Eight<float> away;
+  alignas(32) Row::Eight<float> weight;
+  for (std::size_t i = 0; i < kEdge; ++i) {
+    const float* here = q + row.pixel[i];
+    upper_left[i] = here[0];
+    upper_right[i] = here[1];
+    lower_left[i] = here[width];
+    lower_right[i] = here[width + 1];
+    away[i] = quads[row.quad[i]].distance_mm;
+    weight[i] = quads[row.quad[i]].weight;
+  }
+  for (std::size_t i = 0; i < kEdge; ++i) {
+    const float right = row.u[i] - static_cast<float>(static_cast<std::int32_t>(row.u[i]));
+    const float down = row.v[i] - static_cast<float>(static_cast<std::int32_t>(row.v[i]));
+    const float upper = upper_left[i] + right * (upper_right[i] - upper_left[i]);
+    const float lower = lower_left[i] + right * (lower_right[i] - lower_left[i]);
+    const float inverse = upper + down * (lower - upper);
+    const float distance = (1.0F - row.depth[i] * inverse) * away[i];
+    const float share = how.weighed(weight[i], distance);
+    const bool smooth = row.kind[i] == kSmooth;
+    row.weight[i] = smooth ? share : 0.0F;
+    row.weighted[i] = smooth ? share * distance : 0.0F;
+  }
+}
+
+/// A voxel where faces meet, or beside what was seen.
+void weigh_rough(Row& row, std::size_t i, const Sampler& sampler, const Eigen::Vector3f& point) {
+  const LocalPlanes& view = sampler.view;
+  const auto kind = static_cast<LocalPlanes::Kind>(row.kind[i]);
+  const bool beside = kind == LocalPlanes::Kind::Beside;
+  const float distance = beside ? view.beside_mm(row.u[i], row.v[i], point)
+                                : view.nearest_face(row.u[i], row.v[i], point).in_front_mm(point);
+  const auto quad = static_cast<std::size_t>(row.quad[i]);
+  const float weight = beside ? kBesideWeight : view.quads.pixels()[quad].weight;
+  row.weight[i] = sampler.weighed(weight, distance);
+  row.weighted[i] = row.weight[i] * distance;
+}
 
 /// Adds a view to a block, given in camera coordinates: the first voxel, and the step along each
 /// axis.
@@ -62,94 +160,31 @@ struct Sampler {
                                                                     const Sampler& sampler,
                                                                     const Eigen::Vector3f& first,
                                                                     const Eigen::Matrix3f& steps) {
-  alignas(32) std::array<float, kEdge> u{};
-  alignas(32) std::array<float, kEdge> v{};
-  for (int row = 0; row < kEdge * kEdge; ++row) {
-    const Eigen::Vector3f start = first + steps.col(1) * static_cast<float>(row % kEdge) +
-                                  steps.col(2) * static_cast<float>(row / kEdge);
+  constexpr auto kSmooth = static_cast<std::int32_t>(LocalPlanes::Kind::Smooth);
+  const Eigen::Vector3f step = steps.col(0);
+  Row row;
+  for (int r = 0; r < kEdge * kEdge; ++r) {
+    const Eigen::Vector3f start = first + steps.col(1) * static_cast<float>(r % kEdge) +
+                                  steps.col(2) * static_cast<float>(r / kEdge);
+    look_up(row, sampler, start, step);
+    std::int32_t seen = 0;
+    std::int32_t rough = 0;
     for (std::size_t i = 0; i < kEdge; ++i) {
-      const auto step = static_cast<float>(i);
-      sampler.lens.project(start.x() + step * steps(0, 0),
-                           start.y() + step * steps(1, 0),
-                           start.z() + step * steps(2, 0),
-                           u[i],
-                           v[i]);
+      seen |= row.kind[i];
+      rough |= row.kind[i] & ~kSmooth;
     }
-    DistanceField::Voxel* cells = block.data() + row * kEdge;
+    if (seen == 0) continue;
+    weigh_smooth(row, sampler);
+    for (std::size_t i = 0; rough != 0 && i < kEdge; ++i) {
+      if (row.kind[i] == 0 || row.kind[i] == kSmooth) continue;
+      weigh_rough(row, i, sampler, start + static_cast<float>(i) * step);
+    }
+    DistanceField::Voxel* cells = block.data() + r * kEdge;
     for (std::size_t i = 0; i < kEdge; ++i) {
-      sampler.add(cells[i], u[i], v[i], start + static_cast<float>(i) * steps.col(0));
+      cells[i].weighted_mm += row.weighted[i];
+      cells[i].weight += row.weight[i];
     }
   }
-}
-
-/// Collects keys of blocks, cheap when the same ones come again and again.
-class KeySet {
- public:
-  void add(std::uint64_t key) {
-    for (const std::uint64_t seen : recent_) {
-      if (seen == key) return;
-    }
-    recent_[next_] = key;
-    next_ = (next_ + 1) % recent_.size();
-    keys_.push_back(key);
-    if (keys_.size() > limit_) {
-      tidy();
-      limit_ = std::max(limit_, 2 * keys_.size());
-    }
-  }
-  std::vector<std::uint64_t> take() {
-    tidy();
-    return std::move(keys_);
-  }
-
- private:
-  void tidy() {
-    std::sort(keys_.begin(), keys_.end());
-    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
-  }
-
-  std::array<std::uint64_t, 8> recent_{};
-  std::size_t next_ = 0;
-  std::size_t limit_ = 4096;
-  std::vector<std::uint64_t> keys_;
-};
-
-/// All blocks that a box of voxel coordinates meets.
-void add_box(KeySet& keys, const Eigen::Array3f& low, const Eigen::Array3f& high) {
-  const Eigen::Array3i first = low.floor().cast<int>();
-  const Eigen::Array3i last = high.floor().cast<int>();
-  for (int z = first.z() >> 3; z <= last.z() >> 3; ++z) {
-    for (int y = first.y() >> 3; y <= last.y() >> 3; ++y) {
-      for (int x = first.x() >> 3; x <= last.x() >> 3; ++x)
-        keys.add(block_key(x, y, z));
-    }
-  }
-}
-
-/// All blocks that hold the corners of cells around the segment.
-void add_along(KeySet& keys, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
-  const Eigen::Array3f low = from.cwiseMin(to).array() - kMargin;
-  const Eigen::Array3f high = from.cwiseMax(to).array() + kMargin;
-  const Eigen::Array3f block = (low * 0.125F).floor() * 8.0F;
-  if ((high < block + 8.0F).all()) return add_box(keys, low, low);
-  const float length = (to - from).norm();
-  const int steps = static_cast<int>(length / 3.0F) + 1;  // the boxes overlap
-  for (int i = 0; i <= steps; ++i) {
-    const Eigen::Array3f point =
-        from + (to - from) * (static_cast<float>(i) / static_cast<float>(steps));
-    add_box(keys, point - kMargin, point + kMargin);
-  }
-}
-
-/// How many pixels to step so that, with the margin, no corner of a cell between two of them is
-/// left out.
-int pixel_stride(const LocalPlanes& view, const CameraRays& camera, const Band& band) {
-  float nearest = 0.0F;
-  for (const float q : view.inverse_depth.pixels())
-    nearest = std::max(nearest, q);  // passes NaN over
-  const double voxel_px =
-      band.voxel_mm * static_cast<double>(nearest) * camera.lens.focal_px.minCoeff();
-  return std::clamp(static_cast<int>(std::lround(kStep * voxel_px)), 1, 8);
 }
 
 Eigen::Vector3i place_of(std::uint64_t key) {
@@ -161,47 +196,6 @@ Eigen::Vector3i place_of(std::uint64_t key) {
 }
 
 }  // namespace
-
-std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
-                                       const CameraRays& camera,
-                                       const Band& band) {
-  const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
-  const Eigen::Matrix3f rotation = (object_from_rig.linear() / band.voxel_mm).cast<float>();
-  const Eigen::Vector3f origin = (object_from_rig.translation() / band.voxel_mm).cast<float>();
-  constexpr float kLongest = 2.0F;  // at grazing incidence the band along the ray has no end
-  const auto per_voxel = static_cast<float>(1.0 / band.voxel_mm);
-  const int stride = pixel_stride(view, camera, band);
-
-  constexpr std::size_t kRows = 16;
-  const std::size_t rows = static_cast<std::size_t>((view.quads.height() + stride - 1) / stride);
-  std::vector<std::vector<std::uint64_t>> parts((rows + kRows - 1) / kRows);
-  parallel_chunks(rows, kRows, [&](std::size_t begin, std::size_t end) {
-    KeySet keys;
-    for (int y = static_cast<int>(begin) * stride; y < static_cast<int>(end) * stride;
-         y += stride) {
-      for (int x = 0; x < view.quads.width(); x += stride) {
-        const LocalPlanes::Quad& quad = view.quads(x, y);
-        if (quad.kind <= LocalPlanes::Kind::Beside) continue;
-        const float depth = 1.0F / view.inverse_depth(x, y);
-        const Eigen::Vector3f ray(camera.rays(x, y).x(), camera.rays(x, y).y(), 1.0F);
-        const Eigen::Vector3f point = origin + rotation * (depth * ray);
-        const Eigen::Vector3f along = (rotation * ray).normalized();  // one voxel
-        const float cosine = std::max(1.0F / kLongest, quad.distance_mm / (depth * ray.norm()));
-        const float reach = per_voxel / cosine;
-        add_along(keys,
-                  point - along * (static_cast<float>(band.front_mm) * reach),
-                  point + along * (static_cast<float>(band.back_mm) * reach));
-      }
-    }
-    parts[begin / kRows] = keys.take();
-  });
-  KeySet all;
-  for (const auto& part : parts) {
-    for (const std::uint64_t key : part)
-      all.add(key);
-  }
-  return all.take();
-}
 
 void add_view(DistanceField& field,
               const LocalPlanes& view,

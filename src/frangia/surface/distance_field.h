@@ -51,11 +51,6 @@ struct DistanceField {
   return block_key(place.x(), place.y(), place.z());
 }
 
-/// Keys of all blocks within a view's band, ascending.
-[[nodiscard]] std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
-                                                     const CameraRays& camera,
-                                                     const Band& band);
-
 /// Adds what one view saw to the blocks within its band, making those that are new.
 ///
 /// A voxel takes the distance from the plane of the quad that it projects into, never across a

@@ -43,12 +43,20 @@ struct Cap {
 };
 
 std::vector<Cap> find_caps(const Mesh& mesh, float lowest_mm) {
+  const auto is_high = [&](const Mesh::Triangle& t) {  // as height_of, without its roots
+    const Eigen::Vector3f& a = mesh.vertices_mm[t[0]];
+    const Eigen::Vector3f& b = mesh.vertices_mm[t[1]];
+    const Eigen::Vector3f& c = mesh.vertices_mm[t[2]];
+    const float longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return (b - a).cross(c - a).squaredNorm() >= lowest_mm * lowest_mm * longest;
+  };
   constexpr std::size_t kChunk = 65536;
   std::vector<std::vector<Cap>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
   parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto& corners = mesh.triangles[t];
-      if (height_of(mesh, corners) >= lowest_mm) continue;
+      if (is_high(corners)) continue;
       std::array<float, 3> lengths{};
       for (std::size_t i = 0; i < 3; ++i) {
         lengths[i] =

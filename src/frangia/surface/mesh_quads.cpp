@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
-#include "frangia/surface/cell_loops.h"
 #include "frangia/surface/collapse_slivers.h"
+#include "frangia/surface/find_quads.h"
 #include "frangia/surface/flip_caps.h"
 #include "frangia/surface/sharpen_edges.h"
 #include "frangia/surface/unfold_mesh.h"
@@ -20,112 +20,6 @@ namespace frangia {
 namespace {
 
 constexpr float kSliver = 0.1F;  // voxels: shorter edges are not worth their triangles
-
-/// The quad around one crossing. Side i lies between corners i and i + 1, on a face between two
-/// cells.
-struct Quad {
-  std::array<std::uint32_t, 4> ring{};
-  std::uint32_t crossing = 0;
-  unsigned pinched = 0;  ///< bit i: side i needs a vertex of its own on its face
-  Eigen::Vector3i voxel = Eigen::Vector3i::Zero();
-  int axis = 0;
-};
-
-/// Offsets of the four cells around an edge along axis a, on axes b = a + 1 and c = a + 2: counter-
-/// clockwise seen from the edge's upper end.
-constexpr std::array<std::array<int, 2>, 4> kRing{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
-
-Eigen::Vector3i cell_of(const Quad& quad, std::size_t corner) {
-  Eigen::Vector3i cell = quad.voxel;
-  cell[(quad.axis + 1) % 3] += kRing[corner % 4][0];
-  cell[(quad.axis + 2) % 3] += kRing[corner % 4][1];
-  return cell;
-}
-
-/// The axis across the face between the cells of corners i and i + 1.
-int face_axis(const Quad& quad, std::size_t side) {
-  return (quad.axis + (side % 2 == 0 ? 1 : 2)) % 3;
-}
-
-/// The face's lowest corner.
-Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
-  return cell_of(quad, side).cwiseMax(cell_of(quad, side + 1));
-}
-
-/// Of the two strands of surface through a pinched face, the one around the inside corner that is
-/// lower along the face's first axis gets a vertex of its own.
-bool is_pinched(const Crossings& crossings,
-                const Quad& quad,
-                std::size_t side,
-                bool outside_is_up) {
-  const int across = face_axis(quad, side);
-  const Eigen::Vector3i one = cell_of(quad, side);
-  const Eigen::Vector3i other = cell_of(quad, side + 1);
-  const auto pinched = [&](const Eigen::Vector3i& cell, const Eigen::Vector3i& neighbour) {
-    const auto address = crossings.at(cell);
-    const int face = 2 * across + (neighbour[across] > cell[across] ? 1 : 0);
-    return (cell_loops()[address.block->inside[address.voxel]].pinched_faces >> face & 1) != 0;
-  };
-  if (!pinched(one, other) || !pinched(other, one)) return false;
-  Eigen::Vector3i inside = quad.voxel;
-  if (!outside_is_up) inside[quad.axis] += 1;
-  const int first = (across + 1) % 3;
-  return inside[first] == face_low(quad, side)[first];
-}
-
-void add_quads(std::vector<Quad>& quads,
-               const Crossings& crossings,
-               std::span<const Evidence> evidence,
-               std::size_t block) {
-  const Crossings::Block& cells = *crossings.blocks[block];
-  for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (cells.axes[at] == 0) continue;
-    Quad quad;
-    quad.voxel =
-        crossings.places[block] * DistanceField::kEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
-    quad.crossing = cells.first_crossing[at];
-    for (quad.axis = 0; quad.axis < 3; ++quad.axis) {
-      if ((cells.axes[at] >> quad.axis & 1) == 0) continue;
-      bool whole = evidence[quad.crossing].holds();
-      for (std::size_t corner = 0; whole && corner < 4; ++corner) {
-        const auto cell = crossings.at(cell_of(quad, corner));
-        whole = cell.block != nullptr && cell.block->inside[cell.voxel] != 0;
-        if (!whole) break;
-        const int edge = 4 * quad.axis - kRing[corner][0] - 2 * kRing[corner][1];
-        const CellLoops& shape = cell_loops()[cell.block->inside[cell.voxel]];
-        quad.ring[corner] = cell.block->first_vertex[cell.voxel] +
-                            shape.loop_of_edge[static_cast<std::size_t>(edge)];
-      }
-      if (whole) {
-        quad.pinched = 0;
-        for (std::size_t side = 0; side < 4; ++side) {
-          if (is_pinched(crossings, quad, side, crossings.outward[quad.crossing] > 0)) {
-            quad.pinched |= 1U << side;
-          }
-        }
-        quads.push_back(quad);
-      }
-      ++quad.crossing;
-    }
-  }
-}
-
-std::vector<Quad> find_quads(const Crossings& crossings, std::span<const Evidence> evidence) {
-  constexpr std::size_t kChunk = 64;
-  std::vector<std::vector<Quad>> parts((crossings.blocks.size() + kChunk - 1) / kChunk);
-  parallel_chunks(crossings.blocks.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t block = begin; block < end; ++block) {
-      add_quads(parts[begin / kChunk], crossings, evidence, block);
-    }
-  });
-  std::vector<Quad> quads;
-  for (auto& part : parts) {
-    quads.insert(quads.end(), part.begin(), part.end());
-    part = {};
-  }
-  return quads;
-}
 
 /// How a quad reads when cut between corners `from` and `from + 2`.
 struct Cut {
@@ -262,7 +156,9 @@ Mesh mesh_quads(PlacedVertices vertices,
                 std::span<const Evidence> evidence) {
   Mesh& mesh = vertices.mesh;
   const std::vector<Quad> quads = find_quads(crossings, evidence);
+
   std::vector<Cut> cuts = cut_quads(mesh, crossings, evidence, quads);
+
   constexpr int kRounds = 3;  // pulling one quad's vertices back may fold the next
   for (int round = 0; round < kRounds; ++round) {
     bool folded = false;
@@ -282,11 +178,16 @@ Mesh mesh_quads(PlacedVertices vertices,
       mesh.triangles.push_back(triangle);
   }
   add_pinched(mesh, crossings, quads);
+
   const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
   smooth_out(mesh, vertices.sharp, voxel_mm);
+
   const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
+
   smooth_out(mesh, sharp, voxel_mm);
+
   unfold_mesh(mesh, sharp);
+
   return std::move(vertices.mesh);
 }
 

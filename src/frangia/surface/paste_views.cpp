@@ -52,6 +52,7 @@ Mesh paste_views(const ViewStore& views,
                  const Run& run) {
   const CameraRays rays(camera);
   const Sampling sampling = measure_sampling(views, rays, run);
+
   require(sampling.points > 0, "no view holds a point: there is no surface to paste");
   const double voxel_mm = choose_voxel(sampling, options, run);
   const VoxelBudget budget = voxel_budget(voxel_mm, options.max_memory_mb);
@@ -70,13 +71,14 @@ Mesh paste_views(const ViewStore& views,
     budget.check(static_cast<double>(field.blocks.size()));
     run.report(done += step);
   });
+
   require(!field.blocks.empty(),
           "no two points of the views are neighbours: there is no surface to paste");
   const Crossings crossings = find_crossings(field);
   field = {};
 
   std::vector<Evidence> evidence(crossings.points_mm.size());
-  for_each_view(views, rays, {.wide_radius = 3}, [&](const LocalPlanes& view) {
+  for_each_view(views, rays, {.widen = true}, [&](const LocalPlanes& view) {
     add_evidence(
         evidence, crossings, view, rays, {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
     run.report(done += step);

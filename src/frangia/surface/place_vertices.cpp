@@ -93,14 +93,15 @@ struct Loop {
   [[nodiscard]] float variance() const {
     float sum = 0.0F;
     float common = 0.0F;
+    std::array<float, 12> noise{};
     for (std::size_t i = 0; i < count; ++i) {
-      const Evidence::Face& one = evidence[i]->main();
+      const Evidence::Face& face = evidence[i]->main();
       common += evidence[i]->common;
-      for (std::size_t j = 0; j < count; ++j) {
-        const Evidence::Face& other = evidence[j]->main();
-        const float product = std::sqrt(one.noise_squared * other.noise_squared);
+      noise[i] = std::sqrt(face.noise_squared) / face.weight;
+      sum += noise[i] * noise[i];
+      for (std::size_t j = 0; j < i; ++j) {
         const float distance = (planes[i].point - planes[j].point).norm();
-        sum += product / (one.weight * other.weight) * correlation(distance, one.spacing_mm());
+        sum += 2.0F * noise[i] * noise[j] * correlation(distance, face.spacing_mm());
       }
     }
     const auto n = static_cast<float>(count);
@@ -198,6 +199,7 @@ Eigen::Vector3i corner_offset(int corner) {
 }
 
 std::array<Loop, 4> loops_at(const Crossings& crossings,
+                             const Crossings::Around& around,
                              std::span<const Evidence> evidence,
                              const Eigen::Vector3i& voxel,
                              const CellLoops& shape) {
@@ -205,8 +207,7 @@ std::array<Loop, 4> loops_at(const Crossings& crossings,
   for (int edge = 0; edge < 12; ++edge) {
     const std::uint8_t loop = shape.loop_of_edge[static_cast<std::size_t>(edge)];
     if (loop == CellLoops::kNone) continue;
-    const std::uint32_t i =
-        crossings.crossing(voxel + corner_offset(edge_corners(edge)[0]), edge / 4);
+    const std::uint32_t i = around.crossing(voxel + corner_offset(edge_corners(edge)[0]), edge / 4);
     if (evidence[i].holds()) loops[loop].add(crossings.points_mm[i], evidence[i]);
   }
   return loops;
@@ -218,6 +219,7 @@ void place_in_block(PlacedVertices& placed,
                     std::size_t block) {
   Mesh& mesh = placed.mesh;
   const Crossings::Block& cells = *crossings.blocks[block];
+  const Crossings::Around around = crossings.around(block);
   const auto edge_mm = static_cast<float>(crossings.voxel_mm);
   for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
     const auto cell = static_cast<std::size_t>(i);
@@ -225,7 +227,7 @@ void place_in_block(PlacedVertices& placed,
     if (shape.count == 0) continue;
     const Eigen::Vector3i voxel =
         crossings.places[block] * DistanceField::kEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
-    auto loops = loops_at(crossings, evidence, voxel, shape);
+    auto loops = loops_at(crossings, around, evidence, voxel, shape);
     for (std::uint32_t loop = 0; loop < shape.count; ++loop) {
       Loop& found = loops[loop];
       if (found.count == 0) continue;

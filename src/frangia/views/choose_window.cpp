@@ -8,7 +8,7 @@
 namespace frangia {
 namespace {
 
-const ChosenWindow kNoWindow{kNoFit, WindowKind::None, 1.0F, 0.0F};
+const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
 
 /// The window of 3 x 3 pixels about (x, y), by hand; NaN as in `fit_windows`.
 WindowFit small_fit(const Image<float>& q, int x, int y) {
@@ -62,8 +62,13 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
 }
 
 /// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
-/// or more of it than the phase knows of, but without structure. An edge leaves structure over.
-ChosenWindow round_window(const PatchFit& patch, const PixelNoise& noise, bool loud) {
+/// or, of a loud one, more of it than the phase knows of, but without structure. An edge leaves
+/// structure over.
+ChosenWindow round_window(const Image<float>& image,
+                          const Eigen::Vector2i& at,
+                          const PixelNoise& noise,
+                          const PatchFit& patch,
+                          bool loud) {
   constexpr float kRound = 1.3F;   // in variance
   constexpr float kUneven = 2.0F;  // pixels differ in their noise
   constexpr float kLoud = 9.0F;
@@ -71,40 +76,14 @@ ChosenWindow round_window(const PatchFit& patch, const PixelNoise& noise, bool l
   constexpr float kNone = -0.08F;  // what most noise is below, and hardly an edge
   const float expected = noise.variance(patch.window);
   const float rest = patch.window.rest;
-  const float structure = patch.window.structure;
+  if (!(rest < (loud ? kLoud : kUneven) * expected)) return kNoWindow;  // and for NaN
   const bool quiet = rest < kRound * expected;
-  const float most = loud ? kLoud : structure < kNone ? kUneven : kRound;
-  const bool noisy = structure < kStructure && rest < most * expected;
-  if (!noisy && !(loud && quiet)) return kNoWindow;  // and for NaN
+  const float most = loud || quiet ? kStructure : kNone;
+  if (!(loud && quiet) && !(structure_of(image, at, patch.window) < most)) return kNoWindow;
   return {patch.window,
           WindowKind::Centred,
-          patch.variance,
-          std::sqrt(std::max(expected, quiet ? 0.0F : rest))};
-}
-
-/// The paraboloid of a whole window, as `fit_patch` has it.
-PatchFit whole_patch(const WindowFit& fit, int radius) {
-  PatchFit patch{fit, middle_variance(radius)};
-  patch.window.mean = fit.middle;
-  patch.window.variance = fit.rest;
-  return patch;
-}
-
-/// A window that follows the surface, with the middle of the wider one about the same pixel where
-/// that follows it, too.
-ChosenWindow widened(ChosenWindow chosen, const WindowFit& wide, int radius) {
-  constexpr float kUneven = 2.5F;  // in variance
-  constexpr float kSame = 0.7F;    // of a pixel's noise: two and a half times what chance does
-  constexpr float kStructure = 0.05F;
-  const float expected = chosen.noise * chosen.noise;
-  const float off = wide.middle - chosen.fit.middle;
-  if (wide.structure < kStructure && wide.rest < kUneven * expected &&
-      off * off < kSame * kSame * expected) {
-    chosen.fit.middle = wide.middle;
-    chosen.kind = WindowKind::Wide;
-    chosen.variance = middle_variance(radius);
-  }
-  return chosen;
+          patch.window.middle,
+          patch.variance * std::max(expected, quiet ? 0.0F : rest)};
 }
 
 }  // namespace
@@ -112,13 +91,12 @@ ChosenWindow widened(ChosenWindow chosen, const WindowFit& wide, int radius) {
 ChosenWindow choose_window(const Image<float>& image,
                            const WindowRows& fits,
                            const Eigen::Vector2i& at,
-                           const PixelNoise& noise,
-                           const WindowRows* wider) {
-  constexpr float kFits = 2.0F;      // in variance
+                           const PixelNoise& noise) {
   constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
   constexpr float kAtCorner = 0.2F;  // of a pixel's variance, what a plane has at a corner
-  const auto chosen = [&](const WindowFit& fit, WindowKind kind, float variance) {
-    return ChosenWindow{fit, kind, variance, std::sqrt(noise.variance(fit))};
+  const auto centred_on = [&](const WindowFit& fit, int radius) {
+    const float variance = middle_variance(radius) * noise.variance(fit);
+    return ChosenWindow{fit, WindowKind::Centred, fit.middle, variance};
   };
   const auto good = [&](const WindowFit& fit) {
     return fit.variance < kFits * noise.variance(fit);  // false for NaN
@@ -127,33 +105,31 @@ ChosenWindow choose_window(const Image<float>& image,
     const float off = fit.mean - image(at.x(), at.y());
     return off * off < kFarthest * kFarthest * noise.variance(fit);
   };
-  const auto follows = [&](const ChosenWindow& found) {
-    return wider == nullptr ? found : widened(found, wider->at(at.x(), at.y()), wider->radius);
+  const WindowFit centred = fits.at(at.x(), at.y());
+  const auto patch = [&]() -> PatchFit {
+    if (fits.radius != kPatchRadius || std::isnan(centred.mean)) return fit_patch(image, at);
+    PatchFit whole{centred, middle_variance(kPatchRadius)};
+    whole.window.mean = centred.middle;
+    whole.window.variance = centred.rest;
+    return whole;
   };
-  const WindowFit& centred = fits.at(at.x(), at.y());
-  if (good(centred))
-    return follows(chosen(centred, WindowKind::Centred, middle_variance(fits.radius)));
-  const bool whole = !std::isnan(centred.mean);
-  if (whole) {
-    const ChosenWindow round = round_window(whole_patch(centred, fits.radius), noise, false);
-    if (round.kind == WindowKind::Centred) return follows(round);
-    // What looks like structure in few pixels may be seen as noise among more of them.
-    const ChosenWindow found =
-        follows(chosen(whole_patch(centred, fits.radius).window, WindowKind::Centred, 1.0F));
-    if (found.kind == WindowKind::Wide) return found;
-  }
-  const WindowFit close = small_fit(image, at.x(), at.y());
-  if (good(close)) return chosen(close, WindowKind::Centred, middle_variance(1));
-  const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
-  // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
-  if (!whole || !good(large)) {
-    const ChosenWindow round =
-        round_window(whole ? whole_patch(centred, fits.radius) : fit_patch(image, at), noise, true);
+  if (good(centred)) return centred_on(centred, fits.radius);
+  if (!std::isnan(centred.mean)) {
+    const ChosenWindow round = round_window(image, at, noise, patch(), false);
     if (round.kind == WindowKind::Centred) return round;
   }
-  if (good(large) && near(large)) return chosen(large, WindowKind::Beside, kAtCorner);
+  const WindowFit close = small_fit(image, at.x(), at.y());
+  if (good(close)) return centred_on(close, 1);
+  const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
+  // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
+  if (std::isnan(centred.mean) || !good(large)) {
+    const ChosenWindow round = round_window(image, at, noise, patch(), true);
+    if (round.kind == WindowKind::Centred) return round;
+  }
+  if (good(large) && near(large))
+    return {large, WindowKind::Beside, large.mean, kAtCorner * noise.variance(large)};
   const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
-  if (near(small)) return chosen(small, WindowKind::Small, 1.0F);
+  if (near(small)) return {small, WindowKind::Small, image(at.x(), at.y()), noise.variance(small)};
   return kNoWindow;
 }
 

@@ -24,11 +24,10 @@ struct Slope {
 
 std::vector<Slope> slopes_of(const Image<float>& image, const Image<float>& noise) {
   std::vector<Slope> slopes;
-  Image<WindowFit> fits(image.width(), 1);
   for (int y = kRadius; y + kRadius < image.height(); y += kEvery) {
-    fit_windows(image, kRadius, y, fits);
+    const WindowFits fits = fit_windows(image, kRadius, y, 1);
     for (int x = 0; x < image.width(); ++x) {
-      const WindowFit& fit = fits(x, 0);
+      const WindowFit fit = fits.at(x, 0);
       const float expected = noise(x, y) * noise(x, y);
       const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
       if (!(fit.rest >= 0.0F && square > 0.0F && expected > 0.0F)) continue;

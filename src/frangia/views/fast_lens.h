@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "frangia/rig/lens.h"
 
 namespace frangia {
@@ -30,18 +28,19 @@ struct FastLens {
     v = cy + fy * (y * radial + p1 * (r2 + 2.0F * y * y) + 2.0F * p2 * x * y);
   }
 
-  /// How the pixel moves with the normalised point (x/z, y/z).
-  [[nodiscard]] Eigen::Matrix2f jacobian(const Eigen::Vector2f& ray) const {
-    const float x = ray.x();
-    const float y = ray.y();
+  /// How the pixel (u, v) moves with the normalised point (x, y) = (X/Z, Y/Z).
+  struct Jacobian {
+    float ux, uy, vx, vy;  ///< of u by x, u by y, v by x, v by y
+  };
+  [[nodiscard]] Jacobian jacobian(float x, float y) const {
     const float r2 = x * x + y * y;
     const float radial = 1.0F + r2 * (k1 + r2 * (k2 + r2 * k3));
     const float slope = 2.0F * (k1 + r2 * (2.0F * k2 + r2 * 3.0F * k3));
     const float mixed = slope * x * y + 2.0F * p1 * x + 2.0F * p2 * y;
-    Eigen::Matrix2f moves;
-    moves << fx * (radial + slope * x * x + 2.0F * p1 * y + 6.0F * p2 * x), fx * mixed,  //
-        fy * mixed, fy * (radial + slope * y * y + 6.0F * p1 * y + 2.0F * p2 * x);
-    return moves;
+    return {fx * (radial + slope * x * x + 2.0F * p1 * y + 6.0F * p2 * x),
+            fx * mixed,
+            fy * mixed,
+            fy * (radial + slope * y * y + 6.0F * p1 * y + 2.0F * p2 * x)};
   }
 
   float fx, fy, cx, cy, k1, k2, p1, p2, k3;

@@ -12,33 +12,92 @@ namespace {
 using Vector6 = Eigen::Matrix<float, 6, 1>;
 using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
-constexpr int kRadius = 2;
+constexpr int kRadius = kPatchRadius;
+constexpr int kSide = 2 * kRadius + 1;
 constexpr int kFewest = 12;            // pixels: six unknowns and as many to judge them by
 constexpr float kMostVariance = 0.8F;  // less than that is not worth it
+constexpr PatchFit kNone{kNoFit, kMissing};
 
-Vector6 powers(int dx, int dy) {
-  const auto x = static_cast<float>(dx);
-  const auto y = static_cast<float>(dy);
+/// The pixels about one, less its value: small numbers keep their digits.
+using Patch = std::array<float, kSide * kSide>;
+
+Patch patch_at(const Image<float>& image, const Eigen::Vector2i& at, float less) {
+  Patch patch{};
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const int x = at.x() + i % kSide - kRadius;
+    const int y = at.y() + i / kSide - kRadius;
+    const bool within = x >= 0 && y >= 0 && x < image.width() && y < image.height();
+    patch[static_cast<std::size_t>(i)] = within ? image(x, y) - less : kMissing;
+  }
+  return patch;
+}
+
+Vector6 powers(int i) {
+  const auto x = static_cast<float>(i % kSide - kRadius);
+  const auto y = static_cast<float>(i / kSide - kRadius);
   Vector6 row;
   row << 1.0F, x, y, x * x, x * y, y * y;
   return row;
 }
 
-float structure_of(const Image<float>& image,
-                   const Eigen::Vector2i& at,
-                   const Vector6& fit,
-                   float here) {
-  constexpr int kSide = 2 * kRadius + 1;
-  std::array<float, kSide * kSide> off{};
+PatchFit fit_pixels(const Patch& patch, float here) {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 pull = Vector6::Zero();
   for (int i = 0; i < kSide * kSide; ++i) {
-    const int dx = i % kSide - kRadius;
-    const int dy = i / kSide - kRadius;
-    const int x = at.x() + dx;
-    const int y = at.y() + dy;
-    const bool within = x >= 0 && y >= 0 && x < image.width() && y < image.height();
-    off[static_cast<std::size_t>(i)] =
-        within ? image(x, y) - here - fit.dot(powers(dx, dy)) : kMissing;
+    const float value = patch[static_cast<std::size_t>(i)];
+    if (std::isnan(value)) continue;
+    const Vector6 row = powers(i);
+    normal += row * row.transpose();
+    pull += value * row;
   }
+  const Eigen::LDLT<Matrix6> solver(normal);
+  const Vector6 fit = solver.solve(pull);
+  const Vector6 column = solver.solve(Vector6::Unit(0));
+  if (!fit.allFinite() || !(column[0] > 0.0F && column[0] < kMostVariance)) return kNone;
+  PatchFit out;
+  out.variance = column[0];
+  out.window.middle = out.window.mean = here + fit[0];
+  out.window.slope_x = fit[1];
+  out.window.slope_y = fit[2];
+  out.window.bend_x = fit[3];
+  out.window.twist = fit[4];
+  out.window.bend_y = fit[5];
+  return out;
+}
+
+/// What the fit leaves over at each pixel.
+Patch left_over(const Patch& patch, const WindowFit& fit, float here) {
+  Patch off{};
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const auto x = static_cast<float>(i % kSide - kRadius);
+    const auto y = static_cast<float>(i / kSide - kRadius);
+    const float fitted = (fit.middle - here) + x * fit.slope_x + y * fit.slope_y +
+                         x * x * fit.bend_x + x * y * fit.twist + y * y * fit.bend_y;
+    off[static_cast<std::size_t>(i)] = patch[static_cast<std::size_t>(i)] - fitted;
+  }
+  return off;
+}
+
+}  // namespace
+
+PatchFit fit_patch(const Image<float>& image, const Eigen::Vector2i& at) {
+  const float here = image(at.x(), at.y());
+  const Patch patch = patch_at(image, at, here);
+  const auto count =
+      std::count_if(patch.begin(), patch.end(), [](float value) { return !std::isnan(value); });
+  if (count < kFewest) return kNone;
+  PatchFit fit = fit_pixels(patch, here);
+  float squares = 0.0F;
+  for (const float off : left_over(patch, fit.window, here)) {
+    if (!std::isnan(off)) squares += off * off;
+  }
+  fit.window.variance = fit.window.rest = squares / static_cast<float>(count - 6);
+  return std::isnan(fit.variance) ? kNone : fit;
+}
+
+float structure_of(const Image<float>& image, const Eigen::Vector2i& at, const WindowFit& patch) {
+  const float here = image(at.x(), at.y());
+  const Patch off = left_over(patch_at(image, at, here), patch, here);
   float products = 0.0F;
   float squares = 0.0F;
   const auto add = [&](float a, float b) {
@@ -51,45 +110,6 @@ float structure_of(const Image<float>& image,
     if (i + kSide < off.size()) add(off[i], off[i + kSide]);
   }
   return squares > 0.0F ? products / squares : 0.0F;
-}
-
-}  // namespace
-
-PatchFit fit_patch(const Image<float>& image, const Eigen::Vector2i& at) {
-  const float here = image(at.x(), at.y());
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 pull = Vector6::Zero();
-  float squares = 0.0F;
-  int count = 0;
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
-    for (int dx = -kRadius; dx <= kRadius; ++dx) {
-      const int x = at.x() + dx;
-      const int y = at.y() + dy;
-      if (x < 0 || y < 0 || x >= image.width() || y >= image.height()) continue;
-      const float value = image(x, y) - here;  // small numbers keep their digits
-      if (std::isnan(value)) continue;
-      const Vector6 row = powers(dx, dy);
-      normal += row * row.transpose();
-      pull += value * row;
-      squares += value * value;
-      ++count;
-    }
-  }
-  const PatchFit none{kNoFit, kMissing};
-  if (count < kFewest) return none;
-  const Eigen::LDLT<Matrix6> solver(normal);
-  const Vector6 fit = solver.solve(pull);
-  const Vector6 column = solver.solve(Vector6::Unit(0));
-  if (!fit.allFinite() || !(column[0] > 0.0F && column[0] < kMostVariance)) return none;
-  PatchFit out;
-  out.variance = column[0];
-  out.window.middle = out.window.mean = here + fit[0];
-  out.window.slope_x = fit[1];
-  out.window.slope_y = fit[2];
-  out.window.rest = std::max(0.0F, squares - fit.dot(pull)) / static_cast<float>(count - 6);
-  out.window.variance = out.window.rest;
-  out.window.structure = structure_of(image, at, fit, here);
-  return out;
 }
 
 }  // namespace frangia

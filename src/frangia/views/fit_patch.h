@@ -8,6 +8,8 @@
 
 namespace frangia {
 
+inline constexpr int kPatchRadius = 2;
+
 /// A paraboloid through what there is of the 5 x 5 pixels about one.
 struct PatchFit {
   WindowFit window;       ///< about the pixel: `middle` and slopes are the paraboloid's there
@@ -18,5 +20,11 @@ struct PatchFit {
 ///
 /// missing  NaN where too few pixels, or pixels on too few sides, determine it
 [[nodiscard]] PatchFit fit_patch(const Image<float>& image, const Eigen::Vector2i& at);
+
+/// Correlation of what a patch leaves over at neighbouring pixels: of noise it is negative, of an
+/// edge or a step positive.
+[[nodiscard]] float structure_of(const Image<float>& image,
+                                 const Eigen::Vector2i& at,
+                                 const WindowFit& patch);
 
 }  // namespace frangia

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -10,31 +11,6 @@
 
 namespace frangia {
 namespace {
-
-/// The fits of one row, each figure in a row of its own: loops over them become vector code.
-struct RowOfFits {
-  explicit RowOfFits(int width)
-      : mean(static_cast<std::size_t>(width)),
-        slope_x(mean),
-        slope_y(mean),
-        variance(mean),
-        middle(mean),
-        rest(mean),
-        structure(mean),
-        bend_x(mean),
-        bend_y(mean),
-        twist(mean) {}
-  std::vector<float> mean;
-  std::vector<float> slope_x;
-  std::vector<float> slope_y;
-  std::vector<float> variance;
-  std::vector<float> middle;
-  std::vector<float> rest;
-  std::vector<float> structure;
-  std::vector<float> bend_x;  ///< of the paraboloid, about its plane
-  std::vector<float> bend_y;
-  std::vector<float> twist;
-};
 
 /// Sums over one side of a window of the powers of the place, which make its fits orthogonal.
 template <int kRadius>
@@ -51,29 +27,78 @@ struct Moments {
       sum += bend(i) * bend(i);
     return sum;
   }
-  /// In how many pairs of neighbours along a side a place is.
-  static constexpr float pairs(int i) { return i == 0 || i == 2 * kRadius ? 1.0F : 2.0F; }
-  static constexpr float kPerCount = 1.0F / (kSide * kSide);
-  static constexpr float kPerSpread = 1.0F / (kSide * kSide * kSquare);
+  static constexpr float kSquares = kSide * kSquare;  ///< sum of x^2 over a side
+  static constexpr float kPerCount = 1.0F / kSide;
+  static constexpr float kPerSquares = 1.0F / kSquares;
   static constexpr float kPerBend = 1.0F / (kSide * spread());
-  static constexpr float kPerTwist = 1.0F / (kSide * kSquare * kSide * kSquare);
+  static constexpr float kPerTwist = 1.0F / (kSquares * kSquares);
+};
+
+/// What the rows of windows have in one row of the image, each figure in a row of its own: loops
+/// over them become vector code. Of a window's row it is the line that fits best.
+struct Lines {
+  float* mean = nullptr;
+  float* slope = nullptr;
+  float* bend = nullptr;     ///< sum of `Moments::bend` times the values
+  float* squares = nullptr;  ///< of the values off the line
+};
+
+/// The same of whole windows.
+struct Windows {
+  float* mean = nullptr;
+  float* slope_x = nullptr;
+  float* slope_y = nullptr;
+  float* variance = nullptr;
+  float* middle = nullptr;
+  float* rest = nullptr;
+  float* bend_x = nullptr;
+  float* bend_y = nullptr;
+  float* twist = nullptr;
 };
 
 template <int kRadius>
-[[gnu::always_inline]] inline void fit_row_of(const float* top,
-                                              std::ptrdiff_t width,
-                                              RowOfFits& fits) {
+[[gnu::always_inline]] inline void fit_lines(const float* values,
+                                             std::ptrdiff_t count,
+                                             const Lines& lines) {
+  using M = Moments<kRadius>;
+  const Lines to = lines;
+#pragma GCC ivdep
+  for (std::ptrdiff_t x = 0; x < count; ++x) {
+    float sum = 0.0F;
+    float along = 0.0F;
+    float bend = 0.0F;
+    for (int i = 0; i < M::kSide; ++i) {
+      const float value = values[x + i];
+      sum += value;
+      along += static_cast<float>(i - kRadius) * value;
+      bend += M::bend(i) * value;
+    }
+    const float mean = sum * M::kPerCount;
+    const float slope = along * M::kPerSquares;
+    float squares = 0.0F;
+    for (int i = 0; i < M::kSide; ++i) {
+      const float off = values[x + i] - (mean + static_cast<float>(i - kRadius) * slope);
+      squares += off * off;
+    }
+    to.mean[x] = mean;
+    to.slope[x] = slope;
+    to.bend[x] = bend;
+    to.squares[x] = squares;
+  }
+}
+
+/// Windows from the lines of their rows. What lies off the plane is what lies off the lines, and
+/// what these lie off the plane: nothing cancels.
+template <int kRadius>
+[[gnu::always_inline]] inline void join_lines(const std::array<Lines, 7>& rows,
+                                              std::ptrdiff_t count,
+                                              const Windows& windows) {
   using M = Moments<kRadius>;
   constexpr int kSide = M::kSide;
-  float* mean = fits.mean.data();
-  float* slope_x = fits.slope_x.data();
-  float* slope_y = fits.slope_y.data();
-  float* middle = fits.middle.data();
-  float* bent_x = fits.bend_x.data();
-  float* bent_y = fits.bend_y.data();
-  float* twisted = fits.twist.data();
-  const std::ptrdiff_t inner = width - 2 * kRadius;
-  for (std::ptrdiff_t x = 0; x < inner; ++x) {
+  const std::array<Lines, 7> from = rows;
+  const Windows to = windows;
+#pragma GCC ivdep
+  for (std::ptrdiff_t x = 0; x < count; ++x) {
     float sum = 0.0F;
     float along_x = 0.0F;
     float along_y = 0.0F;
@@ -81,117 +106,150 @@ template <int kRadius>
     float bend_y = 0.0F;
     float twist = 0.0F;
     for (int j = 0; j < kSide; ++j) {
-      float of_row = 0.0F;
-      float x_of_row = 0.0F;
-      for (int i = 0; i < kSide; ++i) {
-        const float value = top[j * width + x + i];
-        of_row += value;
-        x_of_row += static_cast<float>(i - kRadius) * value;
-        bend_x += M::bend(i) * value;
-      }
-      sum += of_row;
-      along_x += x_of_row;
-      along_y += static_cast<float>(j - kRadius) * of_row;
-      bend_y += M::bend(j) * of_row;
-      twist += static_cast<float>(j - kRadius) * x_of_row;
+      const Lines& row = from[static_cast<std::size_t>(j)];
+      const float down = static_cast<float>(j - kRadius);
+      sum += row.mean[x];
+      along_x += row.slope[x];
+      along_y += down * row.mean[x];
+      bend_x += row.bend[x];
+      bend_y += M::bend(j) * row.mean[x];
+      twist += down * row.slope[x];
     }
-    mean[x] = sum * M::kPerCount;
-    slope_x[x] = along_x * M::kPerSpread;
-    slope_y[x] = along_y * M::kPerSpread;
-    middle[x] = mean[x] - (bend_x + bend_y) * M::kPerBend * M::kSquare;
-    bent_x[x] = bend_x * M::kPerBend;
-    bent_y[x] = bend_y * M::kPerBend;
-    twisted[x] = twist * M::kPerTwist;
-  }
-}
-
-/// What the fits leave over; about them rather than from sums of squares, which would cancel all
-/// digits.
-template <int kRadius>
-[[gnu::always_inline]] inline void judge_row_of(const float* top,
-                                                std::ptrdiff_t width,
-                                                RowOfFits& fits) {
-  using M = Moments<kRadius>;
-  constexpr int kSide = M::kSide;
-  const float* mean = fits.mean.data();
-  const float* slope_x = fits.slope_x.data();
-  const float* slope_y = fits.slope_y.data();
-  const float* bend_x = fits.bend_x.data();
-  const float* bend_y = fits.bend_y.data();
-  const float* twist = fits.twist.data();
-  float* variance = fits.variance.data();
-  float* rest = fits.rest.data();
-  float* structure = fits.structure.data();
-  const std::ptrdiff_t inner = width - 2 * kRadius;
-  for (std::ptrdiff_t x = 0; x < inner; ++x) {
+    const float mean = sum * M::kPerCount;
+    const float slope_x = along_x * M::kPerCount;
+    const float slope_y = along_y * M::kPerSquares;
     float squares = 0.0F;
-    float products = 0.0F;
-    float paired = 0.0F;
-    std::array<float, static_cast<std::size_t>(kSide)> above{};
     for (int j = 0; j < kSide; ++j) {
-      const auto down = static_cast<float>(j - kRadius);
-      const float of_row = mean[x] + down * slope_y[x] + M::bend(j) * bend_y[x];
-      const float along = slope_x[x] + down * twist[x];
-      float before = 0.0F;
-      for (int i = 0; i < kSide; ++i) {
-        const float fit = of_row + static_cast<float>(i - kRadius) * along + M::bend(i) * bend_x[x];
-        const float off = top[j * width + x + i] - fit;
-        squares += off * off;
-        paired += (M::pairs(i) + M::pairs(j)) * off * off;
-        const auto column = static_cast<std::size_t>(i);
-        products += off * (before + above[column]);
-        above[column] = before = off;
-      }
+      const Lines& row = from[static_cast<std::size_t>(j)];
+      const float off = row.mean[x] - (mean + static_cast<float>(j - kRadius) * slope_y);
+      const float turn = row.slope[x] - slope_x;
+      squares +=
+          row.squares[x] + (static_cast<float>(kSide) * off * off + M::kSquares * turn * turn);
     }
-    const float bends = bend_x[x] * bend_x[x] + bend_y[x] * bend_y[x];
-    const float explained = bends / M::kPerBend + twist[x] * twist[x] / M::kPerTwist;
-    variance[x] = (squares + explained) * (1.0F / (kSide * kSide - 3));
-    rest[x] = squares * (1.0F / std::max(1, kSide * kSide - 6));
-    structure[x] = paired > 0.0F ? 2.0F * products / paired : 0.0F;
+    bend_x *= M::kPerBend;
+    bend_y *= static_cast<float>(kSide) * M::kPerBend;
+    twist *= M::kSquares * M::kPerTwist;
+    const float explained =  // of the squares, by the paraboloid
+        (bend_x * bend_x + bend_y * bend_y) / M::kPerBend + twist * twist / M::kPerTwist;
+    to.mean[x] = mean;
+    to.slope_x[x] = slope_x;
+    to.slope_y[x] = slope_y;
+    to.variance[x] = squares * (1.0F / (kSide * kSide - 3));
+    to.middle[x] = mean - (bend_x + bend_y) * M::kSquare;
+    to.rest[x] = std::max(0.0F, squares - explained) * (1.0F / (kSide * kSide - 6));
+    to.bend_x[x] = bend_x;
+    to.bend_y[x] = bend_y;
+    to.twist[x] = twist;
   }
-}
-
-template <int kRadius>
-[[gnu::always_inline]] inline void fit_and_judge(const float* top,
-                                                 std::ptrdiff_t width,
-                                                 RowOfFits& fits) {
-  fit_row_of<kRadius>(top, width, fits);
-  judge_row_of<kRadius>(top, width, fits);
 }
 
 /// One body for each instruction set: without contraction they give the same bytes.
-[[gnu::target_clones("avx512f", "avx2", "default")]] void fit_row(const float* top,
-                                                                  std::ptrdiff_t width,
-                                                                  int radius,
-                                                                  RowOfFits& fits) {
-  if (radius == 1) fit_and_judge<1>(top, width, fits);
-  if (radius == 2) fit_and_judge<2>(top, width, fits);
-  if (radius == 3) fit_and_judge<3>(top, width, fits);
+[[gnu::target_clones("avx512f", "avx2", "default")]] void fit_lines(const float* values,
+                                                                    std::ptrdiff_t count,
+                                                                    int radius,
+                                                                    const Lines& lines) {
+  if (radius == 1) fit_lines<1>(values, count, lines);
+  if (radius == 2) fit_lines<2>(values, count, lines);
+  if (radius == 3) fit_lines<3>(values, count, lines);
+}
+[[gnu::target_clones("avx512f", "avx2", "default")]] void join_lines(
+    const std::array<Lines, 7>& rows, std::ptrdiff_t count, int radius, const Windows& windows) {
+  if (radius == 1) join_lines<1>(rows, count, windows);
+  if (radius == 2) join_lines<2>(rows, count, windows);
+  if (radius == 3) join_lines<3>(rows, count, windows);
+}
+
+/// Columns [begin, end) outside of which some rows hold nothing.
+struct Span {
+  int begin = 0;
+  int end = 0;
+};
+Span seen_columns(const Image<float>& image, int first_row, int rows) {
+  Span span{image.width(), 0};
+  for (int y = std::max(0, first_row); y < std::min(image.height(), first_row + rows); ++y) {
+    int x = 0;
+    while (x < span.begin && std::isnan(image(x, y)))
+      ++x;
+    span.begin = std::min(span.begin, x);
+    x = image.width();
+    while (x > span.end && std::isnan(image(x - 1, y)))
+      --x;
+    span.end = std::max(span.end, x);
+  }
+  return span;
 }
 
 }  // namespace
 
-void fit_windows(const Image<float>& image, int radius, int first, Image<WindowFit>& fits) {
-  require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
-  const int width = image.width();
-  RowOfFits found(width);
-  for (int row = 0; row < fits.height(); ++row) {
-    const int top = first + row - radius;
-    const bool within = top >= 0 && top + 2 * radius < image.height() && width > 2 * radius;
-    if (within) fit_row(&image(0, top), width, radius, found);
-    for (int x = 0; x < width; ++x) {
-      const auto from = static_cast<std::size_t>(x - radius);
-      const bool inner = within && x >= radius && x + radius < width;
-      fits(x, row) = inner ? WindowFit{found.mean[from],
-                                       found.slope_x[from],
-                                       found.slope_y[from],
-                                       found.variance[from],
-                                       found.middle[from],
-                                       found.rest[from],
-                                       found.structure[from]}
-                           : kNoFit;
-    }
+WindowFits::WindowFits(int width, int rows)
+    : width_(width),
+      values_(std::make_unique_for_overwrite<float[]>(  // NOLINT(*-avoid-c-arrays)
+          static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * kFigures))) {}
+
+void WindowFits::set_missing_beside(int begin, int end, int row) {
+  for (int figure = 0; figure < kFigures; ++figure) {
+    float* values = this->row(static_cast<Figure>(figure), row);
+    std::fill(values, values + begin, kMissing);
+    std::fill(values + end, values + width_, kMissing);
   }
+}
+
+WindowFit WindowFits::at(int x, int row) const {
+  const float* first = values_.get() + place(kMean, row) + x;
+  const auto figure = [&](Figure which) { return first[std::ptrdiff_t{width_} * which]; };
+  return {figure(kMean),
+          figure(kSlopeX),
+          figure(kSlopeY),
+          figure(kVariance),
+          figure(kMiddle),
+          figure(kRest),
+          figure(kBendX),
+          figure(kBendY),
+          figure(kTwist)};
+}
+
+WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows) {
+  require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
+  WindowFits fits(image.width(), rows);
+  const int side = 2 * radius + 1;
+  const Span seen = seen_columns(image, first - radius, rows + 2 * radius);
+  const int inner = seen.end - seen.begin - 2 * radius;  // windows in a row
+  const auto width = static_cast<std::size_t>(std::max(0, inner));
+  std::vector<float> kept(width * static_cast<std::size_t>(4 * side));
+  const auto lines_of = [&](int y) {
+    float* slot = kept.data() + static_cast<std::size_t>(4 * (y % side)) * width;
+    return Lines{slot, slot + width, slot + 2 * width, slot + 3 * width};
+  };
+  int next = std::max(0, first - radius);  // the first row whose lines are not known
+  for (int row = 0; row < rows; ++row) {
+    const int top = first + row - radius;
+    if (inner <= 0 || top < 0 || top + side > image.height()) {
+      fits.set_missing_beside(0, 0, row);
+      continue;
+    }
+    fits.set_missing_beside(seen.begin + radius, seen.begin + radius + inner, row);
+    for (; next < top + side; ++next)
+      fit_lines(&image(seen.begin, next), inner, radius, lines_of(next));
+    std::array<Lines, 7> lines;
+    for (int j = 0; j < side; ++j)
+      lines[static_cast<std::size_t>(j)] = lines_of(top + j);
+    const auto of = [&](WindowFits::Figure figure) {
+      return fits.row(figure, row) + seen.begin + radius;
+    };
+    join_lines(lines,
+               inner,
+               radius,
+               {of(WindowFits::kMean),
+                of(WindowFits::kSlopeX),
+                of(WindowFits::kSlopeY),
+                of(WindowFits::kVariance),
+                of(WindowFits::kMiddle),
+                of(WindowFits::kRest),
+                of(WindowFits::kBendX),
+                of(WindowFits::kBendY),
+                of(WindowFits::kTwist)});
+  }
+  return fits;
 }
 
 }  // namespace frangia

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+
 #include "frangia/core/image.h"
 #include "frangia/core/missing.h"
 
@@ -13,27 +16,62 @@ struct WindowFit {
   float variance = 0.0F;  ///< of the values about the plane
   float middle = 0.0F;    ///< what the best paraboloid has at the window's centre
   float rest = 0.0F;      ///< variance of the values about that paraboloid
-  /// Correlation of what the paraboloid leaves over at neighbouring pixels: of noise it is
-  /// negative, however loud, of an edge or a step positive.
-  float structure = 0.0F;
+  float bend_x = 0.0F;    ///< of the paraboloid: of x^2, per pixel^2
+  float bend_y = 0.0F;    ///< of y^2
+  float twist = 0.0F;     ///< of x y
 };
 
 /// What a window has that cannot be fitted.
 inline constexpr WindowFit kNoFit{
-    kMissing, kMissing, kMissing, kMissing, kMissing, kMissing, kMissing};
+    kMissing, kMissing, kMissing, kMissing, kMissing, kMissing, kMissing, kMissing, kMissing};
 
 /// What is left in `middle` of a pixel's noise, in variance.
 [[nodiscard]] constexpr float middle_variance(int radius) {
   return radius == 1 ? 5.0F / 9.0F : radius == 2 ? 27.0F / 175.0F : 11.0F / 147.0F;
 }
 
-/// Least-squares planes over the (2 radius + 1)^2 window about each pixel of the rows from `first`
-/// on.
+/// The fits about some pixels, each figure in rows of its own: loops over them become vector code.
+class WindowFits {
+ public:
+  enum Figure : int {
+    kMean,
+    kSlopeX,
+    kSlopeY,
+    kVariance,
+    kMiddle,
+    kRest,
+    kBendX,
+    kBendY,
+    kTwist,
+    kFigures
+  };
+
+  WindowFits(int width, int rows);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] float* row(Figure figure, int row) { return values_.get() + place(figure, row); }
+  [[nodiscard]] const float* row(Figure figure, int row) const {
+    return values_.get() + place(figure, row);
+  }
+  [[nodiscard]] WindowFit at(int x, int row) const;
+  /// Windows [begin, end) of a row are yet to be written; all others have no fit.
+  void set_missing_beside(int begin, int end, int row);
+
+ private:
+  [[nodiscard]] std::size_t place(Figure figure, int row) const {
+    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(row * kFigures + figure);
+  }
+
+  int width_;
+  std::unique_ptr<float[]> values_;  // NOLINT(*-avoid-c-arrays): not written twice, as a vector's
+};
+
+/// Least-squares planes over the (2 radius + 1)^2 window about each pixel of `rows` rows from
+/// `first` on.
 ///
-/// shape    `fits` has the image's width and as many rows as are wanted
 /// missing  NaN in the image; a window that holds one, or leaves the image, has NaN everywhere
 /// errors   Error(Input) unless the radius is 1, 2 or 3
 /// source   `middle`: Savitzky & Golay 1964, in two dimensions
-void fit_windows(const Image<float>& image, int radius, int first, Image<WindowFit>& fits);
+[[nodiscard]] WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows);
 
 }  // namespace frangia

@@ -13,99 +13,15 @@
 #include "frangia/views/choose_window.h"
 #include "frangia/views/estimate_jitter.h"
 #include "frangia/views/fast_lens.h"
+#include "frangia/views/link_pixels.h"
+#include "frangia/views/plane_row.h"
 
 namespace frangia {
 namespace {
 
-constexpr float kSteepest = 7.1F;     // tan(82 degrees): steeper than that is a step, not a slope
-constexpr float kNoiseSigmas = 4.0F;  // and a step must rise out of the noise
-constexpr float kSmallestSigma = 1e-6F;  // of the depth: keeps the weight of perfect data finite
-
-/// Which neighbours of a pixel lie on its surface.
-enum Link : std::uint8_t { kRight = 1, kDown = 2 };
-
-struct Grid {
-  Image<float> q;      ///< inverse depth, as measured
-  Image<float> noise;  ///< its standard deviation
-  Image<std::uint8_t> links;
-};
-
 template <typename T>
 void fit_size(Image<T>& image, int width, int height) {
   if (image.width() != width || image.height() != height) image = Image<T>(width, height);
-}
-
-Grid link_pixels(const RangeGrid& range, const Lens& camera) {
-  const int width = range.depth_mm.width();
-  const int height = range.depth_mm.height();
-  Grid grid{
-      Image<float>(width, height), Image<float>(width, height), Image<std::uint8_t>(width, height)};
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float depth = range.depth_mm(x, y);
-      const float sigma = std::max(range.sigma_mm(x, y), kSmallestSigma * depth);
-      const bool seen = depth > 0.0F && sigma >= 0.0F;
-      grid.q(x, y) = seen ? 1.0F / depth : kMissing;
-      grid.noise(x, y) = sigma / (depth * depth);
-    }
-  });
-  const auto steepest = static_cast<float>(kSteepest / camera.focal_px.mean());
-  const auto linked = [&](int x, int y, int to_x, int to_y) {
-    const float here = grid.q(x, y);
-    const float there = grid.q(to_x, to_y);
-    const float slope = std::max(here, there) * steepest;
-    const float noise = kNoiseSigmas * std::max(grid.noise(x, y), grid.noise(to_x, to_y));
-    return std::abs(here - there) < slope + noise;  // false for NaN
-  };
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const bool right = x + 1 < width && linked(x, y, x + 1, y);
-      const bool down = y + 1 < height && linked(x, y, x, y + 1);
-      grid.links(x, y) = static_cast<std::uint8_t>((right ? kRight : 0) | (down ? kDown : 0));
-    }
-  });
-  return grid;
-}
-
-bool has(const Grid& grid, int x, int y, Link link) {
-  return x >= 0 && y >= 0 && (grid.links(x, y) & link) != 0;
-}
-
-/// Inverse depth and its standard deviation.
-struct Pixel {
-  float q;
-  float noise;
-};
-
-/// A pixel where its window is centred on it and follows the surface: that of the best paraboloid,
-/// which keeps the curvature and has little of the noise.
-Pixel settled(const ChosenWindow& chosen, const Pixel& measured) {
-  if (chosen.kind == WindowKind::Beside)
-    return {chosen.fit.mean, measured.noise * std::sqrt(chosen.variance)};
-  if (!is_about_pixel(chosen.kind)) return measured;
-  return {chosen.fit.middle, measured.noise * std::sqrt(chosen.variance)};
-}
-
-/// The plane through a pixel's point, from q and its slope over the image.
-LocalPlanes::Plane plane_of(const ChosenWindow& chosen,
-                            const Pixel& pixel,
-                            const FastLens& lens,
-                            const Eigen::Vector2f& ray) {
-  const WindowFit& fit = chosen.fit;
-  const Eigen::Vector2f ab =
-      lens.jacobian(ray).transpose() * Eigen::Vector2f(fit.slope_x, fit.slope_y);
-  const Eigen::Vector3f abc(ab.x(), ab.y(), fit.mean - ab.dot(ray));
-  const float distance = 1.0F / abc.norm();
-  const float cosine = distance * pixel.q;
-  // Beside a rim or an edge neither slope nor pixel is what it is in the middle of a face.
-  constexpr float kDoubt = 3.0F;
-  const float doubt = is_about_pixel(chosen.kind) ? 1.0F : kDoubt;
-  const float sigma_mm = doubt * pixel.noise / (pixel.q * pixel.q);
-  return {-distance * abc,
-          distance,
-          distance * (fit.mean / pixel.q),
-          cosine * cosine / (sigma_mm * sigma_mm),
-          chosen.kind};
 }
 
 /// The corners of quad (x, y).
@@ -118,12 +34,13 @@ Corners corners_of(int x, int y) {
 }
 
 /// Whether the corners of a quad lie on one face.
-bool is_smooth(const Image<LocalPlanes::Plane>& planes, int x, int y, float crease_cosine) {
-  const Eigen::Vector3f& a = planes(x, y).normal;
-  const Eigen::Vector3f& b = planes(x + 1, y).normal;
-  const Eigen::Vector3f& c = planes(x, y + 1).normal;
-  const Eigen::Vector3f& d = planes(x + 1, y + 1).normal;
-  return std::min({a.dot(b), a.dot(c), a.dot(d), b.dot(c), b.dot(d), c.dot(d)}) > crease_cosine;
+bool is_smooth(const std::array<const LocalPlanes::Plane*, 4>& corners, float crease_cosine) {
+  float least = 1.0F;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      least = std::min(least, corners[i]->normal.dot(corners[j]->normal));
+  }
+  return least > crease_cosine;
 }
 
 /// Whether the faces of a quad bulge or gape: whether its corners lie behind one another's planes.
@@ -141,29 +58,31 @@ LocalPlanes::Kind crease_of(const LocalPlanes& view,
   return in_front < 0.0F ? LocalPlanes::Kind::Ridge : LocalPlanes::Kind::Valley;
 }
 
-LocalPlanes::Quad quad_of(const Grid& grid,
+LocalPlanes::Quad quad_of(const LinkedPixels& grid,
                           const LocalPlanes& view,
                           const Image<Eigen::Vector2f>& rays,
                           const Eigen::Vector2i& at,
                           float crease_cosine) {
   const int x = at.x();
   const int y = at.y();
-  if (!has(grid, x, y, kRight) || !has(grid, x, y, kDown) || !has(grid, x, y + 1, kRight) ||
-      !has(grid, x + 1, y, kDown)) {
+  constexpr auto kRight = LinkedPixels::kRight;
+  constexpr auto kDown = LinkedPixels::kDown;
+  if (!grid.has(x, y, kRight) || !grid.has(x, y, kDown) || !grid.has(x, y + 1, kRight) ||
+      !grid.has(x + 1, y, kDown)) {
     return {};
   }
-  const auto corners = corners_of(x, y);
-  const bool whole = std::all_of(corners.begin(), corners.end(), [&](const auto& corner) {
-    return view.has_plane(corner.x(), corner.y());
-  });
-  if (!whole) return {};
+  const std::array<const LocalPlanes::Plane*, 4> corners{&view.planes(x, y),
+                                                         &view.planes(x + 1, y),
+                                                         &view.planes(x, y + 1),
+                                                         &view.planes(x + 1, y + 1)};
   LocalPlanes::Quad quad;
-  for (const auto& corner : corners) {
-    quad.distance_mm += 0.25F * view.planes(corner.x(), corner.y()).distance_mm;
-    quad.weight += 0.25F * view.planes(corner.x(), corner.y()).weight;
+  for (const LocalPlanes::Plane* corner : corners) {
+    if (!(corner->distance_mm > 0.0F)) return {};
+    quad.distance_mm += 0.25F * corner->distance_mm;
+    quad.weight += 0.25F * corner->weight;
   }
-  quad.kind = is_smooth(view.planes, x, y, crease_cosine) ? LocalPlanes::Kind::Smooth
-                                                          : crease_of(view, rays, x, y);
+  quad.kind =
+      is_smooth(corners, crease_cosine) ? LocalPlanes::Kind::Smooth : crease_of(view, rays, x, y);
   return quad;
 }
 
@@ -183,7 +102,7 @@ LocalPlanes local_planes(const View& view,
   fit_size(out.planes, width, height);
   fit_size(out.quads, std::max(0, width - 1), std::max(0, height - 1));
   fit_size(out.inverse_depth, width, height);
-  const Grid grid = link_pixels(view.range, camera.lens);
+  const LinkedPixels grid = link_pixels(view.range, camera.lens);
   const FastLens lens(camera.lens);
   const float jitter_px = estimate_jitter(grid.q, grid.noise);
   constexpr std::size_t kRows = 32;
@@ -191,22 +110,15 @@ LocalPlanes local_planes(const View& view,
     const WindowRows fits(
         grid.q, options.radius, static_cast<int>(begin), static_cast<int>(end - begin));
     std::optional<WindowRows> wider;
-    if (options.wide_radius > 0) {
-      wider.emplace(
-          grid.q, options.wide_radius, static_cast<int>(begin), static_cast<int>(end - begin));
+    if (options.widen) {
+      constexpr int kWide = 3;
+      wider.emplace(grid.q, kWide, static_cast<int>(begin), static_cast<int>(end - begin));
     }
+    PlaneRow row(width);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      for (int x = 0; x < width; ++x) {
-        out.planes(x, y) = {};
-        out.inverse_depth(x, y) = grid.q(x, y);
-        if (std::isnan(grid.q(x, y))) continue;
-        const ChosenWindow chosen = choose_window(
-            grid.q, fits, {x, y}, {grid.noise(x, y), jitter_px}, wider ? &*wider : nullptr);
-        if (std::isnan(chosen.fit.mean)) continue;
-        const Pixel pixel = settled(chosen, {grid.q(x, y), chosen.noise});
-        out.inverse_depth(x, y) = pixel.q;
-        out.planes(x, y) = plane_of(chosen, pixel, lens, rays(x, y));
-      }
+      row.choose(grid, fits, wider ? &*wider : nullptr, y, jitter_px);
+      row.fit(&rays(0, y), lens);
+      row.write(&out.planes(0, y), &out.inverse_depth(0, y));
     }
   });
   const auto crease_cosine = static_cast<float>(std::cos(options.crease_rad));

@@ -1,0 +1,96 @@
+#include "frangia/inspect/edit_picture.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/inspect/contact_sheet.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Direction {
+  double azimuth_rad, elevation_rad;
+
+  [[nodiscard]] Vector3d unit() const {
+    return {std::cos(elevation_rad) * std::cos(azimuth_rad),
+            std::cos(elevation_rad) * std::sin(azimuth_rad),
+            std::sin(elevation_rad)};
+  }
+};
+
+/// Where viewers may stand: the usual place first.
+std::vector<Direction> directions(const ShadeOptions& options) {
+  constexpr int kAround = 12;
+  std::vector<Direction> all{{options.azimuth_rad, options.elevation_rad}};
+  for (const double elevation_deg : {20.0, 50.0, -30.0}) {
+    for (int i = 0; i < kAround; ++i) {
+      all.push_back(
+          {options.azimuth_rad + rad_from_deg(360.0 * i / kAround), rad_from_deg(elevation_deg)});
+    }
+  }
+  return all;
+}
+
+/// The areas of selected triangles, as each viewer sees them.
+void add_seen(const Mesh& mesh,
+              const Selection& selection,
+              const std::vector<Vector3d>& viewers,
+              std::vector<double>& seen) {
+  for (std::size_t t = 0; t < selection.size(); ++t) {
+    if (selection[t] == 0) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vector3d origin = mesh.vertices_mm[a].cast<double>();
+    const Vector3d area = (mesh.vertices_mm[b].cast<double>() - origin)
+                              .cross(mesh.vertices_mm[c].cast<double>() - origin);
+    if (!area.allFinite()) continue;
+    for (std::size_t i = 0; i < viewers.size(); ++i)
+      seen[i] += std::max(0.0, area.dot(viewers[i]));
+  }
+}
+
+ShadeOptions facing(const Mesh& before,
+                    const EditState& after,
+                    const EditPreview& preview,
+                    ShadeOptions options) {
+  const std::vector<Direction> all = directions(options);
+  std::vector<Vector3d> viewers;
+  viewers.reserve(all.size());
+  for (const Direction& direction : all)
+    viewers.push_back(direction.unit());
+  std::vector<double> seen(all.size());
+  add_seen(before, preview.going, viewers, seen);
+  add_seen(after.mesh, preview.coming, viewers, seen);
+  add_seen(after.mesh, after.selection, viewers, seen);
+  constexpr double kWorthTurning = 1.05;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (seen[i] > kWorthTurning * seen[best]) best = i;
+  options.azimuth_rad = all[best].azimuth_rad;
+  options.elevation_rad = all[best].elevation_rad;
+  return options;
+}
+
+}  // namespace
+
+Image<Rgb> edit_picture(const Mesh& before,
+                        const EditState& after,
+                        const EditPreview& preview,
+                        ShadeOptions options,
+                        const Run& run) {
+  options = facing(before, after, preview, std::move(options));
+  options.show_marks = true;
+  options.fit_to_mm = before.vertices_mm;
+  options.fit_to_mm.insert(
+      options.fit_to_mm.end(), after.mesh.vertices_mm.begin(), after.mesh.vertices_mm.end());
+  options.highlighted = preview.going;
+  std::vector<Image<Rgb>> pictures{shade_mesh(before, options, run)};
+  options.highlighted = after.selection;
+  if (!after.mesh.empty()) pictures.push_back(shade_mesh(after.mesh, options, run));
+  return contact_sheet({pictures}, options.height_px);
+}
+
+}  // namespace frangia

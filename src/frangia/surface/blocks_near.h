@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frangia/surface/distance_field.h"
+
+namespace frangia {
+
+/// Keys of all blocks within a view's band, ascending.
+[[nodiscard]] std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
+                                                     const CameraRays& camera,
+                                                     const Band& band);
+
+}  // namespace frangia

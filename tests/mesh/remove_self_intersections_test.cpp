@@ -1,0 +1,120 @@
+#include "frangia/mesh/remove_self_intersections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "frangia/mesh/boundary_loops.h"
+#include "frangia/mesh/connected_parts.h"
+#include "frangia/mesh/make_manifold.h"
+#include "frangia/mesh/self_intersections.h"
+#include "frangia/mesh/vertex_data.h"
+
+#include "support/mesh_truths.h"
+
+namespace frangia {
+namespace {
+
+using testing::open_edges;
+using testing::sphere;
+using testing::volume_mm3;
+
+using Place = std::tuple<float, float, float>;
+
+std::set<Place> places(const Mesh& mesh) {
+  std::set<Place> all;
+  for (const auto& p : mesh.vertices_mm)
+    all.emplace(p.x(), p.y(), p.z());
+  return all;
+}
+
+/// A square sheet of so many vertices a side, 1 mm apart, about the origin, facing z.
+Mesh sheet(int count) {
+  Mesh mesh;
+  for (int x = 0; x < count; ++x) {
+    for (int y = 0; y < count; ++y) {
+      const auto half = 0.5F * static_cast<float>(count - 1);
+      mesh.vertices_mm.emplace_back(static_cast<float>(x) - half, static_cast<float>(y) - half, 0);
+    }
+  }
+  const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(x * count + y); };
+  for (int x = 0; x + 1 < count; ++x) {
+    for (int y = 0; y + 1 < count; ++y) {
+      mesh.triangles.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+      mesh.triangles.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  }
+  return mesh;
+}
+
+TEST(RemoveSelfIntersections, OfADentThroughTheOtherSideLeaveAClosedMesh) {
+  Mesh mesh = sphere(Eigen::Vector3d::Zero(), 20.0, 40);
+  for (auto& vertex : mesh.vertices_mm) {
+    if (vertex.x() > 19.0F) vertex.x() -= 42.0F;
+  }
+  ASSERT_FALSE(self_intersections(mesh).empty());
+  const Mesh mended = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(mended).empty());
+  EXPECT_EQ(open_edges(mended), 0U);
+  EXPECT_EQ(connected_parts(mended).parts.size(), 1U);
+}
+
+TEST(RemoveSelfIntersections, UniteTwoBallsThatCross) {
+  Mesh mesh = sphere({0, 0, 0}, 10.0, 60);
+  append_mesh(mesh, sphere({12.0, 0.3, 0.2}, 10.0, 60));
+  const Mesh united = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(united).empty());
+  EXPECT_EQ(open_edges(united), 0U);
+  EXPECT_EQ(connected_parts(united).parts.size(), 1U);
+  // Two balls without the lens that they have in common.
+  const double h = 10.0 - 0.5 * std::hypot(12.0, 0.3, 0.2);
+  const double lens = 2.0 * kPi * h * h * (30.0 - h) / 3.0;
+  EXPECT_NEAR(volume_mm3(united) / (8000.0 * kPi / 3.0 - lens), 1.0, 0.003);
+  const auto after = places(united);
+  for (const auto& [x, y, z] : places(mesh))
+    EXPECT_TRUE((x > 4.0F && x < 8.0F) || after.contains({x, y, z}) ||
+                (x >= 8.0F ? std::hypot(x, y, z) : std::hypot(x - 12, y, z)) < 10.5F);
+}
+
+TEST(RemoveSelfIntersections, OfASpikeThroughASheetKeepTheRestOfBoth) {
+  Mesh mesh = sheet(41);
+  for (auto& vertex : mesh.vertices_mm)
+    vertex.z() = 25.0F * std::exp(-vertex.head<2>().squaredNorm() / 4.0F);
+  Mesh other = sheet(41);
+  for (auto& vertex : other.vertices_mm)
+    vertex += Eigen::Vector3f(0.13F, 0.07F, 10.0F);
+  append_mesh(mesh, other);
+  ASSERT_FALSE(self_intersections(mesh).empty());
+  const Mesh mended = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(mended).empty());
+  EXPECT_EQ(count_non_manifold_edges(mended), 0U);
+  EXPECT_EQ(boundary_loops(mended).size(), 2U);  // of the two sheets, as before
+  const auto after = places(mended);
+  for (const auto& [x, y, z] : places(mesh))
+    EXPECT_TRUE(std::hypot(x, y) < 5.0F || after.contains({x, y, z}));
+}
+
+TEST(RemoveSelfIntersections, BetweenOpenSheetsLeaveTheirBoundariesOpen) {
+  Mesh mesh = sheet(21);
+  Mesh upright = sheet(21);
+  for (auto& vertex : upright.vertices_mm)
+    vertex = Eigen::Vector3f(vertex.x() + 0.3F, 0.2F, vertex.y() + 0.4F);
+  append_mesh(mesh, upright);
+  const Mesh mended = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(mended).empty());
+  EXPECT_TRUE(std::none_of(mended.triangle_marks.begin(),
+                           mended.triangle_marks.end(),
+                           [](Mark mark) { return mark == Mark::Invented; }));
+  EXPECT_GT(boundary_loops(mended).size(), 2U);
+}
+
+TEST(RemoveSelfIntersections, OfAMeshWithoutAnyChangeNothing) {
+  const Mesh mesh = sphere({0, 0, 0}, 10.0, 20);
+  EXPECT_EQ(remove_self_intersections(mesh).triangles, mesh.triangles);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""MeshLab's merging of range maps (VCG) on the data of the benchmark of pasting.
+
+usage: bench_merging.py FOLDER    which holds paste_views.json and data/range-*.ply, as `./run bench`
+                                  leaves them
+
+Prints how many times longer it takes, by its own clock and without reading and preparing the files, and
+writes merging.json. It takes minutes; without MeshLab it says so. Debian: meshlab, xvfb.
+"""
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+WANTED = 20
+# MeshLab takes the defaults of no parameter: all must be listed.
+MERGE = """<!DOCTYPE FilterScript>
+<FilterScript>
+ <filter name="Surface Reconstruction: VCG">
+  <Param name="voxSize" value="0.2" min="0" max="100" type="RichAbsPerc"/>
+  <Param name="subdiv" value="1" type="RichInt"/>
+  <Param name="geodesic" value="2" type="RichFloat"/>
+  <Param name="openResult" value="true" type="RichBool"/>
+  <Param name="smoothNum" value="1" type="RichInt"/>
+  <Param name="wideNum" value="3" type="RichInt"/>
+  <Param name="mergeColor" value="false" type="RichBool"/>
+  <Param name="simplification" value="false" type="RichBool"/>
+  <Param name="normalSmooth" value="3" type="RichInt"/>
+ </filter>
+</FilterScript>
+"""
+
+
+def merged_by_meshlab(maps):
+    """Its own seconds, and how many triangles it makes."""
+    with tempfile.TemporaryDirectory() as work:
+        script = pathlib.Path(work, "merge.mlx")
+        script.write_text(MERGE)
+        answer = subprocess.run(["xvfb-run", "-a", "meshlabserver", "-i", *map(str, maps), "-s", str(script),
+                                 "-o", "merged.ply"], cwd=work, check=False, capture_output=True, text=True)
+    said = answer.stdout + answer.stderr
+    total = re.search(r"Total\s+(\d+)", said)  # microseconds of its processor
+    saved = re.search(r"saved as .*\((\d+) vn (\d+) fn\)", said)
+    if total is None or saved is None:
+        sys.exit(f"MeshLab did not merge the range maps:\n{said[-2000:]}")
+    return int(total[1]) * 1e-6, int(saved[2])
+
+
+def main(folder):
+    maps = sorted((folder / "data").glob("range-*.ply"))
+    if shutil.which("meshlabserver") is None or shutil.which("xvfb-run") is None:
+        print("MeshLab is absent (meshlab, xvfb): pasting is compared with nothing")
+        return
+    if len(maps) != 12:
+        sys.exit(f"{folder}/data has not the 12 range maps; run ./run bench")
+    runs = json.loads((folder / "paste_views.json").read_text())["benchmarks"]
+    ours = next(run for run in runs if run["name"].startswith("paste_views_of_twelve/1200"))
+    seconds, triangles = merged_by_meshlab(maps)
+    ratio = seconds / (ours["real_time"] * 1e-3)
+    print(f"pasting 12 views of 1200 x 1200: MeshLab's VCG merging takes {ratio:.1f} times ours ({seconds:.1f} s for "
+          f"{triangles} triangles; {ours['real_time'] * 1e-3:.2f} s for {ours['triangles']:.0f}), wanted {WANTED}: "
+          f"{'met' if ratio >= WANTED else 'MISSED'}")
+    (folder / "merging.json").write_text(json.dumps({"seconds": seconds, "ratio": ratio, "wanted": WANTED}, indent=2))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(pathlib.Path(sys.argv[1]))
