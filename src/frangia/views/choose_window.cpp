@@ -69,17 +69,14 @@ ChosenWindow round_window(const Image<float>& image,
                           const PixelNoise& noise,
                           const PatchFit& patch,
                           bool loud) {
-  constexpr float kRound = 1.3F;   // in variance
-  constexpr float kUneven = 2.0F;  // pixels differ in their noise
+  constexpr float kRound = 1.3F;  // in variance
   constexpr float kLoud = 9.0F;
   constexpr float kStructure = 0.0F;
-  constexpr float kNone = -0.08F;  // what most noise is below, and hardly an edge
   const float expected = noise.variance(patch.window);
   const float rest = patch.window.rest;
-  if (!(rest < (loud ? kLoud : kUneven) * expected)) return kNoWindow;  // and for NaN
+  if (!(rest < (loud ? kLoud : kRound) * expected)) return kNoWindow;  // and for NaN
   const bool quiet = rest < kRound * expected;
-  const float most = loud || quiet ? kStructure : kNone;
-  if (!(loud && quiet) && !(structure_of(image, at, patch.window) < most)) return kNoWindow;
+  if (!(loud && quiet) && !(structure_of(image, at, patch.window) < kStructure)) return kNoWindow;
   return {patch.window,
           WindowKind::Centred,
           patch.window.middle,
