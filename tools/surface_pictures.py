@@ -1,7 +1,8 @@
 """Makes the pictures of docs/surface.md: python3 tools/surface_pictures.py PROGRAM docs/images
 
 Scans of simulated parts are made, reconstructed and drawn by the program itself; what is only here is the
-putting together of single views, and the plain field with marching cubes that the block's edge is compared with.
+putting together of single views, and the field with marching cubes that the block's edge is compared with.
+Names after the folder (registration, rounds, sigma_and_closing, block_edge) make these alone.
 """
 import json
 import math
@@ -11,7 +12,7 @@ import sys
 import tempfile
 
 import numpy
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFont
 from skimage.measure import marching_cubes
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
@@ -116,30 +117,48 @@ def write_ply(path, vertices, label, triangles):
     path.write_bytes(head.encode() + rows.tobytes() + faces.tobytes())
 
 
-def put_together(path, rig, depths, places):
-    """All views as one mesh, each vertex labelled with its view's number."""
+def put_together(path, rig, depths, places, label=lambda number: number + 1):
+    """All views as one mesh, each vertex labelled with its view's number, or what `label` makes of it."""
     rays, vertices, labels, triangles, count = rig.rays(), [], [], [], 0
     for number, depth in enumerate(depths):
         points = places(rays * depth[..., None], number).reshape(-1, 3)
         used, faces = numpy.unique(triangles_of(depth, 1.5), return_inverse=True)
         vertices.append(points[used])
-        labels.append(numpy.full(len(used), number + 1))
+        labels.append(numpy.full(len(used), label(number)))
         triangles.append(faces.reshape(-1, 3) + count)
         count += len(used)
     write_ply(path, numpy.concatenate(vertices), numpy.concatenate(labels), numpy.concatenate(triangles))
 
 
+WIDTH = 1800  # of a sheet: pages show it at about half
+CAPTION = ImageFont.truetype("DejaVuSans.ttf", 44)
+
+
 def side_by_side(path, pictures):
+    """Pictures beside each other, each with its caption above it, in letters that can be read on a page."""
+    each = WIDTH // len(pictures)
     images = [Image.open(picture).convert("RGB") for picture, _ in pictures]
-    sheet = Image.new("RGB", (sum(i.width for i in images), images[0].height), "white")
+    images = [image.resize((each, round(image.height * each / image.width)), Image.LANCZOS) for image in images]
+    head = 76
+    sheet = Image.new("RGB", (each * len(images), head + images[0].height), "white")
     draw = ImageDraw.Draw(sheet)
-    left = 0
-    for image, (_, title) in zip(images, pictures):
-        sheet.paste(image, (left, 0))
-        draw.text((left + 24, 18), title, fill=(40, 40, 40), font_size=26)
-        left += image.width
-    sheet.thumbnail((1600, 1600))
+    for i, (image, (_, title)) in enumerate(zip(images, pictures)):
+        sheet.paste(image, (i * each, head))
+        width = draw.textlength(title, font=CAPTION)
+        if width > each - 20:
+            raise SystemExit(f"{path.name}: the caption '{title}' is too long")
+        draw.text((i * each + (each - width) / 2, 10), title, fill=(40, 40, 40), font=CAPTION)
     sheet.save(path, optimize=True)
+
+
+def middle_of(picture, box):
+    """Cuts a picture down to a part of it, given in shares of its size."""
+    image = Image.open(picture)
+    image.crop(tuple(round(share * size) for share, size in zip(box, image.size * 2))).save(picture)
+    return picture
+
+
+HALF = (0.25, 0.02, 0.75, 0.98)  # what a part that stands upright fills
 
 
 def registration():
@@ -158,8 +177,8 @@ def registration():
     side_by_side(
         IMAGES / "surface-registration.png",
         [
-            (WORK / "before.png", f"as the rig says: {answer['rms_before_mm']:.2f} mm RMS apart"),
-            (WORK / "after.png", f"registered: {answer['rms_after_mm']:.3f} mm"),
+            (middle_of(WORK / "before.png", HALF), f"as the rig says: {answer['rms_before_mm']:.2f} mm apart"),
+            (middle_of(WORK / "after.png", HALF), f"registered: {answer['rms_after_mm']:.3f} mm"),
         ],
     )
 
@@ -173,58 +192,131 @@ def sigma_and_closing():
     run("inspect", mesh, "--reference", scan / "truth.ply", "--scale", 0.02, "--picture", WORK / "error.png")
     side_by_side(
         IMAGES / "surface-sigma.png",
-        [(WORK / "sigma.png", "predicted sigma, 0 to 0.02 mm"), (WORK / "error.png", "the true error, -0.02 to 0.02 mm")],
+        [
+            (middle_of(WORK / "sigma.png", HALF), "predicted sigma: 0 to 0.02 mm"),
+            (middle_of(WORK / "error.png", HALF), "true error: -0.02 to 0.02 mm"),
+        ],
     )
     run("inspect", mesh, "--show", "shape", "--from", "60,-35", "--picture", WORK / "open.png")
     run("inspect", closed, "--show", "marks", "--from", "60,-35", "--picture", WORK / "marks.png")
     side_by_side(
         IMAGES / "surface-watertight.png",
-        [(WORK / "open.png", "what was seen, from below"), (WORK / "marks.png", "--watertight: red was invented")],
+        [
+            (middle_of(WORK / "open.png", HALF), "what was seen, from below"),
+            (middle_of(WORK / "marks.png", HALF), "--watertight: red is invented"),
+        ],
     )
 
 
-def block_edge():
-    """The upper edge of the bracket's plate, cut out: ours, and marching cubes of a plain field of the same views."""
-    scan = simulate("bracket", "bracket")
-    voxel = 0.5
-    mesh = WORK / "bracket.ply"
-    run("reconstruct", scan, "-o", mesh, "--voxel", voxel)
+def turned(scan):
+    """The table's angle and the round of each view."""
+    import tomllib
+
+    views = tomllib.loads((scan / "scan.toml").read_text())["view"]
+    return [view["angle_deg"] for view in views], [view.get("round", 0) for view in views]
+
+
+def rounds():
+    """The bracket stood and laid: as if it had not been moved, and where the rounds were found to belong."""
+    scan = simulate("bracket", "rounds", "--rounds", 90)
+    answer = run("reconstruct", scan, "-o", WORK / "rounds.ply")["registration"]
     rig = Rig(scan / "rig.toml")
-    depths = [depth_of(scan, view) for view in range(8)]
-    low, high = numpy.array([-40.0, -40.0, -2.0]), numpy.array([40.0, 40.0, 70.0])
-    axes = [numpy.arange(low[i], high[i], voxel) for i in range(3)]
+    angles, round_of = turned(scan)
+    depths = [depth_of(scan, view) for view in range(len(angles))]
+    axis, point = numpy.array(answer["axis"]), numpy.array(answer["point_mm"])
+    placing = numpy.array(answer["placings"][0])
+
+    def on_table(points, view):
+        return rig.to_object(points, answer["angles_deg"][view], axis, point)
+
+    def together(points, view):
+        placed = on_table(points, view)
+        return placed if round_of[view] == 0 else (placed - placing[:, 3]) @ placing[:, :3]
+
+    pictures = []
+    for name, places in (("moved", on_table), ("joined", together)):
+        put_together(WORK / f"{name}.ply", rig, depths, places, lambda view: 1 + 4 * round_of[view])
+        run("inspect", WORK / f"{name}.ply", "--show", "views", "--picture", WORK / f"{name}.png", "--from", "50,25")
+        pictures.append(middle_of(WORK / f"{name}.png", (0.18, 0.02, 0.82, 0.98)))
+    side_by_side(
+        IMAGES / "surface-rounds.png",
+        [(pictures[0], "two rounds: stood, then laid"), (pictures[1], "joined by their shape")],
+    )
+
+
+def write_block(path):
+    half, height = (25.0, 18.0), 30.0
+    corners = [[x, y, z] for z in (0.0, height) for y in (-half[1], half[1]) for x in (-half[0], half[0])]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
+    faces = [(a, b, c) for a, b, c, _ in quads] + [(a, c, d) for a, _, c, d in quads]
+    write_ply(path, numpy.array(corners), numpy.ones(len(corners)), numpy.array(faces))
+
+
+def normals_of(points):
+    """From the neighbours to both sides, towards the camera."""
+    right, down = numpy.gradient(points, axis=1), numpy.gradient(points, axis=0)
+    normal = numpy.cross(down, right)
+    normal /= numpy.maximum(numpy.linalg.norm(normal, axis=-1, keepdims=True), 1e-12)
+    return numpy.where((normal * points).sum(-1, keepdims=True) > 0, -normal, normal)
+
+
+def block_edge():
+    """A corner of the block with sharp edges: ours, and marching cubes of a field of the same views.
+
+    The field is as it is usually made: distances along the normals, weighted by the cosine of incidence and less
+    behind the surface; a cell whose corners are not all known stays open.
+    """
+    write_block(WORK / "block-part.ply")
+    scan = simulate(WORK / "block-part.ply", "block")
+    voxel = 0.5
+    run("reconstruct", scan, "-o", WORK / "block.ply", "--voxel", voxel)
+    rig = Rig(scan / "rig.toml")
+    axes = [numpy.arange(low, high, voxel) for low, high in ((-28.0, 28.0), (-21.0, 21.0), (2.0, 33.0))]
     grid = numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     total, weight = numpy.zeros(len(grid)), numpy.zeros(len(grid))
-    truncation = 3 * voxel
-    for view, depth in enumerate(depths):
-        seen = rig.to_rig(grid, 45.0 * view)
+    rays = rig.rays()
+    for view, angle in enumerate(turned(scan)[0]):
+        points = rays * depth_of(scan, view)[..., None]
+        normals = normals_of(points)
+        seen = rig.to_rig(grid, angle)
         u, v = rig.project(seen)
         x, y = numpy.rint(u).astype(int), numpy.rint(v).astype(int)
-        inside = (x >= 0) & (y >= 0) & (x < depth.shape[1]) & (y < depth.shape[0])
-        measured = numpy.full(len(grid), numpy.nan)
-        measured[inside] = depth[y[inside], x[inside]]
-        distance = measured - seen[:, 2]
-        near = numpy.abs(distance) < truncation
-        total[near] += distance[near]
-        weight[near] += 1
+        inside = (x >= 0) & (y >= 0) & (x < rig.size[0]) & (y < rig.size[1])
+        x, y = numpy.where(inside, x, 0), numpy.where(inside, y, 0)
+        distance = ((seen - points[y, x]) * normals[y, x]).sum(-1)
+        cosine = -(normals[y, x] * rays[y, x]).sum(-1) / numpy.linalg.norm(rays[y, x], axis=-1)
+        near = inside & (numpy.abs(distance) < 4 * voxel) & (cosine > 0.1)
+        trust = cosine**2 / (1 + numpy.minimum(distance / voxel, 0) ** 2) ** 2
+        total[near] += (trust * distance)[near]
+        weight[near] += trust[near]
     shape = tuple(len(a) for a in axes)
-    field = numpy.where(weight > 0, total / numpy.maximum(weight, 1), numpy.nan).reshape(shape)
-    vertices, faces, _, _ = marching_cubes(
-        numpy.nan_to_num(field, nan=truncation), 0.0, mask=numpy.isfinite(field), gradient_direction="ascent")
-    write_ply(WORK / "cubes.ply", vertices * voxel + low, numpy.ones(len(vertices)), faces[:, ::-1])
-    for name in ("bracket", "cubes"):
-        run("inspect", WORK / f"{name}.ply", "--show", "shape", "--picture", WORK / f"{name}.png")
-        picture = Image.open(WORK / f"{name}.png")
-        width, height = picture.size
-        box = (width * 0.30, height * 0.12, width * 0.62, height * 0.44)
-        picture.crop(tuple(map(int, box))).resize((1000, 833), Image.LANCZOS).save(WORK / f"{name}-edge.png")
+    field = numpy.where(weight > 0, total / numpy.maximum(weight, 1e-12), numpy.nan).reshape(shape)
+    known = numpy.isfinite(field)
+    cells = numpy.ones(tuple(n - 1 for n in shape), bool)
+    for corner in numpy.ndindex(2, 2, 2):
+        cells &= known[tuple(slice(c, n - 1 + c) for c, n in zip(corner, shape))]
+    mask = numpy.zeros(shape, bool)
+    mask[1:, 1:, 1:] = cells  # as marching_cubes reads it: a cell by its last corner
+    low = numpy.array([a[0] for a in axes])
+    vertices, faces, _, _ = marching_cubes(numpy.nan_to_num(field, nan=9.0), 0.0, mask=mask)
+    vertices = vertices * voxel + low
+    cross = numpy.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
+    outward = vertices[faces].mean(1) - numpy.array([0.0, 0.0, 15.0])
+    if (cross * outward).sum() < 0:
+        faces = faces[:, ::-1]
+    write_ply(WORK / "cubes.ply", vertices, numpy.ones(len(vertices)), faces)
+    pictures = []
+    for name in ("block", "cubes"):
+        run("inspect", WORK / f"{name}.ply", "--show", "shape", "--from", "35,30", "--picture", WORK / f"{name}.png")
+        pictures.append(middle_of(WORK / f"{name}.png", (0.36, 0.24, 0.64, 0.66)))
     side_by_side(
         IMAGES / "surface-edge.png",
-        [(WORK / "bracket-edge.png", "Frangia, voxels of 0.5 mm"), (WORK / "cubes-edge.png", "a plain field and marching cubes, 0.5 mm")],
+        [(pictures[0], "Frangia, 0.5 mm"), (pictures[1], "marching cubes, 0.5 mm")],
     )
 
 
 IMAGES.mkdir(parents=True, exist_ok=True)
-registration()
-sigma_and_closing()
-block_edge()
+ONLY = sys.argv[3:]  # names of what is wanted; all when there are none
+for wanted in (registration, rounds, sigma_and_closing, block_edge):
+    if not ONLY or wanted.__name__ in ONLY:
+        wanted()

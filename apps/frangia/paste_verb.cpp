@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "frangia/files/ending_of.h"
 #include "frangia/scan/paste_scans.h"
 
+#include "mesh_answer.h"
 #include "write_options.h"
 
 namespace frangia {
@@ -41,7 +43,6 @@ void print_result(const PastedScans& result,
                   std::size_t scans,
                   const PasteArguments& arguments,
                   Terminal& terminal) {
-  const auto stages = terminal.stage_seconds();
   terminal.finish();
   if (terminal.json) {
     nlohmann::ordered_json json{{"scans", scans},
@@ -59,12 +60,7 @@ void print_result(const PastedScans& result,
       for (const std::size_t scan : result.placed->left_out)
         json["left_out"].push_back(scan);
     }
-    for (const auto& [stage, seconds] : stages)
-      json["seconds"][stage] = seconds;
-    json["warnings"] = terminal.warnings();
-    for (const auto& path : arguments.outputs.paths)
-      json["outputs"].push_back(path.string());
-    fmt::print("{}\n", json.dump(2));
+    print_mesh_answer(std::move(json), terminal, arguments.outputs.paths);
     return;
   }
   if (terminal.quiet) return;
@@ -72,8 +68,7 @@ void print_result(const PastedScans& result,
              result.points,
              scans,
              result.mesh.triangles.size());
-  for (const auto& path : arguments.outputs.paths)
-    fmt::print("wrote {}\n", path.string());
+  print_mesh_summary(terminal, arguments.outputs.paths);
 }
 
 void paste(PasteArguments& arguments, Terminal& terminal) {

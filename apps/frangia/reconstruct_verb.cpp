@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
@@ -14,6 +14,7 @@
 #include "frangia/files/ply.h"
 #include "frangia/scan/reconstruct.h"
 
+#include "mesh_answer.h"
 #include "reconstruct_options.h"
 #include "verbs.h"
 #include "write_options.h"
@@ -28,12 +29,6 @@ struct ReconstructArguments {
   bool no_register = false;
   ReconstructOptions options;
 };
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 nlohmann::ordered_json json_of(const RegistrationReport& report) {
   const auto number = [](double value) {  // JSON has no NaN
@@ -71,7 +66,6 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
 void print_result(const Reconstruction& result,
                   const ReconstructArguments& arguments,
                   Terminal& terminal) {
-  const auto stages = terminal.stage_seconds();
   if (terminal.json) {
     nlohmann::ordered_json json;
     json["points"] = result.points;
@@ -81,13 +75,7 @@ void print_result(const Reconstruction& result,
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
     if (result.registration) json["registration"] = json_of(*result.registration);
     if (!std::isnan(result.platter_height_mm)) json["platter_height_mm"] = result.platter_height_mm;
-    for (const auto& [stage, seconds] : stages)
-      json["seconds"][stage] = seconds;
-    json["peak_memory_mb"] = peak_memory_mb();
-    json["warnings"] = terminal.warnings();
-    for (const auto& path : arguments.outputs.paths)
-      json["outputs"].push_back(path.string());
-    fmt::print("{}\n", json.dump(2));
+    print_mesh_answer(std::move(json), terminal, arguments.outputs.paths);
     return;
   }
   if (terminal.quiet) return;
@@ -96,11 +84,7 @@ void print_result(const Reconstruction& result,
              result.points,
              result.views,
              result.mesh.triangles.size());
-  for (const auto& [stage, seconds] : stages)
-    fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
-  fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
-  for (const auto& path : arguments.outputs.paths)
-    fmt::print("wrote {}\n", path.string());
+  print_mesh_summary(terminal, arguments.outputs.paths);
 }
 
 void write_outputs(const Reconstruction& result,

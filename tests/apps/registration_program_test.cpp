@@ -101,5 +101,14 @@ TEST_F(Together, AViewAloneKeepsTheRigAndSaysSo) {
               "mm fit");
 }
 
+TEST_F(Together, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSaysSo) {
+  write_relief("one.ply", dome);
+  write_relief("two.ply", [](double x, double y) { return 500.0 + dome(x, y); });
+  expect_told(run_program("paste " + path("one.ply") + " " + path("two.ply") +
+                          " --poses given -o " + path("a.ply")),
+              0,
+              "the scans do not overlap where they are said to be");
+}
+
 }  // namespace
 }  // namespace frangia

@@ -78,7 +78,7 @@ Mesh paste_views(const ViewStore& views,
   field = {};
 
   std::vector<Evidence> evidence(crossings.points_mm.size());
-  for_each_view(views, rays, {}, [&](const LocalPlanes& view) {
+  for_each_view(views, rays, {.widen = true}, [&](const LocalPlanes& view) {
     add_evidence(
         evidence, crossings, view, rays, {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
     run.report(done += step);

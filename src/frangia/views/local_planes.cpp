@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "frangia/core/error.h"
@@ -108,9 +109,14 @@ LocalPlanes local_planes(const View& view,
   parallel_chunks(static_cast<std::size_t>(height), kRows, [&](std::size_t begin, std::size_t end) {
     const WindowRows fits(
         grid.q, options.radius, static_cast<int>(begin), static_cast<int>(end - begin));
+    std::optional<WindowRows> wider;
+    if (options.widen) {
+      constexpr int kWide = 3;
+      wider.emplace(grid.q, kWide, static_cast<int>(begin), static_cast<int>(end - begin));
+    }
     PlaneRow row(width);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      row.choose(grid, fits, y, jitter_px);
+      row.choose(grid, fits, wider ? &*wider : nullptr, y, jitter_px);
       row.fit(&rays(0, y), lens);
       row.write(&out.planes(0, y), &out.inverse_depth(0, y));
     }

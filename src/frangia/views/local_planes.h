@@ -150,6 +150,7 @@ struct LocalPlanesOptions {
   int radius = 2;           ///< of the windows, px
   double crease_rad = 0.3;  ///< neighbouring planes that differ by more belong to different faces
   int reach_px = 0;         ///< how far planes are carried on beside what was seen
+  bool widen = false;       ///< smooth over 7 x 7 pixels where those leave nothing over but noise
 };
 
 /// The local plane at each pixel, by least squares over a square window.

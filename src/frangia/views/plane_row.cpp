@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "frangia/views/window_structure.h"
+
 namespace frangia {
 namespace {
 
@@ -83,6 +85,7 @@ struct PlaneFigures {
 PlaneRow::PlaneRow(int width)
     : width_(width),
       kind_(static_cast<std::size_t>(width)),
+      wide_(kind_.size()),
       measured_(kind_.size()),
       value_(measured_),
       variance_(measured_),
@@ -96,7 +99,38 @@ PlaneRow::PlaneRow(int width)
       through_(measured_),
       weight_(measured_) {}
 
-void PlaneRow::choose(const LinkedPixels& grid, const WindowRows& windows, int y, float jitter_px) {
+void PlaneRow::widen(const LinkedPixels& grid, const WindowRows& wider, int y, float jitter_px) {
+  constexpr float kUneven = 2.5F;  // in variance: pixels differ in their noise
+  constexpr float kSame = 0.7F;    // of a pixel's noise: two and a half times what chance does
+  constexpr float kStructure = 0.05F;
+  const float left = middle_variance(wider.radius);
+  Row structure(kind_.size());
+  window_structure(grid.q, wider, y, structure);
+  const int row = y - wider.first;
+  const float* middle = wider.fits.row(WindowFits::kMiddle, row);
+  const float* rest = wider.fits.row(WindowFits::kRest, row);
+  const float* noise = &grid.noise(0, y);
+  for (std::size_t i = 0; i < kind_.size(); ++i) {
+    const float square = slope_x_[i] * slope_x_[i] + slope_y_[i] * slope_y_[i];
+    const float expected = noise[i] * noise[i] + jitter_px * jitter_px * square;
+    const float off = middle[i] - value_[i];
+    wide_[i] = structure[i] < kStructure && rest[i] < kUneven * expected &&
+                       off * off < kSame * kSame * expected
+                   ? 1
+                   : 0;
+    if (wide_[i] == 0) continue;
+    if (kind_[i] == WindowKind::None) mean_[i] = value_[i];
+    kind_[i] = WindowKind::Centred;
+    value_[i] = middle[i];
+    variance_[i] = left * expected;
+  }
+}
+
+void PlaneRow::choose(const LinkedPixels& grid,
+                      const WindowRows& windows,
+                      const WindowRows* wider,
+                      int y,
+                      float jitter_px) {
   const WindowFits& fits = windows.fits;
   const int row = y - windows.first;
   const auto copy = [&](WindowFits::Figure figure, Row& to) {
@@ -118,10 +152,14 @@ void PlaneRow::choose(const LinkedPixels& grid, const WindowRows& windows, int y
         width_,
         variance_.data(),
         good.data());
+  for (std::size_t i = 0; i < kind_.size(); ++i)
+    kind_[i] = good[i] != 0 ? WindowKind::Centred : WindowKind::None;
+  std::fill(wide_.begin(), wide_.end(), char{0});
+  if (wider != nullptr) widen(grid, *wider, y, jitter_px);
   for (int x = 0; x < width_; ++x) {
     const auto i = static_cast<std::size_t>(x);
-    kind_[i] = good[i] != 0 ? WindowKind::Centred : WindowKind::None;
     if (good[i] != 0 || std::isnan(measured_[i])) continue;
+    if (wide_[i] != 0) continue;
     const ChosenWindow chosen = choose_window(grid.q, windows, {x, y}, {noise[x], jitter_px});
     kind_[i] = chosen.kind;
     mean_[i] = chosen.fit.mean;

@@ -18,8 +18,15 @@ class PlaneRow {
   explicit PlaneRow(int width);
 
   /// Takes the window of each pixel of row `y`: the one about it where that fits, which is nearly
-  /// everywhere, else what `choose_window` finds.
-  void choose(const LinkedPixels& grid, const WindowRows& windows, int y, float jitter_px);
+  /// everywhere, else what `choose_window` finds. Where a wider window leaves nothing over but
+  /// noise, the pixel has what that has in its middle.
+  ///
+  /// shape    `windows` of 5 x 5 pixels; `wider` of 7 x 7, or null
+  void choose(const LinkedPixels& grid,
+              const WindowRows& windows,
+              const WindowRows* wider,
+              int y,
+              float jitter_px);
   /// The planes, from inverse depths and their slopes over the image.
   void fit(const Eigen::Vector2f* rays, const FastLens& lens);
   /// Hands them over, with the inverse depth that each pixel is taken to have.
@@ -27,9 +34,11 @@ class PlaneRow {
 
  private:
   using Row = std::vector<float>;
+  void widen(const LinkedPixels& grid, const WindowRows& wider, int y, float jitter_px);
 
   int width_;
   std::vector<WindowKind> kind_;
+  std::vector<char> wide_;  ///< what a wider window has
   Row measured_, value_, variance_;
   Row mean_, slope_x_, slope_y_;
   Row normal_x_, normal_y_, normal_z_, distance_, through_, weight_;

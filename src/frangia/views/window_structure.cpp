@@ -1,0 +1,89 @@
+#include "frangia/views/window_structure.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kRadius = 3;
+constexpr int kSide = 2 * kRadius + 1;
+constexpr float kSquare = kRadius * (kRadius + 1) / 3.0F;  // mean of x^2
+
+constexpr float bend(int i) {
+  return static_cast<float>((i - kRadius) * (i - kRadius)) - kSquare;
+}
+
+/// In how many pairs of neighbours along a side a place is.
+constexpr float pairs(int i) {
+  return i == 0 || i + 1 == kSide ? 1.0F : 2.0F;
+}
+
+struct Figures {
+  const float* mean;
+  const float* slope_x;
+  const float* slope_y;
+  const float* bend_x;
+  const float* bend_y;
+  const float* twist;
+};
+
+[[gnu::target_clones("avx512f", "avx2", "default")]] void correlate(const float* top,
+                                                                    std::ptrdiff_t width,
+                                                                    const Figures& figures,
+                                                                    float* structure) {
+  const Figures fit = figures;
+  const std::ptrdiff_t count = width - 2 * kRadius;
+#pragma GCC ivdep
+  for (std::ptrdiff_t x = 0; x < count; ++x) {
+    float products = 0.0F;
+    float paired = 0.0F;
+    std::array<float, kSide> above{};
+    for (int j = 0; j < kSide; ++j) {
+      const auto down = static_cast<float>(j - kRadius);
+      const float middle = fit.mean[x] + down * fit.slope_y[x] + bend(j) * fit.bend_y[x];
+      const float along = fit.slope_x[x] + down * fit.twist[x];
+      float before = 0.0F;
+      for (int i = 0; i < kSide; ++i) {
+        const float fitted =
+            middle + static_cast<float>(i - kRadius) * along + bend(i) * fit.bend_x[x];
+        const float off = top[j * width + x + i] - fitted;
+        const auto column = static_cast<std::size_t>(i);
+        paired += (pairs(i) + pairs(j)) * off * off;
+        products += off * (before + above[column]);
+        above[column] = before = off;
+      }
+    }
+    structure[x] = paired == 0.0F ? 0.0F : 2.0F * products / paired;  // NaN stays
+  }
+}
+
+}  // namespace
+
+void window_structure(const Image<float>& image,
+                      const WindowRows& windows,
+                      int y,
+                      std::span<float> structure) {
+  require(windows.radius == kRadius, "window_structure: the windows are of 7 x 7 pixels");
+  std::fill(structure.begin(), structure.end(), kMissing);
+  const int top = y - kRadius;
+  if (top < 0 || top + kSide > image.height() || image.width() < kSide) return;
+  const auto of = [&](WindowFits::Figure figure) {
+    return windows.fits.row(figure, y - windows.first) + kRadius;
+  };
+  correlate(&image(0, top),
+            image.width(),
+            {of(WindowFits::kMean),
+             of(WindowFits::kSlopeX),
+             of(WindowFits::kSlopeY),
+             of(WindowFits::kBendX),
+             of(WindowFits::kBendY),
+             of(WindowFits::kTwist)},
+            structure.data() + kRadius);
+}
+
+}  // namespace frangia
