@@ -106,7 +106,7 @@ void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& drop)
 
 /// Marks the pixel of each low step and those next to it across the step.
 void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
-  enum Step : std::uint8_t { kAcross = 1, kDown = 2 };
+  enum Step : std::uint8_t { Across = 1, Down = 2 };
   const int width = drop.width();
   const int height = drop.height();
   Image<std::uint8_t> steps(width, height, 0);
@@ -115,7 +115,7 @@ void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
     for (int x = 0; x < width; ++x) {
       const bool across = x > 0 && x + 1 < width && is_low_step(grid, x, y, 1, 0);
       const bool down = within && is_low_step(grid, x, y, 0, 1);
-      steps(x, y) = static_cast<std::uint8_t>((across ? kAcross : 0) | (down ? kDown : 0));
+      steps(x, y) = static_cast<std::uint8_t>((across ? Across : 0) | (down ? Down : 0));
     }
   });
   parallel_rows(height, [&](int y) {
@@ -126,7 +126,7 @@ void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
       const int right = std::min(width - 1, x + 1);
       const int across = steps(left, y) | steps(x, y) | steps(right, y);
       const int down = steps(x, above) | steps(x, y) | steps(x, below);
-      if ((across & kAcross) != 0 || (down & kDown) != 0) drop(x, y) = 1;
+      if ((across & Across) != 0 || (down & Down) != 0) drop(x, y) = 1;
     }
   });
 }

@@ -20,7 +20,8 @@ struct Corners {
   std::array<float, kSide * kSide * kSide> distance{};
 
   static constexpr std::size_t at(int x, int y, int z) {
-    return static_cast<std::size_t>(x + kSide * (y + kSide * z));
+    const int place = x + kSide * (y + kSide * z);
+    return static_cast<std::size_t>(place);
   }
 };
 
@@ -147,8 +148,8 @@ void add_crossings(Found& found,
   const float here = corners.distance[Corners::at(x, y, z)];
   const std::size_t i = voxel_at(x, y, z);
   for (int axis = 0; axis < 3; ++axis) {
-    const float there =
-        corners.distance[Corners::at(x + (axis == 0), y + (axis == 1), z + (axis == 2))];
+    const float there = corners.distance[Corners::at(
+        x + (axis == 0 ? 1 : 0), y + (axis == 1 ? 1 : 0), z + (axis == 2 ? 1 : 0))];
     if (!((here < 0.0F) != (there < 0.0F) && std::abs(here - there) <= kLargestJump * edge_mm))
       continue;
     Eigen::Vector3f point = voxel.cast<float>();

@@ -179,7 +179,7 @@ void weigh_rough(Row& row, std::size_t i, const Sampler& sampler, const Eigen::V
       if (row.kind[i] == 0 || row.kind[i] == kSmooth) continue;
       weigh_rough(row, i, sampler, start + static_cast<float>(i) * step);
     }
-    DistanceField::Voxel* cells = block.data() + r * kEdge;
+    DistanceField::Voxel* cells = block.data() + std::ptrdiff_t{r} * kEdge;
     for (std::size_t i = 0; i < kEdge; ++i) {
       cells[i].weighted_mm += row.weighted[i];
       cells[i].weight += row.weight[i];

@@ -27,7 +27,7 @@ struct Band {
 /// `voxel_mm * (i, j, k)`; it belongs to block (i >> 3, j >> 3, k >> 3).
 struct DistanceField {
   static constexpr int kEdge = 8;
-  static constexpr std::size_t kVoxels = kEdge * kEdge * kEdge;
+  static constexpr std::size_t kVoxels = std::size_t{kEdge} * kEdge * kEdge;
 
   struct Voxel {
     float weighted_mm = 0.0F;  ///< sum of weight * distance

@@ -136,7 +136,8 @@ struct Meeting {
   }
 
   [[nodiscard]] int rank() const {
-    return 1 + (strengths[1] > kFlat * strengths[2]) + (strengths[0] > kFlat * strengths[2]);
+    const auto counts = [&](int i) { return strengths[i] > kFlat * strengths[2] ? 1 : 0; };
+    return 1 + counts(1) + counts(0);
   }
   [[nodiscard]] Eigen::Vector3f at(int rank) const {
     Eigen::Vector3f point = middle;
@@ -179,16 +180,16 @@ Eigen::Vector3f place(Loop& loop, const Cell& cell) {
   loop.add_sides(cell);
   if (loop.all > loop.count) {
     const Meeting meeting(loop, loop.all);
-    const Eigen::Vector3f point = meeting.at(meeting.rank());
+    Eigen::Vector3f point = meeting.at(meeting.rank());
     if (cell.holds(point)) return point;
   }
   if (is_flat(loop)) {
-    const Eigen::Vector3f point = flat_place(loop);
+    Eigen::Vector3f point = flat_place(loop);
     if (cell.holds(point)) return point;
   }
   const Meeting meeting(loop, loop.count);
   for (int rank = meeting.rank(); rank > 0; --rank) {
-    const Eigen::Vector3f point = meeting.at(rank);
+    Eigen::Vector3f point = meeting.at(rank);
     if (cell.holds(point)) return point;
   }
   return meeting.at(1).array().max(cell.low).min(cell.high);

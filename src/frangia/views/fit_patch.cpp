@@ -32,9 +32,18 @@ Patch patch_at(const Image<float>& image, const Eigen::Vector2i& at, float less)
   return patch;
 }
 
+/// Where a pixel of the patch lies from its middle.
+struct Beside {
+  float x;
+  float y;
+};
+Beside beside(int i) {
+  const int down = i / kSide;
+  return {static_cast<float>(i - down * kSide - kRadius), static_cast<float>(down - kRadius)};
+}
+
 Vector6 powers(int i) {
-  const auto x = static_cast<float>(i % kSide - kRadius);
-  const auto y = static_cast<float>(i / kSide - kRadius);
+  const auto [x, y] = beside(i);
   Vector6 row;
   row << 1.0F, x, y, x * x, x * y, y * y;
   return row;
@@ -69,8 +78,7 @@ PatchFit fit_pixels(const Patch& patch, float here) {
 Patch left_over(const Patch& patch, const WindowFit& fit, float here) {
   Patch off{};
   for (int i = 0; i < kSide * kSide; ++i) {
-    const auto x = static_cast<float>(i % kSide - kRadius);
-    const auto y = static_cast<float>(i / kSide - kRadius);
+    const auto [x, y] = beside(i);
     const float fitted = (fit.middle - here) + x * fit.slope_x + y * fit.slope_y +
                          x * x * fit.bend_x + x * y * fit.twist + y * y * fit.bend_y;
     off[static_cast<std::size_t>(i)] = patch[static_cast<std::size_t>(i)] - fitted;

@@ -184,10 +184,10 @@ Span seen_columns(const Image<float>& image, int first_row, int rows) {
 WindowFits::WindowFits(int width, int rows)
     : width_(width),
       values_(std::make_unique_for_overwrite<float[]>(  // NOLINT(*-avoid-c-arrays)
-          static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * kFigures))) {}
+          static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * Figures))) {}
 
 void WindowFits::set_missing_beside(int begin, int end, int row) {
-  for (int figure = 0; figure < kFigures; ++figure) {
+  for (int figure = 0; figure < Figures; ++figure) {
     float* values = this->row(static_cast<Figure>(figure), row);
     std::fill(values, values + begin, kMissing);
     std::fill(values + end, values + width_, kMissing);
@@ -195,17 +195,17 @@ void WindowFits::set_missing_beside(int begin, int end, int row) {
 }
 
 WindowFit WindowFits::at(int x, int row) const {
-  const float* first = values_.get() + place(kMean, row) + x;
+  const float* first = values_.get() + place(Mean, row) + x;
   const auto figure = [&](Figure which) { return first[std::ptrdiff_t{width_} * which]; };
-  return {figure(kMean),
-          figure(kSlopeX),
-          figure(kSlopeY),
-          figure(kVariance),
-          figure(kMiddle),
-          figure(kRest),
-          figure(kBendX),
-          figure(kBendY),
-          figure(kTwist)};
+  return {figure(Mean),
+          figure(SlopeX),
+          figure(SlopeY),
+          figure(Variance),
+          figure(Middle),
+          figure(Rest),
+          figure(BendX),
+          figure(BendY),
+          figure(Twist)};
 }
 
 WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows) {
@@ -239,15 +239,15 @@ WindowFits fit_windows(const Image<float>& image, int radius, int first, int row
     join_lines(lines,
                inner,
                radius,
-               {of(WindowFits::kMean),
-                of(WindowFits::kSlopeX),
-                of(WindowFits::kSlopeY),
-                of(WindowFits::kVariance),
-                of(WindowFits::kMiddle),
-                of(WindowFits::kRest),
-                of(WindowFits::kBendX),
-                of(WindowFits::kBendY),
-                of(WindowFits::kTwist)});
+               {of(WindowFits::Mean),
+                of(WindowFits::SlopeX),
+                of(WindowFits::SlopeY),
+                of(WindowFits::Variance),
+                of(WindowFits::Middle),
+                of(WindowFits::Rest),
+                of(WindowFits::BendX),
+                of(WindowFits::BendY),
+                of(WindowFits::Twist)});
   }
   return fits;
 }

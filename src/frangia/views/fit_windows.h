@@ -33,18 +33,7 @@ inline constexpr WindowFit kNoFit{
 /// The fits about some pixels, each figure in rows of its own: loops over them become vector code.
 class WindowFits {
  public:
-  enum Figure : int {
-    kMean,
-    kSlopeX,
-    kSlopeY,
-    kVariance,
-    kMiddle,
-    kRest,
-    kBendX,
-    kBendY,
-    kTwist,
-    kFigures
-  };
+  enum Figure : int { Mean, SlopeX, SlopeY, Variance, Middle, Rest, BendX, BendY, Twist, Figures };
 
   WindowFits(int width, int rows);
 
@@ -59,7 +48,7 @@ class WindowFits {
 
  private:
   [[nodiscard]] std::size_t place(Figure figure, int row) const {
-    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(row * kFigures + figure);
+    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(row * Figures + figure);
   }
 
   int width_;

@@ -65,12 +65,12 @@ LinkedPixels link_pixels(const RangeGrid& range, const Lens& camera) {
     link_row({&grid.q(0, y), &grid.noise(0, y)},
              {&grid.q(0, y) + 1, &grid.noise(0, y) + 1},
              steepest,
-             {LinkedPixels::kRight, links, width - 1});
+             {LinkedPixels::Right, links, width - 1});
     if (y + 1 == height) return;
     link_row({&grid.q(0, y), &grid.noise(0, y)},
              {&grid.q(0, y + 1), &grid.noise(0, y + 1)},
              steepest,
-             {LinkedPixels::kDown, links, width});
+             {LinkedPixels::Down, links, width});
   });
   return grid;
 }

@@ -13,7 +13,7 @@ namespace frangia {
 /// units    1/mm
 /// missing  q is NaN where nothing was seen
 struct LinkedPixels {
-  enum Link : std::uint8_t { kRight = 1, kDown = 2 };
+  enum Link : std::uint8_t { Right = 1, Down = 2 };
 
   Image<float> q;             ///< inverse depth, as measured
   Image<float> noise;         ///< its standard deviation

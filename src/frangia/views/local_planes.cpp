@@ -65,8 +65,8 @@ LocalPlanes::Quad quad_of(const LinkedPixels& grid,
                           float crease_cosine) {
   const int x = at.x();
   const int y = at.y();
-  constexpr auto kRight = LinkedPixels::kRight;
-  constexpr auto kDown = LinkedPixels::kDown;
+  constexpr auto kRight = LinkedPixels::Right;
+  constexpr auto kDown = LinkedPixels::Down;
   if (!grid.has(x, y, kRight) || !grid.has(x, y, kDown) || !grid.has(x, y + 1, kRight) ||
       !grid.has(x + 1, y, kDown)) {
     return {};

@@ -107,8 +107,8 @@ void PlaneRow::widen(const LinkedPixels& grid, const WindowRows& wider, int y, f
   Row structure(kind_.size());
   window_structure(grid.q, wider, y, structure);
   const int row = y - wider.first;
-  const float* middle = wider.fits.row(WindowFits::kMiddle, row);
-  const float* rest = wider.fits.row(WindowFits::kRest, row);
+  const float* middle = wider.fits.row(WindowFits::Middle, row);
+  const float* rest = wider.fits.row(WindowFits::Rest, row);
   const float* noise = &grid.noise(0, y);
   for (std::size_t i = 0; i < kind_.size(); ++i) {
     const float square = slope_x_[i] * slope_x_[i] + slope_y_[i] * slope_y_[i];
@@ -136,17 +136,17 @@ void PlaneRow::choose(const LinkedPixels& grid,
   const auto copy = [&](WindowFits::Figure figure, Row& to) {
     std::copy_n(fits.row(figure, row), width_, to.begin());
   };
-  copy(WindowFits::kMean, mean_);
-  copy(WindowFits::kSlopeX, slope_x_);
-  copy(WindowFits::kSlopeY, slope_y_);
-  copy(WindowFits::kMiddle, value_);
+  copy(WindowFits::Mean, mean_);
+  copy(WindowFits::SlopeX, slope_x_);
+  copy(WindowFits::SlopeY, slope_y_);
+  copy(WindowFits::Middle, value_);
   std::copy_n(&grid.q(0, y), width_, measured_.begin());
   const float* noise = &grid.noise(0, y);
   std::vector<std::int32_t> good(kind_.size());
   judge({noise,
          slope_x_.data(),
          slope_y_.data(),
-         fits.row(WindowFits::kVariance, row),
+         fits.row(WindowFits::Variance, row),
          jitter_px * jitter_px,
          middle_variance(windows.radius)},
         width_,

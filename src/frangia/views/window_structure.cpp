@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "frangia/core/error.h"
@@ -35,9 +36,10 @@ struct Figures {
 [[gnu::target_clones("avx512f", "avx2", "default")]] void correlate(const float* top,
                                                                     std::ptrdiff_t width,
                                                                     const Figures& figures,
-                                                                    float* structure) {
+                                                                    std::span<float> structure) {
   const Figures fit = figures;
-  const std::ptrdiff_t count = width - 2 * kRadius;
+  float* to = structure.data();
+  const auto count = static_cast<std::ptrdiff_t>(structure.size());
 #pragma GCC ivdep
   for (std::ptrdiff_t x = 0; x < count; ++x) {
     float products = 0.0F;
@@ -58,7 +60,7 @@ struct Figures {
         above[column] = before = off;
       }
     }
-    structure[x] = paired == 0.0F ? 0.0F : 2.0F * products / paired;  // NaN stays
+    to[x] = paired == 0.0F ? 0.0F : 2.0F * products / paired;  // NaN stays
   }
 }
 
@@ -72,18 +74,27 @@ void window_structure(const Image<float>& image,
   std::fill(structure.begin(), structure.end(), kMissing);
   const int top = y - kRadius;
   if (top < 0 || top + kSide > image.height() || image.width() < kSide) return;
+  const float* mean = windows.fits.row(WindowFits::Mean, y - windows.first);
+  const auto seen = [](float value) { return !std::isnan(value); };
+  const float* first = std::find_if(mean, mean + image.width(), seen);
+  if (first == mean + image.width()) return;
+  const float* end = mean + image.width();
+  while (!seen(end[-1]))
+    --end;
+  const std::ptrdiff_t begin = first - mean;
   const auto of = [&](WindowFits::Figure figure) {
-    return windows.fits.row(figure, y - windows.first) + kRadius;
+    return windows.fits.row(figure, y - windows.first) + begin;
   };
-  correlate(&image(0, top),
-            image.width(),
-            {of(WindowFits::kMean),
-             of(WindowFits::kSlopeX),
-             of(WindowFits::kSlopeY),
-             of(WindowFits::kBendX),
-             of(WindowFits::kBendY),
-             of(WindowFits::kTwist)},
-            structure.data() + kRadius);
+  correlate(
+      &image(0, top) + begin - kRadius,
+      image.width(),
+      {of(WindowFits::Mean),
+       of(WindowFits::SlopeX),
+       of(WindowFits::SlopeY),
+       of(WindowFits::BendX),
+       of(WindowFits::BendY),
+       of(WindowFits::Twist)},
+      structure.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - first)));
 }
 
 }  // namespace frangia
