@@ -45,11 +45,13 @@ struct Figures {
     float products = 0.0F;
     float paired = 0.0F;
     std::array<float, kSide> above{};
+#pragma GCC unroll 7  // the loop over x becomes vector code only without loops in it
     for (int j = 0; j < kSide; ++j) {
       const auto down = static_cast<float>(j - kRadius);
       const float middle = fit.mean[x] + down * fit.slope_y[x] + bend(j) * fit.bend_y[x];
       const float along = fit.slope_x[x] + down * fit.twist[x];
       float before = 0.0F;
+#pragma GCC unroll 7
       for (int i = 0; i < kSide; ++i) {
         const float fitted =
             middle + static_cast<float>(i - kRadius) * along + bend(i) * fit.bend_x[x];
