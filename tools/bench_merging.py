@@ -10,38 +10,19 @@ writes merging.json. It takes minutes; without MeshLab it says so. Debian: meshl
 import json
 import pathlib
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
+
+import meshlab
 
 WANTED = 20
-# MeshLab takes the defaults of no parameter: all must be listed.
-MERGE = """<!DOCTYPE FilterScript>
-<FilterScript>
- <filter name="Surface Reconstruction: VCG">
-  <Param name="voxSize" value="0.2" min="0" max="100" type="RichAbsPerc"/>
-  <Param name="subdiv" value="1" type="RichInt"/>
-  <Param name="geodesic" value="2" type="RichFloat"/>
-  <Param name="openResult" value="true" type="RichBool"/>
-  <Param name="smoothNum" value="1" type="RichInt"/>
-  <Param name="wideNum" value="3" type="RichInt"/>
-  <Param name="mergeColor" value="false" type="RichBool"/>
-  <Param name="simplification" value="false" type="RichBool"/>
-  <Param name="normalSmooth" value="3" type="RichInt"/>
- </filter>
-</FilterScript>
-"""
+MERGE = [("RichAbsPerc", "voxSize", 0.2), ("RichInt", "subdiv", 1), ("RichFloat", "geodesic", 2),
+         ("RichBool", "openResult", "true"), ("RichInt", "smoothNum", 1), ("RichInt", "wideNum", 3),
+         ("RichBool", "mergeColor", "false"), ("RichBool", "simplification", "false"), ("RichInt", "normalSmooth", 3)]
 
 
 def merged_by_meshlab(maps):
     """Its own seconds, and how many triangles it makes."""
-    with tempfile.TemporaryDirectory() as work:
-        script = pathlib.Path(work, "merge.mlx")
-        script.write_text(MERGE)
-        answer = subprocess.run(["xvfb-run", "-a", "meshlabserver", "-i", *map(str, maps), "-s", str(script),
-                                 "-o", "merged.ply"], cwd=work, check=False, capture_output=True, text=True)
-    said = answer.stdout + answer.stderr
+    said = meshlab.apply("Surface Reconstruction: VCG", MERGE, maps)
     totals = re.findall(r"^Total\s+(\d+)", said, re.M)  # microseconds of its processor, one a stage
     saved = re.search(r"saved as .*\((\d+) vn (\d+) fn\)", said)
     if not totals or saved is None:
@@ -51,7 +32,7 @@ def merged_by_meshlab(maps):
 
 def main(folder):
     maps = sorted((folder / "data").glob("range-*.ply"))
-    if shutil.which("meshlabserver") is None or shutil.which("xvfb-run") is None:
+    if meshlab.is_missing():
         print("MeshLab is absent (meshlab, xvfb): pasting is compared with nothing")
         return
     if len(maps) != 12:

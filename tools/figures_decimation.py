@@ -1,34 +1,17 @@
 """How far decimated meshes lie from the scan, as MeshLab measures it: a section of tools/figures.py."""
-import pathlib
 import re
-import shutil
-import subprocess
-import tempfile
 
-# MeshLab wants every parameter named.
-SCRIPT = """<!DOCTYPE FilterScript>
-<FilterScript>
- <filter name="Hausdorff Distance">
-  <Param type="RichMesh" value="0" name="SampledMesh"/>
-  <Param type="RichMesh" value="1" name="TargetMesh"/>
-  <Param type="RichBool" value="false" name="SaveSample"/>
-  <Param type="RichBool" value="true" name="SampleVert"/>
-  <Param type="RichBool" value="true" name="SampleEdge"/>
-  <Param type="RichBool" value="false" name="SampleFauxEdge"/>
-  <Param type="RichBool" value="true" name="SampleFace"/>
-  <Param type="RichInt" value="1000000" name="SampleNum"/>
-  <Param type="RichAbsPerc" value="5" min="0" max="100" name="MaxDist"/>
- </filter>
-</FilterScript>
-"""
+import meshlab
+
+HAUSDORFF = [("RichMesh", "SampledMesh", 0), ("RichMesh", "TargetMesh", 1), ("RichBool", "SaveSample", "false"),
+             ("RichBool", "SampleVert", "true"), ("RichBool", "SampleEdge", "true"),
+             ("RichBool", "SampleFauxEdge", "false"), ("RichBool", "SampleFace", "true"),
+             ("RichInt", "SampleNum", 1000000), ("RichAbsPerc", "MaxDist", 5)]
 
 
 def distance(sampled, target):
     """The largest and the RMS distance, mm, from two million points of a mesh to another."""
-    script = pathlib.Path(tempfile.gettempdir()) / "frangia-hausdorff.mlx"
-    script.write_text(SCRIPT)
-    command = ["xvfb-run", "-a", "meshlabserver", "-i", sampled, target, "-s", script]
-    text = subprocess.run(list(map(str, command)), capture_output=True, text=True).stdout
+    text = meshlab.apply("Hausdorff Distance", HAUSDORFF, [sampled, target])
     found = re.search(r"max (\S+)\s+mean : \S+\s+RMS : (\S+)", text)
     if not found:
         raise SystemExit(f"MeshLab did not measure {sampled}:\n{text}")
@@ -40,7 +23,7 @@ def decimation(tell, data):
     scan = data / "scan.ply"
     meshes = {"frangia": data / "tenth.ply", "CGAL, Garland-Heckbert": data / "tenth-by-cgal.ply"}
     missing = [path.name for path in (scan, *meshes.values()) if not path.exists()]
-    missing += [name for name in ("meshlabserver", "xvfb-run") if not shutil.which(name)]
+    missing += meshlab.is_missing()
     if missing:
         tell(f"Not measured: there is no {', no '.join(missing)}. `./run bench` makes the meshes.\n")
         return

@@ -9,16 +9,13 @@
 #include "frangia/mesh/select_by_place.h"
 
 #include "support/mesh_truths.h"
+#include "support/small_picture.h"
 
 namespace frangia {
 namespace {
 
 ShadeOptions small() {
-  ShadeOptions options;
-  options.width_px = 80;
-  options.height_px = 80;
-  options.samples_across = 2;
-  return options;
+  return testing::small_picture(80, 80);
 }
 
 bool is_violet(const Rgb& color) {

@@ -5,16 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "support/mesh_truths.h"
+#include "support/small_picture.h"
 
 namespace frangia {
 namespace {
 
 ShadeOptions small() {
-  ShadeOptions options;
-  options.width_px = 80;
-  options.height_px = 60;
-  options.samples_across = 2;
-  return options;
+  return testing::small_picture(80, 60);
 }
 
 bool is_red(const Rgb& color) {

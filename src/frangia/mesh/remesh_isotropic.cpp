@@ -4,7 +4,8 @@
 #include "frangia/core/error.h"
 
 #ifdef FRANGIA_WITH_CGAL
-#include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
@@ -12,6 +13,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
+#include "frangia/mesh/cgal_mesh.h"
 #include "frangia/mesh/ray_scene.h"
 #include "frangia/mesh/take_vertex_data.h"
 
@@ -21,38 +23,12 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-using VertexId = Surface::Vertex_index;
 
 Surface surface_of(const Mesh& mesh) {
-  Surface surface;
-  std::vector<VertexId> ids;
-  for (const Eigen::Vector3f& vertex : mesh.vertices_mm) {
-    const Eigen::Vector3d p = vertex.cast<double>();
-    ids.push_back(surface.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
-  }
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const bool added = surface.add_face(ids[a], ids[b], ids[c]) != Surface::null_face();
-    require(added, "remesh: the mesh is not manifold; make it so first (--make-manifold)");
-  }
-  return surface;
-}
-
-Mesh mesh_of(const Surface& surface) {
-  Mesh mesh;
-  std::vector<std::uint32_t> number(surface.num_vertices() + surface.number_of_removed_vertices());
-  for (const VertexId id : surface.vertices()) {
-    number[id.idx()] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-    const auto& p = surface.point(id);
-    mesh.vertices_mm.push_back(Eigen::Vector3d(p.x(), p.y(), p.z()).cast<float>());
-  }
-  for (const auto face : surface.faces()) {
-    Mesh::Triangle triangle{};
-    std::size_t corner = 0;
-    for (const VertexId id : surface.vertices_around_face(surface.halfedge(face)))
-      triangle.at(corner++) = number[id.idx()];
-    mesh.triangles.push_back(triangle);
-  }
-  return mesh;
+  std::optional<Surface> surface = to_cgal<Surface>(mesh);
+  require(surface.has_value(),
+          "remesh: the mesh is not manifold; make it so first (--make-manifold)");
+  return *std::move(surface);
 }
 
 }  // namespace
@@ -80,7 +56,7 @@ Mesh remesh_isotropic(const Mesh& mesh, const RemeshOptions& options, const Run&
           .edge_is_constrained_map(sharp)
           .protect_constraints(true));
   run.report(0.9);
-  Mesh even = mesh_of(surface);
+  Mesh even = from_cgal(surface);
   take_vertex_data(even, RayScene(mesh));
   return even;
 }

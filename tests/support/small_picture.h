@@ -1,0 +1,16 @@
+#pragma once
+
+#include "frangia/inspect/shade_mesh.h"
+
+namespace frangia::testing {
+
+/// A picture that is drawn in no time.
+inline ShadeOptions small_picture(int width_px, int height_px) {
+  ShadeOptions options;
+  options.width_px = width_px;
+  options.height_px = height_px;
+  options.samples_across = 2;
+  return options;
+}
+
+}  // namespace frangia::testing
