@@ -45,6 +45,7 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
   json["axis"] = {report.table.axis.x(), report.table.axis.y(), report.table.axis.z()};
   json["point_mm"] = {
       report.table.point_mm.x(), report.table.point_mm.y(), report.table.point_mm.z()};
+  json["axis_known_mm"] = report.axis_known_mm;
   json["axis_moved_mm"] = report.axis_moved_mm();
   json["axis_turned_deg"] = deg_from_rad(report.axis_turned_rad());
   json["angles_deg"] = nlohmann::ordered_json::array();

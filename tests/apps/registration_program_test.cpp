@@ -46,6 +46,32 @@ class Together : public ::testing::Test {
   void write_scan_of(const std::string& part, int views) const {
     static_cast<void>(testing::small_scan(folder_.path() / "scan", part, "digital", views, {}));
   }
+  /// A scan of a bracket in which one view was taken after a push.
+  void write_pushed_scan(std::size_t pushed_view) const {
+    const Scan scan = testing::small_scan(folder_.path() / "scan", "bracket", "digital", 6, {});
+    Mesh part = make_part("bracket");
+    for (auto& vertex : part.vertices_mm)
+      vertex += Eigen::Vector3f(0.8F, 0.6F, 0.0F);
+    Scan plan = scan;
+    plan.folder = folder_.path() / "pushed";
+    plan.views = {scan.views[pushed_view]};
+    static_cast<void>(simulate_scan(part, plan, {}));
+    const auto view = scan.views[pushed_view].folder;
+    std::filesystem::remove_all(scan.folder / view);
+    std::filesystem::rename(plan.folder / view, scan.folder / view);
+  }
+  /// One sentence and an exit code, and no file under any name.
+  void expect_refused(const std::string& arguments, int exit_code, const std::string& what) const {
+    const auto count = [&] {
+      return std::distance(std::filesystem::directory_iterator(folder_.path()), {});
+    };
+    const auto before = count();
+    const Answer answer = run_program("--quiet " + arguments + " -o " + path("refused.ply"));
+    expect_told(answer, exit_code, what);
+    const std::string last = answer.output.substr(answer.output.rfind("frangia: "));
+    EXPECT_EQ(std::count(last.begin(), last.end(), '\n'), 1) << answer.output;
+    EXPECT_EQ(count(), before) << answer.output;
+  }
   static void expect_told(const Answer& answer, int exit_code, const std::string& what) {
     EXPECT_EQ(answer.exit_code, exit_code) << answer.output;
     EXPECT_NE(answer.output.find(what), std::string::npos) << answer.output;
@@ -68,10 +94,9 @@ TEST_F(Together, OneScanAloneIsPastedAsItIs) {
 TEST_F(Together, ScansThatNothingPlacesAreRefusedInOneSentence) {
   write_relief("one.ply", dome);  // a ball turns on a ball
   write_relief("two.ply", dome);
-  const Answer answer = run_program("--quiet paste " + path("one.ply") + " " + path("two.ply") +
-                                    " --poses shape -o " + path("a.ply"));
-  expect_told(answer, 3, "look alike from several sides");
-  EXPECT_EQ(std::count(answer.output.begin(), answer.output.end(), '\n'), 1) << answer.output;
+  expect_refused("paste " + path("one.ply") + " " + path("two.ply") + " --poses shape",
+                 3,
+                 "look alike from several sides");
 }
 
 TEST_F(Together, PasteWritesEveryFileKindAndCapsADxf) {
@@ -84,8 +109,7 @@ TEST_F(Together, PasteWritesEveryFileKindAndCapsADxf) {
 
 TEST_F(Together, AVoxelThatNeedsTooMuchMemoryIsRefusedWithOneThatFits) {
   write_relief("one.ply", dome);
-  expect_told(
-      run_program("paste " + path("one.ply") + " --voxel 0.0001 -o " + path("a.ply")), 3, "mm fit");
+  expect_refused("paste " + path("one.ply") + " --voxel 0.0001", 3, "mm fit");
 }
 
 TEST_F(Together, AViewAloneKeepsTheRigAndSaysSo) {
@@ -93,12 +117,35 @@ TEST_F(Together, AViewAloneKeepsTheRigAndSaysSo) {
   expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
               0,
               "one view alone cannot be registered");
-  expect_told(run_program("reconstruct " + path("scan") + " --clip-below 1000 -o " + path("b.ply")),
-              3,
-              "nothing is left of the object");
-  expect_told(run_program("reconstruct " + path("scan") + " --voxel 0.0001 -o " + path("b.ply")),
-              3,
-              "mm fit");
+  expect_refused("reconstruct " + path("scan") + " --voxel 0.0001", 3, "mm fit");
+}
+
+TEST_F(Together, AClipThatTakesAllIsRefused) {
+  write_scan_of("blade", 1);
+  expect_refused(
+      "reconstruct " + path("scan") + " --clip-below 1000", 3, "nothing is left of the object");
+  expect_refused(
+      "reconstruct " + path("scan") + " --clip-radius 0.001", 3, "nothing is left of the object");
+}
+
+TEST_F(Together, AViewOfAPartThatWasPushedIsNamedAndLeftOut) {
+  write_pushed_scan(1);
+  const Answer answer = run_program("--quiet reconstruct " + path("scan") + " -o " + path("a.ply"));
+  expect_told(answer, 0, "view views/1 contradicts the others");
+  EXPECT_EQ(answer.output.find("contradict each other"), std::string::npos) << answer.output;
+}
+
+TEST_F(Together, OppositeViewsWithLittleInCommonSayHowWellTheyFit) {
+  write_scan_of("blade", 2);
+  expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
+              0,
+              "tell where the axis is to no better than");
+}
+
+TEST_F(Together, ViewsWithNothingInCommonKeepTheRigAndSaySo) {
+  write_scan_of("plate", 2);
+  expect_told(
+      run_program("reconstruct " + path("scan") + " -o " + path("a.ply")), 0, "do not overlap");
 }
 
 TEST_F(Together, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSaysSo) {

@@ -43,11 +43,11 @@ struct Table {
       all.push_back({angle, ""});
     return all;
   }
-  [[nodiscard]] ViewStore take(const Shape& shape) const {
+  [[nodiscard]] ViewStore take(const Shape& shape, const Lens& lens = small_lens()) const {
     std::vector<Eigen::Isometry3d> poses;
     for (const double angle : true_angles_rad)
       poses.push_back(truth.rig_from_object(angle));
-    return testing::snapshots(shape, small_lens(), poses);
+    return testing::snapshots(shape, lens, poses);
   }
 };
 
@@ -80,6 +80,7 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   EXPECT_LT(report.rms_after_mm, 0.035);  // of two points with 0.02 mm each
   EXPECT_GT(report.overlap, 0.5);
   EXPECT_TRUE(report.open.empty()) << report.text();
+  EXPECT_LT(report.axis_known_mm, 0.01);
   EXPECT_TRUE(report.outliers.empty());
   EXPECT_LT(std::abs(report.closure_after_rad), rad_from_deg(0.02));
   EXPECT_GT(std::abs(report.closure_before_rad), 3.0 * std::abs(report.closure_after_rad));
@@ -144,6 +145,60 @@ TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
   const auto depth = emptied.range.depth_mm.pixels();
   EXPECT_TRUE(std::all_of(depth.begin(), depth.end(), [](float z) { return std::isnan(z); }));
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
+}
+
+TEST(RegisterViews, IsNotBentByAViewOfAPartThatSlidOnItsFaces) {
+  const Table table(6);
+  const Shape angle = testing::both(testing::box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0}),
+                                    testing::box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0}));
+  const Shape pushed = [&](const Eigen::Vector3d& p) {
+    return angle(p - Eigen::Vector3d(0.8, 0.6, 0.0));
+  };
+  ViewStore views = table.take(angle);
+  views.replace(1,
+                testing::snapshot(
+                    pushed, small_lens(), table.truth.rig_from_object(table.true_angles_rad[1])));
+  const auto report = register_views(views, small_lens(), table.given, table.stops());
+  EXPECT_EQ(report.outliers, std::vector<std::size_t>{1});
+  EXPECT_LT(shift_mm(report.table, table.truth), 0.03);
+}
+
+TEST(RegisterViews, SaysSoWhenTooManyViewsContradictEachOther) {
+  const Table table(6);
+  const Lens lens = small_lens(150, 750.0);
+  ViewStore views = table.take(knobbly, lens);
+  for (const std::size_t i : {1U, 3U, 5U}) {  // every other view is pushed, each elsewhere
+    const double way = rad_from_deg(130.0) * static_cast<double>(i);
+    const Shape pushed = [&](const Eigen::Vector3d& p) {
+      return knobbly(p - Eigen::Vector3d(1.0 * std::cos(way), 1.0 * std::sin(way), 0.8));
+    };
+    views.replace(
+        i, testing::snapshot(pushed, lens, table.truth.rig_from_object(table.true_angles_rad[i])));
+  }
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  RegisterOptions few;
+  few.max_iterations = 10;
+  const auto report = register_views(views, lens, table.given, table.stops(), few, run);
+  ASSERT_FALSE(warnings.empty()) << report.text();
+  EXPECT_NE(warnings.back().find("contradict each other"), std::string::npos) << warnings.back();
+}
+
+TEST(RegisterViews, SaysHowWellAnOverlapTellsWhereTheAxisIs) {
+  Table table(2);  // opposite sides, with little but the level top in common
+  const Shape post = [](const Eigen::Vector3d& p) {
+    return std::max(std::abs(p.z()) - 30.0, 0.7 * (std::hypot(p.x() / 1.4, p.y()) - 20.0));
+  };
+  const Lens lens = small_lens(200, 1000.0);
+  ViewStore views = table.take(post, lens);
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const auto report = register_views(views, lens, table.given, table.stops(), {}, run);
+  EXPECT_GT(report.axis_known_mm, 0.05);
+  ASSERT_EQ(warnings.size(), 1U) << report.text();
+  EXPECT_NE(warnings[0].find("tell where the axis is to no better than"), std::string::npos);
 }
 
 TEST(RegisterViews, KeepsTheRigWithOneView) {

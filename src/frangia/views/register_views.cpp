@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/views/find_moved_view.h"
 #include "frangia/views/map_views.h"
 #include "frangia/views/settle_bundle.h"
 
@@ -77,18 +78,67 @@ bool fits_as_well(const Bundle& bundle, const Spots& spots, const BundleSums& fo
          median(given.distances_mm) < kAsWell * median(found.distances_mm);
 }
 
-void leave_out(Bundle& bundle,
-               ViewStore& views,
-               std::span<const RegisteredView> stops,
-               const std::vector<std::size_t>& outliers,
-               const Run& run) {
-  for (const std::size_t view : outliers) {
-    run.warn(fmt::format("view {} fits no other view and is left out: was the part moved?",
-                         stops[view].name.empty() ? std::to_string(view) : stops[view].name));
+/// A registration with all that it works on.
+struct Work {
+  Bundle bundle;
+  Spots spots;
+  ViewStore& views;
+  std::span<const RegisteredView> stops;
+  const RegisterOptions& options;
+  const Run& run;
+
+  [[nodiscard]] std::string name_of(std::size_t view) const {
+    return stops[view].name.empty() ? std::to_string(view) : stops[view].name;
+  }
+  void settle_again() {
+    bundle.state = bundle.given;
+    bundle.gate_mm = options.reach_mm;
+    settle(bundle, spots, options.max_iterations, run);
+  }
+  void leave_out(std::size_t view) {
     views.clear(view);
+    spots[view].clear();
     for (auto& spot : bundle.maps[view].spots.pixels())
       spot = {};
   }
+};
+
+/// Views of a part that was moved go one by one, as long as each makes the others agree better.
+void leave_out_moved(RegistrationReport& report, Work& work) {
+  if (!work.bundle.state.placings.empty()) return;  // each round was looked at by itself
+  const MovedViewOptions how{work.options.reach_mm, work.options.max_iterations};
+  while (2 * (report.outliers.size() + 1) < work.views.size()) {
+    const auto moved = find_moved_view(work.bundle, work.spots, how, work.run);
+    if (!moved) return;
+    const std::string name = work.name_of(moved->view);
+    work.run.warn(
+        moved->rival
+            ? fmt::format("views {} and {} contradict each other, and the others do not tell which "
+                          "of them is wrong: {} is left out; was the part moved?",
+                          name,
+                          work.name_of(*moved->rival),
+                          name)
+            : fmt::format("view {} contradicts the others, which agree better without it, and is "
+                          "left out: was the part moved?",
+                          name));
+    report.outliers.push_back(moved->view);
+    work.leave_out(moved->view);
+    work.settle_again();
+  }
+}
+
+/// What is left over when no one view is to blame.
+void warn_of_contradiction(const BundleSums& sums, const Run& run) {
+  constexpr double kMuch = 0.03;
+  double most = 0.0;
+  for (std::size_t view = 0; view < sums.met.size(); ++view)
+    most = std::max(most, contradiction_of(sums, view));
+  if (most < kMuch) return;
+  run.warn(
+      fmt::format("the views contradict each other: up to {:.0f} % of a view's points lie before "
+                  "what another view saw there; was the part moved, or is the rig's calibration "
+                  "off?",
+                  100.0 * most));
 }
 
 TableState given_state(const Turntable& given,
@@ -147,6 +197,17 @@ void take_over(RegistrationReport& report, ViewStore& views, const TableState& s
   }
 }
 
+/// Views that hardly overlap fit nearly as well with the axis elsewhere.
+void warn_of_loose_axis(const RegistrationReport& report, const Run& run) {
+  constexpr double kLoose_mm = 0.05;
+  if (report.axis_known_mm < kLoose_mm) return;
+  run.warn(fmt::format(
+      "the {:.0f} % of the points that overlap tell where the axis is to no better than {:.2g} mm: "
+      "the views may be off by more than that; add views between them, or calibrate the rig",
+      100.0 * report.overlap,
+      report.axis_known_mm));
+}
+
 void tell_fit(RegistrationReport& report, const BundleSums& sums) {
   report.rms_after_mm = rms_of(sums.distances_mm);
   report.closure_after_rad = closure_rad(sums);
@@ -172,8 +233,10 @@ RegistrationReport register_views(ViewStore& views,
     run.warn("one view alone cannot be registered: the rig's turntable is taken as it is");
     return report;
   }
-  Bundle bundle = make_bundle(views, camera, start, options, run);
-  Spots spots = pick_all(bundle.maps, kFew);
+  Work work{make_bundle(views, camera, start, options, run), {}, views, stops, options, run};
+  Bundle& bundle = work.bundle;
+  Spots& spots = work.spots;
+  spots = pick_all(bundle.maps, kFew);
   const BundleSums before = sum(bundle, spots);
   report.rms_before_mm = rms_of(before.distances_mm);
   report.closure_before_rad = closure_rad(before);
@@ -184,16 +247,18 @@ RegistrationReport register_views(ViewStore& views,
   settle(bundle, spots, options.max_iterations, run);
   run.report(0.7);
   report.outliers = find_outliers(sum(bundle, spots));
-  if (!report.outliers.empty()) {
-    leave_out(bundle, views, stops, report.outliers, run);
-    bundle.state = bundle.given;
-    bundle.gate_mm = options.reach_mm;
-    settle(bundle, pick_all(bundle.maps, kFew), options.max_iterations, run);
+  for (const std::size_t view : report.outliers) {
+    run.warn(fmt::format("view {} fits no other view and is left out: was the part moved?",
+                         work.name_of(view)));
+    work.leave_out(view);
   }
+  if (!report.outliers.empty()) work.settle_again();
+  leave_out_moved(report, work);
   spots = pick_all(bundle.maps, kMany);
   settle(bundle, spots, options.max_iterations, run);
   run.report(0.9);
   const BundleSums after = sum(bundle, spots);
+  warn_of_contradiction(after, run);
   tell_fit(report, after);
   report.overlap = overlap_of(after, spots);
   report.iterations = bundle.iterations;
@@ -203,6 +268,7 @@ RegistrationReport register_views(ViewStore& views,
     tell_fit(report, sum(bundle, spots));
   }
   judge(report, bundle, after);
+  warn_of_loose_axis(report, run);
   take_over(report, views, bundle.state);
   return report;
 }

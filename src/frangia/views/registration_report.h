@@ -23,9 +23,10 @@ struct RegistrationReport {
   /// turns too far at each step shows here first. NaN when they do not overlap.
   double closure_before_rad = kMissing;
   double closure_after_rad = kMissing;
-  double overlap = 0.0;    ///< share of the points that another view saw, too
-  double condition = 0.0;  ///< of the equations, the prior among them
-  double weakest = 0.0;    ///< how many times better the weakest unknown is known than before
+  double overlap = 0.0;        ///< share of the points that another view saw, too
+  double condition = 0.0;      ///< of the equations, the prior among them
+  double weakest = 0.0;        ///< how many times better the weakest unknown is known than before
+  double axis_known_mm = 0.0;  ///< standard deviation of the axis where it is known least
   std::vector<std::string> open;      ///< what the part does not determine
   std::vector<std::size_t> outliers;  ///< views that fit no other, emptied
   /// How the part stands in each further round: what takes it from its place in the first round,

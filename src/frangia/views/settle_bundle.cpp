@@ -50,7 +50,11 @@ Spots pick_all(const std::vector<PlaneMap>& maps, std::size_t count) {
 }
 
 BundleSums sum(const Bundle& bundle, const Spots& spots) {
-  return sum_bundle(spots, bundle.maps, bundle.lens, bundle.state, {bundle.gate_mm});
+  // However badly all fits, what lies many sigmas before a surface is before it.
+  constexpr double kThrough = 3.0;
+  const double through_mm = std::min(bundle.gate_mm, kThrough * bundle.floor_mm);
+  return sum_bundle(
+      spots, bundle.maps, bundle.lens, bundle.state, {bundle.gate_mm, through_mm, bundle.left_out});
 }
 
 void settle(Bundle& bundle, const Spots& spots, int max_iterations, const Run& run) {
@@ -73,17 +77,43 @@ void settle(Bundle& bundle, const Spots& spots, int max_iterations, const Run& r
   }
 }
 
-void judge(RegistrationReport& report, const Bundle& bundle, const BundleSums& sums) {
+namespace {
+
+constexpr double kKnown = 9.0;  // three times better than before
+
+/// What the pairs say beside the prior, in units of the prior's: 1 is as much.
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gain_of(const Bundle& bundle,
+                                                       const BundleSums& sums) {
   const Eigen::MatrixXd gain =
       worth_of(bundle, sums) *
       (bundle.prior_sigma.asDiagonal() * sums.hessian * bundle.prior_sigma.asDiagonal());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gain);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gain);
+}
+
+/// The standard deviation of the axis along the way in which it is known least, at the rim of a
+/// part.
+double axis_known_mm(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& gain,
+                     const Eigen::VectorXd& prior_sigma) {
+  constexpr double kArm_mm = 30.0;  // how far from the axis a part reaches
+  const Eigen::VectorXd variances = (gain.eigenvalues().cwiseMax(0.0).array() + 1.0).inverse();
+  const Eigen::MatrixXd ways = prior_sigma.asDiagonal() * gain.eigenvectors();
+  const Eigen::MatrixXd covariance = ways * variances.asDiagonal() * ways.transpose();
+  Eigen::Matrix4d of_axis = covariance.topLeftCorner<4, 4>();
+  const Eigen::Vector4d to_mm(kArm_mm, kArm_mm, 1.0, 1.0);
+  of_axis = to_mm.asDiagonal() * of_axis * to_mm.asDiagonal();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(of_axis).eigenvalues()[3]);
+}
+
+}  // namespace
+
+void judge(RegistrationReport& report, const Bundle& bundle, const BundleSums& sums) {
+  const auto solver = gain_of(bundle, sums);
   report.weakest = std::sqrt(1.0 + std::max(0.0, solver.eigenvalues()[0]));
   report.condition = std::sqrt((1.0 + solver.eigenvalues().tail<1>()[0]) /
                                (1.0 + std::max(0.0, solver.eigenvalues()[0])));
+  report.axis_known_mm = axis_known_mm(solver, bundle.prior_sigma);
   const auto angles = static_cast<Eigen::Index>(bundle.state.angles_rad.size()) - 1;
-  constexpr double kKnown = 9.0;  // three times better than before
-  std::array<double, 3> open{};   // tilt, shift, angles
+  std::array<double, 3> open{};  // tilt, shift, angles
   for (Eigen::Index i = 0; i < solver.eigenvalues().size() && solver.eigenvalues()[i] < kKnown;
        ++i) {
     const Eigen::VectorXd direction = solver.eigenvectors().col(i).cwiseAbs2();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,7 @@ struct Bundle {
   double floor_mm = 0.0;  ///< the gate never closes farther than noise allows
   double systematic_mm = 0.0;
   int iterations = 0;
+  std::optional<std::size_t> left_out{};  ///< a view that is not compared
 };
 
 /// One list of spots a view.
@@ -39,7 +41,8 @@ using Spots = std::vector<std::vector<PlaneMap::Spot>>;
 void settle(Bundle& bundle, const Spots& spots, int max_iterations, const Run& run);
 
 /// What the data say less about than the prior does, by the eigenvectors of their information in
-/// units of the prior's: sets `weakest`, `condition` and `open`.
+/// units of the prior's: sets `weakest`, `condition`, `axis_known_mm` and
+/// `open`.
 void judge(RegistrationReport& report, const Bundle& bundle, const BundleSums& sums);
 
 }  // namespace frangia

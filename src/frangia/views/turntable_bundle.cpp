@@ -75,17 +75,22 @@ struct Summer {
   std::span<const PlaneMap> maps;
   const FastLens& lens;
   const TableState& state;
-  double gate_mm;
+  BundleOptions options;
   std::size_t closing;
   BundleSums sums;
+  std::vector<PairTally> tallies;  ///< of the view whose spots are added, by other view
 
-  Summer(std::span<const PlaneMap> all, const FastLens& camera, const TableState& now, double gate)
-      : maps(all), lens(camera), state(now), gate_mm(gate), closing(now.closing_view()) {
+  Summer(std::span<const PlaneMap> all,
+         const FastLens& camera,
+         const TableState& now,
+         const BundleOptions& how)
+      : maps(all), lens(camera), state(now), options(how), closing(now.closing_view()) {
     const Eigen::Index unknowns = now.unknowns();
     sums.hessian = Eigen::MatrixXd::Zero(unknowns, unknowns);
     sums.gradient = Eigen::VectorXd::Zero(unknowns);
     sums.met.assign(all.size(), 0);
     sums.faced.assign(all.size(), 0);
+    tallies.resize(all.size());
   }
 
   void add(std::size_t from, std::span<const PlaneMap::Spot> spots) {
@@ -96,10 +101,10 @@ struct Summer {
       bool faced = false;
       bool met = false;
       for (std::size_t to = 0; to < maps.size(); ++to) {
-        if (to == from) continue;
+        if (to == from || to == options.left_out) continue;
         const double distance = add_pair(spot, turns[to], from, to);
         faced = faced || !std::isnan(distance);
-        met = met || distance < gate_mm;
+        met = met || distance < options.gate_mm;
       }
       sums.faced[from] += faced ? 1 : 0;
       sums.met[from] += met ? 1 : 0;
@@ -110,7 +115,7 @@ struct Summer {
   double add_pair(const PlaneMap::Spot& spot, const Turn& turn, std::size_t from, std::size_t to) {
     const Eigen::Vector3d point = turn.apply(spot.point_mm.cast<double>());
     const Eigen::Vector3d facing = turn.rotation * spot.normal.cast<double>();
-    if (facing.dot(point) >= 0.0) return std::nan("");
+    if (!(point.z() > 0.0)) return std::nan("");
     const auto seen = point.cast<float>();
     float u = 0.0F;
     float v = 0.0F;
@@ -125,14 +130,18 @@ struct Summer {
     }
     const PlaneMap::Spot& target = targets(static_cast<int>(column), static_cast<int>(row));
     const Eigen::Vector3d facing_it = target.normal.cast<double>();
-    if (target.sigma_mm == 0.0F || facing_it.dot(facing) < kSameSide) return std::nan("");
+    if (target.sigma_mm == 0.0F) return std::nan("");
+    const Eigen::Vector3d away = point - target.point_mm.cast<double>();
+    const bool before = facing_it.dot(away) > options.through_mm && -away.z() > options.through_mm;
+    tallies[to].against += before ? 1 : 0;
+    if (facing.dot(point) >= 0.0 || facing_it.dot(facing) < kSameSide) return std::nan("");
     // Along the mean of both normals the distance is that of the surfaces, curved or not: what one
     // plane leaves its surface by on one side, the other leaves its own by on the other.
     const Eigen::Vector3d normal = (facing_it + facing).normalized();
-    const double distance = normal.dot(point - target.point_mm.cast<double>());
-    if (!(std::abs(distance) < gate_mm)) return std::abs(distance);
-
-    const double ratio = distance / gate_mm;
+    const double distance = normal.dot(away);
+    if (!(std::abs(distance) < options.gate_mm)) return std::abs(distance);
+    ++tallies[to].agree;
+    const double ratio = distance / options.gate_mm;
     const double trust = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
     const double weight = trust / (std::pow(static_cast<double>(spot.sigma_mm), 2) +
                                    std::pow(static_cast<double>(target.sigma_mm), 2));
@@ -219,18 +228,29 @@ BundleSums sum_bundle(std::span<const std::vector<PlaneMap::Spot>> spots,
   };
   std::vector<Chunk> chunks;
   for (std::size_t view = 0; view < spots.size(); ++view) {
+    if (view == options.left_out) continue;
     for (std::size_t first = 0; first < spots[view].size(); first += kChunk)
       chunks.push_back({view, first});
   }
   std::vector<BundleSums> parts(chunks.size());
+  std::vector<std::vector<PairTally>> tallies(chunks.size());
   parallel_chunks(chunks.size(), 1, [&](std::size_t begin, std::size_t /*end*/) {
     const Chunk& chunk = chunks[begin];
-    Summer summer(maps, lens, state, options.gate_mm);
+    Summer summer(maps, lens, state, options);
     const std::span<const PlaneMap::Spot> own(spots[chunk.view]);
     summer.add(chunk.view, own.subspan(chunk.first, std::min(kChunk, own.size() - chunk.first)));
     parts[begin] = std::move(summer.sums);
+    tallies[begin] = std::move(summer.tallies);
   });
-  BundleSums all = Summer(maps, lens, state, options.gate_mm).sums;
+  BundleSums all = Summer(maps, lens, state, options).sums;
+  all.pairs.resize(maps.size() * maps.size());
+  for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
+    for (std::size_t to = 0; to < maps.size(); ++to) {
+      PairTally& pair = all.pairs[chunks[chunk].view * maps.size() + to];
+      pair.agree += tallies[chunk][to].agree;
+      pair.against += tallies[chunk][to].against;
+    }
+  }
   for (const BundleSums& part : parts) {
     all.hessian += part.hessian;
     all.gradient += part.gradient;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,12 @@ struct TableState {
   [[nodiscard]] std::size_t closing_view() const;
 };
 
+/// What another view says to the spots of one.
+struct PairTally {
+  std::size_t agree = 0;    ///< lie on what it saw
+  std::size_t against = 0;  ///< lie before what it saw, where it would have seen them
+};
+
 /// How the views fit together in one state, and which way to go: the normal equations of all
 /// point-to- plane distances between views.
 ///
@@ -57,13 +64,20 @@ struct BundleSums {
   std::vector<float> distances_mm;  ///< of all pairs, without sign
   std::vector<std::size_t> met;     ///< by view: its spots that lie on a surface another view saw
   std::vector<std::size_t> faced;   ///< by view: its spots that another view looked at
+  std::vector<PairTally> pairs;     ///< by view and other view, row by row
+
+  [[nodiscard]] const PairTally& pair(std::size_t from, std::size_t to) const {
+    return pairs[from * met.size() + to];
+  }
 };
 
 /// The two directions across the axis in which it is moved.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> across(const Turntable& table);
 
 struct BundleOptions {
-  double gate_mm = 3.0;  ///< pairs farther apart are not of the same surface
+  double gate_mm = 3.0;     ///< pairs farther apart are not of the same surface
+  double through_mm = 3.0;  ///< a point farther before what a view saw is seen through
+  std::optional<std::size_t> left_out = std::nullopt;  ///< a view that is not compared
 };
 
 /// Compares the spots of each view with the planes that they project onto in each other view.
