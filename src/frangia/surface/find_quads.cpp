@@ -71,9 +71,8 @@ void add_quads(std::vector<Quad>& quads,
       if (whole) {
         quad.pinched = 0;
         for (std::size_t side = 0; pinched != 0 && side < 4; ++side) {
-          if (is_pinched(around, quad, side, crossings.outward[quad.crossing] > 0)) {
-            quad.pinched |= 1U << side;
-          }
+          if (is_pinched(around, quad, side, crossings.outward[quad.crossing] > 0))
+            quad.pinched = static_cast<std::uint8_t>(quad.pinched | 1U << side);
         }
         quads.push_back(quad);
       }
@@ -94,21 +93,10 @@ Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
 
 Quads find_quads(const Crossings& crossings, std::span<const Evidence> evidence) {
   constexpr std::size_t kChunk = 64;
-  std::vector<std::vector<Quad>> parts((crossings.blocks.size() + kChunk - 1) / kChunk);
+  Quads quads((crossings.blocks.size() + kChunk - 1) / kChunk);
   parallel_chunks(crossings.blocks.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t block = begin; block < end; ++block) {
-      add_quads(parts[begin / kChunk], crossings, evidence, block);
-    }
-  });
-  std::vector<std::size_t> starts{0};
-  for (const auto& part : parts)
-    starts.push_back(starts.back() + part.size());
-  Quads quads(starts.back());
-  parallel_chunks(parts.size(), 1, [&](std::size_t begin, std::size_t) {
-    std::copy(parts[begin].begin(),
-              parts[begin].end(),
-              quads.begin() + static_cast<std::ptrdiff_t>(starts[begin]));
-    parts[begin] = {};
+    for (std::size_t block = begin; block < end; ++block)
+      add_quads(quads[begin / kChunk], crossings, evidence, block);
   });
   return quads;
 }

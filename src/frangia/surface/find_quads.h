@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "frangia/core/pixel_allocator.h"
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/evidence.h"
 
@@ -16,14 +16,17 @@ namespace frangia {
 /// The quad around one crossing. Side i lies between corners i and i + 1, on a face between two
 /// cells.
 struct Quad {
-  std::array<std::uint32_t, 4> ring;
+  std::array<std::uint32_t, 4> ring;  ///< counter-clockwise seen from the edge's upper end
   std::uint32_t crossing;
-  unsigned pinched;  ///< bit i: side i needs a vertex of its own on its face
   Eigen::Vector3i voxel;
-  int axis;
+  std::uint8_t axis;
+  std::uint8_t pinched;  ///< bit i: side i needs a vertex of its own on its face
+  std::uint8_t cut = 0;  ///< corner, 0 or 1, that the cut into triangles starts at
+  bool folded = false;   ///< a triangle faces inward, whatever the cut
 };
 
-using Quads = std::vector<Quad, PixelAllocator<Quad>>;
+/// As they are found, some blocks' together.
+using Quads = std::vector<std::vector<Quad>>;
 
 /// The axis across the face between the cells of corners i and i + 1.
 [[nodiscard]] int face_axis(const Quad& quad, std::size_t side);

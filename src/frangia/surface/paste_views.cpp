@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <future>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,16 +34,23 @@ double choose_voxel(const Sampling& sampling, const PasteOptions& options, const
   return voxel_mm;
 }
 
-/// Calls `use` with every `step`-th pixel of each view in turn; one is in memory at a time.
+/// Calls `use` with every `step`-th pixel of each view in turn; while one is used the next is read.
 void for_each_view(const ViewStore& views,
                    int step,
                    const CameraRays& camera,
                    const LocalPlanesOptions& how,
                    const std::function<void(const LocalPlanes&)>& use) {
+  const auto read = [&](std::size_t i) {
+    return std::async(std::launch::async, [&views, step, i] {
+      View view = views.load(i);
+      return step > 1 ? thin_out(view, step) : view;
+    });
+  };
   LocalPlanes planes;
+  std::future<View> next = read(0);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    View view = views.load(i);
-    if (step > 1) view = thin_out(view, step);
+    const View view = next.get();
+    if (i + 1 < views.size()) next = read(i + 1);
     planes = local_planes(view, camera, how, std::move(planes));
     use(planes);
   }
