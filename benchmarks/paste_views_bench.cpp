@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -99,18 +100,21 @@ void paste(benchmark::State& state, const Sphere& sphere) {
   const ViewStore& views = views_of(sphere);
   const Lens lens = sphere.lens();
   std::size_t triangles = 0;
-  double least_s = 1e9;
+  std::vector<double> times_s;
   for (auto iteration : state) {
     static_cast<void>(iteration);
     const Stopwatch watch;
     triangles = paste_views(views, lens, {.voxel_mm = sphere.voxel_mm()}).triangles.size();
-    least_s = std::min(least_s, watch.seconds());
+    times_s.push_back(watch.seconds());
   }
+  const double least_s = *std::min_element(times_s.begin(), times_s.end());
   state.counters["triangles"] = static_cast<double>(triangles);
+  state.counters["first_s"] = times_s[0];  // its memory was never touched before
+  state.counters["least_s"] = least_s;
   state.SetItemsProcessed(state.iterations() * sphere.views * sphere.size_px * sphere.size_px);
   if (sphere.size_px != 1200) return;
   Wanted wanted;
-  wanted.at_most("a mesh at 0.2 mm", least_s, 2.7, "s");
+  wanted.at_most("a mesh at 0.2 mm, the least of all", least_s, 2.7, "s");
   wanted.say(state);
 }
 
@@ -123,6 +127,7 @@ BENCHMARK(paste_views_of_twelve)
     ->Arg(300)
     ->Arg(600)
     ->Arg(1200)
+    ->Iterations(7)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
@@ -135,6 +140,7 @@ BENCHMARK(paste_by_views)
     ->Arg(24)
     ->Arg(36)
     ->Arg(48)
+    ->Iterations(3)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
@@ -148,6 +154,7 @@ BENCHMARK(paste_by_radius)
     ->Arg(35)
     ->Arg(45)
     ->Arg(55)
+    ->Iterations(3)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 

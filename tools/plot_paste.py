@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 def points(runs, name):
     """(argument, seconds) of the runs of one benchmark."""
     mine = [run for run in runs if run["name"].startswith(name + "/")]
-    return [(float(run["name"].split("/")[1]), run["real_time"] * 1e-3) for run in mine]
+    return [(float(run["name"].split("/")[1]), run["least_s"]) for run in mine]
 
 
 def draw(axes, values, label):

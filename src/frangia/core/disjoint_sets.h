@@ -24,6 +24,7 @@ class DisjointSets {
   }
 
   void join(std::uint32_t a, std::uint32_t b) {
+    if (parent_[a] == parent_[b]) return;
     a = find(a);
     b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);

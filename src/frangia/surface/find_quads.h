@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,12 +16,17 @@ namespace frangia {
 /// The quad around one crossing. Side i lies between corners i and i + 1, on a face between two
 /// cells.
 struct Quad {
-  std::array<std::uint32_t, 4> ring{};
-  std::uint32_t crossing = 0;
-  unsigned pinched = 0;  ///< bit i: side i needs a vertex of its own on its face
-  Eigen::Vector3i voxel = Eigen::Vector3i::Zero();
-  int axis = 0;
+  std::array<std::uint32_t, 4> ring;  ///< counter-clockwise seen from the edge's upper end
+  std::uint32_t crossing;
+  Eigen::Vector3i voxel;
+  std::uint8_t axis;
+  std::uint8_t pinched;  ///< bit i: side i needs a vertex of its own on its face
+  std::uint8_t cut = 0;  ///< corner, 0 or 1, that the cut into triangles starts at
+  bool folded = false;   ///< a triangle faces inward, whatever the cut
 };
+
+/// As they are found, some blocks' together.
+using Quads = std::vector<std::vector<Quad>>;
 
 /// The axis across the face between the cells of corners i and i + 1.
 [[nodiscard]] int face_axis(const Quad& quad, std::size_t side);
@@ -29,7 +35,6 @@ struct Quad {
 [[nodiscard]] Eigen::Vector3i face_low(const Quad& quad, std::size_t side);
 
 /// A quad around each crossing that holds, where all four cells have surface: in a fixed order.
-[[nodiscard]] std::vector<Quad> find_quads(const Crossings& crossings,
-                                           std::span<const Evidence> evidence);
+[[nodiscard]] Quads find_quads(const Crossings& crossings, std::span<const Evidence> evidence);
 
 }  // namespace frangia

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -23,12 +25,26 @@ constexpr float kSliver = 0.1F;  // voxels: shorter edges are not worth their tr
 
 /// How a quad reads when cut between corners `from` and `from + 2`.
 struct Cut {
-  std::array<Mesh::Triangle, 2> triangles{};
   bool upright = true;   ///< neither triangle faces inward
   bool folded = false;   ///< one does, and is more than a sliver
   float away_mm = 0.0F;  ///< of the cut's middle from the surface at the crossing
   float length_mm = 0.0F;
 };
+
+/// Corners of a quad, counter-clockwise from outside.
+using Ring = std::array<std::uint32_t, 4>;
+
+Ring ring_of(const Quad& quad, const Crossings& crossings) {
+  Ring ring = quad.ring;
+  if (crossings.outward[quad.crossing] < 0) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+/// One of the two triangles beside the cut from a corner.
+Mesh::Triangle half_of(const Ring& ring, std::size_t from, std::size_t half) {
+  const std::size_t start = from + 2 * half;
+  return {ring[start % 4], ring[(start + 1) % 4], ring[(start + 2) % 4]};
+}
 
 /// The surface at a crossing: its plane, and which way out is along the grid's edge.
 struct Surface {
@@ -47,19 +63,14 @@ Surface surface_at(const Crossings& crossings, const Evidence& evidence, std::ui
           static_cast<float>(crossings.voxel_mm)};
 }
 
-Cut cut_quad(const Mesh& mesh,
-             const std::array<std::uint32_t, 4>& ring,
-             std::size_t from,
-             const Surface& surface) {
+Cut cut_quad(const Mesh& mesh, const Ring& ring, std::size_t from, const Surface& surface) {
   const Eigen::Vector3f& one = mesh.vertices_mm[ring[from]];
   const Eigen::Vector3f& other = mesh.vertices_mm[ring[(from + 2) % 4]];
   Cut cut;
   cut.length_mm = (one - other).norm();
   cut.away_mm = surface.plane.absDistance(0.5F * (one + other));
   for (std::size_t half = 0; half < 2; ++half) {
-    const std::size_t start = (from + 2 * half) % 4;
-    Mesh::Triangle& triangle = cut.triangles[half];
-    triangle = {ring[start], ring[(start + 1) % 4], ring[(start + 2) % 4]};
+    const Mesh::Triangle triangle = half_of(ring, from, half);
     const Eigen::Vector3f& origin = mesh.vertices_mm[triangle[0]];
     const Eigen::Vector3f cross =
         (mesh.vertices_mm[triangle[1]] - origin).cross(mesh.vertices_mm[triangle[2]] - origin);
@@ -72,33 +83,63 @@ Cut cut_quad(const Mesh& mesh,
 }
 
 /// The cut that folds no triangle over, then stays on the surface, then is short.
-Cut best_cut(const Mesh& mesh, const std::array<std::uint32_t, 4>& ring, const Surface& surface) {
+void choose_cut(Quad& quad, const Mesh& mesh, const Ring& ring, const Surface& surface) {
   const Cut one = cut_quad(mesh, ring, 0, surface);
   const Cut other = cut_quad(mesh, ring, 1, surface);
-  constexpr float kAlike = 0.02F;  // of the cut's length
-  if (one.folded != other.folded) return one.folded ? other : one;
-  if (one.upright != other.upright) return one.upright ? one : other;
-  if (std::abs(one.away_mm - other.away_mm) > kAlike * (one.length_mm + other.length_mm)) {
-    return one.away_mm < other.away_mm ? one : other;
-  }
-  return one.length_mm <= other.length_mm ? one : other;
+  const bool second = [&] {
+    constexpr float kAlike = 0.02F;  // of the cut's length
+    if (one.folded != other.folded) return one.folded;
+    if (one.upright != other.upright) return other.upright;
+    if (std::abs(one.away_mm - other.away_mm) > kAlike * (one.length_mm + other.length_mm))
+      return other.away_mm < one.away_mm;
+    return other.length_mm < one.length_mm;
+  }();
+  quad.cut = second ? 1 : 0;
+  quad.folded = one.folded && other.folded;
 }
 
-/// Cuts all quads but pinched ones, and tells which of them fold whatever the cut.
-std::vector<Cut> cut_quads(const Mesh& mesh,
-                           const Crossings& crossings,
-                           std::span<const Evidence> evidence,
-                           std::span<const Quad> quads) {
-  std::vector<Cut> cuts(quads.size());
-  parallel_chunks(quads.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      auto ring = quads[i].ring;
-      if (crossings.outward[quads[i].crossing] < 0) std::reverse(ring.begin(), ring.end());
-      cuts[i] = best_cut(
-          mesh, ring, surface_at(crossings, evidence[quads[i].crossing], quads[i].crossing));
+void cut_quads(Quads& quads,
+               const Mesh& mesh,
+               const Crossings& crossings,
+               std::span<const Evidence> evidence) {
+  parallel_chunks(quads.size(), 1, [&](std::size_t part, std::size_t) {
+    for (Quad& quad : quads[part]) {
+      choose_cut(quad,
+                 mesh,
+                 ring_of(quad, crossings),
+                 surface_at(crossings, evidence[quad.crossing], quad.crossing));
     }
   });
-  return cuts;
+}
+
+/// Pulls the vertices of quads that fold, or are pinched, back into their cells; false when there
+/// are none.
+bool pull_back(const Quads& quads, PlacedVertices& vertices) {
+  bool any = false;
+  for (const auto& part : quads) {
+    for (const Quad& quad : part) {
+      if (!quad.folded && quad.pinched == 0) continue;
+      any = true;
+      for (const std::uint32_t v : quad.ring)
+        vertices.mesh.vertices_mm[v] = vertices.within_mm[v];
+    }
+  }
+  return any;
+}
+
+void add_cut(Mesh& mesh, const Crossings& crossings, const Quads& quads) {
+  std::size_t count = 0;
+  for (const auto& part : quads)
+    count += part.size();
+  mesh.triangles.reserve(2 * count);
+  for (const auto& part : quads) {
+    for (const Quad& quad : part) {
+      if (quad.pinched != 0) continue;
+      const Ring ring = ring_of(quad, crossings);
+      mesh.triangles.push_back(half_of(ring, quad.cut, 0));
+      mesh.triangles.push_back(half_of(ring, quad.cut, 1));
+    }
+  }
 }
 
 std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t like) {
@@ -110,10 +151,15 @@ std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t
 }
 
 /// Fans of triangles around the crossings of pinched quads, with the vertices on their faces.
-void add_pinched(Mesh& mesh, const Crossings& crossings, std::span<const Quad> quads) {
+void add_pinched(Mesh& mesh, const Crossings& crossings, const Quads& quads) {
+  std::vector<Quad> pinched;
+  for (const auto& part : quads) {
+    std::copy_if(part.begin(), part.end(), std::back_inserter(pinched), [](const Quad& quad) {
+      return quad.pinched != 0;
+    });
+  }
   std::map<std::tuple<int, int, int, int>, std::uint32_t> on_face;
-  for (const Quad& quad : quads) {
-    if (quad.pinched == 0) continue;
+  for (const Quad& quad : pinched) {
     const Eigen::Vector3f& point = crossings.points_mm[quad.crossing];
     std::vector<std::uint32_t> ring;
     for (std::size_t side = 0; side < 4; ++side) {
@@ -155,29 +201,14 @@ Mesh mesh_quads(PlacedVertices vertices,
                 const Crossings& crossings,
                 std::span<const Evidence> evidence) {
   Mesh& mesh = vertices.mesh;
-  const std::vector<Quad> quads = find_quads(crossings, evidence);
-
-  std::vector<Cut> cuts = cut_quads(mesh, crossings, evidence, quads);
-
+  Quads quads = find_quads(crossings, evidence);
+  cut_quads(quads, mesh, crossings, evidence);
   constexpr int kRounds = 3;  // pulling one quad's vertices back may fold the next
-  for (int round = 0; round < kRounds; ++round) {
-    bool folded = false;
-    for (std::size_t i = 0; i < quads.size(); ++i) {
-      if (!cuts[i].folded && quads[i].pinched == 0) continue;
-      folded = true;
-      for (const std::uint32_t v : quads[i].ring)
-        mesh.vertices_mm[v] = vertices.within_mm[v];
-    }
-    if (!folded) break;
-    cuts = cut_quads(mesh, crossings, evidence, quads);
-  }
-  mesh.triangles.reserve(2 * quads.size());
-  for (std::size_t i = 0; i < quads.size(); ++i) {
-    if (quads[i].pinched != 0) continue;
-    for (const auto& triangle : cuts[i].triangles)
-      mesh.triangles.push_back(triangle);
-  }
+  for (int round = 0; round < kRounds && pull_back(quads, vertices); ++round)
+    cut_quads(quads, mesh, crossings, evidence);
+  add_cut(mesh, crossings, quads);
   add_pinched(mesh, crossings, quads);
+  quads = {};
 
   const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
   smooth_out(mesh, vertices.sharp, voxel_mm);

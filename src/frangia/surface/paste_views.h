@@ -21,7 +21,7 @@ struct PasteOptions {
 /// The views are averaged as signed distances near the surface; then every place where that average
 /// crosses zero is put to the views again: those that saw it say where it lies and how it slopes,
 /// those that see through it vote it out. Sharp edges are kept: vertices lie where planes meet.
-/// Memory holds one view and the surface.
+/// Memory holds one view, the next one's range, and the surface.
 /// units    mm, object frame
 /// missing  where no view saw the surface the mesh stays open: nothing is invented
 /// errors   Error(Input) when no view holds a point, and when the voxels would need more memory

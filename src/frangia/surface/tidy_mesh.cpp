@@ -1,6 +1,7 @@
 #include "frangia/surface/tidy_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "frangia/core/disjoint_sets.h"
@@ -20,9 +21,9 @@ std::uint64_t scrambled(std::uint32_t i) {
 std::vector<bool> rim_of(const Mesh& mesh) {
   std::vector<std::uint64_t> balance(mesh.vertices_mm.size(), 0);
   for (const auto& t : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      balance[t[i]] += scrambled(t[(i + 1) % 3]) - scrambled(t[(i + 2) % 3]);
-    }
+    const std::array<std::uint64_t, 3> number{scrambled(t[0]), scrambled(t[1]), scrambled(t[2])};
+    for (std::size_t i = 0; i < 3; ++i)
+      balance[t[i]] += number[(i + 1) % 3] - number[(i + 2) % 3];
   }
   std::vector<bool> rim(balance.size());
   for (std::size_t i = 0; i < rim.size(); ++i)
@@ -68,9 +69,9 @@ void drop_small_parts(Mesh& mesh, std::size_t min_triangles) {
   std::vector<std::uint32_t> sizes(mesh.vertices_mm.size(), 0);
   for (const auto& t : mesh.triangles)
     ++sizes[parts.find(t[0])];
-  const auto small = [&](const Mesh::Triangle& t) {
-    return sizes[parts.find(t[0])] < min_triangles;
-  };
+  const auto is_small = [&](std::uint32_t size) { return size != 0 && size < min_triangles; };
+  if (std::none_of(sizes.begin(), sizes.end(), is_small)) return;
+  const auto small = [&](const Mesh::Triangle& t) { return is_small(sizes[parts.find(t[0])]); };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (small(mesh.triangles[i])) continue;
@@ -124,6 +125,7 @@ void drop_unused_vertices(Mesh& mesh) {
   for (std::size_t i = 0; i < renamed.size(); ++i) {
     if (renamed[i] != kUnused) renamed[i] = next++;
   }
+  if (next == renamed.size()) return;
   const auto keep = [&](auto& values) {
     if (values.empty()) return;
     for (std::size_t i = 0; i < renamed.size(); ++i) {
