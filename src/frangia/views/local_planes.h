@@ -81,10 +81,12 @@ struct LocalPlanes {
   /// The plane of the pixel whose square (u, v) falls into, when it has one of its own: what is
   /// half a pixel beside the last quad was seen, too.
   [[nodiscard]] const Plane* pixel_at(float u, float v) const {
-    const bool within = u > -0.5F && v > -0.5F && u < static_cast<float>(planes.width()) - 0.5F &&
-                        v < static_cast<float>(planes.height()) - 0.5F;
+    const float right = u + 0.5F;
+    const float down = v + 0.5F;
+    const bool within = right > 0.0F && down > 0.0F && right < static_cast<float>(planes.width()) &&
+                        down < static_cast<float>(planes.height());
     if (!within) return nullptr;
-    const Plane& plane = planes(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F));
+    const Plane& plane = planes(static_cast<int>(right), static_cast<int>(down));
     return plane.weight > 0.0F ? &plane : nullptr;
   }
 
