@@ -67,8 +67,8 @@ struct DistanceField {
 /// Adds what one view saw to the blocks within its band, making those that are new.
 ///
 /// A voxel takes the distance from the plane of the quad that it projects into, never across a
-/// depth step, weighted by cos^2/sigma^2 and, behind the surface, less and less. source   Curless &
-/// Levoy 1996; Niessner et al. 2013
+/// depth step, weighted by cos^2/sigma^2 and, behind the surface, less and less.
+/// source   Curless & Levoy 1996; Niessner et al. 2013
 void add_view(DistanceField& field,
               const LocalPlanes& view,
               const CameraRays& camera,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <future>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,7 +87,9 @@ Mesh paste_views(const ViewStore& views,
   double done = 0.0;
 
   const int step = field_step(sampling, voxel_mm);
-  const CameraRays thin_rays(thin_out(camera, step));
+  std::optional<CameraRays> thinned;
+  if (step > 1) thinned.emplace(thin_out(camera, step));
+  const CameraRays& thin_rays = thinned ? *thinned : rays;
   const int reach_px = static_cast<int>(std::ceil(2.0 * voxel_mm / (step * sampling.spacing_mm)));
   DistanceField field;
   field.voxel_mm = voxel_mm;

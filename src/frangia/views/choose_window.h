@@ -55,7 +55,8 @@ inline constexpr float kFits = 2.0F;
 ///
 /// shape    one pixel, in one of the rows
 /// missing  NaN where the pixel lies off even the best plane: there the image is rougher than its
-/// pixels source   Kuwahara et al. 1976
+///          pixels
+/// source   Kuwahara et al. 1976
 [[nodiscard]] ChosenWindow choose_window(const Image<float>& image,
                                          const WindowRows& fits,
                                          const Eigen::Vector2i& at,

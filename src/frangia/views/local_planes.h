@@ -31,8 +31,7 @@ struct CameraRays {
 /// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
 /// units    mm, rig frame
 /// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Beside what
-/// was
-///          seen, when a plane reaches there, or Unseen
+///          was seen, when a plane reaches there, or Unseen
 struct LocalPlanes {
   struct Plane {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
@@ -160,8 +159,9 @@ struct LocalPlanesOptions {
 /// Near an edge of the object a window about the pixel would round it off: of the windows that hold
 /// the pixel and fit no better than noise allows, the best one is taken, which lies to one side.
 /// Neighbouring pixels are on one surface unless the line that joins them is within 8 degrees of
-/// the viewing ray, by more than their noise. errors   Error(Input) when the grid and the camera
-/// differ in size source   the choice among windows: Kuwahara et al. 1976
+/// the viewing ray, by more than their noise.
+/// errors   Error(Input) when the grid and the camera differ in size
+/// source   the choice among windows: Kuwahara et al. 1976
 [[nodiscard]] LocalPlanes local_planes(const View& view,
                                        const CameraRays& camera,
                                        const LocalPlanesOptions& options = {},

@@ -41,8 +41,7 @@ using Spots = std::vector<std::vector<PlaneMap::Spot>>;
 void settle(Bundle& bundle, const Spots& spots, int max_iterations, const Run& run);
 
 /// What the data say less about than the prior does, by the eigenvectors of their information in
-/// units of the prior's: sets `weakest`, `condition`, `axis_known_mm` and
-/// `open`.
+/// units of the prior's: sets `weakest`, `condition`, `axis_known_mm` and `open`.
 void judge(RegistrationReport& report, const Bundle& bundle, const BundleSums& sums);
 
 }  // namespace frangia
