@@ -9,14 +9,12 @@
 #include "frangia/core/error.h"
 
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using testing::text_of;
 
 TEST(AtomicFile, AppearsWholeWhenCommitted) {
   const testing::TemporaryFolder folder;

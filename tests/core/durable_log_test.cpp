@@ -13,14 +13,12 @@
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using testing::text_of;
 
 TEST(DurableLog, GrowsByWholeLinesAndIsReadBack) {
   const testing::TemporaryFolder folder;

@@ -6,6 +6,7 @@
 
 #include "support/error_of.h"
 #include "support/fake_gige_camera.h"
+#include "support/soon.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -14,10 +15,7 @@ namespace {
 using testing::error_of;
 using testing::FakeExposure;
 using testing::FakeGigeCamera;
-
-Deadline soon() {
-  return Deadline::in(5.0);
-}
+using testing::soon;
 
 /// A ramp that the exposure scales, the black level lifts, and the depth stretches.
 int ramp(const FakeExposure& exposure, int x, int y) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "support/error_of.h"
+#include "support/soon.h"
 #include "support/temporary_folder.h"
 #include "support/test_screen.h"
 
@@ -14,11 +15,8 @@ namespace frangia {
 namespace {
 
 using testing::error_of;
+using testing::soon;
 using testing::TestScreen;
-
-Deadline soon() {
-  return Deadline::in(5.0);
-}
 
 /// A picture in which no two neighbours are alike, in any direction.
 Image<float> checked(const DisplayInfo& info) {

@@ -7,6 +7,7 @@
 
 #include "support/emulated_boards.h"
 #include "support/error_of.h"
+#include "support/soon.h"
 
 namespace frangia {
 namespace {
@@ -16,10 +17,7 @@ using testing::EmulatedPort;
 using testing::EmulatedPrologix;
 using testing::EmulatedScpi;
 using testing::error_of;
-
-Deadline soon() {
-  return Deadline::in(3.0);
-}
+using testing::soon;
 
 ShifterInfo up_to(double most) {
   ShifterInfo info;

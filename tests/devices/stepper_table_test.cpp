@@ -12,6 +12,7 @@
 #include "support/emulated_boards.h"
 #include "support/emulated_grbl.h"
 #include "support/error_of.h"
+#include "support/soon.h"
 
 namespace frangia {
 namespace {
@@ -21,10 +22,7 @@ using testing::EmulatedHorus;
 using testing::EmulatedMarlin;
 using testing::EmulatedPort;
 using testing::error_of;
-
-Deadline soon() {
-  return Deadline::in(3.0);
-}
+using testing::soon;
 
 FirmwareSettings quick() {
   FirmwareSettings settings;

@@ -146,7 +146,7 @@ class FakeWebcam final : public V4l2System {
   std::deque<unsigned> queued_;
 };
 
-Deadline soon() {
+Deadline at_once() {
   return Deadline::in(0.2);
 }
 
@@ -161,11 +161,11 @@ TEST(V4l2Camera, AFrameIsExposedAfterItIsAskedForAndByHand) {
   const auto webcam = std::make_shared<FakeWebcam>();
   const auto camera = open_v4l2_camera(settings(), webcam);
   EXPECT_TRUE(webcam->manual);
-  EXPECT_DOUBLE_EQ(camera->configure({20.0, 0.0, 0.0}, soon()).exposure_ms, 20.0);
+  EXPECT_DOUBLE_EQ(camera->configure({20.0, 0.0, 0.0}, at_once()).exposure_ms, 20.0);
   EXPECT_EQ(webcam->exposure, 200);
   static_cast<void>(webcam->wait_readable(7, 0));
   const int before = webcam->frame;
-  const CapturedFrame captured = camera->take({}, soon());
+  const CapturedFrame captured = camera->take({}, at_once());
   ASSERT_TRUE(captured.complete);
   EXPECT_GE(static_cast<int>(captured.id), before + 2) << "one is skipped";
 }
@@ -175,7 +175,7 @@ TEST(V4l2Camera, BrightnessIsReadFromGreyAndFromYuyv) {
     const auto webcam = std::make_shared<FakeWebcam>();
     webcam->formats = {format};
     const auto camera = open_v4l2_camera(settings(), webcam);
-    const CapturedFrame captured = camera->take({}, soon());
+    const CapturedFrame captured = camera->take({}, at_once());
     ASSERT_TRUE(captured.complete);
     for (int x = 0; x < FakeWebcam::kWidth; ++x)
       EXPECT_EQ(counts_at(captured.frame, x, 5), x + 40 * (static_cast<int>(captured.id) % 4));
@@ -186,7 +186,7 @@ TEST(V4l2Camera, AShortFrameIsIncomplete) {
   const auto webcam = std::make_shared<FakeWebcam>();
   const auto camera = open_v4l2_camera(settings(), webcam);
   webcam->broken = true;
-  const CapturedFrame captured = camera->take({}, soon());
+  const CapturedFrame captured = camera->take({}, at_once());
   EXPECT_FALSE(captured.complete);
   EXPECT_EQ(captured.incomplete_cause, "10 of 512 bytes came");
 }
@@ -195,9 +195,9 @@ TEST(V4l2Camera, FaultsAreOneSentenceAndTheCameraIsGivenBack) {
   const auto webcam = std::make_shared<FakeWebcam>();
   {
     const auto camera = open_v4l2_camera(settings(), webcam);
-    const auto take = [&] { static_cast<void>(camera->take({}, soon())); };
+    const auto take = [&] { static_cast<void>(camera->take({}, at_once())); };
     EXPECT_NE(error_of([&] {
-                static_cast<void>(camera->configure({9e9, 0, 0}, soon()));
+                static_cast<void>(camera->configure({9e9, 0, 0}, at_once()));
               }).find("outside its range, 0.1 to 500"),
               std::string::npos);
     webcam->silent = true;

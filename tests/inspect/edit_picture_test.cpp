@@ -14,7 +14,7 @@
 namespace frangia {
 namespace {
 
-ShadeOptions small() {
+ShadeOptions square() {
   return testing::small_picture(80, 80);
 }
 
@@ -42,7 +42,7 @@ TEST(EditPicture, ShowsWhatGoesInVioletEvenAtTheBack) {
     EditState after;
     after.mesh = delete_selected(before, select_by_ball(before, place, 9.0));
     const Image<Rgb> picture =
-        edit_picture(before, after, edit_preview(before, after.mesh), small());
+        edit_picture(before, after, edit_preview(before, after.mesh), square());
     EXPECT_GT(count_in(picture, false, is_violet), 200);
     EXPECT_EQ(count_in(picture, true, is_violet), 0);
   }
@@ -54,9 +54,9 @@ TEST(EditPicture, ShowsWhatIsInventedInBlueAndWhatIsSelectedInViolet) {
   EditState after;
   after.mesh = fill_holes(before);
   const EditPreview preview = edit_preview(before, after.mesh);
-  EXPECT_GT(count_in(edit_picture(before, after, preview, small()), true, is_blue), 200);
+  EXPECT_GT(count_in(edit_picture(before, after, preview, square()), true, is_blue), 200);
   after.selection = select_by_ball(after.mesh, {0, 20, 0}, 9.0);
-  const Image<Rgb> picture = edit_picture(before, after, preview, small());
+  const Image<Rgb> picture = edit_picture(before, after, preview, square());
   EXPECT_GT(count_in(picture, true, is_violet), 200);
   EXPECT_EQ(count_in(picture, false, is_violet), 0);
 }

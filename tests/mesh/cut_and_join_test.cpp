@@ -30,7 +30,7 @@ using testing::open_edges;
 using testing::sphere;
 using testing::volume_mm3;
 
-Mesh ball(double radius = 20.0, const Vector3d& center = Vector3d::Zero()) {
+Mesh fine_ball(double radius = 20.0, const Vector3d& center = Vector3d::Zero()) {
   return sphere(center, radius, 40);
 }
 
@@ -40,13 +40,13 @@ Eigen::Hyperplane<double, 3> plane(const Vector3d& normal, double along) {
 
 TEST(CutByPlane, CappedLeavesTheVolumeOfASegmentOfASphere) {
   const double height = 8.0;  // of the segment
-  const Mesh cut = cut_by_plane(ball(), plane({1, 2, 3}, 20.0 - height), {.capped = true});
+  const Mesh cut = cut_by_plane(fine_ball(), plane({1, 2, 3}, 20.0 - height), {.capped = true});
   EXPECT_EQ(open_edges(cut), 0U);
   EXPECT_NEAR(volume_mm3(cut) / (kPi * height * height * (20.0 - height / 3.0)), 1.0, 0.01);
 }
 
 TEST(CutByPlane, OpenLeavesOneRimInThePlaneAndInventsNothing) {
-  const Mesh cut = cut_by_plane(ball(), plane({0, 0, 1}, 5.3));
+  const Mesh cut = cut_by_plane(fine_ball(), plane({0, 0, 1}, 5.3));
   const auto loops = boundary_loops(cut);
   ASSERT_EQ(loops.size(), 1U);
   for (const std::uint32_t v : vertices_of(cut, loops[0]))
@@ -64,22 +64,22 @@ TEST(CutByPlane, CapsATubeWithItsHole) {
 }
 
 TEST(CutByPlane, ThroughVerticesAndEdgesMakesNoSlivers) {
-  const Mesh cut = cut_by_plane(ball(), plane({0, 0, 1}, 0.0), {.capped = true});
+  const Mesh cut = cut_by_plane(fine_ball(), plane({0, 0, 1}, 0.0), {.capped = true});
   EXPECT_EQ(open_edges(cut), 0U);
   EXPECT_EQ(mesh_findings(cut).without_area, 0U);
-  EXPECT_TRUE(cut_by_plane(ball(), plane({0, 0, 1}, 30.0)).empty());
-  EXPECT_EQ(cut_by_plane(ball(), plane({0, 0, 1}, -30.0)).triangles, ball().triangles);
+  EXPECT_TRUE(cut_by_plane(fine_ball(), plane({0, 0, 1}, 30.0)).empty());
+  EXPECT_EQ(cut_by_plane(fine_ball(), plane({0, 0, 1}, -30.0)).triangles, fine_ball().triangles);
 }
 
 TEST(BridgeLoops, JoinsTwoHalvesToOneClosedPart) {
-  Mesh halves = cut_by_plane(ball(), plane({0, 0, 1}, 4.0));
-  append_mesh(halves, cut_by_plane(ball(), plane({0, 0, -1}, 4.0)));
+  Mesh halves = cut_by_plane(fine_ball(), plane({0, 0, 1}, 4.0));
+  append_mesh(halves, cut_by_plane(fine_ball(), plane({0, 0, -1}, 4.0)));
   ASSERT_EQ(boundary_loops(halves).size(), 2U);
   const Mesh whole = bridge_loops(halves, 0, 1);
   EXPECT_EQ(open_edges(whole), 0U);
   EXPECT_EQ(connected_parts(whole).parts.size(), 1U);
   // Between the halves now stands a cylinder.
-  const double low = testing::volume_mm3(ball());
+  const double low = testing::volume_mm3(fine_ball());
   EXPECT_NEAR(volume_mm3(whole) / low, 1.0, 0.03);
   EXPECT_EQ(mesh_findings(whole).marks[2], whole.triangles.size() - halves.triangles.size());
   EXPECT_THROW(static_cast<void>(bridge_loops(halves, 0, 0)), Error);
@@ -87,7 +87,7 @@ TEST(BridgeLoops, JoinsTwoHalvesToOneClosedPart) {
 }
 
 TEST(RemeshIsotropic, GivesEdgesOfOneLengthOnTheSameSurface) {
-  Mesh mesh = ball();
+  Mesh mesh = fine_ball();
   mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.05F);
   const Mesh even = remesh_isotropic(mesh, {.edge_mm = 2.0, .rounds = 5});
   EXPECT_EQ(open_edges(even), 0U);
@@ -104,15 +104,15 @@ TEST(RemeshIsotropic, KeepsTheEdgesOfABox) {
 }
 
 TEST(SelfIntersections, AreNoneInASphereOrABoxOrBesideEachOther) {
-  EXPECT_TRUE(self_intersections(ball()).empty());
+  EXPECT_TRUE(self_intersections(fine_ball()).empty());
   Mesh boxes = box({0, 0, 0}, {1, 1, 1});
   append_mesh(boxes, box({1.001F, 0, 0}, {2, 1, 1}));
   EXPECT_TRUE(self_intersections(boxes).empty());
 }
 
 TEST(SelfIntersections, AreFoundWhereTwoBallsCrossAndNowhereElse) {
-  Mesh mesh = ball(10.0);
-  append_mesh(mesh, ball(10.0, {12.0, 0.3, 0.2}));
+  Mesh mesh = fine_ball(10.0);
+  append_mesh(mesh, fine_ball(10.0, {12.0, 0.3, 0.2}));
   const Selection crossing = select_self_intersections(mesh);
   EXPECT_GT(count_of(crossing), 100U);
   for (std::size_t i = 0; i < crossing.size(); ++i) {

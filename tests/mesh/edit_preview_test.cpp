@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::sphere;
 
-Mesh ball() {
+Mesh coarse_ball() {
   return sphere(Vector3d::Zero(), 20.0, 30);
 }
 
@@ -31,7 +31,7 @@ Mesh swollen(Mesh mesh, float by_mm) {
 }
 
 TEST(EditPreview, OfIslandsIsTheIslands) {
-  Mesh mesh = ball();
+  Mesh mesh = coarse_ball();
   const std::size_t large = mesh.triangles.size();
   append_mesh(mesh, sphere({50, 0, 0}, 1.0, 6));
   const EditPreview preview = edit_preview(mesh, remove_islands(mesh, 5.0));
@@ -42,7 +42,7 @@ TEST(EditPreview, OfIslandsIsTheIslands) {
 }
 
 TEST(EditPreview, OfAFilledHoleIsThePatch) {
-  const Mesh open = delete_selected(ball(), select_by_ball(ball(), {20, 0, 0}, 6.0));
+  const Mesh open = delete_selected(coarse_ball(), select_by_ball(coarse_ball(), {20, 0, 0}, 6.0));
   const Mesh filled = fill_holes(open);
   const EditPreview preview = edit_preview(open, filled);
   EXPECT_EQ(count_of(preview.going), 0U);
@@ -51,7 +51,7 @@ TEST(EditPreview, OfAFilledHoleIsThePatch) {
 }
 
 TEST(EditPreview, OfASpikeIsWhatIsAtItsTip) {
-  Mesh mesh = ball();
+  Mesh mesh = coarse_ball();
   mesh.vertices_mm[1000] *= 2.0F;
   const EditPreview preview = edit_preview(mesh, remove_spikes(mesh));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -61,7 +61,7 @@ TEST(EditPreview, OfASpikeIsWhatIsAtItsTip) {
 }
 
 TEST(EditPreview, OfMovesWithinSigmaAndOfFewerTrianglesIsEmpty) {
-  Mesh mesh = ball();
+  Mesh mesh = coarse_ball();
   mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.1F);
   for (const Mesh& after : {swollen(mesh, 0.05F), decimate(mesh, {.tolerance_mm = 0.05})}) {
     const EditPreview preview = edit_preview(mesh, after);
@@ -73,12 +73,12 @@ TEST(EditPreview, OfMovesWithinSigmaAndOfFewerTrianglesIsEmpty) {
 }
 
 TEST(EditPreview, SeesWhatIsTurnedRound) {
-  const EditPreview preview = edit_preview(ball(), turn_inside_out(ball()));
-  EXPECT_EQ(count_of(preview.going), ball().triangles.size());
+  const EditPreview preview = edit_preview(coarse_ball(), turn_inside_out(coarse_ball()));
+  EXPECT_EQ(count_of(preview.going), coarse_ball().triangles.size());
 }
 
 TEST(EditPreview, OfAnEmptyMeshIsEverything) {
-  EXPECT_EQ(count_of(edit_preview(ball(), Mesh()).going), ball().triangles.size());
+  EXPECT_EQ(count_of(edit_preview(coarse_ball(), Mesh()).going), coarse_ball().triangles.size());
 }
 
 }  // namespace

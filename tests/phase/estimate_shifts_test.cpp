@@ -12,24 +12,21 @@
 namespace frangia {
 namespace {
 
+using testing::aslant;
 using testing::equal_shifts;
 using testing::photograph;
 using testing::quarter_steps;
 using testing::Scene;
 
 const Scene kScene{.height = 100, .modulation_counts = 9000.0, .noise_counts = 200.0};
-const NoiseModel kNoise{.floor_counts2 = 200.0 * 200.0};
-
-double tilted(int x, int y) {
-  return 0.09 * x + 0.11 * y;
-}
+const NoiseModel kStrongNoise{.floor_counts2 = 200.0 * 200.0};
 
 TEST(EstimateShifts, FindsUnequalShiftsBetweenTheFrames) {
   Pattern made = quarter_steps();
   made.shifts_rad = {0.0, 1.1, 2.0, 3.4, 4.1, 5.6, 5.9};
-  FrameStack stack = photograph(kScene, made, tilted);
+  FrameStack stack = photograph(kScene, made, aslant);
   stack.pattern.shifts_rad = equal_shifts(7, 1.0);
-  const ShiftEstimate found = estimate_shifts(stack, kNoise);
+  const ShiftEstimate found = estimate_shifts(stack, kStrongNoise);
   ASSERT_TRUE(found.found) << found.residual_counts2 << " of " << found.expected_counts2;
   for (std::size_t k = 1; k < 7; ++k)
     EXPECT_NEAR(found.shifts_rad[k] - found.shifts_rad[0], made.shifts_rad[k], 2e-3) << k;
@@ -40,7 +37,7 @@ TEST(EstimateShifts, PlacesShiftsOfAWrongGainWithoutAConstant) {
   pattern.shifts_rad = equal_shifts(8, 0.25 * kPi);
   Scene scene = kScene;
   scene.step_error = 0.05;
-  const ShiftEstimate found = estimate_shifts(photograph(scene, pattern, tilted), kNoise);
+  const ShiftEstimate found = estimate_shifts(photograph(scene, pattern, aslant), kStrongNoise);
   ASSERT_TRUE(found.found);
   for (std::size_t k = 0; k < 8; ++k)
     EXPECT_NEAR(found.shifts_rad[k], 1.05 * pattern.shifts_rad[k], 2e-3) << k;
@@ -49,20 +46,21 @@ TEST(EstimateShifts, PlacesShiftsOfAWrongGainWithoutAConstant) {
 TEST(EstimateShifts, IsNotTrustedWhenTheFramesDoNotFitAnyShifts) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = equal_shifts(8, 0.25 * kPi);
-  FrameStack stack = photograph(kScene, pattern, tilted);
+  FrameStack stack = photograph(kScene, pattern, aslant);
   // In one frame half the image has moved on.
   const FrameStack moved = photograph(
-      kScene, pattern, [](int x, int y) { return tilted(x, y) + (x > 300 ? 0.5 : 0.0); });
+      kScene, pattern, [](int x, int y) { return aslant(x, y) + (x > 300 ? 0.5 : 0.0); });
   stack.frames[3] = moved.frames[3];
-  const ShiftEstimate found = estimate_shifts(stack, kNoise);
+  const ShiftEstimate found = estimate_shifts(stack, kStrongNoise);
   EXPECT_FALSE(found.found);
   EXPECT_EQ(found.shifts_rad, pattern.shifts_rad);
   EXPECT_GT(found.residual_counts2, 1.5 * found.expected_counts2);
 }
 
 TEST(EstimateShifts, AsksForSixFrames) {
-  EXPECT_THROW(static_cast<void>(estimate_shifts(photograph({}, quarter_steps(), tilted), kNoise)),
-               Error);
+  EXPECT_THROW(
+      static_cast<void>(estimate_shifts(photograph({}, quarter_steps(), aslant), kStrongNoise)),
+      Error);
 }
 
 }  // namespace

@@ -16,12 +16,10 @@
 namespace frangia {
 namespace {
 
+using testing::aslant;
+
 constexpr int kSide = 200;
 const NoiseModel kCamera = NoiseModel::from_camera(40.0, 30.0);
-
-double tilted(int x, int y) {
-  return 0.09 * x + 0.11 * y;
-}
 
 /// Four 8-bit frames at each exposure; `light` counts on average at the first.
 std::vector<FrameStack> taken(double light, const std::vector<double>& exposures_ms) {
@@ -35,7 +33,7 @@ std::vector<FrameStack> taken(double light, const std::vector<double>& exposures
       for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
           const double counts =
-              stack.gain() * light * (1.0 + 0.8 * std::cos(tilted(x, y) + pattern.shifts_rad[k]));
+              stack.gain() * light * (1.0 + 0.8 * std::cos(aslant(x, y) + pattern.shifts_rad[k]));
           const auto place =
               hash(hash(10 * e + k, static_cast<std::uint64_t>(y)), static_cast<std::uint64_t>(x));
           const double sigma = std::sqrt(kCamera.variance(counts) - 1.0 / 12.0);
@@ -63,7 +61,7 @@ Quality quality_of(const WrappedPhase& map) {
     for (int x = 0; x < kSide; ++x) {
       if (map.fate(x, y) != PixelFate::Measured) continue;
       count += 1.0;
-      out.rms_rad += std::pow(wrap_rad(map.phase_rad(x, y) - tilted(x, y)), 2);
+      out.rms_rad += std::pow(wrap_rad(map.phase_rad(x, y) - aslant(x, y)), 2);
       out.sigma_rad += std::pow(static_cast<double>(map.sigma_rad(x, y)), 2);
     }
   }

@@ -17,29 +17,26 @@
 namespace frangia {
 namespace {
 
+using testing::aslant;
 using testing::quarter_steps;
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 300;
-const NoiseModel kCamera = NoiseModel::from_camera(40.0, 30.0);
-
-double tilted(int x, int y) {
-  return 0.09 * x + 0.11 * y;
-}
+constexpr int kColumnsSeen = 640;
+constexpr int kRowsSeen = 300;
+const NoiseModel kShotNoise = NoiseModel::from_camera(40.0, 30.0);
 
 /// Frames with shot and read noise of an 8-bit camera.
 FrameStack noisy_frames(double exposure, double step_error, double flicker_rad = 0.0) {
   FrameStack stack{.pattern = quarter_steps(), .frames = {}, .white_level = 255};
   for (std::size_t k = 0; k < 4; ++k) {
-    Image<std::uint8_t> image(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    Image<std::uint8_t> image(kColumnsSeen, kRowsSeen);
+    for (int y = 0; y < kRowsSeen; ++y) {
+      for (int x = 0; x < kColumnsSeen; ++x) {
         const double shift = stack.pattern.shifts_rad[k] * (1.0 + step_error) +
                              (k == 2 ? flicker_rad * std::sin(0.05 * y) : 0.0);
-        const double light = 120.0 * exposure * (1.0 + 0.8 * std::cos(tilted(x, y) + shift));
+        const double light = 120.0 * exposure * (1.0 + 0.8 * std::cos(aslant(x, y) + shift));
         const std::uint64_t place =
             hash(hash(k + 5, static_cast<std::uint64_t>(y)), static_cast<std::uint64_t>(x));
-        const double sigma = std::sqrt(kCamera.variance(light) - 1.0 / 12.0);
+        const double sigma = std::sqrt(kShotNoise.variance(light) - 1.0 / 12.0);
         image(x, y) = static_cast<std::uint8_t>(
             std::lround(std::clamp(light + sigma * normal_from(place), 0.0, 255.0)));
       }
@@ -60,32 +57,32 @@ Decoded decode(const std::string& name, double exposure, double step_error, Nois
   const FittedAlgorithm fitted = fit_algorithm(name, stack, noise);
   const WrappedPhase map = wrap_phase(stack, fitted.algorithm, noise, {.max_sigma_rad = 1.0F});
   Decoded out;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const double error = wrap_rad(map.phase_rad(x, y) - tilted(x, y));
-      out.rms_rad += error * error / (kWidth * kHeight);
-      out.chi_square += std::pow(error / map.sigma_rad(x, y), 2) / (kWidth * kHeight);
+  for (int y = 0; y < kRowsSeen; ++y) {
+    for (int x = 0; x < kColumnsSeen; ++x) {
+      const double error = wrap_rad(map.phase_rad(x, y) - aslant(x, y));
+      out.rms_rad += error * error / (kColumnsSeen * kRowsSeen);
+      out.chi_square += std::pow(error / map.sigma_rad(x, y), 2) / (kColumnsSeen * kRowsSeen);
     }
   }
   out.rms_rad = std::sqrt(out.rms_rad);
-  out.limit_rad = std::sqrt(0.5 * kCamera.variance(120.0 * exposure)) / (96.0 * exposure);
+  out.limit_rad = std::sqrt(0.5 * kShotNoise.variance(120.0 * exposure)) / (96.0 * exposure);
   return out;
 }
 
 TEST(NoiseLimit, LeastSquaresAndGlobalCarreReachItWithAndWithoutAStepError) {
   for (const double error : {-0.05, 0.0, 0.05}) {
-    const Decoded global = decode("global-carre", 0.9, error, kCamera);
+    const Decoded global = decode("global-carre", 0.9, error, kShotNoise);
     EXPECT_NEAR(global.rms_rad / global.limit_rad, 1.0, 0.05) << error;
   }
-  const Decoded plain = decode("least-squares", 0.9, 0.0, kCamera);
+  const Decoded plain = decode("least-squares", 0.9, 0.0, kShotNoise);
   EXPECT_NEAR(plain.rms_rad / plain.limit_rad, 1.0, 0.05);
-  EXPECT_GT(decode("least-squares", 0.9, 0.05, kCamera).rms_rad, 0.025);
+  EXPECT_GT(decode("least-squares", 0.9, 0.05, kShotNoise).rms_rad, 0.025);
 }
 
 TEST(NoiseLimit, SigmaIsTrueOverExposures) {
   for (const double exposure : {0.15, 0.3, 0.6, 1.0}) {
     for (const auto* name : {"least-squares", "schwider", "carre", "global-carre"}) {
-      const double chi_square = decode(name, exposure, 0.0, kCamera).chi_square;
+      const double chi_square = decode(name, exposure, 0.0, kShotNoise).chi_square;
       EXPECT_GT(chi_square, 0.9) << name << " at " << exposure;
       EXPECT_LT(chi_square, 1.1) << name << " at " << exposure;
     }
@@ -103,9 +100,9 @@ TEST(NoiseLimit, SigmaIsTrueWhenTheNoiseIsEstimatedFromTheFrames) {
 }
 
 FrameVerdict verdict_of(const FrameStack& stack) {
-  const FittedAlgorithm fitted = fit_algorithm("auto", stack, kCamera);
-  const WrappedPhase map = wrap_phase(stack, fitted.algorithm, kCamera);
-  return judge_frames(stack, fitted, map, kCamera);
+  const FittedAlgorithm fitted = fit_algorithm("auto", stack, kShotNoise);
+  const WrappedPhase map = wrap_phase(stack, fitted.algorithm, kShotNoise);
+  return judge_frames(stack, fitted, map, kShotNoise);
 }
 
 TEST(JudgeFrames, FindsStepAndContrastAndNothingWrongInGoodFrames) {

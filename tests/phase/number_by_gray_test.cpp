@@ -18,7 +18,7 @@ namespace frangia {
 namespace {
 
 constexpr int kColumns = 640;
-constexpr int kHeight = 40;
+constexpr int kRows = 40;
 constexpr double kPeriod_px = 20.0;
 
 /// Where the projector's column lies that a camera column sees: a slope that is not whole.
@@ -37,16 +37,16 @@ Shown show(bool inverted, double noise_counts) {
   Pattern pattern{.name = "f", .period_px = kPeriod_px};
   pattern.shifts_rad = testing::equal_shifts(4, 0.5 * kPi);
   const NoiseModel noise{.floor_counts2 = noise_counts * noise_counts + 1.0};
-  const FrameStack stack = testing::photograph(
-      {.height = kHeight, .noise_counts = noise_counts}, pattern, [](int x, int) {
+  const FrameStack stack =
+      testing::photograph({.height = kRows, .noise_counts = noise_counts}, pattern, [](int x, int) {
         return kTurn * column_of(x) / kPeriod_px;
       });
   Shown out{wrap_phase(stack, least_squares(pattern.shifts_rad), noise, {.max_sigma_rad = 2.0F}),
             {.pattern = gray_for_fringes(pattern, kColumns, inverted), .white_level = 65535},
             noise};
   for (int k = 0; k < out.gray.pattern.frame_count(); ++k) {
-    Image<std::uint16_t> image(kColumns, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
+    Image<std::uint16_t> image(kColumns, kRows);
+    for (int y = 0; y < kRows; ++y) {
       for (int x = 0; x < kColumns; ++x) {
         double lit = 0.0;
         for (int i = -2; i <= 2; ++i)
@@ -69,12 +69,12 @@ struct Orders {
 
 Orders orders_of(const AbsolutePhase& phase) {
   Orders out;
-  for (int y = 0; y < kHeight; ++y) {
+  for (int y = 0; y < kRows; ++y) {
     for (int x = 0; x < kColumns; ++x) {
       if (phase.fate(x, y) != PixelFate::Measured) continue;
-      out.kept += 1.0 / (kColumns * kHeight);
+      out.kept += 1.0 / (kColumns * kRows);
       const double truth = kTurn * column_of(x) / kPeriod_px;
-      if (std::abs(phase.phase_rad(x, y) - truth) > kPi) out.wrong += 1.0 / (kColumns * kHeight);
+      if (std::abs(phase.phase_rad(x, y) - truth) > kPi) out.wrong += 1.0 / (kColumns * kRows);
     }
   }
   return out;

@@ -15,16 +15,13 @@
 namespace frangia {
 namespace {
 
+using testing::aslant;
 using testing::photograph;
 using testing::quarter_steps;
 using testing::Scene;
 
-constexpr double kNoise_counts = 300.0;
-const NoiseModel kNoise{.floor_counts2 = kNoise_counts * kNoise_counts};
-
-double tilted(int x, int y) {
-  return 0.09 * x + 0.11 * y;
-}
+constexpr double kFrameNoise_counts = 300.0;
+const NoiseModel kFrameNoise{.floor_counts2 = kFrameNoise_counts * kFrameNoise_counts};
 
 /// A view's frames, by a shifter of this gain whose shifts are each off by a random error, too.
 FrameStack jittered(double gain_error, double jitter_deg, std::mt19937& generator) {
@@ -34,20 +31,20 @@ FrameStack jittered(double gain_error, double jitter_deg, std::mt19937& generato
     shift = shift * (1.0 + gain_error) + error(generator);
   const Scene scene{.width = 350,
                     .height = 20,
-                    .noise_counts = kNoise_counts,
+                    .noise_counts = kFrameNoise_counts,
                     .seed = static_cast<std::uint32_t>(generator())};
-  FrameStack stack = photograph(scene, made, tilted);
+  FrameStack stack = photograph(scene, made, aslant);
   stack.pattern = quarter_steps();
   return stack;
 }
 
 /// The constant that a view's phase is off by when the shifter's gain is taken to be this.
 double constant_of(const FrameStack& stack, double gain_error) {
-  const FittedAlgorithm fitted = fit_algorithm("schwider", stack, kNoise, {}, gain_error);
-  const WrappedPhase map = wrap_phase(stack, fitted.algorithm, kNoise);
+  const FittedAlgorithm fitted = fit_algorithm("schwider", stack, kFrameNoise, {}, gain_error);
+  const WrappedPhase map = wrap_phase(stack, fitted.algorithm, kFrameNoise);
   double sum = 0.0;
   for (int x = 0; x < 350; ++x)
-    sum += wrap_rad(map.phase_rad(x, 7) - tilted(x, 7)) / 350.0;
+    sum += wrap_rad(map.phase_rad(x, 7) - aslant(x, 7)) / 350.0;
   return sum;
 }
 

@@ -16,13 +16,13 @@ namespace {
 using testing::photograph;
 using testing::quarter_steps;
 
-double ramp(int x, int /*y*/) {
+double even_ramp(int x, int /*y*/) {
   return 0.05 * x;
 }
 
 TEST(RecoverSaturated, FindsTheOneSaturatedFrameFromTheThreeOthers) {
   // The crests are cut off at 45000 of 50000 counts.
-  FrameStack stack = photograph({.white_level = 45000}, quarter_steps(), ramp);
+  FrameStack stack = photograph({.white_level = 45000}, quarter_steps(), even_ramp);
   const FrameStack cut = stack;
   const PhaseAlgorithm algorithm = make_algorithm("4-step", stack.pattern.shifts_rad);
   const WrappedPhase before = wrap_phase(cut, algorithm, {});
@@ -30,7 +30,7 @@ TEST(RecoverSaturated, FindsTheOneSaturatedFrameFromTheThreeOthers) {
   const WrappedPhase after = wrap_phase(stack, algorithm, {});
   for (int x = 0; x < 640; ++x) {
     EXPECT_EQ(after.fate(x, 1), PixelFate::Measured);
-    EXPECT_NEAR(wrap_rad(after.phase_rad(x, 1) - ramp(x, 1)), 0.0, 2e-4);
+    EXPECT_NEAR(wrap_rad(after.phase_rad(x, 1) - even_ramp(x, 1)), 0.0, 2e-4);
   }
   EXPECT_GT(
       std::count(before.fate.pixels().begin(), before.fate.pixels().end(), PixelFate::Saturated),
@@ -49,7 +49,7 @@ TEST(RecoverSaturated, LeavesPixelsWithTwoSaturatedFramesSaturated) {
 TEST(RecoverSaturated, IsForFourQuarterStepsOnly) {
   Pattern three = quarter_steps();
   three.shifts_rad = testing::equal_shifts(3, 0.5 * kPi);
-  FrameStack stack = photograph({}, three, ramp);
+  FrameStack stack = photograph({}, three, even_ramp);
   EXPECT_THROW(recover_saturated(stack), Error);
 }
 

@@ -20,7 +20,7 @@ using testing::photograph;
 using testing::Scene;
 
 /// A projector of 640 columns that lights a wall, one column for each camera column.
-Projector display() {
+Projector wall_display() {
   Projector projector;
   projector.model = Lens{.width_px = 640, .height_px = 4, .focal_px = {800.0, 800.0}};
   return projector;
@@ -48,7 +48,7 @@ std::vector<WrappedPhase> levels(const Scene& scene, const std::vector<double>& 
 
 TEST(UnwrapInTime, RecoversTheColumnOverTheWholeField) {
   const Scene scene;
-  const AbsolutePhase phase = unwrap_in_time(levels(scene, {640.0, 80.0, 10.0}), display());
+  const AbsolutePhase phase = unwrap_in_time(levels(scene, {640.0, 80.0, 10.0}), wall_display());
   for (int x = 1; x < scene.width - 1; ++x)
     EXPECT_NEAR(phase.phase_rad(x, 1) * 10.0 / kTurn, x, 1e-3);
 }
@@ -56,7 +56,7 @@ TEST(UnwrapInTime, RecoversTheColumnOverTheWholeField) {
 TEST(UnwrapInTime, LeavesDoubtfulOrdersMissingAndSaysSo) {
   const Scene noisy{.noise_counts = 3000.0};
   const AbsolutePhase phase =
-      unwrap_in_time(levels(noisy, {640.0, 10.0}), display(), {.smooth_radius_px = 0});
+      unwrap_in_time(levels(noisy, {640.0, 10.0}), wall_display(), {.smooth_radius_px = 0});
   for (std::size_t i = 0; i < phase.fate.pixels().size(); ++i) {
     EXPECT_TRUE(std::isnan(phase.phase_rad.pixels()[i]));
     EXPECT_EQ(phase.fate.pixels()[i], PixelFate::Doubtful);
@@ -66,8 +66,9 @@ TEST(UnwrapInTime, LeavesDoubtfulOrdersMissingAndSaysSo) {
 TEST(UnwrapInTime, WrongOrdersAreNoMoreThanTheChanceAllowed) {
   // Sigma 0.093 rad and ratio 8 give a chance of a wrong order of about 2.6e-5 a pixel.
   const Scene noisy{.height = 2000, .noise_counts = 2630.0, .seed = 11};
-  const AbsolutePhase phase = unwrap_in_time(
-      levels(noisy, {640.0, 80.0}), display(), {.max_wrong_order = 1e-3, .smooth_radius_px = 0});
+  const AbsolutePhase phase = unwrap_in_time(levels(noisy, {640.0, 80.0}),
+                                             wall_display(),
+                                             {.max_wrong_order = 1e-3, .smooth_radius_px = 0});
   int wrong = 0;
   int kept = 0;
   for (int y = 0; y < noisy.height; ++y) {
@@ -84,8 +85,8 @@ TEST(UnwrapInTime, WrongOrdersAreNoMoreThanTheChanceAllowed) {
 TEST(UnwrapInTime, SmoothingTheCoarsePhaseSavesOrdersAndDoesNotTouchTheFineOne) {
   const Scene noisy{.height = 60, .noise_counts = 1200.0, .seed = 5};
   const auto both = levels(noisy, {640.0, 20.0});
-  const AbsolutePhase rough = unwrap_in_time(both, display(), {.smooth_radius_px = 0});
-  const AbsolutePhase smooth = unwrap_in_time(both, display());
+  const AbsolutePhase rough = unwrap_in_time(both, wall_display(), {.smooth_radius_px = 0});
+  const AbsolutePhase smooth = unwrap_in_time(both, wall_display());
   int saved = 0;
   for (std::size_t i = 0; i < smooth.fate.pixels().size(); ++i) {
     const double fine = both[1].phase_rad.pixels()[i];
@@ -104,7 +105,7 @@ TEST(UnwrapInTime, ChanceOfAWrongOrderIsThatOfPhysics) {
 
 TEST(UnwrapInTime, DoubtsTheEndsOfTheFieldWhereNoiseSlipsOverToTheOtherEnd) {
   const Scene noisy{.height = 50, .noise_counts = 2000.0};
-  const AbsolutePhase phase = unwrap_in_time(levels(noisy, {640.0}), display());
+  const AbsolutePhase phase = unwrap_in_time(levels(noisy, {640.0}), wall_display());
   for (int y = 0; y < noisy.height; ++y) {
     EXPECT_EQ(phase.fate(0, y), PixelFate::Doubtful);
     for (int x = 0; x < noisy.width; ++x) {
@@ -116,10 +117,11 @@ TEST(UnwrapInTime, DoubtsTheEndsOfTheFieldWhereNoiseSlipsOverToTheOtherEnd) {
 
 TEST(UnwrapInTime, RefusesLevelsOutOfOrderOrWithoutAnAbsoluteStart) {
   const Scene scene;
-  EXPECT_THROW(static_cast<void>(unwrap_in_time(levels(scene, {640.0, 10.0, 80.0}), display())),
+  EXPECT_THROW(
+      static_cast<void>(unwrap_in_time(levels(scene, {640.0, 10.0, 80.0}), wall_display())), Error);
+  EXPECT_THROW(static_cast<void>(unwrap_in_time(levels(scene, {320.0, 10.0}), wall_display())),
                Error);
-  EXPECT_THROW(static_cast<void>(unwrap_in_time(levels(scene, {320.0, 10.0}), display())), Error);
-  EXPECT_THROW(static_cast<void>(unwrap_in_time({}, display())), Error);
+  EXPECT_THROW(static_cast<void>(unwrap_in_time({}, wall_display())), Error);
 }
 
 }  // namespace

@@ -13,27 +13,27 @@
 namespace frangia {
 namespace {
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 300;
+constexpr int kMapWidth = 640;
+constexpr int kMapHeight = 300;
 constexpr int kMargin = 110;  ///< at the ends of the field noise slips over to the other end
 
-Projector display() {
+Projector wide_display() {
   Projector projector;
-  projector.model = Lens{.width_px = kWidth, .height_px = 4, .focal_px = {800.0, 800.0}};
+  projector.model = Lens{.width_px = kMapWidth, .height_px = 4, .focal_px = {800.0, 800.0}};
   return projector;
 }
 
 /// A wrapped map of `fringes` over the columns, with noise.
 WrappedPhase map_of(double fringes, double sigma, std::uint64_t seed) {
-  WrappedPhase map{.pattern = {.name = "p", .period_px = kWidth / fringes},
-                   .phase_rad = Image<float>(kWidth, kHeight),
-                   .sigma_rad = Image<float>(kWidth, kHeight, static_cast<float>(sigma)),
-                   .fate = Image<PixelFate>(kWidth, kHeight, PixelFate::Measured)};
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const auto place = static_cast<std::uint64_t>(y * kWidth + x);
+  WrappedPhase map{.pattern = {.name = "p", .period_px = kMapWidth / fringes},
+                   .phase_rad = Image<float>(kMapWidth, kMapHeight),
+                   .sigma_rad = Image<float>(kMapWidth, kMapHeight, static_cast<float>(sigma)),
+                   .fate = Image<PixelFate>(kMapWidth, kMapHeight, PixelFate::Measured)};
+  for (int y = 0; y < kMapHeight; ++y) {
+    for (int x = 0; x < kMapWidth; ++x) {
+      const auto place = static_cast<std::uint64_t>(y * kMapWidth + x);
       const double noise = sigma * normal_from(hash(seed, place));
-      map.phase_rad(x, y) = static_cast<float>(wrap_rad(kTurn * fringes * x / kWidth + noise));
+      map.phase_rad(x, y) = static_cast<float>(wrap_rad(kTurn * fringes * x / kMapWidth + noise));
     }
   }
   return map;
@@ -56,15 +56,15 @@ Errors errors_of(const AbsolutePhase& phase, double fringes) {
   double square = 0.0;
   double right = 0.0;
   double wrong = 0.0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = kMargin; x < kWidth - kMargin; ++x) {
+  for (int y = 0; y < kMapHeight; ++y) {
+    for (int x = kMargin; x < kMapWidth - kMargin; ++x) {
       if (phase.fate(x, y) != PixelFate::Measured) continue;
-      const double error = phase.phase_rad(x, y) - kTurn * fringes * x / kWidth;
+      const double error = phase.phase_rad(x, y) - kTurn * fringes * x / kMapWidth;
       (std::abs(error) > kPi ? wrong : right) += 1.0;
       if (std::abs(error) <= kPi) square += error * error;
     }
   }
-  const double all = (kWidth - 2.0 * kMargin) * kHeight;
+  const double all = (kMapWidth - 2.0 * kMargin) * kMapHeight;
   return {std::sqrt(square / right), wrong / (right + wrong), (right + wrong) / all};
 }
 
@@ -73,7 +73,7 @@ TEST(UnwrapSequence, SlopeOfAllMapsBeatsTheFinestByThePublishedFactors) {
   for (const auto& [name, factor] :
        {std::pair{"negative-exponential", 0.43}, std::pair{"doubling", 0.87}}) {
     const auto maps = maps_of(fringe_sequence(name, 64.0), sigma);
-    const Errors errors = errors_of(unwrap_sequence(maps, display()), 64.0);
+    const Errors errors = errors_of(unwrap_sequence(maps, wide_display()), 64.0);
     EXPECT_NEAR(errors.rms_rad / sigma, factor, 0.01) << name;
     EXPECT_EQ(errors.wrong_share, 0.0) << name;
     EXPECT_GT(errors.kept_share, 0.999) << name;
@@ -82,7 +82,7 @@ TEST(UnwrapSequence, SlopeOfAllMapsBeatsTheFinestByThePublishedFactors) {
 
 TEST(UnwrapSequence, PredictsTheSigmaOfTheSlope) {
   const AbsolutePhase phase =
-      unwrap_sequence(maps_of(fringe_sequence("negative-exponential", 64.0), 0.05), display());
+      unwrap_sequence(maps_of(fringe_sequence("negative-exponential", 64.0), 0.05), wide_display());
   EXPECT_NEAR(phase.sigma_rad(300, 5), 0.4318 * 0.05, 1e-4);
 }
 
@@ -90,7 +90,7 @@ TEST(UnwrapSequence, TakesHeterodyneAndRatiosThatAreNotWhole) {
   for (const auto& sequence :
        {fringe_sequence("heterodyne", 64.0), std::vector<double>{1.0, 3.7, 11.9, 40.3}}) {
     const Errors errors =
-        errors_of(unwrap_sequence(maps_of(sequence, 0.02), display()), sequence.back());
+        errors_of(unwrap_sequence(maps_of(sequence, 0.02), wide_display()), sequence.back());
     EXPECT_EQ(errors.wrong_share, 0.0);
     EXPECT_GT(errors.kept_share, 0.99);
   }
@@ -101,17 +101,18 @@ TEST(UnwrapSequence, WrongOrdersComeAsOftenAsPredictedAndAreDroppedOverTheLimit)
   const double sigma = 0.15;
   const auto maps = maps_of({1.0, 8.0}, sigma);
   const double expected = wrong_order_chance(sigma * std::sqrt(65.0));
-  const Errors all = errors_of(unwrap_sequence(maps, display(), {.max_wrong_order = 1.0}), 8.0);
-  const double deviation = std::sqrt(expected / ((kWidth - 2.0 * kMargin) * kHeight));
+  const Errors all =
+      errors_of(unwrap_sequence(maps, wide_display(), {.max_wrong_order = 1.0}), 8.0);
+  const double deviation = std::sqrt(expected / ((kMapWidth - 2.0 * kMargin) * kMapHeight));
   EXPECT_NEAR(all.wrong_share, expected, 4.0 * deviation);
   const AbsolutePhase strict =
-      unwrap_sequence(maps, display(), {.max_wrong_order = 0.5 * expected});
+      unwrap_sequence(maps, wide_display(), {.max_wrong_order = 0.5 * expected});
   EXPECT_EQ(strict.fate(300, 5), PixelFate::Doubtful);
 }
 
 TEST(UnwrapSequence, RefusesMapsWithoutACommonMeaning) {
   const auto refuses = [](const std::vector<WrappedPhase>& maps) {
-    EXPECT_THROW(static_cast<void>(unwrap_sequence(maps, display())), Error);
+    EXPECT_THROW(static_cast<void>(unwrap_sequence(maps, wide_display())), Error);
   };
   refuses({});
   refuses(maps_of({10.0, 20.0}, 0.01));

@@ -18,7 +18,7 @@ using testing::quarter_steps;
 using testing::Scene;
 
 constexpr double kRadPerPixel = 0.05;
-double ramp(int x, int /*y*/) {
+double gentle_ramp(int x, int /*y*/) {
   return kRadPerPixel * x;
 }
 
@@ -30,10 +30,11 @@ WrappedPhase decode(const FrameStack& stack, double noise_counts = 1.0) {
 
 TEST(WrapPhase, RecoversPhaseModulationAndMeanOfCleanFringes) {
   const Scene scene{.width = 3001};  // not a whole number of tiles
-  const WrappedPhase phase = decode(photograph(scene, quarter_steps(), ramp));
+  const WrappedPhase phase = decode(photograph(scene, quarter_steps(), gentle_ramp));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
-      EXPECT_NEAR(wrap_rad(phase.phase_rad(x, y) - ramp(x, y)), 0.0, 6e-5);  // rounding to counts
+      EXPECT_NEAR(
+          wrap_rad(phase.phase_rad(x, y) - gentle_ramp(x, y)), 0.0, 6e-5);  // rounding to counts
       EXPECT_NEAR(phase.modulation_counts(x, y), scene.modulation_counts, 1.0);
       EXPECT_NEAR(phase.mean_counts(x, y), scene.mean_counts, 1.0);
       EXPECT_EQ(phase.fate(x, y), PixelFate::Measured);
@@ -76,11 +77,11 @@ TEST(WrapPhase, PredictsItsOwnNoise) {
     Pattern pattern = quarter_steps(fringes_per_degree);
     pattern.period_px = fringes_per_degree > 0.0 ? 0.0 : 20.0;
     const Scene scene{.height = 200, .modulation_counts = 8000.0, .noise_counts = 200.0, .seed = 7};
-    const WrappedPhase phase = decode(photograph(scene, pattern, ramp), scene.noise_counts);
+    const WrappedPhase phase = decode(photograph(scene, pattern, gentle_ramp), scene.noise_counts);
     double chi_square = 0.0;
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
-        const double error = wrap_rad(phase.phase_rad(x, y) - ramp(x, y));
+        const double error = wrap_rad(phase.phase_rad(x, y) - gentle_ramp(x, y));
         chi_square += std::pow(error / phase.sigma_rad(x, y), 2);
       }
     }
@@ -89,7 +90,7 @@ TEST(WrapPhase, PredictsItsOwnNoise) {
 }
 
 TEST(WrapPhase, MarksPixelsSaturatedInAnyFrame) {
-  FrameStack stack = photograph({}, quarter_steps(), ramp);
+  FrameStack stack = photograph({}, quarter_steps(), gentle_ramp);
   std::get<Image<std::uint16_t>>(stack.frames[2])(5, 1) = 65535;
   const WrappedPhase phase = decode(stack);
   EXPECT_EQ(phase.fate(5, 1), PixelFate::Saturated);
@@ -100,13 +101,14 @@ TEST(WrapPhase, MarksPixelsSaturatedInAnyFrame) {
 TEST(WrapPhase, TakesNoNoiseForFringes) {
   const Scene dark{
       .height = 500, .mean_counts = 1000.0, .modulation_counts = 0.0, .noise_counts = 20.0};
-  const WrappedPhase phase = decode(photograph(dark, quarter_steps(), ramp), dark.noise_counts);
+  const WrappedPhase phase =
+      decode(photograph(dark, quarter_steps(), gentle_ramp), dark.noise_counts);
   for (const PixelFate fate : phase.fate.pixels())
     EXPECT_EQ(fate, PixelFate::Unmodulated);
 }
 
 TEST(WrapPhase, RefusesFramesThatDoNotFitThePattern) {
-  FrameStack stack = photograph({}, quarter_steps(), ramp);
+  FrameStack stack = photograph({}, quarter_steps(), gentle_ramp);
   stack.frames.pop_back();
   EXPECT_THROW(static_cast<void>(decode(stack)), Error);
   stack.frames.emplace_back(Image<std::uint16_t>(3, 3));

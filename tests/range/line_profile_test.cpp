@@ -12,7 +12,7 @@ namespace frangia {
 namespace {
 
 /// A wall across the view that glows, with a dark patch, and the plane of light on it.
-struct Wall {
+struct GlowingWall {
   Rig rig = make_paper_rig({.focal_mm = 25.0, .columns = 320, .rows = 120});
   double z_mm = 505.0;
   double spill = 0.05;
@@ -49,7 +49,7 @@ struct Wall {
 };
 
 TEST(LineProfile, FindsTheLineInEveryRowToATenthOfAPixel) {
-  const Wall wall;
+  const GlowingWall wall;
   const auto profile = wall.profile();
   ASSERT_EQ(profile.size(), 120U);
   double square = 0.0;
@@ -65,8 +65,8 @@ TEST(LineProfile, FindsTheLineInEveryRowToATenthOfAPixel) {
 }
 
 /// A dim narrow post away from the plane, and a wall whose brightness rises across the view.
-Wall post_and_wall(double ambient) {
-  Wall wall;
+GlowingWall post_and_wall(double ambient) {
+  GlowingWall wall;
   wall.spill = 0.08;
   wall.ambient = ambient;
   for (int y = 0; y < 120; ++y) {
@@ -79,19 +79,19 @@ Wall post_and_wall(double ambient) {
 }
 
 TEST(LineProfile, TakesNoEdgeOfAGlowingPartForALine) {
-  const Wall wall = post_and_wall(0.0);
+  const GlowingWall wall = post_and_wall(0.0);
   for (const ProfilePoint& point : wall.profile())
     EXPECT_NEAR(point.pixel.x(), wall.true_column(point.pixel.y()), 0.5);
 }
 
 TEST(LineProfile, TakesNoOtherLightForALine) {
-  const Wall wall = post_and_wall(12.0);
+  const GlowingWall wall = post_and_wall(12.0);
   for (const ProfilePoint& point : wall.profile())
     EXPECT_NEAR(point.pixel.x(), wall.true_column(point.pixel.y()), 0.5);
 }
 
 TEST(LineProfile, IsEmptyWithoutALine) {
-  const Wall dark;
+  const GlowingWall dark;
   FrameStack frame = dark.photograph();
   for (auto& counts : std::get<Image<std::uint8_t>>(frame.frames[0]).pixels())
     counts = 5;
@@ -99,7 +99,7 @@ TEST(LineProfile, IsEmptyWithoutALine) {
 }
 
 TEST(LineProfile, RefusesARigWithoutAPlaneOfLight) {
-  Wall wall;
+  GlowingWall wall;
   const FrameStack frame = wall.photograph();
   wall.rig.line.reset();
   EXPECT_THROW(static_cast<void>(line_profile(frame, wall.lit, wall.rig, {})), Error);

@@ -13,10 +13,11 @@
 namespace frangia {
 namespace {
 
-constexpr SimulatedView kFront{0, 0.0};
+constexpr SimulatedView kFacing{0, 0.0};
 
 SimulatedScene plate_scene(const SimulateOptions& options = {}) {
-  return make_simulated_scene(make_plate(), rig_preset("carducci"), std::span(&kFront, 1), options);
+  return make_simulated_scene(
+      make_plate(), rig_preset("carducci"), std::span(&kFacing, 1), options);
 }
 
 TEST(SimulatedScene, HasItsAxisAsFarOffAsAskedAndTellsNothingOfIt) {
@@ -71,7 +72,7 @@ TEST(SimulatedScene, StandsThePartOnAPlatter) {
 TEST(LightSample, FallsWithTheCosineAndTheSquareOfTheDistance) {
   const SimulatedScene scene = plate_scene();
   const Rig& rig = scene.rig;
-  const Eigen::Isometry3d pose = true_pose(scene, kFront);
+  const Eigen::Isometry3d pose = true_pose(scene, kFacing);
   const Eigen::Vector3d point = pose * Eigen::Vector3d(3.0, 10.0, 40.0);
   const Eigen::Vector3d to_light = rig.projector.position_mm - point;
   const double cosine = to_light.normalized().dot(pose.linear() * Eigen::Vector3d::UnitX());
@@ -86,7 +87,7 @@ TEST(LightSample, TextureDarkensByItsStrengthAtMost) {
   SimulateOptions options;
   options.texture = 0.6;
   const SimulatedScene scene = plate_scene(options);
-  const Eigen::Isometry3d pose = true_pose(scene, kFront);
+  const Eigen::Isometry3d pose = true_pose(scene, kFacing);
   float low = 1.0F;
   float high = 0.0F;
   for (double y = -39.0; y < 39.0; y += 1.0) {
@@ -124,9 +125,9 @@ TEST(MakeSimulatedScene, NamesTheOptionThatMakesNoSense) {
 
 TEST(MakeSimulatedScene, RefusesARigWithoutATurntableAndAnEmptyPart) {
   Rig rig = rig_preset("carducci");
-  EXPECT_THROW(static_cast<void>(make_simulated_scene(Mesh{}, rig, std::span(&kFront, 1))), Error);
+  EXPECT_THROW(static_cast<void>(make_simulated_scene(Mesh{}, rig, std::span(&kFacing, 1))), Error);
   rig.turntable.reset();
-  EXPECT_THROW(static_cast<void>(make_simulated_scene(make_plate(), rig, std::span(&kFront, 1))),
+  EXPECT_THROW(static_cast<void>(make_simulated_scene(make_plate(), rig, std::span(&kFacing, 1))),
                Error);
 }
 

@@ -47,6 +47,11 @@ inline FrameStack photograph(const Scene& scene, const Pattern& pattern, const P
   return stack;
 }
 
+/// The phase of fringes that run aslant over the picture.
+inline double aslant(int x, int y) {
+  return 0.09 * x + 0.11 * y;
+}
+
 inline std::vector<double> equal_shifts(int count, double step_rad) {
   std::vector<double> shifts;
   for (int k = 0; k < count; ++k)

@@ -9,8 +9,9 @@ namespace {
 
 /// Two boxes; the second one's triangles come last.
 Mesh two_boxes() {
-  Mesh mesh = testing::box({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F});
-  const Mesh other = testing::box({5.0F, 0.0F, 0.0F}, {6.0F, 1.0F, 1.0F});
+  Mesh mesh = testing::box(Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones());
+  const Mesh other =
+      testing::box(Eigen::Vector3f(5.0F, 0.0F, 0.0F), Eigen::Vector3f(6.0F, 1.0F, 1.0F));
   for (const auto& vertex : other.vertices_mm)
     mesh.vertices_mm.push_back(vertex);
   for (const auto& [a, b, c] : other.triangles)

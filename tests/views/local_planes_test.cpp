@@ -14,7 +14,7 @@ namespace {
 using testing::look_from;
 using testing::small_lens;
 
-constexpr double kDistance = 650.0;
+constexpr double kStandOff = 650.0;
 
 /// How far a point of the object frame lies in front of what the view saw.
 float in_front(const LocalPlanes& view, const Lens& lens, const Eigen::Vector3d& point) {
@@ -34,7 +34,7 @@ TEST(LocalPlanes, MeasureTheDistanceFromAPlaneSeenObliquely) {
   const CameraRays camera(small_lens());
   const LocalPlanes view = local_planes(
       testing::snapshot(
-          testing::floor_at(0.0), camera.lens, look_from(0.4, 0.5, kDistance), {.noise_mm = 0.0}),
+          testing::floor_at(0.0), camera.lens, look_from(0.4, 0.5, kStandOff), {.noise_mm = 0.0}),
       camera);
   for (const double height : {-1.0, 0.0, 0.7}) {
     EXPECT_NEAR(in_front(view, camera.lens, {10.0, -20.0, height}), height, 2e-3);
@@ -45,7 +45,7 @@ TEST(LocalPlanes, KeepBothFacesOfARidge) {
   const CameraRays camera(small_lens());
   const LocalPlanes view = local_planes(
       testing::snapshot(
-          testing::box({20.0, 20.0, 20.0}), camera.lens, look_from(0.6, 0.5, kDistance)),
+          testing::box({20.0, 20.0, 20.0}), camera.lens, look_from(0.6, 0.5, kStandOff)),
       camera);
   // On the edge between the faces x = 20 and y = 20, and a little off it.
   EXPECT_NEAR(in_front(view, camera.lens, {20.0, 20.0, 3.0}), 0.0, 0.05);
@@ -57,7 +57,7 @@ TEST(LocalPlanes, KeepBothFacesOfARidge) {
 TEST(LocalPlanes, SeeNothingAcrossADepthStep) {
   const CameraRays camera(small_lens());
   const auto scene = testing::both(testing::sphere(12.0, {0.0, 0.0, 40.0}), testing::floor_at(0.0));
-  const View view = testing::snapshot(scene, camera.lens, look_from(0.0, 1.2, kDistance));
+  const View view = testing::snapshot(scene, camera.lens, look_from(0.0, 1.2, kStandOff));
   const LocalPlanes planes = local_planes(view, camera);
   for (int y = 0; y < planes.quads.height(); ++y) {
     for (int x = 0; x < planes.quads.width(); ++x) {
@@ -69,7 +69,7 @@ TEST(LocalPlanes, SeeNothingAcrossADepthStep) {
 
 TEST(LocalPlanes, RefuseAViewOfAnotherSize) {
   const View view =
-      testing::snapshot(testing::floor_at(0.0), small_lens(100), look_from(0.0, 1.0, kDistance));
+      testing::snapshot(testing::floor_at(0.0), small_lens(100), look_from(0.0, 1.0, kStandOff));
   EXPECT_THROW(static_cast<void>(local_planes(view, CameraRays(small_lens(90)))), Error);
 }
 

@@ -14,7 +14,7 @@
 namespace frangia {
 namespace {
 
-constexpr unsigned kBuffers = 3;
+constexpr unsigned kMappedBuffers = 3;
 constexpr double kExposureUnit_ms = 0.1;  // of V4L2_CID_EXPOSURE_ABSOLUTE
 
 template <typename T>
@@ -187,7 +187,7 @@ class V4l2Camera final : public CameraDevice {
 
   void map_buffers() {
     auto request = zeroed<v4l2_requestbuffers>();
-    request.count = kBuffers;
+    request.count = kMappedBuffers;
     request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     request.memory = V4L2_MEMORY_MMAP;
     control("lend its memory", VIDIOC_REQBUFS, request);

@@ -11,13 +11,13 @@
 namespace frangia {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r\v\f";
+constexpr std::string_view kAroundValues = " \t\r\v\f";
 constexpr int kComment = 999;
 
 std::string_view trimmed(std::string_view line) {
-  const std::size_t begin = line.find_first_not_of(kBlank);
+  const std::size_t begin = line.find_first_not_of(kAroundValues);
   if (begin == std::string_view::npos) return {};
-  return line.substr(begin, line.find_last_not_of(kBlank) - begin + 1);
+  return line.substr(begin, line.find_last_not_of(kAroundValues) - begin + 1);
 }
 
 }  // namespace

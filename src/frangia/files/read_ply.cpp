@@ -15,20 +15,24 @@
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 9> kKept{
+constexpr std::array<std::string_view, 9> kKeptOfVertices{
     "x", "y", "z", "nx", "ny", "nz", "sigma_mm", "views", "mark"};
 constexpr std::size_t kViews = 7;
 constexpr std::size_t kMark = 8;
 
-/// For each property of a vertex its place in kKept; the size of kKept for one that is skipped.
+/// For each property of a vertex its place in kKeptOfVertices; the size of kKeptOfVertices for one
+/// that is skipped.
 std::vector<std::size_t> slots_of(const PlyElement& element) {
   std::vector<std::size_t> slots;
   for (const PlyProperty& property : element.properties) {
-    const auto* const found = std::find(kKept.begin(), kKept.end(), property.name);
-    const bool kept = !property.count_type &&
-                      (property.name != kKept[kViews] || property.type == PlyType::Uint16) &&
-                      (property.name != kKept[kMark] || property.type == PlyType::Uint8);
-    slots.push_back(kept ? static_cast<std::size_t>(found - kKept.begin()) : kKept.size());
+    const auto* const found =
+        std::find(kKeptOfVertices.begin(), kKeptOfVertices.end(), property.name);
+    const bool kept =
+        !property.count_type &&
+        (property.name != kKeptOfVertices[kViews] || property.type == PlyType::Uint16) &&
+        (property.name != kKeptOfVertices[kMark] || property.type == PlyType::Uint8);
+    slots.push_back(kept ? static_cast<std::size_t>(found - kKeptOfVertices.begin())
+                         : kKeptOfVertices.size());
   }
   return slots;
 }
@@ -69,7 +73,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
   const bool has_marks = has(slots, kMark, 1);
   if (!has(slots, 0, 3)) source.fail("its vertices lack an x, y or z");
   mesh.vertices_mm.reserve(element.count);
-  std::array<float, kKept.size()> kept{};
+  std::array<float, kKeptOfVertices.size()> kept{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (std::size_t p = 0; p < slots.size(); ++p) {
       if (slots[p] < kept.size()) {
@@ -113,7 +117,8 @@ bool is_corner_list(const PlyProperty& property) {
 }
 
 bool is_mark(const PlyProperty& property) {
-  return !property.count_type && property.name == kKept[kMark] && property.type == PlyType::Uint8;
+  return !property.count_type && property.name == kKeptOfVertices[kMark] &&
+         property.type == PlyType::Uint8;
 }
 
 template <typename Source>

@@ -85,20 +85,20 @@ class Layout {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   [[nodiscard]] Json document(const Json& buffer) const {
-    Json json;
-    json["asset"] = {{"version", "2.0"}, {"generator", "Frangia"}};
-    json["scene"] = 0;
-    json["scenes"] = {{{"nodes", {0}}}};
+    Json gltf;
+    gltf["asset"] = {{"version", "2.0"}, {"generator", "Frangia"}};
+    gltf["scene"] = 0;
+    gltf["scenes"] = {{{"nodes", {0}}}};
     // mm with z up, stored; m with y up, shown.
-    json["nodes"] = {{{"name", "scan"},
+    gltf["nodes"] = {{{"name", "scan"},
                       {"mesh", 0},
                       {"matrix", {0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1}}}};
-    json["meshes"] = {{{"name", "scan"}, {"primitives", primitives_}}};
-    json["materials"] = materials_;
-    json["accessors"] = accessors_;
-    json["bufferViews"] = views_;
-    json["buffers"] = Json::array({buffer});
-    return json;
+    gltf["meshes"] = {{{"name", "scan"}, {"primitives", primitives_}}};
+    gltf["materials"] = materials_;
+    gltf["accessors"] = accessors_;
+    gltf["bufferViews"] = views_;
+    gltf["buffers"] = Json::array({buffer});
+    return gltf;
   }
 
   template <typename Sink>
@@ -186,16 +186,16 @@ class Layout {
 void write_glb(FileWriter& file, const Layout& layout) {
   constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
   constexpr std::uint32_t kBinaryChunk = 0x004E4942;
-  std::string json = layout.document({{"byteLength", layout.bytes()}}).dump();
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  const auto text = static_cast<std::uint32_t>(json.size());
+  std::string gltf = layout.document({{"byteLength", layout.bytes()}}).dump();
+  gltf.resize((gltf.size() + 3) / 4 * 4, ' ');
+  const auto text = static_cast<std::uint32_t>(gltf.size());
   const auto body = static_cast<std::uint32_t>(layout.bytes());  // a multiple of four
   file.text("glTF");
   file.binary(std::uint32_t{2});
   file.binary(12 + 8 + text + 8 + body);
   file.binary(text);
   file.binary(kJsonChunk);
-  file.text(json);
+  file.text(gltf);
   file.binary(body);
   file.binary(kBinaryChunk);
   layout.write(PlainSink(file));
@@ -203,11 +203,11 @@ void write_glb(FileWriter& file, const Layout& layout) {
 
 void write_text(FileWriter& file, const Layout& layout) {
   const std::string here = "data:application/octet-stream;base64,";
-  const std::string json = layout.document({{"byteLength", layout.bytes()}, {"uri", here}}).dump(1);
-  const std::size_t split = json.rfind(here) + here.size();
-  file.text(std::string_view(json).substr(0, split));
+  const std::string gltf = layout.document({{"byteLength", layout.bytes()}, {"uri", here}}).dump(1);
+  const std::size_t split = gltf.rfind(here) + here.size();
+  file.text(std::string_view(gltf).substr(0, split));
   layout.write(Base64Sink(file));
-  file.text(std::string_view(json).substr(split));
+  file.text(std::string_view(gltf).substr(split));
   file.text("\n");
 }
 

@@ -8,7 +8,7 @@
 namespace frangia {
 namespace {
 
-void write_header(FileWriter& file, const Mesh& mesh) {
+void write_ply_header(FileWriter& file, const Mesh& mesh) {
   file.text("ply\nformat binary_little_endian 1.0\ncomment Frangia; lengths in mm\n");
   file.text(fmt::format("element vertex {}\n", mesh.vertices_mm.size()));
   file.text("property float x\nproperty float y\nproperty float z\n");
@@ -29,7 +29,7 @@ void write_header(FileWriter& file, const Mesh& mesh) {
 void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
   check_mesh(mesh, path);
   FileWriter file(path);
-  write_header(file, mesh);
+  write_ply_header(file, mesh);
   write_vertices(file, mesh);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     file.binary(std::uint8_t{3});

@@ -2,16 +2,18 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "frangia/core/error.h"
+#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
 namespace {
 
 /// |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in its unknowns. Points come centred on their mean.
 Sphere algebraic_fit(const Eigen::Matrix3Xd& points) {
-  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4, 4);
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     Eigen::Vector4d row;
@@ -19,13 +21,12 @@ Sphere algebraic_fit(const Eigen::Matrix3Xd& points) {
     A += row * row.transpose();
     b += row * points.col(i).squaredNorm();
   }
-  Eigen::FullPivLU<Eigen::Matrix4d> lu(A);
-  lu.setThreshold(1e-12);
-  if (!lu.isInvertible()) {
+  const Eigen::VectorXd spread = symmetric_eigen(A).values;
+  if (!(spread[0] > 1e-12 * spread[3])) {
     throw Error(ErrorKind::Numeric,
                 "fit_sphere: the points lie in a plane; a sphere needs points all around it");
   }
-  const Eigen::Vector4d x = lu.solve(b);
+  const Eigen::Vector4d x = solve_symmetric(A, b);
   return {x.head<3>(), std::sqrt(std::max(0.0, x[3] + x.head<3>().squaredNorm())), 0.0};
 }
 
@@ -42,7 +43,7 @@ double refine(const Eigen::Matrix3Xd& points, Sphere& sphere) {
     H += row * row.transpose();
     g += row * (distance - sphere.radius_mm);
   }
-  const Eigen::Vector4d step = -H.ldlt().solve(g);
+  const Eigen::Vector4d step = -solve_symmetric(H, g);
   sphere.center_mm += step.head<3>();
   sphere.radius_mm += step[3];
   return step.norm();

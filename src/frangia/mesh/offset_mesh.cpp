@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "frangia/core/symmetric_eigen.h"
 #include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
@@ -24,12 +24,11 @@ struct Planes {
 /// about there is none.
 Vector3d way_of(const Planes& planes) {
   constexpr double kFlat = 0.01;  // shares of the largest eigenvalue below it are noise
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(planes.squares);
-  const Vector3d values = solver.eigenvalues();
+  const auto [values, vectors] = symmetric_eigen(planes.squares);
   Vector3d way = Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     if (!(values[i] > kFlat * values[2])) continue;
-    const Vector3d axis = solver.eigenvectors().col(i);
+    const Vector3d axis = vectors.col(i);
     way += axis * (axis.dot(planes.sum) / values[i]);
   }
   return way;

@@ -21,11 +21,11 @@ namespace frangia {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Simple_cartesian<double>;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using Plain = CGAL::Simple_cartesian<double>;
+using PlainSurface = CGAL::Surface_mesh<Plain::Point_3>;
 
-Surface surface_of(const Mesh& mesh) {
-  std::optional<Surface> surface = to_cgal<Surface>(mesh);
+PlainSurface plain_surface_of(const Mesh& mesh) {
+  std::optional<PlainSurface> surface = to_cgal<PlainSurface>(mesh);
   require(surface.has_value(),
           "remesh: the mesh is not manifold; make it so first (--make-manifold)");
   return *std::move(surface);
@@ -37,12 +37,13 @@ Mesh remesh_isotropic(const Mesh& mesh, const RemeshOptions& options, const Run&
   require(options.edge_mm > 0.0 && options.rounds > 0,
           "remesh: the length of the edges and the rounds must be positive");
   if (mesh.empty()) return mesh;
-  Surface surface = surface_of(mesh);
-  const auto sharp = surface.add_property_map<Surface::Edge_index, bool>("e:sharp", false).first;
+  PlainSurface surface = plain_surface_of(mesh);
+  const auto sharp =
+      surface.add_property_map<PlainSurface::Edge_index, bool>("e:sharp", false).first;
   pmp::detect_sharp_edges(surface, deg_from_rad(options.crease_rad), sharp);
   for (const auto edge : surface.edges())
     if (surface.is_border(edge)) sharp[edge] = true;
-  std::vector<Surface::Edge_index> sharp_edges;
+  std::vector<PlainSurface::Edge_index> sharp_edges;
   for (const auto edge : surface.edges())
     if (sharp[edge]) sharp_edges.push_back(edge);
   pmp::split_long_edges(

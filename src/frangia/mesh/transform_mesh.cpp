@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "frangia/core/error.h"
+#include "frangia/core/symmetric_eigen.h"
 #include "frangia/mesh/half_edges.h"
 
 namespace frangia {
@@ -80,8 +80,7 @@ Plane fit_plane(const Mesh& mesh, const Selection& selection) {
       spread += area * away * away.transpose();
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  Vector3d normal = solver.eigenvectors().col(0).normalized();
+  Vector3d normal = symmetric_eigen(spread).vectors.col(0).normalized();
   if (normal.dot(outward) < 0.0) normal = -normal;
   return {normal, mean};
 }
@@ -134,7 +133,7 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   require(std::abs(normals.determinant()) > 1e-3,
           "align: the third face is parallel to the line where the other two meet");
   const Vector3d origin =
-      -normals.partialPivLu().solve(Vector3d(first.offset(), second.offset(), third.offset()));
+      -(normals.inverse() * Vector3d(first.offset(), second.offset(), third.offset()));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = axes;
   pose.translation() = -(axes * origin);

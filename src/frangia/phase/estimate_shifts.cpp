@@ -7,6 +7,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/phase/frame_samples.h"
 #include "frangia/phase/phase_algorithm.h"
 
@@ -54,7 +55,7 @@ std::vector<double> better_shifts(const Eigen::MatrixXd& root,
   }
   Eigen::MatrixXd normal = slopes.transpose() * slopes;
   normal.diagonal() *= 1.0 + damping;
-  const Eigen::VectorXd change = normal.ldlt().solve(slopes.transpose() * left);
+  const Eigen::VectorXd change = solve_symmetric(normal, slopes.transpose() * left);
   std::vector<double> moved = shifts;
   for (std::size_t k = 1; k < shifts.size(); ++k)
     moved[k] -= change(static_cast<Eigen::Index>(k) - 1);

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/symmetric_eigen.h"
 #include "frangia/phase/frame_samples.h"
 
 namespace frangia {
@@ -51,12 +52,12 @@ double turn_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, double step
   contrasts.col(1) = (frame(1) - frame(2)) / std::numbers::sqrt2;
   contrasts.col(2) = 0.5 * (frame(1) + frame(2) - frame(0) - frame(3));
   const Eigen::Matrix3d products = contrasts.transpose() * contrasts;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products);
-  const Eigen::Vector3d relation = solver.eigenvectors().col(0);
+  const SymmetricEigen<3> eigen = symmetric_eigen(products);
+  const Eigen::Vector3d relation = eigen.vectors.col(0);
   if (std::abs(relation(0)) < 1e-3) return 0.0;
   const double b = -relation(2) / relation(0) / std::numbers::sqrt2;
   const double sigma =
-      2.0 * std::sqrt(std::max(solver.eigenvalues()(0), 0.0) / std::max(products(2, 2), 1e-9) /
+      2.0 * std::sqrt(std::max(eigen.values(0), 0.0) / std::max(products(2, 2), 1e-9) /
                       static_cast<double>(counts.rows()));
   if (std::abs(b) < 4.0 * sigma) return 0.0;
   return b * (std::cos(0.5 * step) - std::cos(1.5 * step)) / outer;

@@ -5,11 +5,11 @@
 #include <numeric>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
@@ -34,7 +34,7 @@ class CurveFit {
     right_(k) += weight * a * light;
     right_(k + 1) += weight * b * light;
   }
-  [[nodiscard]] Eigen::VectorXd solve() const { return matrix_.ldlt().solve(right_); }
+  [[nodiscard]] Eigen::VectorXd solve() const { return solve_symmetric(matrix_, right_); }
 
  private:
   Eigen::MatrixXd matrix_ = Eigen::MatrixXd::Zero(kKnots, kKnots);

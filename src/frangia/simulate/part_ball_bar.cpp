@@ -9,19 +9,19 @@ namespace {
 
 constexpr double kBallRadius = 20.0;
 constexpr double kPostRadius = 7.0;
-constexpr double kBaseTop = 8.0;
-constexpr int kRound = 400;  ///< points around: 0.0006 mm of chord error on the ball
-constexpr int kRings = 180;  ///< from the post to the pole
+constexpr double kFootTop = 8.0;
+constexpr int kAroundBall = 400;  ///< points around: 0.0006 mm of chord error on the ball
+constexpr int kRings = 180;       ///< from the post to the pole
 
 /// The post and the ball on it, above the base; returns the post's foot.
 Loop add_post_and_ball(SolidBuilder& solid, const Eigen::Vector3d& center) {
-  Loop foot = circle({center.x(), center.y(), kBaseTop}, kPostRadius, kRound);
+  Loop foot = circle({center.x(), center.y(), kFootTop}, kPostRadius, kAroundBall);
   const double first = std::asin(kPostRadius / kBallRadius);  // polar angle, from below
   const auto ring = [&](int i) {
     const double polar = first + (kPi - first) * i / kRings;
     const double radius = i == 0 ? kPostRadius : kBallRadius * std::sin(polar);
     return circle(
-        center - Eigen::Vector3d(0.0, 0.0, kBallRadius * std::cos(polar)), radius, kRound);
+        center - Eigen::Vector3d(0.0, 0.0, kBallRadius * std::cos(polar)), radius, kAroundBall);
   };
   Loop below = foot;
   for (int i = 0; i < kRings; ++i) {
@@ -46,7 +46,7 @@ Mesh make_ball_bar() {
     holes.emplace_back(foot.rbegin(), foot.rend());
   }
   const Loop low = rim(0.0);
-  const Loop high = rim(kBaseTop);
+  const Loop high = rim(kFootTop);
   solid.add_face(high, holes);
   solid.add_band(low, high);
   solid.add_face({low.rbegin(), low.rend()});

@@ -17,7 +17,7 @@ constexpr double kTip = 102.0;
 constexpr double kHalfLength = 20.0;  ///< of root and platform, along x
 constexpr double kHalfWidth = 14.0;   ///< of the platform, along y
 constexpr double kFillet = 2.5;       ///< between platform and aerofoil
-constexpr int kSide = 72;             ///< points along one side of the aerofoil
+constexpr int kAlongSide = 72;        ///< points along one side of the aerofoil
 constexpr int kSections = 72;
 
 /// A corner of an outline and the radius that rounds it.
@@ -83,7 +83,7 @@ std::vector<Eigen::Vector2d> root_outline() {
 std::vector<Eigen::Vector2d> aerofoil(double thickness, double camber) {
   constexpr double kEdge = 0.016;  // half the thickness of the trailing edge
   const auto side = [&](int i, double sign) {
-    const double x = 0.5 * (1.0 - std::cos(kPi * i / kSide));
+    const double x = 0.5 * (1.0 - std::cos(kPi * i / kAlongSide));
     const double half =
         5.0 * thickness *
             (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x)))) +
@@ -93,15 +93,15 @@ std::vector<Eigen::Vector2d> aerofoil(double thickness, double camber) {
     return Eigen::Vector2d(Eigen::Vector2d(x, 4.0 * camber * x * (1.0 - x)) + sign * half * normal);
   };
   std::vector<Eigen::Vector2d> line;
-  for (int i = kSide; i > 0; --i)
+  for (int i = kAlongSide; i > 0; --i)
     line.push_back(side(i, 1.0));
-  for (int i = 0; i <= kSide; ++i)
+  for (int i = 0; i <= kAlongSide; ++i)
     line.push_back(side(i, -1.0));
   const Eigen::Vector2d center = 0.5 * (line.front() + line.back());
   const Eigen::Vector2d from = line.back() - center;
-  constexpr int kRound = 8;
-  for (int i = 1; i < kRound; ++i)
-    line.emplace_back(center + Eigen::Rotation2Dd(kPi * i / kRound) * from);
+  constexpr int kAroundEdge = 8;
+  for (int i = 1; i < kAroundEdge; ++i)
+    line.emplace_back(center + Eigen::Rotation2Dd(kPi * i / kAroundEdge) * from);
   return line;
 }
 

@@ -35,7 +35,7 @@ constexpr double kKeyFloor = 14.0;  ///< x of its floor
 constexpr double kKeyLow = 50.0;    ///< z of the cutter's centre at its two ends
 constexpr double kKeyHigh = 68.0;
 constexpr int kKeyColumns = 64;
-constexpr int kRound = 512;
+constexpr int kAroundAxis = 512;
 
 /// Where the keyway's rim is, column by column across its width.
 struct KeyColumn {
@@ -55,8 +55,8 @@ std::vector<double> directions() {
     angles.push_back(std::asin(key_column(i).y / kSeatRadius));
   const double first = angles.back();
   const double rest = kTurn - 2.0 * first;
-  for (int i = 1; i < kRound; ++i)
-    angles.push_back(first + rest * i / kRound);
+  for (int i = 1; i < kAroundAxis; ++i)
+    angles.push_back(first + rest * i / kAroundAxis);
   return angles;
 }
 

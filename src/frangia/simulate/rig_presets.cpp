@@ -85,9 +85,9 @@ Rig angular() {
   return rig;
 }
 
-using Maker = Rig (*)();
+using RigMaker = Rig (*)();
 
-constexpr std::array<std::pair<std::string_view, Maker>, 3> kRigs{
+constexpr std::array<std::pair<std::string_view, RigMaker>, 3> kRigs{
     {{"digital", digital}, {"angular", angular}, {"carducci", carducci}}};
 
 }  // namespace

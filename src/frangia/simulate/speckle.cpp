@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-using Field = Image<std::complex<float>>;
+using NormalField = Image<std::complex<float>>;
 
 /// Weights of a Gaussian whose squares add up to 1: they keep a field's variance.
 std::vector<float> smoothing_weights(double sigma_px) {
@@ -28,9 +28,12 @@ std::vector<float> smoothing_weights(double sigma_px) {
 }
 
 /// A smooth random field of mean 0 and mean square 1.
-Field random_field(int width, int height, std::uint64_t stream, const std::vector<float>& weights) {
+NormalField random_field(int width,
+                         int height,
+                         std::uint64_t stream,
+                         const std::vector<float>& weights) {
   const int margin = static_cast<int>(weights.size()) - 1;
-  Field across(width, height + margin);
+  NormalField across(width, height + margin);
   parallel_rows(across.height(), [&](int y) {
     std::vector<std::complex<float>> rough(static_cast<std::size_t>(width + margin));
     for (std::size_t x = 0; x < rough.size(); ++x) {
@@ -45,7 +48,7 @@ Field random_field(int width, int height, std::uint64_t stream, const std::vecto
       across(x, y) = sum;
     }
   });
-  Field field(width, height);
+  NormalField field(width, height);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       std::complex<float> sum = 0.0F;
@@ -65,8 +68,8 @@ Image<Speckle> speckle_of(int width,
                           const SpeckleOptions& options) {
   // A field smoothed with sigma has an intensity whose correlation has the same sigma.
   const std::vector<float> weights = smoothing_weights(options.grain_px / 2.3548);
-  const Field first = random_field(width, height, hash(stream, 1), weights);
-  const Field other = random_field(width, height, hash(stream, 2), weights);
+  const NormalField first = random_field(width, height, hash(stream, 1), weights);
+  const NormalField other = random_field(width, height, hash(stream, 2), weights);
   const auto share = static_cast<float>(options.contrast);
   const auto mu = static_cast<float>(options.correlation);
   Image<Speckle> speckle(width, height);

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
+#include "frangia/core/symmetric_eigen.h"
 #include "frangia/views/plane_map.h"
 
 namespace frangia {
@@ -68,8 +69,7 @@ Plane fit(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const auto& point : points)
     spread += (point - middle) * (point - middle).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  Eigen::Vector3d normal = symmetric_eigen(spread).vectors.col(0);
   if (normal.z() < 0.0) normal = -normal;
   return {normal, middle};
 }

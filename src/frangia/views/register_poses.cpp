@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/views/fast_lens.h"
 
 namespace frangia {
@@ -183,7 +184,7 @@ PosesReport register_poses(ViewStore& views,
     report.overlap = static_cast<double>(sums.met) / static_cast<double>(sums.spots);
     // What overlaps nothing stays where it is.
     sums.hessian.diagonal().array() += 1e-9 * sums.hessian.diagonal().maxCoeff();
-    const Eigen::VectorXd step = -sums.hessian.ldlt().solve(sums.gradient);
+    const Eigen::VectorXd step = -solve_symmetric(sums.hessian, sums.gradient);
     move(poses, step);
     report.iterations = i + 1;
     const double gate = std::min(poses.gate_mm, kTukey * median(sums.distances_mm));

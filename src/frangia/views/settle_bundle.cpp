@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
 namespace {
@@ -66,7 +67,7 @@ void settle(Bundle& bundle, const Spots& spots, int max_iterations, const Run& r
     Eigen::MatrixXd hessian = worth * sums.hessian;
     hessian.diagonal() += prior;
     const Eigen::VectorXd slope = worth * sums.gradient + prior.cwiseProduct(departure(bundle));
-    const Eigen::VectorXd step = -hessian.ldlt().solve(slope);
+    const Eigen::VectorXd step = -solve_symmetric(hessian, slope);
     bundle.state = moved(bundle.state, step);
     ++bundle.iterations;
     constexpr double kTukey = 4.685 * 1.4826;  // sigmas, in medians
@@ -82,41 +83,40 @@ namespace {
 constexpr double kKnown = 9.0;  // three times better than before
 
 /// What the pairs say beside the prior, in units of the prior's: 1 is as much.
-Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gain_of(const Bundle& bundle,
-                                                       const BundleSums& sums) {
+SymmetricEigen<Eigen::Dynamic> gain_of(const Bundle& bundle, const BundleSums& sums) {
   const Eigen::MatrixXd gain =
       worth_of(bundle, sums) *
       (bundle.prior_sigma.asDiagonal() * sums.hessian * bundle.prior_sigma.asDiagonal());
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gain);
+  return symmetric_eigen(gain);
 }
 
 /// The standard deviation of the axis along the way in which it is known least, at the rim of a
 /// part.
-double axis_known_mm(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& gain,
+double axis_known_mm(const SymmetricEigen<Eigen::Dynamic>& gain,
                      const Eigen::VectorXd& prior_sigma) {
   constexpr double kArm_mm = 30.0;  // how far from the axis a part reaches
-  const Eigen::VectorXd variances = (gain.eigenvalues().cwiseMax(0.0).array() + 1.0).inverse();
-  const Eigen::MatrixXd ways = prior_sigma.asDiagonal() * gain.eigenvectors();
-  const Eigen::MatrixXd covariance = ways * variances.asDiagonal() * ways.transpose();
-  Eigen::Matrix4d of_axis = covariance.topLeftCorner<4, 4>();
   const Eigen::Vector4d to_mm(kArm_mm, kArm_mm, 1.0, 1.0);
-  of_axis = to_mm.asDiagonal() * of_axis * to_mm.asDiagonal();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(of_axis).eigenvalues()[3]);
+  const Eigen::Vector4d scales = to_mm.cwiseProduct(prior_sigma.head<4>());
+  Eigen::MatrixXd of_axis = Eigen::MatrixXd::Zero(4, 4);
+  for (Eigen::Index i = 0; i < gain.values.size(); ++i) {
+    const Eigen::Vector4d way = scales.cwiseProduct(gain.vectors.col(i).head<4>());
+    of_axis += way * way.transpose() / (1.0 + std::max(0.0, gain.values[i]));
+  }
+  return std::sqrt(symmetric_eigen(of_axis).values[3]);
 }
 
 }  // namespace
 
 void judge(RegistrationReport& report, const Bundle& bundle, const BundleSums& sums) {
-  const auto solver = gain_of(bundle, sums);
-  report.weakest = std::sqrt(1.0 + std::max(0.0, solver.eigenvalues()[0]));
-  report.condition = std::sqrt((1.0 + solver.eigenvalues().tail<1>()[0]) /
-                               (1.0 + std::max(0.0, solver.eigenvalues()[0])));
-  report.axis_known_mm = axis_known_mm(solver, bundle.prior_sigma);
+  const auto gain = gain_of(bundle, sums);
+  report.weakest = std::sqrt(1.0 + std::max(0.0, gain.values[0]));
+  report.condition =
+      std::sqrt((1.0 + gain.values.tail<1>()[0]) / (1.0 + std::max(0.0, gain.values[0])));
+  report.axis_known_mm = axis_known_mm(gain, bundle.prior_sigma);
   const auto angles = static_cast<Eigen::Index>(bundle.state.angles_rad.size()) - 1;
   std::array<double, 3> open{};  // tilt, shift, angles
-  for (Eigen::Index i = 0; i < solver.eigenvalues().size() && solver.eigenvalues()[i] < kKnown;
-       ++i) {
-    const Eigen::VectorXd direction = solver.eigenvectors().col(i).cwiseAbs2();
+  for (Eigen::Index i = 0; i < gain.values.size() && gain.values[i] < kKnown; ++i) {
+    const Eigen::VectorXd direction = gain.vectors.col(i).cwiseAbs2();
     open[0] += direction.head<2>().sum();
     open[1] += direction.segment<2>(2).sum();
     open[2] += direction.segment(4, angles).sum();

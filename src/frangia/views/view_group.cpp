@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
+#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
 namespace {
@@ -232,10 +234,9 @@ GroupFit compare_groups(const ViewGroup& to,
   fit.information = all.information;
   fit.pull = all.pull;
   if (all.weight > 0.0) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(all.information /
-                                                                            all.weight);
-    fit.firmness = std::max(0.0, solver.eigenvalues()[0]);
-    fit.loosest = solver.eigenvectors().leftCols<2>();
+    const auto eigen = symmetric_eigen(Eigen::MatrixXd(all.information / all.weight));
+    fit.firmness = std::max(0.0, eigen.values[0]);
+    fit.loosest = eigen.vectors.leftCols<2>();
   }
   return fit;
 }
@@ -255,7 +256,7 @@ Eigen::Isometry3d refine_fit(const ViewGroup& all_to,
     if (fit.agree < 6) break;
     Eigen::Matrix<double, 6, 6> information = fit.information;
     information.diagonal().array() += 1e-6 * information.trace();  // what slides stays
-    const Eigen::Matrix<double, 6, 1> step = -information.ldlt().solve(fit.pull);
+    const Eigen::Matrix<double, 6, 1> step = -solve_symmetric(information, fit.pull);
     to_from = fit.motion(step) * to_from;
     const double closed = std::max(gate.least_mm, kTukey * fit.residual_mm);
     const bool rests = closed > 0.9 * gate_mm;
