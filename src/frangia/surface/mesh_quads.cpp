@@ -12,10 +12,9 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
-#include "frangia/surface/collapse_slivers.h"
 #include "frangia/surface/find_quads.h"
-#include "frangia/surface/flip_caps.h"
 #include "frangia/surface/sharpen_edges.h"
+#include "frangia/surface/smooth_out.h"
 #include "frangia/surface/unfold_mesh.h"
 
 namespace frangia {
@@ -185,16 +184,6 @@ void add_pinched(Mesh& mesh, const Crossings& crossings, const Quads& quads) {
   }
 }
 
-/// Takes slivers and caps away.
-void smooth_out(Mesh& mesh, const std::vector<std::uint8_t>& sharp, float voxel_mm) {
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    const bool joined = collapse_slivers(mesh, sharp, 2.0F * kSliver * voxel_mm);
-    const bool turned = flip_caps(mesh, kSliver * voxel_mm);
-    if (!joined && !turned) break;
-  }
-}
-
 }  // namespace
 
 Mesh mesh_quads(PlacedVertices vertices,
@@ -211,12 +200,9 @@ Mesh mesh_quads(PlacedVertices vertices,
   quads = {};
 
   const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
-  smooth_out(mesh, vertices.sharp, voxel_mm);
-
+  smooth_out(mesh, vertices.sharp, kSliver * voxel_mm);
   const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
-
-  smooth_out(mesh, sharp, voxel_mm);
-
+  smooth_out(mesh, sharp, kSliver * voxel_mm);
   unfold_mesh(mesh, sharp);
 
   return std::move(vertices.mesh);
