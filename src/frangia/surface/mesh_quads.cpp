@@ -52,8 +52,8 @@ struct Surface {
   float voxel_mm = 0.0F;
 };
 
-Surface surface_at(const Crossings& crossings, const Evidence& evidence, std::uint32_t crossing) {
-  const Evidence::Face& face = evidence.main();
+Surface surface_at(const Crossings& crossings, const Evidences& evidence, std::uint32_t crossing) {
+  const Evidence::Face& face = evidence.main(crossing);
   const Eigen::Vector3f normal = face.normal.normalized();
   const int axis = std::abs(crossings.outward[crossing]) - 1;
   const float sign = crossings.outward[crossing] > 0 ? 1.0F : -1.0F;
@@ -100,13 +100,11 @@ void choose_cut(Quad& quad, const Mesh& mesh, const Ring& ring, const Surface& s
 void cut_quads(Quads& quads,
                const Mesh& mesh,
                const Crossings& crossings,
-               std::span<const Evidence> evidence) {
+               const Evidences& evidence) {
   parallel_chunks(quads.size(), 1, [&](std::size_t part, std::size_t) {
     for (Quad& quad : quads[part]) {
-      choose_cut(quad,
-                 mesh,
-                 ring_of(quad, crossings),
-                 surface_at(crossings, evidence[quad.crossing], quad.crossing));
+      choose_cut(
+          quad, mesh, ring_of(quad, crossings), surface_at(crossings, evidence, quad.crossing));
     }
   });
 }
@@ -186,9 +184,7 @@ void add_pinched(Mesh& mesh, const Crossings& crossings, const Quads& quads) {
 
 }  // namespace
 
-Mesh mesh_quads(PlacedVertices vertices,
-                const Crossings& crossings,
-                std::span<const Evidence> evidence) {
+Mesh mesh_quads(PlacedVertices vertices, const Crossings& crossings, const Evidences& evidence) {
   Mesh& mesh = vertices.mesh;
   Quads quads = find_quads(crossings, evidence);
   cut_quads(quads, mesh, crossings, evidence);
