@@ -127,7 +127,7 @@ TEST(PlaceViews, PutsNoSideOfASymmetricPartOnTheOther) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (lost.empty(i)) continue;
     const double off_mm = lost.off_mm(i, placed.reference);  // 0, or half a turn of the part
-    EXPECT_LT(std::min(off_mm, std::abs(off_mm - 38.0 * 0.5 * kTurn)), 0.1) << i;
+    EXPECT_LT(std::min(off_mm, std::abs(off_mm - 38.0 * 0.5 * kTurn)), 0.3) << i;
   }
 }
 

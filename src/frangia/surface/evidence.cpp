@@ -15,6 +15,12 @@ constexpr float kAgree = 0.8F;   // cosine between normals of one face
 constexpr float kBack = -0.3F;   // a normal that points so far inward is the back of a thin wall
 constexpr float kAround = 4.0F;  // pixels: sight is clear when it is so this far to all sides
 
+/// One of the points that are asked about.
+struct Point {
+  Evidences& all;
+  std::size_t number;
+};
+
 struct Questioner {
   const LocalPlanes& view;
   FastLens lens;
@@ -49,7 +55,7 @@ struct Questioner {
     }
   }
 
-  void ask(Evidence& evidence, const Eigen::Vector3f& p, float u, float v, int outward) const {
+  void ask(Point at, const Eigen::Vector3f& p, float u, float v, int outward) const {
     if (!(p.z() > 0.0F)) return;
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
     if (quad == nullptr) {
@@ -59,7 +65,7 @@ struct Questioner {
       const LocalPlanes::Plane* pixel = view.pixel_at(u, v);
       if (pixel != nullptr && pixel->window != WindowKind::Small &&
           -pixel->normal.dot(p) > kFlattest * p.norm()) {
-        support(evidence,
+        support(at,
                 {p,
                  pixel->normal,
                  pixel->normal.dot(p) + pixel->through_mm,
@@ -77,13 +83,13 @@ struct Questioner {
                : view.nearest_face(u, v, p);
     const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
-      support(evidence, {p, plane.normal, distance, quad->weight, is_at_rim(u, v)}, outward);
+      support(at, {p, plane.normal, distance, quad->weight, is_at_rim(u, v)}, outward);
     } else if (distance > through_mm && is_clear(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
       // That it sees through is as sure however well it knows what lies behind: what speaks for the
       // point may have been smoothed, what speaks against it not.
       constexpr float kSmoothed = 6.5F;
-      evidence.against += kSmoothed * quad->weight / (cosine * cosine);
+      at.all[at.number].against += kSmoothed * quad->weight / (cosine * cosine);
     }
   }
 
@@ -108,17 +114,18 @@ struct Questioner {
   }
 
   /// The face that slopes as the view says, or a new one.
-  static Evidence::Face& face_for(Evidence& evidence, const Eigen::Vector3f& normal) {
-    const Evidence::Face& main = evidence.faces[0];
-    const float along = normal.dot(main.normal);
-    if (main.views == 0 ||
-        (along > 0.0F && along * along >= kAgree * kAgree * main.normal.squaredNorm())) {
-      return evidence.faces[0];
+  static Evidence::Face& face_for(Point at, const Eigen::Vector3f& normal) {
+    Evidence::Face& first = at.all[at.number].first;
+    const float along = normal.dot(first.normal);
+    if (first.views == 0 ||
+        (along > 0.0F && along * along >= kAgree * kAgree * first.normal.squaredNorm())) {
+      return first;
     }
     const auto agreement = [&](const Evidence::Face& face) {
       return face.views == 0 ? kAgree : normal.dot(face.normal) / face.normal.norm();
     };
-    return evidence.faces[agreement(evidence.faces[1]) > agreement(main) ? 1 : 0];
+    const bool is_other = agreement(at.all.other(at.number)) > agreement(first);
+    return is_other ? at.all.make_other(at.number) : first;
   }
 
   /// What a view says about a point of the rig frame.
@@ -130,7 +137,7 @@ struct Questioner {
     bool at_rim;  ///< a pixel beside saw nothing
   };
 
-  void support(Evidence& evidence, const Word& word, int outward) const {
+  void support(Point at, const Word& word, int outward) const {
     if (!(std::abs(word.distance_mm) < near_mm)) return;
     const Eigen::Vector3f normal = rotation.transpose() * word.normal;
     const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];
@@ -142,7 +149,7 @@ struct Questioner {
     const float cosine2 = cosine * cosine;
     constexpr float kInterpolated = 0.73F;  // of a pixel's variance, after interpolation
     const float variance = kInterpolated * cosine2 * cosine2 / word.weight;
-    Evidence::Face& face = face_for(evidence, normal);
+    Evidence::Face& face = face_for(at, normal);
     face.weight += w;
     face.weight_squared += w * w;
     face.offset += w * word.distance_mm;
@@ -165,15 +172,20 @@ struct Questioner {
 
 }  // namespace
 
-Evidences no_evidence(std::size_t count) {
-  const Evidence::Face nothing{
-      0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, Eigen::Vector3f::Zero(), 0};
-  Evidences evidence(count);
+const Evidence::Face Evidences::kNoFace{
+    0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, Eigen::Vector3f::Zero(), 0};
+
+Evidences::Evidences(std::size_t count) : all_(count), others_(count) {
   parallel_chunks(count, 16384, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      evidence[i] = {{nothing, nothing}, 0.0F, 0.0F};
+      all_[i] = {kNoFace, 0.0F, 0.0F, false};
   });
-  return evidence;
+}
+
+Evidence::Face& Evidences::make_other(std::size_t i) {
+  if (!all_[i].has_other) others_[i] = kNoFace;
+  all_[i].has_other = true;
+  return others_[i];
 }
 
 float correlation(float distance_mm, float spacing_mm) {
@@ -184,7 +196,7 @@ float correlation(float distance_mm, float spacing_mm) {
   return 1.0F - 1.5F * x * x + 0.75F * x * x * x;
 }
 
-void add_evidence(std::span<Evidence> evidence,
+void add_evidence(Evidences& evidence,
                   const Crossings& crossings,
                   const LocalPlanes& view,
                   const CameraRays& camera,
@@ -202,7 +214,7 @@ void add_evidence(std::span<Evidence> evidence,
       const std::size_t count = std::min(Questioner::Batch::kMost, end - from);
       questioner.project(std::span(crossings.points_mm).subspan(from, count), batch);
       for (std::size_t i = 0; i < count; ++i) {
-        questioner.ask(evidence[from + i],
+        questioner.ask({evidence, from + i},
                        {batch.x[i], batch.y[i], batch.z[i]},
                        batch.u[i],
                        batch.v[i],
@@ -212,7 +224,7 @@ void add_evidence(std::span<Evidence> evidence,
   });
 }
 
-void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings) {
+void add_disagreement(Evidences& evidence, const Crossings& crossings) {
   parallel_chunks(crossings.blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
       const std::size_t first = crossings.blocks[block]->crossings_before;
@@ -222,7 +234,7 @@ void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings) 
       float excess = 0.0F;  // of the scatter between views over what their noise explains
       float freedom = 0.0F;
       for (std::size_t i = first; i < last; ++i) {
-        const Evidence::Face& face = evidence[i].main();
+        const Evidence::Face& face = evidence.main(i);
         if (face.views < 2) continue;
         const float scatter = face.offset_squared - face.offset * face.offset / face.weight;
         const float expected = face.noise - face.noise_squared / face.weight;
@@ -231,7 +243,7 @@ void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings) 
       }
       const float between = excess > 0.0F && freedom > 0.0F ? excess / freedom : 0.0F;
       for (std::size_t i = first; i < last; ++i) {
-        const Evidence::Face& face = evidence[i].main();
+        const Evidence::Face& face = evidence.main(i);
         if (face.views == 0) continue;
         evidence[i].common = std::max(between * face.weight_squared, face.lateral_squared) /
                              (face.weight * face.weight);

@@ -18,7 +18,8 @@ struct JoinByShapeOptions {
   double min_overlap = 0.12;         ///< share of the smaller group's points
   double max_contradiction = 0.015;  ///< of the points compared, that the other saw through
   double max_runner_up = 0.85;       ///< what fits elsewhere, as a share of what fits here
-  double min_firmness = 0.0015;      ///< less, and one slides or turns on the other
+  double min_firmness = 0.0002;      ///< less, and one slides or turns on the other; what slides a
+                                     ///< little less freely is told by fitting beside, too
   double max_residual = 3.0;  ///< median distance, as a multiple of that where groups fit best
   /// Of two views that look the same from the same place only the first is joined: either the part
   /// was not moved, or it looks alike from two sides, and nothing tells which.
