@@ -111,8 +111,9 @@ void load_ply(benchmark::State& state) {
 }
 
 void list(benchmark::State& state) {
-  with_scan(
-      state, scan(state), 3.0, [](Mesh mesh) { benchmark::DoNotOptimize(mesh_findings(mesh)); });
+  with_scan(state, scan(state), 3.0, [](const Mesh& mesh) {
+    benchmark::DoNotOptimize(mesh_findings(mesh));
+  });
 }
 
 void remove_small_islands(benchmark::State& state) {

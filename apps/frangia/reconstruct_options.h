@@ -33,9 +33,10 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
       "--undo-response",
       [&options](const std::string& path) {
         options.response = read_rig(path).projector.response;
-        if (!options.response)
+        if (!options.response) {
           throw Error(ErrorKind::Input,
                       path + " has no [projector.response]; `frangia response` writes one");
+        }
       },
       "a rig.toml whose [projector.response] the projector had while it showed the patterns "
       "without its look-up table: undone in the phase");

@@ -28,7 +28,7 @@ class FakeGigeCamera {
  public:
   using Paint = std::function<void(const FakeExposure&, std::uint8_t* pixels)>;
 
-  FakeGigeCamera(std::string serial, const std::filesystem::path& folder, Paint paint)
+  FakeGigeCamera(const std::string& serial, const std::filesystem::path& folder, Paint paint)
       : paint_(std::move(paint)) {
     const auto description = folder / "camera.xml";
     write_description(description);

@@ -73,7 +73,8 @@ class Shelf {
   };
 
   void drop_oldest() noexcept {
-    std::free(blocks_.front().memory);  // NOLINT(cppcoreguidelines-no-malloc)
+    // NOLINTNEXTLINE(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory)
+    std::free(blocks_.front().memory);
     kept_ -= blocks_.front().bytes;
     blocks_.erase(blocks_.begin());
   }
@@ -102,6 +103,7 @@ void* allocate_pixels(std::size_t bytes) {
   if (kShelves && is_large(bytes)) {
     if (void* memory = shelf().take(whole)) return memory;
   }
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): free_pixels gives it back
   void* memory = std::aligned_alloc(is_large(bytes) ? kHugePage : kCacheLine, whole);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
@@ -113,8 +115,10 @@ void* allocate_pixels(std::size_t bytes) {
 
 void free_pixels(void* memory, std::size_t bytes) noexcept {
   if (memory == nullptr) return;
+  // cppcheck-suppress throwInNoexceptFunction  ; it has not thrown at allocation
   if (kShelves && is_large(bytes) && shelf().put(memory, rounded(bytes))) return;
-  std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): the partner of aligned_alloc
+  // NOLINTNEXTLINE(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory): of aligned_alloc
+  std::free(memory);
 }
 
 void release_spare_pixels() noexcept {

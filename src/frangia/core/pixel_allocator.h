@@ -25,6 +25,7 @@ struct PixelAllocator {
   [[nodiscard]] T* allocate(std::size_t count) {
     return static_cast<T*>(allocate_pixels(count * sizeof(T)));
   }
+  // cppcheck-suppress throwInNoexceptFunction  ; it has not thrown at allocation
   void deallocate(T* memory, std::size_t count) noexcept { free_pixels(memory, count * sizeof(T)); }
 
   template <typename U>

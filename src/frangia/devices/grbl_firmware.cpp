@@ -60,7 +60,7 @@ bool is_greeting(const std::string& line) {
 
 class Grbl final : public TableFirmware {
  public:
-  Grbl(std::unique_ptr<Transport> transport, FirmwareSettings settings)
+  Grbl(std::unique_ptr<Transport> transport, const FirmwareSettings& settings)
       : transport_(std::move(transport)), settings_(settings) {}
 
   [[nodiscard]] const std::string& name() const override { return transport_->name(); }

@@ -10,7 +10,7 @@ namespace {
 
 class Horus final : public TableFirmware {
  public:
-  Horus(std::unique_ptr<Transport> transport, FirmwareSettings settings)
+  Horus(std::unique_ptr<Transport> transport, const FirmwareSettings& settings)
       : transport_(std::move(transport)), settings_(settings) {}
 
   [[nodiscard]] const std::string& name() const override { return transport_->name(); }

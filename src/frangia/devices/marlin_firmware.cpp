@@ -16,7 +16,7 @@ bool begins(const std::string& line, const char* with) {
 
 class Marlin final : public TableFirmware {
  public:
-  Marlin(std::unique_ptr<Transport> transport, FirmwareSettings settings)
+  Marlin(std::unique_ptr<Transport> transport, const FirmwareSettings& settings)
       : transport_(std::move(transport)), settings_(settings) {}
 
   [[nodiscard]] const std::string& name() const override { return transport_->name(); }

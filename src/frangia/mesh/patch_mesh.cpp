@@ -178,8 +178,10 @@ void PatchMesh::settle_waiting() {
 }
 
 void PatchMesh::settle() {
-  for (std::uint32_t edge = 0; edge < half_edges(); ++edge)
-    if (twins_[edge] != kRim && edge < twins_[edge]) waiting_.push_back(edge);
+  for (std::uint32_t edge = 0; edge < half_edges(); ++edge) {
+    const std::uint32_t twin = twins_[edge];
+    if (twin != kRim && edge < twin) waiting_.push_back(edge);
+  }
   std::reverse(waiting_.begin(), waiting_.end());
   settle_waiting();
 }

@@ -27,7 +27,7 @@ std::size_t count_of_text(const Text& value) {
 }
 
 std::vector<EditOperation> of_holes() {
-  const auto fill = [](EditState& state, FillHolesOptions options, const Run& run) {
+  const auto fill = [](EditState& state, const FillHolesOptions& options, const Run& run) {
     state.mesh = fill_holes(std::move(state.mesh), options, run);
   };
   return {
@@ -72,66 +72,66 @@ std::vector<EditOperation> of_holes() {
   };
 }
 
+std::vector<EditOperation> of_the_rest() {
+  return {
+      {"keep-largest",
+       kGroup,
+       "N",
+       "keep so many parts of the largest area",
+       [](EditState& s, const Text& v, const Run&) {
+         s.mesh = keep_largest_parts(std::move(s.mesh), count_of_text(v));
+       }},
+      {"remove-islands",
+       kGroup,
+       "MM",
+       "drop parts up to this size",
+       [](EditState& s, const Text& v, const Run&) {
+         s.mesh = remove_islands(std::move(s.mesh), length_of(v));
+       }},
+      {"remove-spikes",
+       kGroup,
+       "",
+       "set tips sharper than a cone of 60 degrees down",
+       [](EditState& s, const Text&, const Run& run) {
+         s.mesh = remove_spikes(std::move(s.mesh), {}, run);
+       }},
+      {"remove-self-intersections",
+       kGroup,
+       "",
+       "unite closed parts that cross; elsewhere drop what crosses and close what it leaves",
+       [](EditState& s, const Text&, const Run& run) {
+         s.mesh = remove_self_intersections(std::move(s.mesh), run);
+       }},
+      {"make-manifold",
+       kGroup,
+       "",
+       "part what is not manifold, drop broken and repeated triangles",
+       [](EditState& s, const Text&, const Run&) { s.mesh = make_manifold(std::move(s.mesh)); }},
+      {"orient",
+       kGroup,
+       "",
+       "wind neighbours alike and closed parts outwards",
+       [](EditState& s, const Text&, const Run&) { s.mesh = orient(std::move(s.mesh)); }},
+      {"inside-out",
+       kGroup,
+       "",
+       "turn every triangle to its other side",
+       [](EditState& s, const Text&, const Run&) { s.mesh = turn_inside_out(std::move(s.mesh)); }},
+      {"stitch",
+       kGroup,
+       "MM",
+       "join boundaries within this distance",
+       [](EditState& s, const Text& v, const Run&) {
+         s.mesh = stitch(std::move(s.mesh), length_of(v));
+       }},
+  };
+}
+
 }  // namespace
 
 std::vector<EditOperation> repairing_edits() {
   std::vector<EditOperation> all = of_holes();
-  for (EditOperation& operation : std::vector<EditOperation>{
-           {"keep-largest",
-            kGroup,
-            "N",
-            "keep so many parts of the largest area",
-            [](EditState&s, const Text&v, const Run&) {
-              s.mesh = keep_largest_parts(std::move(s.mesh), count_of_text(v));
-            }},
-           {"remove-islands",
-            kGroup,
-            "MM",
-            "drop parts up to this size",
-            [](EditState&s, const Text&v, const Run&) {
-              s.mesh = remove_islands(std::move(s.mesh), length_of(v));
-            }},
-           {"remove-spikes",
-            kGroup,
-            "",
-            "set tips sharper than a cone of 60 degrees down",
-            [](EditState&s, const Text&, const Run&run) {
-              s.mesh = remove_spikes(std::move(s.mesh), {}, run);
-            }},
-           {"remove-self-intersections",
-            kGroup,
-            "",
-            "unite closed parts that cross; elsewhere drop what crosses and close what it leaves",
-            [](EditState&s, const Text&, const Run&run) {
-              s.mesh = remove_self_intersections(std::move(s.mesh), run);
-            }},
-           {"make-manifold",
-            kGroup,
-            "",
-            "part what is not manifold, drop broken and repeated triangles",
-            [](EditState&s, const Text&, const Run&) {
-              s.mesh = make_manifold(std::move(s.mesh));
-            }},
-           {"orient",
-            kGroup,
-            "",
-            "wind neighbours alike and closed parts outwards",
-            [](EditState&s, const Text&, const Run&) { s.mesh = orient(std::move(s.mesh)); }},
-           {"inside-out",
-            kGroup,
-            "",
-            "turn every triangle to its other side",
-            [](EditState&s, const Text&, const Run&) {
-              s.mesh = turn_inside_out(std::move(s.mesh));
-            }},
-           {"stitch",
-            kGroup,
-            "MM",
-            "join boundaries within this distance",
-            [](EditState&s, const Text&v, const Run&) {
-              s.mesh = stitch(std::move(s.mesh), length_of(v));
-            }},
-       })
+  for (EditOperation& operation : of_the_rest())
     all.push_back(std::move(operation));
   return all;
 }

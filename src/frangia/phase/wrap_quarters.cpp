@@ -138,7 +138,8 @@ void wrap_quarters(const QuarterFrames& frames,
   const std::size_t b = algorithm.sine[3] > 0.0 ? 1 : 3;
   const std::size_t a = algorithm.cosine[0] > 0.0 ? 0 : 2;
   std::visit(
-      [&]<typename T>(const Image<T>& /*first*/) {
+      [&](const auto& first) {
+        using T = std::decay_t<decltype(*first.pixels().data())>;
         const auto pixels = [&](std::size_t k) {
           return std::get<Image<T>>(images[k]).pixels().data() + at;
         };

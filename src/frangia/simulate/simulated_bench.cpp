@@ -91,7 +91,8 @@ Frame BenchCamera::take(const SimulatedBench& bench,
       light_->renderer.fill_row<std::uint16_t>(y, row, shots, stack);
     }
   });
-  return std::move(stack.frames.front());
+  Frame frame = std::move(stack.frames.front());
+  return frame;
 }
 
 }  // namespace frangia

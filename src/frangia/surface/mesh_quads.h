@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/evidence.h"
 #include "frangia/surface/mesh.h"

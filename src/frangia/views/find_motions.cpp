@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 
 #include <Eigen/Dense>
@@ -103,16 +104,16 @@ std::vector<std::size_t> by_trust(const Agreement& agreement) {
 
 /// A seed and those that share most with it.
 std::vector<std::size_t> company_of(std::size_t seed, const Agreement& agreement) {
-  constexpr std::size_t kMost = 12;
+  constexpr std::ptrdiff_t kMost = 12;
   std::vector<std::pair<int, std::size_t>> others;
   for (std::size_t j = 0; j < agreement.size(); ++j)
     if (agreement.fits(seed, j)) others.emplace_back(-agreement.shared(seed, j), j);
-  const std::size_t count = std::min(kMost, others.size());
-  std::partial_sort(
-      others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count), others.end());
+  const auto most = others.begin() + std::min(kMost, std::ssize(others));
+  std::partial_sort(others.begin(), most, others.end());
   std::vector<std::size_t> company{seed};
-  for (std::size_t i = 0; i < count; ++i)
-    company.push_back(others[i].second);
+  std::transform(others.begin(), most, std::back_inserter(company), [](const auto& other) {
+    return other.second;
+  });
   return company;
 }
 
