@@ -20,7 +20,7 @@ constexpr int kFewest = 10;            // pixels: six unknowns, and some to judg
 constexpr float kMostLeverage = 8.0F;  // of a pixel's variance, what the paraboloid has out there
 constexpr float kRough = 4.0F;         // in variance: what is left over is more than noise
 constexpr float kSigmas = 3.0F;
-constexpr float kLit = 0.75F;  // of the light expected: less, and the surface ends in the pixel
+constexpr float kLit = 0.8F;  // of the light expected: less, and the surface ends in the pixel
 
 constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 

@@ -18,7 +18,7 @@ constexpr float kBesideWeight = 1e-6F;
 /// And of one deeper than the band: that the object is there needs no saying but at a rim, where a
 /// cell would lack a corner.
 constexpr float kDeepWeight = 1e-9F;
-constexpr float kDeepest = 5.0F;  // times the band's depth
+constexpr float kDeepest = 10.0F;  // times the band's depth
 
 /// Distance of voxels from what a view saw, a row of a block at a time.
 struct Sampler {
