@@ -52,5 +52,25 @@ TEST(Lens, HasNoRayWhereTheModelFoldsBack) {
   EXPECT_TRUE(folding.undistort({0.9, 0.0}).hasNaN());
 }
 
+TEST(Lens, RaysOfAllPixelsAreThoseOfEach) {
+  Lens folding = kLens;  // so much that the corners of the image have no ray
+  folding.distortion[0] = -2.0;
+  folding.focal_px = {700.0, 690.0};
+  for (const Lens& lens : {kLens, folding}) {
+    const auto rays = rays_of(lens);
+    int missing = 0;
+    for (int y = 0; y < lens.height_px; y += 3) {
+      for (int x = 0; x < lens.width_px; x += 3) {
+        const Eigen::Vector2d ray = lens.ray(Eigen::Vector2d(x, y));
+        EXPECT_EQ(rays(x, y).hasNaN(), ray.hasNaN()) << x << ", " << y;
+        if (ray.hasNaN()) ++missing;
+        if (ray.hasNaN() || rays(x, y).hasNaN()) continue;
+        EXPECT_LT((rays(x, y).cast<double>() - ray).norm(), 3e-7) << x << ", " << y;
+      }
+    }
+    EXPECT_EQ(missing > 0, lens.distortion[0] < -1.0);
+  }
+}
+
 }  // namespace
 }  // namespace frangia

@@ -1,13 +1,62 @@
 #include "frangia/rig/lens.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <Eigen/LU>
 
+#include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 
 namespace frangia {
+namespace {
+
+constexpr int kSteps = 20;          // of Newton's method
+constexpr double kNothing = 1e-28;  // squared error that is rounding
+constexpr double kLittle = 1e-20;   // and that is good enough
+constexpr double kFolds = 1e-3;     // least determinant: beyond it the model folds back
+
+/// Normalised points of a row, each coordinate in a row of its own: vector code.
+struct RowOfRays {
+  std::vector<double> x, y, distorted_x, distorted_y;
+};
+
+/// One step of Newton's method for all of them; returns the largest squared error before it.
+[[gnu::target_clones("avx512f", "avx2", "default")]] double step_back(const Lens& lens,
+                                                                      RowOfRays& row) {
+  const auto [k1, k2, p1, p2, k3] = lens.distortion;
+  double* to_x = row.x.data();
+  double* to_y = row.y.data();
+  const double* from_x = row.distorted_x.data();
+  const double* from_y = row.distorted_y.data();
+  const auto count = static_cast<std::ptrdiff_t>(row.x.size());
+  double worst = 0.0;
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const double x = to_x[i];
+    const double y = to_y[i];
+    const double r2 = x * x + y * y;
+    const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+    const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));
+    const double off_x = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x) - from_x[i];
+    const double off_y = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y - from_y[i];
+    const double xx = radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x;
+    const double xy = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y;
+    const double yy = radial + slope * y * y + 6.0 * p1 * y + 2.0 * p2 * x;
+    const double determinant = xx * yy - xy * xy;
+    const double error = off_x * off_x + off_y * off_y;
+    double share = error >= kNothing ? 1.0 / determinant : 0.0;
+    share = determinant > kFolds ? share : 0.0;
+    to_x[i] = x - (yy * off_x - xy * off_y) * share;
+    to_y[i] = y - (xx * off_y - xy * off_x) * share;
+    worst = error > worst ? error : worst;
+  }
+  return worst;
+}
+
+}  // namespace
 
 Eigen::Vector2d Lens::distort(const Eigen::Vector2d& normalised) const {
   const auto& [k1, k2, p1, p2, k3] = distortion;
@@ -36,15 +85,14 @@ Eigen::Matrix2d Lens::distort_jacobian(const Eigen::Vector2d& normalised) const 
 
 Eigen::Vector2d Lens::undistort(const Eigen::Vector2d& distorted) const {
   Eigen::Vector2d guess = distorted;
-  constexpr int kIterations = 20;
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kSteps; ++i) {
     const Eigen::Vector2d error = distort(guess) - distorted;
-    if (error.squaredNorm() < 1e-28) return guess;
+    if (error.squaredNorm() < kNothing) return guess;
     const Eigen::Matrix2d jacobian = distort_jacobian(guess);
-    if (!(jacobian.determinant() > 1e-3)) break;
+    if (!(jacobian.determinant() > kFolds)) break;
     guess -= jacobian.inverse() * error;
   }
-  if ((distort(guess) - distorted).squaredNorm() < 1e-20) return guess;
+  if ((distort(guess) - distorted).squaredNorm() < kLittle) return guess;
   return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -57,10 +105,26 @@ Eigen::Vector2d Lens::ray(const Eigen::Vector2d& pixel) const {
 }
 
 Image<Eigen::Vector2f> rays_of(const Lens& lens) {
-  Image<Eigen::Vector2f> rays(lens.width_px, lens.height_px, Eigen::Vector2f::Zero());
+  Image<Eigen::Vector2f> rays(lens.width_px, lens.height_px, Unfilled{});
+  const auto width = static_cast<std::size_t>(lens.width_px);
+  std::vector<double> distorted_x(width);
+  for (std::size_t x = 0; x < width; ++x) {
+    const auto pixel = static_cast<double>(x);
+    distorted_x[x] = (pixel - lens.principal_point_px.x()) / lens.focal_px.x();
+  }
   parallel_rows(lens.height_px, [&](int y) {
-    for (int x = 0; x < lens.width_px; ++x) {
-      rays(x, y) = lens.ray(Eigen::Vector2d(x, y)).cast<float>();
+    const double distorted_y = (y - lens.principal_point_px.y()) / lens.focal_px.y();
+    const std::vector<double> same_y(width, distorted_y);
+    RowOfRays row{distorted_x, same_y, distorted_x, same_y};
+    double worst = 1.0;
+    for (int step = 0; step < kSteps && worst >= kNothing; ++step)
+      worst = step_back(lens, row);
+    for (std::size_t x = 0; x < width; ++x) {
+      const Eigen::Vector2d ray(row.x[x], row.y[x]);
+      const Eigen::Vector2d wanted(distorted_x[x], distorted_y);
+      const bool found = worst < kNothing || (lens.distort(ray) - wanted).squaredNorm() < kLittle;
+      rays(static_cast<int>(x), y) =
+          found ? Eigen::Vector2f(ray.cast<float>()) : Eigen::Vector2f::Constant(kMissing);
     }
   });
   return rays;

@@ -99,7 +99,7 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
   const Eigen::Matrix3f rotation = (object_from_rig.linear() / band.voxel_mm).cast<float>();
   const Eigen::Vector3f origin = (object_from_rig.translation() / band.voxel_mm).cast<float>();
   constexpr float kLongest = 2.0F;  // at grazing incidence the band along the ray has no end
-  const auto per_voxel = static_cast<float>(1.0 / band.voxel_mm);
+  const auto near = static_cast<float>(band.near_mm / band.voxel_mm);
   const int stride = pixel_stride(view, camera, band);
 
   constexpr std::size_t kRows = 16;
@@ -117,10 +117,8 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
         const Eigen::Vector3f point = origin + rotation * (depth * ray);
         const Eigen::Vector3f along = (rotation * ray).normalized();  // one voxel
         const float cosine = std::max(1.0F / kLongest, quad.distance_mm / (depth * ray.norm()));
-        const float reach = per_voxel / cosine;
-        add_along(keys,
-                  (point - along * (static_cast<float>(band.front_mm) * reach)).array(),
-                  (point + along * (static_cast<float>(band.back_mm) * reach)).array());
+        const float reach = near / cosine;
+        add_along(keys, (point - along * reach).array(), (point + along * reach).array());
       }
     }
     parts[begin / kRows] = keys.take();

@@ -7,7 +7,7 @@
 
 namespace frangia {
 
-/// Keys of all blocks within a view's band, ascending.
+/// Keys of all blocks that hold a corner of a cell near what a view saw, ascending.
 [[nodiscard]] std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
                                                      const CameraRays& camera,
                                                      const Band& band);

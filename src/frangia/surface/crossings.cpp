@@ -34,10 +34,9 @@ using Around = std::array<const DistanceField::Block*, 8>;
 Around blocks_around(const DistanceField& field, const Eigen::Vector3i& place) {
   Around around{};
   for (int i = 0; i < 8; ++i) {
-    const auto found = field.index.find(
+    const std::uint32_t found = field.index.find(
         block_key(place.x() + (i & 1), place.y() + (i >> 1 & 1), place.z() + (i >> 2)));
-    if (found != field.index.end())
-      around[static_cast<std::size_t>(i)] = &field.blocks[found->second];
+    if (found != BlockIndex::kNone) around[static_cast<std::size_t>(i)] = &field.blocks[found];
   }
   return around;
 }
@@ -183,8 +182,8 @@ std::unique_ptr<Found> search(const DistanceField& field, const Eigen::Vector3i&
         crossed_edges(bits, static_cast<std::size_t>(y), static_cast<std::size_t>(z));
     for (int x = 0; x < kEdge; ++x) {
       const std::size_t i = voxel_at(x, y, z);
-      found->block->first_vertex[i] = found->vertices;
-      found->block->first_crossing[i] = static_cast<std::uint32_t>(found->points_mm.size());
+      found->block->vertices[i] = static_cast<std::uint16_t>(found->vertices);
+      found->block->crossings[i] = static_cast<std::uint16_t>(found->points_mm.size());
       if ((cells >> x & 1U) != 0) {
         found->block->inside[i] = pattern_at(corners, x, y, z, kLargestJump * edge_mm);
         found->vertices += cell_loops()[found->block->inside[i]].count;
@@ -205,9 +204,9 @@ Crossings::Around Crossings::around(std::size_t block) const {
   for (int i = 0; i < 27; ++i) {
     const Eigen::Vector3i place =
         places[block] + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    const auto found = index.find(block_key(place));
-    if (found != index.end())
-      around.blocks[static_cast<std::size_t>(i)] = blocks[found->second].get();
+    const std::uint32_t found = index.find(block_key(place));
+    if (found != BlockIndex::kNone)
+      around.blocks[static_cast<std::size_t>(i)] = blocks[found].get();
   }
   return around;
 }
@@ -216,7 +215,7 @@ std::uint32_t Crossings::Around::crossing(const Eigen::Vector3i& voxel, int axis
   const Address address = at(voxel);
   const unsigned lower =
       address.block->axes[address.voxel] & ((1U << static_cast<unsigned>(axis)) - 1U);
-  return address.block->first_crossing[address.voxel] +
+  return address.block->first_crossing(address.voxel) +
          static_cast<std::uint32_t>(std::popcount(lower));
 }
 
@@ -231,12 +230,9 @@ Crossings find_crossings(const DistanceField& field) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!parts[i]) continue;
     Found& part = *parts[i];
-    const auto crossings = static_cast<std::uint32_t>(all.points_mm.size());
-    for (std::uint32_t& first : part.block->first_crossing)
-      first += crossings;
-    for (std::uint32_t& first : part.block->first_vertex)
-      first += static_cast<std::uint32_t>(all.vertices);
-    all.index.emplace(block_key(field.places[i]), static_cast<std::uint32_t>(all.blocks.size()));
+    part.block->crossings_before = static_cast<std::uint32_t>(all.points_mm.size());
+    part.block->vertices_before = static_cast<std::uint32_t>(all.vertices);
+    all.index.add(block_key(field.places[i]), static_cast<std::uint32_t>(all.blocks.size()));
     all.places.push_back(field.places[i]);
     all.blocks.push_back(std::move(part.block));
     all.points_mm.insert(all.points_mm.end(), part.points_mm.begin(), part.points_mm.end());

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "frangia/surface/block_index.h"
 #include "frangia/surface/distance_field.h"
 
 namespace frangia {
@@ -24,17 +24,26 @@ struct Crossings {
     std::array<std::uint8_t, DistanceField::kVoxels> inside{};  ///< sign pattern, for `cell_loops`
     std::array<std::uint8_t, DistanceField::kVoxels>
         axes{};  ///< bit a: the edge along a is crossed
-    std::array<std::uint32_t, DistanceField::kVoxels> first_crossing{};
-    std::array<std::uint32_t, DistanceField::kVoxels> first_vertex{};
+    std::array<std::uint16_t, DistanceField::kVoxels> crossings{};  ///< of the block, before this
+    std::array<std::uint16_t, DistanceField::kVoxels> vertices{};   ///< of the block, before this
+    std::uint32_t crossings_before = 0;                             ///< in the blocks before
+    std::uint32_t vertices_before = 0;
+
+    [[nodiscard]] std::uint32_t first_crossing(std::size_t voxel) const {
+      return crossings_before + crossings[voxel];
+    }
+    [[nodiscard]] std::uint32_t first_vertex(std::size_t voxel) const {
+      return vertices_before + vertices[voxel];
+    }
   };
 
   double voxel_mm = 0.0;
   std::vector<Eigen::Vector3i> places;
   std::vector<std::unique_ptr<const Block>> blocks;
-  std::unordered_map<std::uint64_t, std::uint32_t> index;  ///< of `block_key(place)`
-  std::vector<Eigen::Vector3f> points_mm;                  ///< one a crossing
-  std::vector<std::int8_t> outward;  ///< axis + 1, negative when outside is at the lower end
-  std::size_t vertices = 0;          ///< one a loop
+  BlockIndex index;
+  std::vector<Eigen::Vector3f> points_mm;  ///< one a crossing
+  std::vector<std::int8_t> outward;        ///< axis + 1, negative when outside is at the lower end
+  std::size_t vertices = 0;                ///< one a loop
 
   /// A voxel's block and its place in there.
   struct Address {

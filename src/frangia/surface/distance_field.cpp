@@ -213,25 +213,25 @@ void add_view(DistanceField& field,
               const CameraRays& camera,
               const Band& band) {
   const std::vector<std::uint64_t> keys = blocks_near(view, camera, band);
-  std::vector<std::uint32_t> touched;
-  touched.reserve(keys.size());
-  for (const std::uint64_t key : keys) {
-    const auto [entry, fresh] =
-        field.index.try_emplace(key, static_cast<std::uint32_t>(field.blocks.size()));
-    if (fresh) {
-      field.places.push_back(place_of(key));
-      field.blocks.emplace_back();
-    }
-    touched.push_back(entry->second);
+  std::vector<std::uint32_t> touched(keys.size());
+  const std::size_t known = field.blocks.size();
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    touched[i] = field.index.find(keys[i]);
+    if (touched[i] != BlockIndex::kNone) continue;
+    touched[i] = static_cast<std::uint32_t>(field.blocks.size());
+    field.index.add(keys[i], touched[i]);
+    field.places.push_back(place_of(keys[i]));
+    field.blocks.add();
   }
   const Sampler sampler(view, camera.lens, band);
   const Eigen::Matrix3f steps = (view.rig_from_object.linear() * band.voxel_mm).cast<float>();
   parallel_chunks(touched.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      DistanceField::Block& block = field.blocks[touched[i]];
+      if (touched[i] >= known) block.fill({0.0F, 0.0F});
       const Eigen::Vector3d corner =
           field.places[touched[i]].cast<double>() * (kEdge * band.voxel_mm);
-      add_block(
-          field.blocks[touched[i]], sampler, (view.rig_from_object * corner).cast<float>(), steps);
+      add_block(block, sampler, (view.rig_from_object * corner).cast<float>(), steps);
     }
   });
 }

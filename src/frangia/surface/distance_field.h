@@ -3,12 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "frangia/core/pixel_allocator.h"
+#include "frangia/surface/block_index.h"
 #include "frangia/views/local_planes.h"
 
 namespace frangia {
@@ -19,6 +19,7 @@ struct Band {
   double front_mm = 0.0;  ///< towards the camera
   double back_mm = 0.0;   ///< into the object
   double guess_mm = 0.0;  ///< a view's word on what lies deeper than this counts little
+  double near_mm = 0.0;   ///< blocks are made where the surface may be, no farther than this
 };
 
 /// Signed distance to the surface in the object frame, positive outside, averaged over the views.
@@ -30,26 +31,38 @@ struct DistanceField {
   static constexpr std::size_t kVoxels = std::size_t{kEdge} * kEdge * kEdge;
 
   struct Voxel {
-    float weighted_mm = 0.0F;  ///< sum of weight * distance
-    float weight = 0.0F;       ///< 0 where no view has spoken
+    float weighted_mm;  ///< sum of weight * distance
+    float weight;       ///< 0 where no view has spoken
   };
   using Block = std::array<Voxel, kVoxels>;  ///< x runs fastest
 
+  /// Blocks that stay where they are while others are added, on large pages.
+  class Blocks {
+   public:
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] Block& operator[](std::size_t i) { return parts_[i / kPart][i % kPart]; }
+    [[nodiscard]] const Block& operator[](std::size_t i) const {
+      return parts_[i / kPart][i % kPart];
+    }
+    /// Adds one whose voxels hold nothing yet, not even zeros.
+    void add() {
+      if (size_ % kPart == 0) parts_.emplace_back(kPart);
+      ++size_;
+    }
+
+   private:
+    static constexpr std::size_t kPart = 1024;
+    using Part = std::vector<Block, PixelAllocator<Block>>;
+    std::vector<Part> parts_;
+    std::size_t size_ = 0;
+  };
+
   double voxel_mm = 0.0;
   std::vector<Eigen::Vector3i> places;  ///< of each block, in blocks
-  std::deque<Block> blocks;
-  std::unordered_map<std::uint64_t, std::uint32_t> index;  ///< of `block_key(place)`
+  Blocks blocks;
+  BlockIndex index;
 };
-
-/// A block's place as one number; places run from -2^20 to 2^20 - 1.
-[[nodiscard]] constexpr std::uint64_t block_key(int x, int y, int z) {
-  constexpr int kOffset = 1 << 20;
-  return (static_cast<std::uint64_t>(z + kOffset) << 42) |
-         (static_cast<std::uint64_t>(y + kOffset) << 21) | static_cast<std::uint64_t>(x + kOffset);
-}
-[[nodiscard]] inline std::uint64_t block_key(const Eigen::Vector3i& place) {
-  return block_key(place.x(), place.y(), place.z());
-}
 
 /// Adds what one view saw to the blocks within its band, making those that are new.
 ///

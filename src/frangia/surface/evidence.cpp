@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "frangia/core/parallel.h"
@@ -23,11 +24,32 @@ struct Questioner {
   float near_mm;
   float through_mm;
 
-  void ask(Evidence& evidence, const Eigen::Vector3f& point_mm, int outward) const {
-    const Eigen::Vector3f p = rotation * point_mm + translation;
-    float u = 0.0F;
-    float v = 0.0F;
-    lens.project(p.x(), p.y(), p.z(), u, v);
+  /// Some points, as the view sees them: each figure in a row of its own, for vector code.
+  struct Batch {
+    static constexpr std::size_t kMost = 64;
+    std::array<float, kMost> x, y, z, u, v;
+  };
+
+  void project(std::span<const Eigen::Vector3f> points_mm, Batch& batch) const {
+    const FastLens how = lens;
+    const Eigen::Matrix3f r = rotation;
+    const Eigen::Vector3f t = translation;
+    const float* point = points_mm.front().data();
+    const auto count = static_cast<std::ptrdiff_t>(points_mm.size());
+    Batch& to = batch;
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const float x = point[3 * i];
+      const float y = point[3 * i + 1];
+      const float z = point[3 * i + 2];
+      to.x[k] = r(0, 0) * x + r(0, 1) * y + r(0, 2) * z + t.x();
+      to.y[k] = r(1, 0) * x + r(1, 1) * y + r(1, 2) * z + t.y();
+      to.z[k] = r(2, 0) * x + r(2, 1) * y + r(2, 2) * z + t.z();
+      how.project(to.x[k], to.y[k], to.z[k], to.u[k], to.v[k]);
+    }
+  }
+
+  void ask(Evidence& evidence, const Eigen::Vector3f& p, float u, float v, int outward) const {
     if (!(p.z() > 0.0F)) return;
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
     if (quad == nullptr) {
@@ -99,12 +121,16 @@ struct Questioner {
 
   /// The face that slopes as the view says, or a new one.
   static Evidence::Face& face_for(Evidence& evidence, const Eigen::Vector3f& normal) {
+    const Evidence::Face& main = evidence.faces[0];
+    const float along = normal.dot(main.normal);
+    if (main.views == 0 ||
+        (along > 0.0F && along * along >= kAgree * kAgree * main.normal.squaredNorm())) {
+      return evidence.faces[0];
+    }
     const auto agreement = [&](const Evidence::Face& face) {
       return face.views == 0 ? kAgree : normal.dot(face.normal) / face.normal.norm();
     };
-    const float first = agreement(evidence.faces[0]);
-    if (first >= kAgree) return evidence.faces[0];
-    return evidence.faces[agreement(evidence.faces[1]) > first ? 1 : 0];
+    return evidence.faces[agreement(evidence.faces[1]) > agreement(main) ? 1 : 0];
   }
 
   /// What a view says about a point of the rig frame.
@@ -151,6 +177,17 @@ struct Questioner {
 
 }  // namespace
 
+Evidences no_evidence(std::size_t count) {
+  const Evidence::Face nothing{
+      0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, Eigen::Vector3f::Zero(), 0};
+  Evidences evidence(count);
+  parallel_chunks(count, 16384, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      evidence[i] = {{nothing, nothing}, 0.0F, 0.0F};
+  });
+  return evidence;
+}
+
 float correlation(float distance_mm, float spacing_mm) {
   constexpr float kWide = 1.6F;  // pixels: the best paraboloid of 5 x 5 spreads as far as that
   const float x = distance_mm / (kWide * spacing_mm);
@@ -159,7 +196,7 @@ float correlation(float distance_mm, float spacing_mm) {
   return 1.0F - 1.5F * x * x + 0.75F * x * x * x;
 }
 
-void add_evidence(std::vector<Evidence>& evidence,
+void add_evidence(std::span<Evidence> evidence,
                   const Crossings& crossings,
                   const LocalPlanes& view,
                   const CameraRays& camera,
@@ -172,18 +209,27 @@ void add_evidence(std::vector<Evidence>& evidence,
                               static_cast<float>(options.near_mm),
                               static_cast<float>(options.through_mm)};
   parallel_chunks(evidence.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      questioner.ask(evidence[i], crossings.points_mm[i], crossings.outward[i]);
+    Questioner::Batch batch;
+    for (std::size_t from = begin; from < end; from += Questioner::Batch::kMost) {
+      const std::size_t count = std::min(Questioner::Batch::kMost, end - from);
+      questioner.project(std::span(crossings.points_mm).subspan(from, count), batch);
+      for (std::size_t i = 0; i < count; ++i) {
+        questioner.ask(evidence[from + i],
+                       {batch.x[i], batch.y[i], batch.z[i]},
+                       batch.u[i],
+                       batch.v[i],
+                       crossings.outward[from + i]);
+      }
     }
   });
 }
 
-void add_disagreement(std::vector<Evidence>& evidence, const Crossings& crossings) {
+void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings) {
   parallel_chunks(crossings.blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
-      const std::size_t first = crossings.blocks[block]->first_crossing.front();
+      const std::size_t first = crossings.blocks[block]->crossings_before;
       const std::size_t last = block + 1 < crossings.blocks.size()
-                                   ? crossings.blocks[block + 1]->first_crossing.front()
+                                   ? crossings.blocks[block + 1]->crossings_before
                                    : evidence.size();
       float excess = 0.0F;  // of the scatter between views over what their noise explains
       float freedom = 0.0F;

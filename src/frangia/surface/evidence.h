@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "frangia/core/pixel_allocator.h"
 #include "frangia/surface/crossings.h"
 #include "frangia/views/local_planes.h"
 
@@ -17,24 +20,23 @@ namespace frangia {
 struct Evidence {
   /// One plane near the point, from the views that agree on how it slopes.
   struct Face {
-    float weight = 0.0F;           ///< sum of w
-    float weight_squared = 0.0F;   ///< sum of w^2
-    float offset = 0.0F;           ///< sum of w d, the point's distance in front
-    float offset_squared = 0.0F;   ///< sum of w d^2
-    float noise = 0.0F;            ///< sum of w v, v the variance of d
-    float noise_squared = 0.0F;    ///< sum of w^2 v
-    float lateral_squared = 0.0F;  ///< sum of w^2 l, l the variance of d by what pixels are off
-    float spacing = 0.0F;          ///< sum of w times the distance of pixels
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sum of w n
-    std::uint16_t views = 0;
+    float weight;            ///< sum of w
+    float weight_squared;    ///< sum of w^2
+    float offset;            ///< sum of w d, the point's distance in front
+    float offset_squared;    ///< sum of w d^2
+    float noise;             ///< sum of w v, v the variance of d
+    float noise_squared;     ///< sum of w^2 v
+    float lateral_squared;   ///< sum of w^2 l, l the variance of d by what pixels are off
+    float spacing;           ///< sum of w times the distance of pixels
+    Eigen::Vector3f normal;  ///< sum of w n
+    std::uint16_t views;
 
     [[nodiscard]] float distance_mm() const { return offset / weight; }
-    [[nodiscard]] float spacing_mm() const { return spacing / weight; }
   };
 
   std::array<Face, 2> faces;  ///< two where the point is near an edge of the object
-  float against = 0.0F;       ///< sum of 1/sigma^2 over the views that see through
-  float common = 0.0F;        ///< variance that does not average away between neighbouring points
+  float against;              ///< sum of 1/sigma^2 over the views that see through
+  float common;               ///< variance that does not average away between neighbouring points
 
   [[nodiscard]] bool holds() const { return faces[0].weight + faces[1].weight > against; }
   /// The face that most weight speaks for.
@@ -46,6 +48,11 @@ struct Evidence {
   }
 };
 
+using Evidences = std::vector<Evidence, PixelAllocator<Evidence>>;
+
+/// Of points that no view has spoken of yet.
+[[nodiscard]] Evidences no_evidence(std::size_t count);
+
 /// How much the mean over pixels at one point has to do with the mean at another: linear
 /// interpolation spreads a pixel over a triangle, whose autocorrelation is the cubic spline.
 [[nodiscard]] float correlation(float distance_mm, float spacing_mm);
@@ -56,7 +63,7 @@ struct EvidenceOptions {
 };
 
 /// Asks one view about every crossing. It speaks against one only with clear sight all around.
-void add_evidence(std::vector<Evidence>& evidence,
+void add_evidence(std::span<Evidence> evidence,
                   const Crossings& crossings,
                   const LocalPlanes& view,
                   const CameraRays& camera,
@@ -67,6 +74,6 @@ void add_evidence(std::vector<Evidence>& evidence,
 /// within it. It is not less than what places in the picture are off by.
 ///
 /// source   random effects, DerSimonian & Laird 1986
-void add_disagreement(std::vector<Evidence>& evidence, const Crossings& crossings);
+void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings);
 
 }  // namespace frangia

@@ -2,8 +2,49 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace frangia {
+namespace {
+
+/// A few vertices, known by their numbers.
+class VertexSet {
+ public:
+  /// Adds a vertex; false when it was there.
+  bool add(std::uint32_t vertex) {
+    if (2 * (count_ + 1) > slots_.size()) grow();
+    std::uint32_t& slot = slot_of(vertex);
+    if (slot == vertex) return false;
+    slot = vertex;
+    ++count_;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~0U;
+
+  [[nodiscard]] std::uint32_t& slot_of(std::uint32_t vertex) {
+    const std::size_t mask = slots_.size() - 1;
+    constexpr std::uint32_t kScramble = 0x9e3779b9U;
+    std::size_t i = (vertex * kScramble >> 16U) & mask;
+    while (slots_[i] != kNone && slots_[i] != vertex)
+      i = (i + 1) & mask;
+    return slots_[i];
+  }
+  void grow() {
+    constexpr std::size_t kFirst = 256;
+    std::vector<std::uint32_t> before(std::max(kFirst, 2 * slots_.size()), kNone);
+    std::swap(before, slots_);
+    for (const std::uint32_t vertex : before) {
+      if (vertex != kNone) slot_of(vertex) = vertex;
+    }
+  }
+
+  std::vector<std::uint32_t> slots_;  ///< a power of two, at most half of them taken
+  std::size_t count_ = 0;
+};
+
+}  // namespace
 
 Fans::Fans(const Mesh& mesh) : first_(mesh.vertices_mm.size() + 1, 0) {
   for (const auto& t : mesh.triangles) {
@@ -23,6 +64,8 @@ Fans::Fans(const Mesh& mesh) : first_(mesh.vertices_mm.size() + 1, 0) {
 std::vector<std::uint32_t> vertices_around(
     const Mesh& mesh, const Fans& fans, std::uint32_t vertex, int rings, float reach_mm) {
   std::vector<std::uint32_t> found{vertex};
+  VertexSet known;
+  known.add(vertex);
   std::size_t i = 0;
   for (int ring = 0; ring < rings; ++ring) {
     const std::size_t end = found.size();
@@ -30,8 +73,7 @@ std::vector<std::uint32_t> vertices_around(
       for (const std::uint32_t t : fans.of(found[i])) {
         for (const std::uint32_t v : mesh.triangles[t]) {
           const float square = (mesh.vertices_mm[v] - mesh.vertices_mm[vertex]).squaredNorm();
-          const bool near = square < reach_mm * reach_mm;
-          if (near && std::find(found.begin(), found.end(), v) == found.end()) found.push_back(v);
+          if (square < reach_mm * reach_mm && known.add(v)) found.push_back(v);
         }
       }
     }

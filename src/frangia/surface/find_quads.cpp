@@ -53,22 +53,24 @@ void add_quads(std::vector<Quad>& quads,
     Quad quad;
     quad.voxel =
         crossings.places[block] * DistanceField::kEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
-    quad.crossing = cells.first_crossing[at];
+    quad.crossing = cells.first_crossing(at);
     for (quad.axis = 0; quad.axis < 3; ++quad.axis) {
       if ((cells.axes[at] >> quad.axis & 1) == 0) continue;
       bool whole = evidence[quad.crossing].holds();
+      unsigned pinched = 0;
       for (std::size_t corner = 0; whole && corner < 4; ++corner) {
         const auto cell = around.at(cell_of(quad, corner));
         whole = cell.block != nullptr && cell.block->inside[cell.voxel] != 0;
         if (!whole) break;
         const int edge = 4 * quad.axis - kRing[corner][0] - 2 * kRing[corner][1];
         const CellLoops& shape = cell_loops()[cell.block->inside[cell.voxel]];
-        quad.ring[corner] = cell.block->first_vertex[cell.voxel] +
+        quad.ring[corner] = cell.block->first_vertex(cell.voxel) +
                             shape.loop_of_edge[static_cast<std::size_t>(edge)];
+        pinched |= shape.pinched_faces;
       }
       if (whole) {
         quad.pinched = 0;
-        for (std::size_t side = 0; side < 4; ++side) {
+        for (std::size_t side = 0; pinched != 0 && side < 4; ++side) {
           if (is_pinched(around, quad, side, crossings.outward[quad.crossing] > 0)) {
             quad.pinched |= 1U << side;
           }
@@ -90,7 +92,7 @@ Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
   return cell_of(quad, side).cwiseMax(cell_of(quad, side + 1));
 }
 
-std::vector<Quad> find_quads(const Crossings& crossings, std::span<const Evidence> evidence) {
+Quads find_quads(const Crossings& crossings, std::span<const Evidence> evidence) {
   constexpr std::size_t kChunk = 64;
   std::vector<std::vector<Quad>> parts((crossings.blocks.size() + kChunk - 1) / kChunk);
   parallel_chunks(crossings.blocks.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -101,7 +103,7 @@ std::vector<Quad> find_quads(const Crossings& crossings, std::span<const Evidenc
   std::vector<std::size_t> starts{0};
   for (const auto& part : parts)
     starts.push_back(starts.back() + part.size());
-  std::vector<Quad> quads(starts.back());
+  Quads quads(starts.back());
   parallel_chunks(parts.size(), 1, [&](std::size_t begin, std::size_t) {
     std::copy(parts[begin].begin(),
               parts[begin].end(),

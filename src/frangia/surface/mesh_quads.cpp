@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
+#include "frangia/core/pixel_allocator.h"
 #include "frangia/surface/collapse_slivers.h"
 #include "frangia/surface/find_quads.h"
 #include "frangia/surface/flip_caps.h"
@@ -23,12 +24,13 @@ constexpr float kSliver = 0.1F;  // voxels: shorter edges are not worth their tr
 
 /// How a quad reads when cut between corners `from` and `from + 2`.
 struct Cut {
-  std::array<Mesh::Triangle, 2> triangles{};
-  bool upright = true;   ///< neither triangle faces inward
-  bool folded = false;   ///< one does, and is more than a sliver
-  float away_mm = 0.0F;  ///< of the cut's middle from the surface at the crossing
-  float length_mm = 0.0F;
+  std::array<Mesh::Triangle, 2> triangles;
+  bool upright;   ///< neither triangle faces inward
+  bool folded;    ///< one does, and is more than a sliver
+  float away_mm;  ///< of the cut's middle from the surface at the crossing
+  float length_mm;
 };
+using Cuts = std::vector<Cut, PixelAllocator<Cut>>;
 
 /// The surface at a crossing: its plane, and which way out is along the grid's edge.
 struct Surface {
@@ -54,6 +56,8 @@ Cut cut_quad(const Mesh& mesh,
   const Eigen::Vector3f& one = mesh.vertices_mm[ring[from]];
   const Eigen::Vector3f& other = mesh.vertices_mm[ring[(from + 2) % 4]];
   Cut cut;
+  cut.upright = true;
+  cut.folded = false;
   cut.length_mm = (one - other).norm();
   cut.away_mm = surface.plane.absDistance(0.5F * (one + other));
   for (std::size_t half = 0; half < 2; ++half) {
@@ -85,11 +89,11 @@ Cut best_cut(const Mesh& mesh, const std::array<std::uint32_t, 4>& ring, const S
 }
 
 /// Cuts all quads but pinched ones, and tells which of them fold whatever the cut.
-std::vector<Cut> cut_quads(const Mesh& mesh,
-                           const Crossings& crossings,
-                           std::span<const Evidence> evidence,
-                           std::span<const Quad> quads) {
-  std::vector<Cut> cuts(quads.size());
+Cuts cut_quads(const Mesh& mesh,
+               const Crossings& crossings,
+               std::span<const Evidence> evidence,
+               std::span<const Quad> quads) {
+  Cuts cuts(quads.size());
   parallel_chunks(quads.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       auto ring = quads[i].ring;
@@ -155,9 +159,9 @@ Mesh mesh_quads(PlacedVertices vertices,
                 const Crossings& crossings,
                 std::span<const Evidence> evidence) {
   Mesh& mesh = vertices.mesh;
-  const std::vector<Quad> quads = find_quads(crossings, evidence);
+  const Quads quads = find_quads(crossings, evidence);
 
-  std::vector<Cut> cuts = cut_quads(mesh, crossings, evidence, quads);
+  Cuts cuts = cut_quads(mesh, crossings, evidence, quads);
 
   constexpr int kRounds = 3;  // pulling one quad's vertices back may fold the next
   for (int round = 0; round < kRounds; ++round) {

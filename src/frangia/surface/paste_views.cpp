@@ -16,6 +16,7 @@
 #include "frangia/surface/tidy_mesh.h"
 #include "frangia/surface/voxel_budget.h"
 #include "frangia/views/local_planes.h"
+#include "frangia/views/thin_out.h"
 
 namespace frangia {
 namespace {
@@ -32,16 +33,25 @@ double choose_voxel(const Sampling& sampling, const PasteOptions& options, const
   return voxel_mm;
 }
 
-/// Calls `use` with each view in turn; one is in memory at a time.
+/// Calls `use` with every `step`-th pixel of each view in turn; one is in memory at a time.
 void for_each_view(const ViewStore& views,
+                   int step,
                    const CameraRays& camera,
                    const LocalPlanesOptions& how,
                    const std::function<void(const LocalPlanes&)>& use) {
   LocalPlanes planes;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    planes = local_planes(views.load(i), camera, how, std::move(planes));
+    View view = views.load(i);
+    if (step > 1) view = thin_out(view, step);
+    planes = local_planes(view, camera, how, std::move(planes));
     use(planes);
   }
+}
+
+/// The field only tells where to look: pixels closer together than its voxels tell it no more.
+int field_step(const Sampling& sampling, double voxel_mm) {
+  constexpr double kCoarsest = 1.2;  // voxels between pixels
+  return std::max(1, static_cast<int>(kCoarsest * voxel_mm / sampling.spacing_mm));
 }
 
 }  // namespace
@@ -58,18 +68,24 @@ Mesh paste_views(const ViewStore& views,
   const VoxelBudget budget = voxel_budget(voxel_mm, options.max_memory_mb);
   budget.check(sampling, views.size());
   const double noise_mm = 4.0 * sampling.sigma_mm;
-  const Band band{
-      voxel_mm, 3.0 * voxel_mm + noise_mm, 2.0 * voxel_mm + noise_mm, 0.5 * voxel_mm + noise_mm};
-  const int reach_px = static_cast<int>(std::ceil(2.0 * voxel_mm / sampling.spacing_mm));
-  const double step = 0.4 / static_cast<double>(views.size());
+  const double near_mm = 0.75 * voxel_mm + noise_mm;
+  const Band band{voxel_mm,
+                  3.0 * voxel_mm + noise_mm,
+                  2.0 * voxel_mm + noise_mm,
+                  0.5 * voxel_mm + noise_mm,
+                  near_mm};
+  const double progress = 0.4 / static_cast<double>(views.size());
   double done = 0.0;
 
+  const int step = field_step(sampling, voxel_mm);
+  const CameraRays thin_rays(thin_out(camera, step));
+  const int reach_px = static_cast<int>(std::ceil(2.0 * voxel_mm / (step * sampling.spacing_mm)));
   DistanceField field;
   field.voxel_mm = voxel_mm;
-  for_each_view(views, rays, {.reach_px = reach_px}, [&](const LocalPlanes& view) {
-    add_view(field, view, rays, band);
+  for_each_view(views, step, thin_rays, {.reach_px = reach_px}, [&](const LocalPlanes& view) {
+    add_view(field, view, thin_rays, band);
     budget.check(static_cast<double>(field.blocks.size()));
-    run.report(done += step);
+    run.report(done += progress);
   });
 
   require(!field.blocks.empty(),
@@ -77,11 +93,10 @@ Mesh paste_views(const ViewStore& views,
   const Crossings crossings = find_crossings(field);
   field = {};
 
-  std::vector<Evidence> evidence(crossings.points_mm.size());
-  for_each_view(views, rays, {.widen = true}, [&](const LocalPlanes& view) {
-    add_evidence(
-        evidence, crossings, view, rays, {0.75 * voxel_mm + noise_mm, 3.0 * voxel_mm + noise_mm});
-    run.report(done += step);
+  Evidences evidence = no_evidence(crossings.points_mm.size());
+  for_each_view(views, 1, rays, {.widen = true}, [&](const LocalPlanes& view) {
+    add_evidence(evidence, crossings, view, rays, {near_mm, band.front_mm});
+    run.report(done += progress);
   });
   add_disagreement(evidence, crossings);
   Mesh mesh = mesh_quads(place_vertices(crossings, evidence), crossings, evidence);

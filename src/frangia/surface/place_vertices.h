@@ -14,7 +14,6 @@ struct PlacedVertices {
   Mesh mesh;
   std::vector<Eigen::Vector3f> within_mm;  ///< where each would be if it had to stay in its cell
   std::vector<std::uint8_t> sharp;         ///< 1 for a vertex on an edge or a corner of the object
-  std::vector<std::uint8_t> flat;  ///< 1 for a vertex on one plane, 0 on an edge or a corner
 };
 
 /// One vertex for each loop of each cell, where the planes through the loop's crossings meet.

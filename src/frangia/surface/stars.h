@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "frangia/core/parallel.h"
 #include "frangia/surface/mesh.h"
 
 namespace frangia {
@@ -20,14 +22,30 @@ class Stars {
 
   Stars(const Mesh& mesh, const std::vector<Edge>& edges) : place_(mesh.vertices_mm.size(), kNone) {
     std::uint32_t count = 0;
-    for (const auto& [a, b] : edges) {
-      if (place_[a] == kNone) place_[a] = count++;
-      if (place_[b] == kNone) place_[b] = count++;
+    std::vector<std::uint64_t> marks((place_.size() + 63) / 64, 0);  // fit the processor's cache
+    for (const auto& edge : edges) {
+      for (const std::uint32_t v : {edge.first, edge.second}) {
+        if (place_[v] != kNone) continue;
+        place_[v] = count++;
+        marks[v / 64] |= std::uint64_t{1} << (v % 64);
+      }
     }
+    const auto is_marked = [&](std::uint32_t v) { return (marks[v / 64] >> (v % 64) & 1U) != 0; };
+    constexpr std::size_t kChunk = 65536;
+    std::vector<std::vector<std::uint32_t>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
+    parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        if (is_marked(a) || is_marked(b) || is_marked(c))
+          parts[begin / kChunk].push_back(static_cast<std::uint32_t>(t));
+      }
+    });
     triangles_.resize(count);
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      for (const std::uint32_t v : mesh.triangles[t]) {
-        if (place_[v] != kNone) triangles_[place_[v]].push_back(t);
+    for (const auto& part : parts) {
+      for (const std::uint32_t t : part) {
+        for (const std::uint32_t v : mesh.triangles[t]) {
+          if (place_[v] != kNone) triangles_[place_[v]].push_back(t);
+        }
       }
     }
   }

@@ -68,9 +68,9 @@ void drop_small_parts(Mesh& mesh, std::size_t min_triangles) {
   std::vector<std::uint32_t> sizes(mesh.vertices_mm.size(), 0);
   for (const auto& t : mesh.triangles)
     ++sizes[parts.find(t[0])];
-  const auto small = [&](const Mesh::Triangle& t) {
-    return sizes[parts.find(t[0])] < min_triangles;
-  };
+  const auto is_small = [&](std::uint32_t size) { return size != 0 && size < min_triangles; };
+  if (std::none_of(sizes.begin(), sizes.end(), is_small)) return;
+  const auto small = [&](const Mesh::Triangle& t) { return is_small(sizes[parts.find(t[0])]); };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (small(mesh.triangles[i])) continue;

@@ -9,18 +9,19 @@
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/distance_field.h"
 #include "frangia/surface/evidence.h"
+#include "frangia/surface/facets.h"
 
 namespace frangia {
 namespace {
 
-/// Measured on a sphere: half of the blocks are crossed, 64 times each, and a crossing makes two
-/// triangles and a vertex, which are copied once.
+/// Measured on a sphere: of the blocks this share is crossed, 64 times each, and a crossing makes
+/// two triangles and a vertex, which are copied once.
 constexpr double kBytesPerBlock =
     sizeof(DistanceField::Block) +
-    0.53 * (sizeof(Crossings::Block) + 64.0 * (sizeof(Evidence) + 170.0));
+    0.63 * (sizeof(Crossings::Block) + 64.0 * (sizeof(Evidence) + sizeof(Facet) + 170.0));
 
-/// Blocks for each that the surface itself would fill: the band reaches into the neighbours.
-constexpr double kBlocksPerFlatOne = 2.8;
+/// Blocks for each that the surface of one view would fill: they reach into the neighbours.
+constexpr double kBlocksPerFlatOne = 1.8;
 
 }  // namespace
 

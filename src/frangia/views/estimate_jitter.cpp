@@ -5,13 +5,15 @@
 #include <cstddef>
 #include <vector>
 
+#include "frangia/core/parallel.h"
 #include "frangia/views/fit_windows.h"
 
 namespace frangia {
 namespace {
 
 constexpr int kRadius = 2;
-constexpr int kEvery = 6;           // rows are looked at
+constexpr int kEvery = 6;           // rows are looked at, of an image that has few
+constexpr int kEnough = 100;        // rows of one that has many
 constexpr std::size_t kFew = 200;   // windows tell too little
 constexpr float kMost_px = 0.5F;    // beyond its own edge no pixel looks
 constexpr float kSteepest = 0.25F;  // the share of windows that is looked at
@@ -22,18 +24,29 @@ struct Slope {
   float jitter;     ///< excess of the scatter over noise^2, over slope^2
 };
 
-std::vector<Slope> slopes_of(const Image<float>& image, const Image<float>& noise) {
+std::vector<Slope> slopes_of_row(const Image<float>& image, const Image<float>& noise, int y) {
   std::vector<Slope> slopes;
-  for (int y = kRadius; y + kRadius < image.height(); y += kEvery) {
-    const WindowFits fits = fit_windows(image, kRadius, y, 1);
-    for (int x = 0; x < image.width(); ++x) {
-      const WindowFit fit = fits.at(x, 0);
-      const float expected = noise(x, y) * noise(x, y);
-      const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
-      if (!(fit.rest >= 0.0F && square > 0.0F && expected > 0.0F)) continue;
-      slopes.push_back({square / expected, (fit.rest - expected) / square});
-    }
+  const WindowFits fits = fit_windows(image, kRadius, y, 1);
+  for (int x = 0; x < image.width(); ++x) {
+    const WindowFit fit = fits.at(x, 0);
+    const float expected = noise(x, y) * noise(x, y);
+    const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
+    if (!(fit.rest >= 0.0F && square > 0.0F && expected > 0.0F)) continue;
+    slopes.push_back({square / expected, (fit.rest - expected) / square});
   }
+  return slopes;
+}
+
+std::vector<Slope> slopes_of(const Image<float>& image, const Image<float>& noise) {
+  const int every = std::max(kEvery, image.height() / kEnough);
+  const int rows = std::max(0, image.height() - 2 * kRadius + every - 1) / every;
+  std::vector<std::vector<Slope>> parts(static_cast<std::size_t>(rows));
+  parallel_rows(rows, [&](int row) {
+    parts[static_cast<std::size_t>(row)] = slopes_of_row(image, noise, kRadius + row * every);
+  });
+  std::vector<Slope> slopes;
+  for (const auto& part : parts)
+    slopes.insert(slopes.end(), part.begin(), part.end());
   return slopes;
 }
 

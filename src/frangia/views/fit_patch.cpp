@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <Eigen/Cholesky>
 
@@ -14,53 +15,88 @@ using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
 constexpr int kRadius = kPatchRadius;
 constexpr int kSide = 2 * kRadius + 1;
-constexpr int kFewest = 12;            // pixels: six unknowns and as many to judge them by
+constexpr std::size_t kPixels = kSide * kSide;
+constexpr std::size_t kFewest = 12;    // pixels: six unknowns and as many to judge them by
 constexpr float kMostVariance = 0.8F;  // less than that is not worth it
 constexpr PatchFit kNone{kNoFit, kMissing};
 
 /// The pixels about one, less its value: small numbers keep their digits.
-using Patch = std::array<float, kSide * kSide>;
+struct Patch {
+  std::array<float, kPixels> off{};   ///< 0 where missing
+  std::array<float, kPixels> seen{};  ///< 1, or 0 where missing
+};
 
 Patch patch_at(const Image<float>& image, const Eigen::Vector2i& at, float less) {
-  Patch patch{};
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const int x = at.x() + i % kSide - kRadius;
-    const int y = at.y() + i / kSide - kRadius;
-    const bool within = x >= 0 && y >= 0 && x < image.width() && y < image.height();
-    patch[static_cast<std::size_t>(i)] = within ? image(x, y) - less : kMissing;
+  Patch patch;
+  const int left = at.x() - kRadius;
+  const int from = std::max(0, -left);
+  const int to = std::min(kSide, image.width() - left);
+  for (int down = 0; down < kSide; ++down) {
+    const int y = at.y() + down - kRadius;
+    if (y < 0 || y >= image.height()) continue;
+    for (int right = from; right < to; ++right) {
+      const float value = image(left + right, y);
+      if (std::isnan(value)) continue;
+      const auto i = static_cast<std::size_t>(down * kSide + right);
+      patch.off[i] = value - less;
+      patch.seen[i] = 1.0F;
+    }
   }
   return patch;
 }
 
-/// Where a pixel of the patch lies from its middle.
-struct Beside {
-  float x;
-  float y;
-};
-Beside beside(int i) {
-  const int down = i / kSide;
-  return {static_cast<float>(i - down * kSide - kRadius), static_cast<float>(down - kRadius)};
+/// Products of the place in a patch, up to the fourth power: 1, x, y, xx, xy, yy, xxx, ... yyyy.
+/// The first six are the unknowns'; sixteen numbers a pixel, so that sums over them are vector
+/// code.
+using Powers = std::array<float, 16>;
+constexpr std::array<Powers, kPixels> make_powers() {
+  std::array<Powers, kPixels> all{};
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    const auto x = static_cast<float>(static_cast<int>(i) % kSide - kRadius);
+    const auto y = static_cast<float>(static_cast<int>(i) / kSide - kRadius);
+    all[i] = {1.0F,
+              x,
+              y,
+              x * x,
+              x * y,
+              y * y,
+              x * x * x,
+              x * x * y,
+              x * y * y,
+              y * y * y,
+              x * x * x * x,
+              x * x * x * y,
+              x * x * y * y,
+              x * y * y * y,
+              y * y * y * y,
+              0.0F};
+  }
+  return all;
 }
+constexpr std::array<Powers, kPixels> kPowers = make_powers();
 
-Vector6 powers(int i) {
-  const auto [x, y] = beside(i);
-  Vector6 row;
-  row << 1.0F, x, y, x * x, x * y, y * y;
-  return row;
-}
+/// Which of the sums over powers stands where in the normal matrix, below its diagonal.
+constexpr std::array<std::array<std::size_t, 6>, 6> kPlaces{
+    {{0}, {1, 3}, {2, 4, 5}, {3, 6, 7, 10}, {4, 7, 8, 11, 12}, {5, 8, 9, 12, 13, 14}}};
 
 PatchFit fit_pixels(const Patch& patch, float here) {
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 pull = Vector6::Zero();
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const float value = patch[static_cast<std::size_t>(i)];
-    if (std::isnan(value)) continue;
-    const Vector6 row = powers(i);
-    normal += row * row.transpose();
-    pull += value * row;
+  Powers sums{};
+  Powers pull{};
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      sums[k] += patch.seen[i] * kPowers[i][k];
+      pull[k] += patch.off[i] * kPowers[i][k];
+    }
   }
-  const Eigen::LDLT<Matrix6> solver(normal);
-  const Vector6 fit = solver.solve(pull);
+  Matrix6 normal;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column <= row; ++column)
+      normal(row, column) =
+          sums[kPlaces[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]];
+  }
+  const Eigen::LLT<Eigen::Ref<Matrix6>> solver(normal);
+  if (solver.info() != Eigen::Success) return kNone;
+  const Vector6 fit = solver.solve(Eigen::Map<const Vector6>(pull.data()));
   const Vector6 column = solver.solve(Vector6::Unit(0));
   if (!fit.allFinite() || !(column[0] > 0.0F && column[0] < kMostVariance)) return kNone;
   PatchFit out;
@@ -74,14 +110,15 @@ PatchFit fit_pixels(const Patch& patch, float here) {
   return out;
 }
 
-/// What the fit leaves over at each pixel.
-Patch left_over(const Patch& patch, const WindowFit& fit, float here) {
-  Patch off{};
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const auto [x, y] = beside(i);
-    const float fitted = (fit.middle - here) + x * fit.slope_x + y * fit.slope_y +
-                         x * x * fit.bend_x + x * y * fit.twist + y * y * fit.bend_y;
-    off[static_cast<std::size_t>(i)] = patch[static_cast<std::size_t>(i)] - fitted;
+/// What the fit leaves over at each pixel, 0 where it is missing.
+std::array<float, kPixels> left_over(const Patch& patch, const WindowFit& fit, float here) {
+  std::array<float, kPixels> off{};
+  const float middle = fit.middle - here;
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    const Powers& of = kPowers[i];
+    const float fitted = middle + of[1] * fit.slope_x + of[2] * fit.slope_y + of[3] * fit.bend_x +
+                         of[4] * fit.twist + of[5] * fit.bend_y;
+    off[i] = patch.seen[i] * (patch.off[i] - fitted);
   }
   return off;
 }
@@ -92,30 +129,30 @@ PatchFit fit_patch(const Image<float>& image, const Eigen::Vector2i& at) {
   const float here = image(at.x(), at.y());
   const Patch patch = patch_at(image, at, here);
   const auto count =
-      std::count_if(patch.begin(), patch.end(), [](float value) { return !std::isnan(value); });
+      static_cast<std::size_t>(std::count(patch.seen.begin(), patch.seen.end(), 1.0F));
   if (count < kFewest) return kNone;
   PatchFit fit = fit_pixels(patch, here);
+  if (std::isnan(fit.variance)) return kNone;
   float squares = 0.0F;
-  for (const float off : left_over(patch, fit.window, here)) {
-    if (!std::isnan(off)) squares += off * off;
-  }
+  for (const float off : left_over(patch, fit.window, here))
+    squares += off * off;
   fit.window.variance = fit.window.rest = squares / static_cast<float>(count - 6);
-  return std::isnan(fit.variance) ? kNone : fit;
+  return fit;
 }
 
 float structure_of(const Image<float>& image, const Eigen::Vector2i& at, const WindowFit& patch) {
   const float here = image(at.x(), at.y());
-  const Patch off = left_over(patch_at(image, at, here), patch, here);
+  const Patch pixels = patch_at(image, at, here);
+  const std::array<float, kPixels> off = left_over(pixels, patch, here);
   float products = 0.0F;
   float squares = 0.0F;
-  const auto add = [&](float a, float b) {
-    if (std::isnan(a) || std::isnan(b)) return;
-    products += a * b;
-    squares += 0.5F * (a * a + b * b);
+  const auto add = [&](std::size_t a, std::size_t b) {
+    products += off[a] * off[b];
+    squares += 0.5F * (pixels.seen[b] * off[a] * off[a] + pixels.seen[a] * off[b] * off[b]);
   };
-  for (std::size_t i = 0; i < off.size(); ++i) {
-    if (i % kSide + 1 < kSide) add(off[i], off[i + 1]);
-    if (i + kSide < off.size()) add(off[i], off[i + kSide]);
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    if (i % kSide + 1 < kSide) add(i, i + 1);
+    if (i + kSide < kPixels) add(i, i + kSide);
   }
   return squares > 0.0F ? products / squares : 0.0F;
 }

@@ -153,10 +153,10 @@ class Joiner {
                                     cluster_of_.begin());
   }
 
-  /// `slack` 1 as the options say, more is easier.
+  /// `slack` 1 as the options say, more is easier; but what is seen through is so in any case.
   [[nodiscard]] bool holds(const GroupFit& fit, double slack) const {
     return fit.overlap >= options_.min_overlap / slack &&
-           fit.contradiction() <= slack * options_.max_contradiction &&
+           fit.contradiction() <= options_.max_contradiction &&
            fit.firmness >= options_.min_firmness / slack &&
            fit.residual_mm <= slack * options_.max_residual * usual_mm_;
   }

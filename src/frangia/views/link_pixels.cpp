@@ -48,8 +48,9 @@ struct LinkRow {
 LinkedPixels link_pixels(const RangeGrid& range, const Lens& camera) {
   const int width = range.depth_mm.width();
   const int height = range.depth_mm.height();
-  LinkedPixels grid{
-      Image<float>(width, height), Image<float>(width, height), Image<std::uint8_t>(width, height)};
+  LinkedPixels grid{Image<float>(width, height, Unfilled{}),
+                    Image<float>(width, height, Unfilled{}),
+                    Image<std::uint8_t>(width, height)};
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const float depth = range.depth_mm(x, y);

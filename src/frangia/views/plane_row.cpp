@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "frangia/core/missing.h"
 #include "frangia/views/window_structure.h"
 
 namespace frangia {
@@ -110,7 +111,7 @@ void PlaneRow::widen(const LinkedPixels& grid, const WindowRows& wider, int y, f
   const float* middle = wider.fits.row(WindowFits::Middle, row);
   const float* rest = wider.fits.row(WindowFits::Rest, row);
   const float* noise = &grid.noise(0, y);
-  for (std::size_t i = 0; i < kind_.size(); ++i) {
+  for (std::size_t i = begin_; i < end_; ++i) {
     const float square = slope_x_[i] * slope_x_[i] + slope_y_[i] * slope_y_[i];
     const float expected = noise[i] * noise[i] + jitter_px * jitter_px * square;
     const float off = middle[i] - value_[i];
@@ -133,33 +134,40 @@ void PlaneRow::choose(const LinkedPixels& grid,
                       float jitter_px) {
   const WindowFits& fits = windows.fits;
   const int row = y - windows.first;
+  const float* q = &grid.q(0, y);
+  const auto seen = [](float value) { return !std::isnan(value); };
+  begin_ = static_cast<std::size_t>(std::find_if(q, q + width_, seen) - q);
+  end_ = static_cast<std::size_t>(width_);
+  while (end_ > begin_ && std::isnan(q[end_ - 1]))
+    --end_;
+  const auto from = static_cast<std::ptrdiff_t>(begin_);
+  const auto count = static_cast<std::ptrdiff_t>(end_ - begin_);
   const auto copy = [&](WindowFits::Figure figure, Row& to) {
-    std::copy_n(fits.row(figure, row), width_, to.begin());
+    std::copy_n(fits.row(figure, row) + from, count, to.begin() + from);
   };
   copy(WindowFits::Mean, mean_);
   copy(WindowFits::SlopeX, slope_x_);
   copy(WindowFits::SlopeY, slope_y_);
   copy(WindowFits::Middle, value_);
-  std::copy_n(&grid.q(0, y), width_, measured_.begin());
+  std::copy_n(q + from, count, measured_.begin() + from);
   const float* noise = &grid.noise(0, y);
   std::vector<std::int32_t> good(kind_.size());
-  judge({noise,
-         slope_x_.data(),
-         slope_y_.data(),
-         fits.row(WindowFits::Variance, row),
+  judge({noise + from,
+         slope_x_.data() + from,
+         slope_y_.data() + from,
+         fits.row(WindowFits::Variance, row) + from,
          jitter_px * jitter_px,
          middle_variance(windows.radius)},
-        width_,
-        variance_.data(),
-        good.data());
-  for (std::size_t i = 0; i < kind_.size(); ++i)
+        count,
+        variance_.data() + from,
+        good.data() + from);
+  for (std::size_t i = begin_; i < end_; ++i)
     kind_[i] = good[i] != 0 ? WindowKind::Centred : WindowKind::None;
   std::fill(wide_.begin(), wide_.end(), char{0});
   if (wider != nullptr) widen(grid, *wider, y, jitter_px);
-  for (int x = 0; x < width_; ++x) {
-    const auto i = static_cast<std::size_t>(x);
-    if (good[i] != 0 || std::isnan(measured_[i])) continue;
-    if (wide_[i] != 0) continue;
+  for (std::size_t i = begin_; i < end_; ++i) {
+    const auto x = static_cast<int>(i);
+    if (good[i] != 0 || wide_[i] != 0 || std::isnan(measured_[i])) continue;
     const ChosenWindow chosen = choose_window(grid.q, windows, {x, y}, {noise[x], jitter_px});
     kind_[i] = chosen.kind;
     mean_[i] = chosen.fit.mean;
@@ -171,24 +179,30 @@ void PlaneRow::choose(const LinkedPixels& grid,
 }
 
 void PlaneRow::fit(const Eigen::Vector2f* rays, const FastLens& lens) {
-  fit_planes({value_.data(),
-              variance_.data(),
-              mean_.data(),
-              slope_x_.data(),
-              slope_y_.data(),
-              normal_x_.data(),
-              normal_y_.data(),
-              normal_z_.data(),
-              distance_.data(),
-              through_.data(),
-              weight_.data()},
-             rays,
+  const auto from = static_cast<std::ptrdiff_t>(begin_);
+  const auto at = [&](Row& row) { return row.data() + from; };
+  fit_planes({at(value_),
+              at(variance_),
+              at(mean_),
+              at(slope_x_),
+              at(slope_y_),
+              at(normal_x_),
+              at(normal_y_),
+              at(normal_z_),
+              at(distance_),
+              at(through_),
+              at(weight_)},
+             rays + from,
              lens,
-             width_);
+             static_cast<std::ptrdiff_t>(end_ - begin_));
 }
 
 void PlaneRow::write(LocalPlanes::Plane* planes, float* inverse_depth) const {
-  for (std::size_t i = 0; i < kind_.size(); ++i) {
+  std::fill_n(planes, begin_, LocalPlanes::Plane{});
+  std::fill(planes + end_, planes + width_, LocalPlanes::Plane{});
+  std::fill_n(inverse_depth, begin_, kMissing);
+  std::fill(inverse_depth + end_, inverse_depth + width_, kMissing);
+  for (std::size_t i = begin_; i < end_; ++i) {
     if (kind_[i] == WindowKind::None) {
       planes[i] = {};
       inverse_depth[i] = measured_[i];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -37,6 +38,8 @@ class PlaneRow {
   void widen(const LinkedPixels& grid, const WindowRows& wider, int y, float jitter_px);
 
   int width_;
+  std::size_t begin_ = 0;  ///< of the pixels from the first that was seen to the last
+  std::size_t end_ = 0;
   std::vector<WindowKind> kind_;
   std::vector<char> wide_;  ///< what a wider window has
   Row measured_, value_, variance_;

@@ -109,8 +109,8 @@ View ViewStore::load(std::size_t index) const {
   const Entry& entry = entries_.at(index);
   View view;
   view.rig_from_object = entry.rig_from_object;
-  view.range.depth_mm = Image<float>(entry.width, entry.height);
-  view.range.sigma_mm = Image<float>(entry.width, entry.height);
+  view.range.depth_mm = Image<float>(entry.width, entry.height, Unfilled{});
+  view.range.sigma_mm = Image<float>(entry.width, entry.height, Unfilled{});
   read_all(file_, view.range.depth_mm, entry.offset);
   read_all(file_,
            view.range.sigma_mm,

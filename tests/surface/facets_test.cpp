@@ -1,0 +1,54 @@
+#include "frangia/surface/facets.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace frangia {
+namespace {
+
+TEST(MakeFacets, PutsThePointWhereTheViewsSayTheSurfaceLies) {
+  Crossings crossings;
+  crossings.points_mm = {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}};
+  Evidences evidence = no_evidence(2);
+  Evidence::Face& face = evidence[0].faces[0];
+  face.weight = 4.0F;  // two views of weight 2, which see it 0.1 mm in front of the surface
+  face.weight_squared = 8.0F;
+  face.offset = 0.4F;
+  face.noise_squared = 4.0F * 2.0F * 0.01F;
+  face.spacing = 0.8F;
+  face.normal = 4.0F * Eigen::Vector3f::UnitZ();
+  face.views = 2;
+  const Facets facets = make_facets(crossings, evidence);
+  ASSERT_EQ(facets.size(), 2U);
+  ASSERT_TRUE(facets[0].holds);
+  EXPECT_FALSE(facets[0].has_side);
+  EXPECT_NEAR((facets[0].point - Eigen::Vector3f(1.0F, 2.0F, 2.9F)).norm(), 0.0F, 1e-6F);
+  EXPECT_EQ(facets[0].normal, Eigen::Vector3f::UnitZ());
+  EXPECT_NEAR(facets[0].noise_mm, 0.1 / std::sqrt(2.0), 1e-6);  // 0.1 mm each
+  EXPECT_NEAR(facets[0].spacing_mm, 0.2F, 1e-6F);
+  EXPECT_EQ(facets[0].views, 2);
+  EXPECT_FALSE(facets[1].holds) << "no view spoke for it";
+}
+
+TEST(MakeFacets, KeepsTheOtherFaceNearAnEdge) {
+  Crossings crossings;
+  crossings.points_mm = {Eigen::Vector3f::Zero()};
+  Evidences evidence = no_evidence(1);
+  for (int i = 0; i < 2; ++i) {
+    Evidence::Face& face = evidence[0].faces[static_cast<std::size_t>(i)];
+    face.weight = 2.0F - static_cast<float>(i);
+    face.offset = 0.1F * face.weight;
+    face.normal = face.weight * Eigen::Vector3f::Unit(i);
+    face.views = 1;
+  }
+  const Facets facets = make_facets(crossings, evidence);
+  ASSERT_TRUE(facets[0].has_side);
+  EXPECT_EQ(facets[0].normal, Eigen::Vector3f::UnitX());
+  const Facet side = side_facet(crossings.points_mm[0], evidence[0]);
+  EXPECT_EQ(side.normal, Eigen::Vector3f::UnitY());
+  EXPECT_NEAR((side.point - Eigen::Vector3f(0.0F, -0.1F, 0.0F)).norm(), 0.0F, 1e-6F);
+}
+
+}  // namespace
+}  // namespace frangia
