@@ -13,7 +13,7 @@ struct EdgeOptions {
   double max_incidence_deg = 82.0;
   /// A patch of fewer points than this that hangs on no other is no surface.
   int min_patch_px = 12;
-  int give_back_px = 1;  ///< how far into the dropped ones those that are no mixture are given back
+  int give_back_px = 0;  ///< how far into the dropped ones those that are no mixture are given back
 };
 
 /// Drops the points that a pixel made of two surfaces, or of one surface and the dark.
