@@ -21,8 +21,8 @@ struct EdgeOptions {
 /// At a depth step the pixels on both sides may hold light of both surfaces, so they go. On a
 /// silhouette against the dark the outermost pixel holds light of its covered part only, which is
 /// not its centre, so it goes too. What is left in patches too small to be a surface goes last.
-/// Since a pixel beside such a one may well see one surface with all of its square, those that lie
-/// where the surface beside them leads are given back, see `continues_surface`.
+/// With `give_back_px`, those that lie where the surface beside them leads are given back, see
+/// `continues_surface`: they see one surface with all of their square.
 /// Dropped pixels are marked MixedEdge in `fate`. Returns how many.
 std::size_t drop_mixed_edges(RangeGrid& range,
                              const Image<Eigen::Vector2f>& rays,
