@@ -9,6 +9,8 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/range/continues_surface.h"
+#include "frangia/range/is_connected.h"
 
 namespace frangia {
 namespace {
@@ -20,11 +22,7 @@ struct Grid {
 
   /// Whether a continuous surface can run from one pixel to its neighbour.
   [[nodiscard]] bool connected(int x, int y, int u, int v) const {
-    const float a = range.depth_mm(x, y);
-    const float b = range.depth_mm(u, v);
-    const float across = (rays(x, y) - rays(u, v)).norm() * 0.5F * (a + b);
-    const float noise = std::hypot(range.sigma_mm(x, y), range.sigma_mm(u, v));
-    return std::abs(a - b) <= max_slope * across + 4.0F * noise;  // false for NaN
+    return is_connected(range, rays, {x, y}, {u, v}, max_slope);
   }
 };
 
@@ -131,6 +129,20 @@ void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
   });
 }
 
+/// Gives back what lies where the surface beside it leads: first next to what was never in doubt,
+/// then next to that.
+void give_back(const Grid& grid, int depth_px, Image<std::uint8_t>& drop) {
+  for (int round = 0; round < depth_px; ++round) {
+    const Image<std::uint8_t> doubtful = drop;
+    const DoubtfulPixels pixels{grid.range, grid.rays, doubtful, grid.max_slope};
+    parallel_rows(drop.height(), [&](int y) {
+      for (int x = 0; x < drop.width(); ++x) {
+        if (doubtful(x, y) != 0 && continues_surface(pixels, {x, y})) drop(x, y) = 0;
+      }
+    });
+  }
+}
+
 }  // namespace
 
 std::size_t drop_mixed_edges(RangeGrid& range,
@@ -149,6 +161,7 @@ std::size_t drop_mixed_edges(RangeGrid& range,
     }
   });
   mark_low_steps(grid, drop);
+  give_back(grid, options.give_back_px, drop);
   mark_small_patches(grid, options.min_patch_px, drop);
   std::size_t dropped = 0;
   for (std::size_t i = 0; i < drop.pixels().size(); ++i) {
