@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include <Eigen/Cholesky>
 
@@ -20,7 +21,7 @@ constexpr int kFewest = 10;            // pixels: six unknowns, and some to judg
 constexpr float kMostLeverage = 8.0F;  // of a pixel's variance, what the paraboloid has out there
 constexpr float kRough = 4.0F;         // in variance: what is left over is more than noise
 constexpr float kSigmas = 3.0F;
-constexpr float kLit = 0.8F;  // of the light expected: less, and the surface ends in the pixel
+constexpr float kLit = 0.7F;  // of the light expected: less, and the surface ends in the pixel
 
 constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
@@ -30,14 +31,13 @@ struct Group {
   std::size_t count = 0;
 };
 
-/// Whether a pixel may be leant upon.
-bool is_sound(const DoubtfulPixels& pixels, const Eigen::Vector2i& p) {
-  const auto& depth = pixels.range.depth_mm;
+bool is_seen(const SoundPixels& sound, const Eigen::Vector2i& p) {
+  const auto& depth = sound.range.depth_mm;
   return p.minCoeff() >= 0 && p.x() < depth.width() && p.y() < depth.height() &&
-         pixels.doubtful(p.x(), p.y()) == 0 && !std::isnan(depth(p.x(), p.y()));
+         !std::isnan(depth(p.x(), p.y()));
 }
 
-Group group_of(const DoubtfulPixels& pixels,
+Group group_of(const SoundPixels& sound,
                const Eigen::Vector2i& middle,
                const Eigen::Vector2i& start) {
   std::array<bool, kSide * kSide> seen{};
@@ -53,8 +53,8 @@ Group group_of(const DoubtfulPixels& pixels,
     const Eigen::Vector2i p = group.at[head];
     for (const auto& [dx, dy] : kBeside) {
       const Eigen::Vector2i next = p + Eigen::Vector2i(dx, dy);
-      if ((next - middle).cwiseAbs().maxCoeff() > kRadius || !is_sound(pixels, next)) continue;
-      if (is_connected(pixels.range, pixels.rays, p, next, pixels.max_slope)) add(next);
+      if ((next - middle).cwiseAbs().maxCoeff() > kRadius || !is_seen(sound, next)) continue;
+      if (is_connected(sound.range, sound.rays, p, next, sound.max_slope)) add(next);
     }
   }
   return group;
@@ -68,10 +68,13 @@ Vector6 powers(const Eigen::Vector2i& from) {
   return row;
 }
 
-bool leads_to(const DoubtfulPixels& pixels, const Group& group, const Eigen::Vector2i& at) {
+bool leads_to(const SoundPixels& sound,
+              const Group& group,
+              const Eigen::Vector2i& at,
+              const RangePixel& pixel) {
   if (group.count < kFewest) return false;
-  const auto& [depth, sigma] = pixels.range;
-  const float here = 1.0F / depth(at.x(), at.y());
+  const auto& [depth, sigma] = sound.range;
+  const float here = 1.0F / pixel.depth_mm;
   Matrix6 normal = Matrix6::Zero();
   Vector6 pull = Vector6::Zero();   // of inverse depths less the pixel's: small ones keep digits
   Vector6 light = Vector6::Zero();  // in units of the pixel's
@@ -80,7 +83,7 @@ bool leads_to(const DoubtfulPixels& pixels, const Group& group, const Eigen::Vec
     const Eigen::Vector2i& p = group.at[i];
     const Vector6 row = powers(p - at);
     const float off = 1.0F / depth(p.x(), p.y()) - here;
-    const float ratio = sigma(at.x(), at.y()) / sigma(p.x(), p.y());
+    const float ratio = pixel.sigma_mm / sigma(p.x(), p.y());
     normal += row * row.transpose();
     pull += off * row;
     light += ratio * ratio * row;
@@ -95,7 +98,7 @@ bool leads_to(const DoubtfulPixels& pixels, const Group& group, const Eigen::Vec
     const float off = 1.0F / depth(p.x(), p.y()) - here - powers(p - at).dot(fit);
     squares += off * off;
   }
-  const float noise = sigma(at.x(), at.y()) * here * here;
+  const float noise = pixel.sigma_mm * here * here;
   const float variance = noise * noise;
   if (squares > kRough * variance * static_cast<float>(group.count - 6)) return false;
   return fit[0] * fit[0] < kSigmas * kSigmas * variance * (1.0F + leverage);
@@ -103,11 +106,13 @@ bool leads_to(const DoubtfulPixels& pixels, const Group& group, const Eigen::Vec
 
 }  // namespace
 
-bool continues_surface(const DoubtfulPixels& pixels, const Eigen::Vector2i& at) {
-  if (std::isnan(pixels.range.depth_mm(at.x(), at.y()))) return false;
+bool continues_surface(const SoundPixels& sound, const RangePixel& pixel) {
+  const auto width = static_cast<std::uint32_t>(sound.range.depth_mm.width());
+  const Eigen::Vector2i at(static_cast<int>(pixel.pixel % width),
+                           static_cast<int>(pixel.pixel / width));
   for (const auto& [dx, dy] : kBeside) {
     const Eigen::Vector2i next = at + Eigen::Vector2i(dx, dy);
-    if (is_sound(pixels, next) && leads_to(pixels, group_of(pixels, at, next), at)) return true;
+    if (is_seen(sound, next) && leads_to(sound, group_of(sound, at, next), at, pixel)) return true;
   }
   return false;
 }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/range/continues_surface.h"
 #include "frangia/range/is_connected.h"
 
 namespace frangia {
@@ -129,26 +129,12 @@ void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
   });
 }
 
-/// Gives back what lies where the surface beside it leads: first next to what was never in doubt,
-/// then next to that.
-void give_back(const Grid& grid, int depth_px, Image<std::uint8_t>& drop) {
-  for (int round = 0; round < depth_px; ++round) {
-    const Image<std::uint8_t> doubtful = drop;
-    const DoubtfulPixels pixels{grid.range, grid.rays, doubtful, grid.max_slope};
-    parallel_rows(drop.height(), [&](int y) {
-      for (int x = 0; x < drop.width(); ++x) {
-        if (doubtful(x, y) != 0 && continues_surface(pixels, {x, y})) drop(x, y) = 0;
-      }
-    });
-  }
-}
-
 }  // namespace
 
-std::size_t drop_mixed_edges(RangeGrid& range,
-                             const Image<Eigen::Vector2f>& rays,
-                             Image<PixelFate>& fate,
-                             const EdgeOptions& options) {
+std::vector<RangePixel> drop_mixed_edges(RangeGrid& range,
+                                         const Image<Eigen::Vector2f>& rays,
+                                         Image<PixelFate>& fate,
+                                         const EdgeOptions& options) {
   require(same_size(range.depth_mm, rays) && same_size(range.depth_mm, fate),
           "drop_mixed_edges: range, rays and fate differ in size");
   const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
@@ -161,15 +147,16 @@ std::size_t drop_mixed_edges(RangeGrid& range,
     }
   });
   mark_low_steps(grid, drop);
-  give_back(grid, options.give_back_px, drop);
   mark_small_patches(grid, options.min_patch_px, drop);
-  std::size_t dropped = 0;
+  std::vector<RangePixel> dropped;
   for (std::size_t i = 0; i < drop.pixels().size(); ++i) {
-    if (drop.pixels()[i] == 0 || std::isnan(range.depth_mm.pixels()[i])) continue;
-    range.depth_mm.pixels()[i] = kMissing;
-    range.sigma_mm.pixels()[i] = kMissing;
+    float& depth = range.depth_mm.pixels()[i];
+    float& sigma = range.sigma_mm.pixels()[i];
+    if (drop.pixels()[i] == 0 || std::isnan(depth)) continue;
+    dropped.push_back({static_cast<std::uint32_t>(i), depth, sigma});
+    depth = kMissing;
+    sigma = kMissing;
     fate.pixels()[i] = PixelFate::MixedEdge;
-    ++dropped;
   }
   return dropped;
 }

@@ -98,9 +98,10 @@ struct Questioner {
                       const LocalPlanes::Plane& pixel,
                       int outward) const {
     constexpr float kRim = 0.1F;  // of the weight: what lies further in is better known
-    constexpr float kFlattest = 0.5F;
-    if (pixel.window == WindowKind::Small) return;
-    if (!(-pixel.normal.dot(point) > kFlattest * point.norm())) return;
+    constexpr float kFlattest = 0.3F;
+    constexpr float kFlattestOfSmall = 0.5F;  // whose slope is known worse
+    const float flattest = pixel.window == WindowKind::Small ? kFlattestOfSmall : kFlattest;
+    if (!(-pixel.normal.dot(point) > flattest * point.norm())) return;
     const float distance = pixel.normal.dot(point) + pixel.through_mm;
     if (!sees(point - distance * pixel.normal)) return;
     support(evidence, {point, pixel.normal, distance, kRim * pixel.weight, true}, outward);
