@@ -10,8 +10,8 @@ namespace {
 TEST(MakeFacets, PutsThePointWhereTheViewsSayTheSurfaceLies) {
   Crossings crossings;
   crossings.points_mm = {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}};
-  Evidences evidence = no_evidence(2);
-  Evidence::Face& face = evidence[0].faces[0];
+  Evidences evidence(2);
+  Evidence::Face& face = evidence[0].first;
   face.weight = 4.0F;  // two views of weight 2, which see it 0.1 mm in front of the surface
   face.weight_squared = 8.0F;
   face.offset = 0.4F;
@@ -34,9 +34,9 @@ TEST(MakeFacets, PutsThePointWhereTheViewsSayTheSurfaceLies) {
 TEST(MakeFacets, KeepsTheOtherFaceNearAnEdge) {
   Crossings crossings;
   crossings.points_mm = {Eigen::Vector3f::Zero()};
-  Evidences evidence = no_evidence(1);
+  Evidences evidence(1);
   for (int i = 0; i < 2; ++i) {
-    Evidence::Face& face = evidence[0].faces[static_cast<std::size_t>(i)];
+    Evidence::Face& face = i == 0 ? evidence[0].first : evidence.make_other(0);
     face.weight = 2.0F - static_cast<float>(i);
     face.offset = 0.1F * face.weight;
     face.normal = face.weight * Eigen::Vector3f::Unit(i);
@@ -45,7 +45,7 @@ TEST(MakeFacets, KeepsTheOtherFaceNearAnEdge) {
   const Facets facets = make_facets(crossings, evidence);
   ASSERT_TRUE(facets[0].has_side);
   EXPECT_EQ(facets[0].normal, Eigen::Vector3f::UnitX());
-  const Facet side = side_facet(crossings.points_mm[0], evidence[0]);
+  const Facet side = side_facet(crossings, evidence, 0);
   EXPECT_EQ(side.normal, Eigen::Vector3f::UnitY());
   EXPECT_NEAR((side.point - Eigen::Vector3f(0.0F, -0.1F, 0.0F)).norm(), 0.0F, 1e-6F);
 }

@@ -17,7 +17,8 @@ Mesh square(float sag) {
 
 TEST(FlipCaps, TurnsTheLongEdgeOfACap) {
   Mesh mesh = square(0.001F);  // folded over, too
-  flip_caps(mesh, 0.1F);
+  RoughTriangles rough(mesh, 0.0F, 0.1F);
+  EXPECT_TRUE(flip_caps(mesh, 0.1F, rough));
   for (const auto& t : mesh.triangles) {
     const Eigen::Vector3f cross = (mesh.vertices_mm[t[1]] - mesh.vertices_mm[t[0]])
                                       .cross(mesh.vertices_mm[t[2]] - mesh.vertices_mm[t[0]]);
@@ -28,7 +29,8 @@ TEST(FlipCaps, TurnsTheLongEdgeOfACap) {
 TEST(FlipCaps, LeavesTrianglesThatAreHighEnough) {
   Mesh mesh = square(-0.5F);
   const auto before = mesh.triangles;
-  flip_caps(mesh, 0.1F);
+  RoughTriangles all(mesh, 10.0F, 10.0F);
+  EXPECT_FALSE(flip_caps(mesh, 0.1F, all));
   EXPECT_EQ(mesh.triangles, before);
 }
 

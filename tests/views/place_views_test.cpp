@@ -25,6 +25,16 @@ double vase(const Eigen::Vector3d& p) {
   return 0.8 * std::max(std::hypot(p.x(), p.y()) - wide, std::abs(p.z()) - 30.0);
 }
 
+double ellipsoid(const Eigen::Vector3d& p) {
+  const Eigen::Array3d half_mm(38.0, 26.0, 18.0);
+  return 6.0 * ((p.array() / half_mm).matrix().norm() - 1.0);
+}
+
+double block(const Eigen::Vector3d& p) {
+  const Eigen::Array3d beyond_mm = p.array().abs() - Eigen::Array3d(38.0, 26.0, 18.0);
+  return 0.8 * (beyond_mm.max(0.0).matrix().norm() + std::min(beyond_mm.maxCoeff(), 0.0));
+}
+
 /// Views whose poses were thrown away: each stands anywhere in its own frame.
 struct Lost {
   Lens camera = small_lens(200, 1000.0);
@@ -98,6 +108,33 @@ TEST(PlaceViews, GuessesNothingForARoundPart) {
     EXPECT_EQ(error.kind(), ErrorKind::Input);
     EXPECT_NE(std::string(error.what()).find("look alike"), std::string::npos) << error.what();
   }
+}
+
+TEST(PlaceViews, LeavesOutTheSecondOfTwoViewsThatLookTheSame) {
+  const auto poses = around_table(6, 0.3, 650.0);
+  Lost again(lumpy, {poses[0], poses[1], poses[0]});
+  EXPECT_EQ(again.place().left_out, std::vector<std::size_t>{2});
+  ASSERT_EQ(again.warnings.size(), 1U);
+  EXPECT_NE(again.warnings[0].find("scan-2.ply: looks the same as scan-0.ply"), std::string::npos)
+      << again.warnings[0];
+}
+
+TEST(PlaceViews, PutsNoSideOfASymmetricPartOnTheOther) {
+  Lost lost(ellipsoid, around_table(8, 0.3, 650.0));
+  const PlacedViews placed = lost.place();
+  for (const std::size_t half : {4U, 5U, 6U, 7U})  // as 0, 1, 2, 3 from the other side
+    EXPECT_TRUE(lost.empty(half)) << half;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (lost.empty(i)) continue;
+    const double off_mm = lost.off_mm(i, placed.reference);  // 0, or half a turn of the part
+    EXPECT_LT(std::min(off_mm, std::abs(off_mm - 38.0 * 0.5 * kTurn)), 0.3) << i;
+  }
+}
+
+TEST(PlaceViews, GuessesNothingForTwoSidesOfABlockThatSlideOnEachOther) {
+  const auto poses = around_table(6, 0.3, 650.0);
+  Lost lost(block, {poses[1], poses[2]});  // another edge fits better than the face they share
+  EXPECT_THROW(static_cast<void>(lost.place()), Error);
 }
 
 TEST(PlaceViews, GivesTheSameForAnyNumberOfThreads) {

@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/parallel.h"
 #include "frangia/surface/stars.h"
 
 namespace frangia {
@@ -16,24 +15,19 @@ using Vertex = std::uint32_t;
 using Pair = Stars::Edge;
 
 /// Short edges, each once, in a fixed order.
-std::vector<Pair> short_edges(const Mesh& mesh, float shortest_mm) {
-  constexpr std::size_t kChunk = 65536;
-  std::vector<std::vector<Pair>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
-  parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vertex a = mesh.triangles[t][i];
-        const Vertex b = mesh.triangles[t][(i + 1) % 3];
-        const float squared = (mesh.vertices_mm[a] - mesh.vertices_mm[b]).squaredNorm();
-        if (squared < shortest_mm * shortest_mm) {
-          parts[begin / kChunk].emplace_back(std::min(a, b), std::max(a, b));
-        }
-      }
-    }
-  });
+std::vector<Pair> short_edges(const Mesh& mesh,
+                              const std::vector<std::uint32_t>& near,
+                              float shortest_mm) {
   std::vector<Pair> edges;
-  for (const auto& part : parts)
-    edges.insert(edges.end(), part.begin(), part.end());
+  for (const std::uint32_t t : near) {
+    if (is_gone(mesh.triangles[t])) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vertex a = mesh.triangles[t][i];
+      const Vertex b = mesh.triangles[t][(i + 1) % 3];
+      const float squared = (mesh.vertices_mm[a] - mesh.vertices_mm[b]).squaredNorm();
+      if (squared < shortest_mm * shortest_mm) edges.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -84,8 +78,12 @@ bool stays_upright(const Mesh& mesh,
 }
 
 /// One pass over edges that do not touch; returns whether any was collapsed.
-bool collapse_once(Mesh& mesh, std::span<const std::uint8_t> sharp, float shortest_mm) {
-  const std::vector<Pair> edges = short_edges(mesh, shortest_mm);
+bool collapse_once(Mesh& mesh,
+                   std::span<const std::uint8_t> sharp,
+                   float shortest_mm,
+                   RoughTriangles& rough) {
+  const std::vector<Pair> edges = short_edges(mesh, rough.triangles(), shortest_mm);
+  if (edges.empty()) return false;
   const Stars stars(mesh, edges);
   std::vector<bool> touched(mesh.vertices_mm.size(), false);
   const auto sharpness = [&](Vertex v) { return v < sharp.size() ? sharp[v] : std::uint8_t{0}; };
@@ -120,18 +118,19 @@ bool collapse_once(Mesh& mesh, std::span<const std::uint8_t> sharp, float shorte
     }
     any = true;
   }
-  const auto gone = [](const Mesh::Triangle& t) { return t[0] == t[1]; };
-  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), gone),
-                       mesh.triangles.end());
+  rough.add(stars.triangles());
   return any;
 }
 
 }  // namespace
 
-bool collapse_slivers(Mesh& mesh, std::span<const std::uint8_t> sharp, float shortest_mm) {
+bool collapse_slivers(Mesh& mesh,
+                      std::span<const std::uint8_t> sharp,
+                      float shortest_mm,
+                      RoughTriangles& rough) {
   constexpr int kPasses = 2;
   bool any = false;
-  for (int pass = 0; pass < kPasses && collapse_once(mesh, sharp, shortest_mm); ++pass)
+  for (int pass = 0; pass < kPasses && collapse_once(mesh, sharp, shortest_mm, rough); ++pass)
     any = true;
   return any;
 }

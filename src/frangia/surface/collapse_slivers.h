@@ -4,6 +4,7 @@
 #include <span>
 
 #include "frangia/surface/mesh.h"
+#include "frangia/surface/rough_triangles.h"
 
 namespace frangia {
 
@@ -11,8 +12,14 @@ namespace frangia {
 ///
 /// The sharper of two vertices stays where it is: on a corner of the object, then on an edge; two
 /// alike meet in the middle. Nothing is joined that would fold a triangle over or make the mesh
-/// non-manifold. Returns whether any was joined. shape    `sharp`: 1 for a vertex on an edge of the
-/// object, 2 on a corner; further ones are on none
-bool collapse_slivers(Mesh& mesh, std::span<const std::uint8_t> sharp, float shortest_mm);
+/// non-manifold. Returns whether any was joined; triangles that vanish are left as three times
+/// vertex 0.
+///
+/// shape    `sharp`: 1 for a vertex on an edge of the object, 2 on a corner; further ones are on
+///          none. `rough`: what to look at; those around what was joined are added
+bool collapse_slivers(Mesh& mesh,
+                      std::span<const std::uint8_t> sharp,
+                      float shortest_mm,
+                      RoughTriangles& rough);
 
 }  // namespace frangia

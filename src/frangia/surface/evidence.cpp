@@ -15,6 +15,12 @@ constexpr float kAgree = 0.8F;   // cosine between normals of one face
 constexpr float kBack = -0.3F;   // a normal that points so far inward is the back of a thin wall
 constexpr float kAround = 4.0F;  // pixels: sight is clear when it is so this far to all sides
 
+/// One of the points that are asked about.
+struct Point {
+  Evidences& all;
+  std::size_t number;
+};
+
 struct Questioner {
   const LocalPlanes& view;
   FastLens lens;
@@ -49,12 +55,12 @@ struct Questioner {
     }
   }
 
-  void ask(Evidence& evidence, const Eigen::Vector3f& p, float u, float v, int outward) const {
+  void ask(Point at, const Eigen::Vector3f& p, float u, float v, int outward) const {
     if (!(p.z() > 0.0F)) return;
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
     if (quad == nullptr) {
       const LocalPlanes::Plane* pixel = view.pixel_at(u, v);
-      if (pixel != nullptr) support_beside(evidence, p, *pixel, outward);
+      if (pixel != nullptr) support_beside(at, p, *pixel, outward);
       return;
     }
     const float chord = (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
@@ -67,13 +73,13 @@ struct Questioner {
     if (std::abs(distance) < near_mm) {
       const bool at_rim = is_at_rim(u, v);
       if (at_rim && !sees(p - distance * plane.normal)) return;
-      support(evidence, {p, plane.normal, distance, quad->weight, at_rim}, outward);
+      support(at, {p, plane.normal, distance, quad->weight, at_rim}, outward);
     } else if (distance > through_mm && is_clear(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
       // That it sees through is as sure however well it knows what lies behind: what speaks for the
       // point may have been smoothed, what speaks against it not.
       constexpr float kSmoothed = 6.5F;
-      evidence.against += kSmoothed * quad->weight / (cosine * cosine);
+      at.all[at.number].against += kSmoothed * quad->weight / (cosine * cosine);
     }
   }
 
@@ -93,7 +99,7 @@ struct Questioner {
   }
 
   /// Half a pixel beside the last quad, where that is not far on the surface.
-  void support_beside(Evidence& evidence,
+  void support_beside(Point at,
                       const Eigen::Vector3f& point,
                       const LocalPlanes::Plane& pixel,
                       int outward) const {
@@ -104,7 +110,7 @@ struct Questioner {
     if (!(-pixel.normal.dot(point) > flattest * point.norm())) return;
     const float distance = pixel.normal.dot(point) + pixel.through_mm;
     if (!sees(point - distance * pixel.normal)) return;
-    support(evidence, {point, pixel.normal, distance, kRim * pixel.weight, true}, outward);
+    support(at, {point, pixel.normal, distance, kRim * pixel.weight, true}, outward);
   }
 
   /// Whether the view has a surface where a point would be moved to: at a rim a plane goes on where
@@ -122,17 +128,18 @@ struct Questioner {
   }
 
   /// The face that slopes as the view says, or a new one.
-  static Evidence::Face& face_for(Evidence& evidence, const Eigen::Vector3f& normal) {
-    const Evidence::Face& main = evidence.faces[0];
-    const float along = normal.dot(main.normal);
-    if (main.views == 0 ||
-        (along > 0.0F && along * along >= kAgree * kAgree * main.normal.squaredNorm())) {
-      return evidence.faces[0];
+  static Evidence::Face& face_for(Point at, const Eigen::Vector3f& normal) {
+    Evidence::Face& first = at.all[at.number].first;
+    const float along = normal.dot(first.normal);
+    if (first.views == 0 ||
+        (along > 0.0F && along * along >= kAgree * kAgree * first.normal.squaredNorm())) {
+      return first;
     }
     const auto agreement = [&](const Evidence::Face& face) {
       return face.views == 0 ? kAgree : normal.dot(face.normal) / face.normal.norm();
     };
-    return evidence.faces[agreement(evidence.faces[1]) > agreement(main) ? 1 : 0];
+    const bool is_other = agreement(at.all.other(at.number)) > agreement(first);
+    return is_other ? at.all.make_other(at.number) : first;
   }
 
   /// What a view says about a point of the rig frame.
@@ -144,7 +151,7 @@ struct Questioner {
     bool at_rim;  ///< a pixel beside saw nothing
   };
 
-  void support(Evidence& evidence, const Word& word, int outward) const {
+  void support(Point at, const Word& word, int outward) const {
     if (!(std::abs(word.distance_mm) < near_mm)) return;
     const Eigen::Vector3f normal = rotation.transpose() * word.normal;
     const float along = outward > 0 ? normal[outward - 1] : -normal[-outward - 1];
@@ -156,7 +163,7 @@ struct Questioner {
     const float cosine2 = cosine * cosine;
     constexpr float kInterpolated = 0.73F;  // of a pixel's variance, after interpolation
     const float variance = kInterpolated * cosine2 * cosine2 / word.weight;
-    Evidence::Face& face = face_for(evidence, normal);
+    Evidence::Face& face = face_for(at, normal);
     face.weight += w;
     face.weight_squared += w * w;
     face.offset += w * word.distance_mm;
@@ -179,15 +186,20 @@ struct Questioner {
 
 }  // namespace
 
-Evidences no_evidence(std::size_t count) {
-  const Evidence::Face nothing{
-      0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, Eigen::Vector3f::Zero(), 0};
-  Evidences evidence(count);
+const Evidence::Face Evidences::kNoFace{
+    0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, Eigen::Vector3f::Zero(), 0};
+
+Evidences::Evidences(std::size_t count) : all_(count), others_(count) {
   parallel_chunks(count, 16384, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      evidence[i] = {{nothing, nothing}, 0.0F, 0.0F};
+      all_[i] = {kNoFace, 0.0F, 0.0F, false};
   });
-  return evidence;
+}
+
+Evidence::Face& Evidences::make_other(std::size_t i) {
+  if (!all_[i].has_other) others_[i] = kNoFace;
+  all_[i].has_other = true;
+  return others_[i];
 }
 
 float correlation(float distance_mm, float spacing_mm) {
@@ -198,7 +210,7 @@ float correlation(float distance_mm, float spacing_mm) {
   return 1.0F - 1.5F * x * x + 0.75F * x * x * x;
 }
 
-void add_evidence(std::span<Evidence> evidence,
+void add_evidence(Evidences& evidence,
                   const Crossings& crossings,
                   const LocalPlanes& view,
                   const CameraRays& camera,
@@ -216,7 +228,7 @@ void add_evidence(std::span<Evidence> evidence,
       const std::size_t count = std::min(Questioner::Batch::kMost, end - from);
       questioner.project(std::span(crossings.points_mm).subspan(from, count), batch);
       for (std::size_t i = 0; i < count; ++i) {
-        questioner.ask(evidence[from + i],
+        questioner.ask({evidence, from + i},
                        {batch.x[i], batch.y[i], batch.z[i]},
                        batch.u[i],
                        batch.v[i],
@@ -226,7 +238,7 @@ void add_evidence(std::span<Evidence> evidence,
   });
 }
 
-void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings) {
+void add_disagreement(Evidences& evidence, const Crossings& crossings) {
   parallel_chunks(crossings.blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
       const std::size_t first = crossings.blocks[block]->crossings_before;
@@ -236,7 +248,7 @@ void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings) 
       float excess = 0.0F;  // of the scatter between views over what their noise explains
       float freedom = 0.0F;
       for (std::size_t i = first; i < last; ++i) {
-        const Evidence::Face& face = evidence[i].main();
+        const Evidence::Face& face = evidence.main(i);
         if (face.views < 2) continue;
         const float scatter = face.offset_squared - face.offset * face.offset / face.weight;
         const float expected = face.noise - face.noise_squared / face.weight;
@@ -245,7 +257,7 @@ void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings) 
       }
       const float between = excess > 0.0F && freedom > 0.0F ? excess / freedom : 0.0F;
       for (std::size_t i = first; i < last; ++i) {
-        const Evidence::Face& face = evidence[i].main();
+        const Evidence::Face& face = evidence.main(i);
         if (face.views == 0) continue;
         evidence[i].common = std::max(between * face.weight_squared, face.lateral_squared) /
                              (face.weight * face.weight);

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,24 +32,46 @@ struct Evidence {
     [[nodiscard]] float distance_mm() const { return offset / weight; }
   };
 
-  std::array<Face, 2> faces;  ///< two where the point is near an edge of the object
-  float against;              ///< sum of 1/sigma^2 over the views that see through
-  float common;               ///< variance that does not average away between neighbouring points
-
-  [[nodiscard]] bool holds() const { return faces[0].weight + faces[1].weight > against; }
-  /// The face that most weight speaks for.
-  [[nodiscard]] const Face& main() const {
-    return faces[faces[0].weight < faces[1].weight ? 1 : 0];
-  }
-  [[nodiscard]] const Face& side() const {
-    return faces[faces[0].weight < faces[1].weight ? 0 : 1];
-  }
+  Face first;
+  float against;   ///< sum of 1/sigma^2 over the views that see through
+  float common;    ///< variance that does not average away between neighbouring points
+  bool has_other;  ///< face, as points near an edge of the object do
 };
 
-using Evidences = std::vector<Evidence, PixelAllocator<Evidence>>;
+/// One for each point. Few have another face: memory for those that do not is never touched.
+class Evidences {
+ public:
+  /// Of points that no view has spoken of yet.
+  explicit Evidences(std::size_t count);
 
-/// Of points that no view has spoken of yet.
-[[nodiscard]] Evidences no_evidence(std::size_t count);
+  [[nodiscard]] std::size_t size() const { return all_.size(); }
+  [[nodiscard]] Evidence& operator[](std::size_t i) { return all_[i]; }
+  [[nodiscard]] const Evidence& operator[](std::size_t i) const { return all_[i]; }
+
+  /// The other face, one that nobody speaks for where there is none.
+  [[nodiscard]] const Evidence::Face& other(std::size_t i) const {
+    return all_[i].has_other ? others_[i] : kNoFace;
+  }
+  /// The other face, made where there is none.
+  [[nodiscard]] Evidence::Face& make_other(std::size_t i);
+
+  /// The face that most weight speaks for.
+  [[nodiscard]] const Evidence::Face& main(std::size_t i) const {
+    return all_[i].first.weight < other(i).weight ? other(i) : all_[i].first;
+  }
+  [[nodiscard]] const Evidence::Face& side(std::size_t i) const {
+    return all_[i].first.weight < other(i).weight ? all_[i].first : other(i);
+  }
+  [[nodiscard]] bool holds(std::size_t i) const {
+    return all_[i].first.weight + other(i).weight > all_[i].against;
+  }
+
+ private:
+  static const Evidence::Face kNoFace;
+
+  std::vector<Evidence, PixelAllocator<Evidence>> all_;
+  std::vector<Evidence::Face, PixelAllocator<Evidence::Face>> others_;  ///< unfilled without one
+};
 
 /// How much the mean over pixels at one point has to do with the mean at another: linear
 /// interpolation spreads a pixel over a triangle, whose autocorrelation is the cubic spline.
@@ -63,7 +83,7 @@ struct EvidenceOptions {
 };
 
 /// Asks one view about every crossing. It speaks against one only with clear sight all around.
-void add_evidence(std::span<Evidence> evidence,
+void add_evidence(Evidences& evidence,
                   const Crossings& crossings,
                   const LocalPlanes& view,
                   const CameraRays& camera,
@@ -74,6 +94,6 @@ void add_evidence(std::span<Evidence> evidence,
 /// within it. It is not less than what places in the picture are off by.
 ///
 /// source   random effects, DerSimonian & Laird 1986
-void add_disagreement(std::span<Evidence> evidence, const Crossings& crossings);
+void add_disagreement(Evidences& evidence, const Crossings& crossings);
 
 }  // namespace frangia

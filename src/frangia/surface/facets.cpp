@@ -24,22 +24,22 @@ Facet facet_of(const Eigen::Vector3f& crossing_mm, const Evidence::Face& face) {
 
 }  // namespace
 
-Facet side_facet(const Eigen::Vector3f& crossing_mm, const Evidence& evidence) {
-  return facet_of(crossing_mm, evidence.side());
+Facet side_facet(const Crossings& crossings, const Evidences& evidence, std::size_t crossing) {
+  return facet_of(crossings.points_mm[crossing], evidence.side(crossing));
 }
 
-Facets make_facets(const Crossings& crossings, std::span<const Evidence> evidence) {
+Facets make_facets(const Crossings& crossings, const Evidences& evidence) {
   constexpr float kSpeaks = 0.1F;  // of the main face's weight
   Facets facets(evidence.size());
   parallel_chunks(evidence.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Evidence& found = evidence[i];
-      facets[i].holds = found.holds();
+      facets[i].holds = evidence.holds(i);
       if (!facets[i].holds) continue;
-      const Evidence::Face& side = found.side();
-      facets[i] = facet_of(crossings.points_mm[i], found.main());
-      facets[i].common = found.common;
-      facets[i].has_side = side.views != 0 && side.weight >= kSpeaks * found.main().weight;
+      const Evidence::Face& main = evidence.main(i);
+      const Evidence::Face& side = evidence.side(i);
+      facets[i] = facet_of(crossings.points_mm[i], main);
+      facets[i].common = evidence[i].common;
+      facets[i].has_side = side.views != 0 && side.weight >= kSpeaks * main.weight;
     }
   });
   return facets;

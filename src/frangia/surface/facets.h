@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,16 +22,18 @@ struct Facet {
   float spacing_mm;        ///< of pixels
   float common;            ///< variance that does not average away between neighbours
   std::uint16_t views;
-  bool holds;     ///< see `Evidence::holds`; the rest says nothing where it does not
+  bool holds;     ///< see `Evidences::holds`; the rest says nothing where it does not
   bool has_side;  ///< another face runs near, and more than chance speaks for it
 };
 
 using Facets = std::vector<Facet, PixelAllocator<Facet>>;
 
 /// One facet a crossing.
-[[nodiscard]] Facets make_facets(const Crossings& crossings, std::span<const Evidence> evidence);
+[[nodiscard]] Facets make_facets(const Crossings& crossings, const Evidences& evidence);
 
 /// The plane of the other face near a crossing.
-[[nodiscard]] Facet side_facet(const Eigen::Vector3f& crossing_mm, const Evidence& evidence);
+[[nodiscard]] Facet side_facet(const Crossings& crossings,
+                               const Evidences& evidence,
+                               std::size_t crossing);
 
 }  // namespace frangia

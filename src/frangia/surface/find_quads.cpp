@@ -43,7 +43,7 @@ bool is_pinched(const Crossings::Around& around,
 
 void add_quads(std::vector<Quad>& quads,
                const Crossings& crossings,
-               std::span<const Evidence> evidence,
+               const Evidences& evidence,
                std::size_t block) {
   const Crossings::Block& cells = *crossings.blocks[block];
   const Crossings::Around around = crossings.around(block);
@@ -56,7 +56,7 @@ void add_quads(std::vector<Quad>& quads,
     quad.crossing = cells.first_crossing(at);
     for (quad.axis = 0; quad.axis < 3; ++quad.axis) {
       if ((cells.axes[at] >> quad.axis & 1) == 0) continue;
-      bool whole = evidence[quad.crossing].holds();
+      bool whole = evidence.holds(quad.crossing);
       unsigned pinched = 0;
       for (std::size_t corner = 0; whole && corner < 4; ++corner) {
         const auto cell = around.at(cell_of(quad, corner));
@@ -91,7 +91,7 @@ Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
   return cell_of(quad, side).cwiseMax(cell_of(quad, side + 1));
 }
 
-Quads find_quads(const Crossings& crossings, std::span<const Evidence> evidence) {
+Quads find_quads(const Crossings& crossings, const Evidences& evidence) {
   constexpr std::size_t kChunk = 64;
   Quads quads((crossings.blocks.size() + kChunk - 1) / kChunk);
   parallel_chunks(crossings.blocks.size(), kChunk, [&](std::size_t begin, std::size_t end) {

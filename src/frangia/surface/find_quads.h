@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,6 +34,6 @@ using Quads = std::vector<std::vector<Quad>>;
 [[nodiscard]] Eigen::Vector3i face_low(const Quad& quad, std::size_t side);
 
 /// A quad around each crossing that holds, where all four cells have surface: in a fixed order.
-[[nodiscard]] Quads find_quads(const Crossings& crossings, std::span<const Evidence> evidence);
+[[nodiscard]] Quads find_quads(const Crossings& crossings, const Evidences& evidence);
 
 }  // namespace frangia

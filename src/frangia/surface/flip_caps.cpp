@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/parallel.h"
 #include "frangia/surface/stars.h"
 
 namespace frangia {
@@ -42,37 +41,22 @@ struct Cap {
   Vertex a, b, c;
 };
 
-std::vector<Cap> find_caps(const Mesh& mesh, float lowest_mm) {
-  const auto is_high = [&](const Mesh::Triangle& t) {  // as height_of, without its roots
-    const Eigen::Vector3f& a = mesh.vertices_mm[t[0]];
-    const Eigen::Vector3f& b = mesh.vertices_mm[t[1]];
-    const Eigen::Vector3f& c = mesh.vertices_mm[t[2]];
-    const float longest =
-        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return (b - a).cross(c - a).squaredNorm() >= lowest_mm * lowest_mm * longest;
-  };
-  constexpr std::size_t kChunk = 65536;
-  std::vector<std::vector<Cap>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
-  parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto& corners = mesh.triangles[t];
-      if (is_high(corners)) continue;
-      std::array<float, 3> lengths{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        lengths[i] =
-            (mesh.vertices_mm[corners[(i + 1) % 3]] - mesh.vertices_mm[corners[i]]).squaredNorm();
-      }
-      const auto longest = static_cast<std::size_t>(
-          std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
-      parts[begin / kChunk].push_back({static_cast<std::uint32_t>(t),
-                                       corners[longest],
-                                       corners[(longest + 1) % 3],
-                                       corners[(longest + 2) % 3]});
-    }
-  });
+std::vector<Cap> find_caps(const Mesh& mesh,
+                           const std::vector<std::uint32_t>& near,
+                           float lowest_mm) {
   std::vector<Cap> caps;
-  for (const auto& part : parts)
-    caps.insert(caps.end(), part.begin(), part.end());
+  for (const std::uint32_t t : near) {
+    const auto& corners = mesh.triangles[t];
+    if (is_gone(corners) || !is_low(mesh, corners, lowest_mm)) continue;
+    std::array<float, 3> lengths{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      lengths[i] =
+          (mesh.vertices_mm[corners[(i + 1) % 3]] - mesh.vertices_mm[corners[i]]).squaredNorm();
+    }
+    const auto longest = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) -
+                                                  lengths.begin());
+    caps.push_back({t, corners[longest], corners[(longest + 1) % 3], corners[(longest + 2) % 3]});
+  }
   return caps;
 }
 
@@ -93,8 +77,9 @@ Vertex opposite(const Mesh::Triangle& t, const Cap& cap) {
 
 }  // namespace
 
-bool flip_caps(Mesh& mesh, float lowest_mm) {
-  const std::vector<Cap> caps = find_caps(mesh, lowest_mm);
+bool flip_caps(Mesh& mesh, float lowest_mm, RoughTriangles& rough) {
+  const std::vector<Cap> caps = find_caps(mesh, rough.triangles(), lowest_mm);
+  if (caps.empty()) return false;
   std::vector<Stars::Edge> edges;
   for (const Cap& cap : caps) {
     edges.emplace_back(cap.a, cap.b);
@@ -125,6 +110,7 @@ bool flip_caps(Mesh& mesh, float lowest_mm) {
       touched[v] = true;
     any = true;
   }
+  rough.add(stars.triangles());
   return any;
 }
 

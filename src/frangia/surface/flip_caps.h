@@ -1,6 +1,7 @@
 #pragma once
 
 #include "frangia/surface/mesh.h"
+#include "frangia/surface/rough_triangles.h"
 
 namespace frangia {
 
@@ -8,7 +9,7 @@ namespace frangia {
 /// three corners no longer lie in a row.
 ///
 /// Nothing is turned that would fold a triangle over or make the mesh non-manifold. Returns whether
-/// any was.
-bool flip_caps(Mesh& mesh, float lowest_mm);
+/// any was. `rough` tells what to look at; those around what was turned are added.
+bool flip_caps(Mesh& mesh, float lowest_mm, RoughTriangles& rough);
 
 }  // namespace frangia

@@ -12,10 +12,9 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
-#include "frangia/surface/collapse_slivers.h"
 #include "frangia/surface/find_quads.h"
-#include "frangia/surface/flip_caps.h"
 #include "frangia/surface/sharpen_edges.h"
+#include "frangia/surface/smooth_out.h"
 #include "frangia/surface/unfold_mesh.h"
 
 namespace frangia {
@@ -53,8 +52,8 @@ struct Surface {
   float voxel_mm = 0.0F;
 };
 
-Surface surface_at(const Crossings& crossings, const Evidence& evidence, std::uint32_t crossing) {
-  const Evidence::Face& face = evidence.main();
+Surface surface_at(const Crossings& crossings, const Evidences& evidence, std::uint32_t crossing) {
+  const Evidence::Face& face = evidence.main(crossing);
   const Eigen::Vector3f normal = face.normal.normalized();
   const int axis = std::abs(crossings.outward[crossing]) - 1;
   const float sign = crossings.outward[crossing] > 0 ? 1.0F : -1.0F;
@@ -101,13 +100,11 @@ void choose_cut(Quad& quad, const Mesh& mesh, const Ring& ring, const Surface& s
 void cut_quads(Quads& quads,
                const Mesh& mesh,
                const Crossings& crossings,
-               std::span<const Evidence> evidence) {
+               const Evidences& evidence) {
   parallel_chunks(quads.size(), 1, [&](std::size_t part, std::size_t) {
     for (Quad& quad : quads[part]) {
-      choose_cut(quad,
-                 mesh,
-                 ring_of(quad, crossings),
-                 surface_at(crossings, evidence[quad.crossing], quad.crossing));
+      choose_cut(
+          quad, mesh, ring_of(quad, crossings), surface_at(crossings, evidence, quad.crossing));
     }
   });
 }
@@ -185,21 +182,9 @@ void add_pinched(Mesh& mesh, const Crossings& crossings, const Quads& quads) {
   }
 }
 
-/// Takes slivers and caps away.
-void smooth_out(Mesh& mesh, const std::vector<std::uint8_t>& sharp, float voxel_mm) {
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    const bool joined = collapse_slivers(mesh, sharp, 2.0F * kSliver * voxel_mm);
-    const bool turned = flip_caps(mesh, kSliver * voxel_mm);
-    if (!joined && !turned) break;
-  }
-}
-
 }  // namespace
 
-Mesh mesh_quads(PlacedVertices vertices,
-                const Crossings& crossings,
-                std::span<const Evidence> evidence) {
+Mesh mesh_quads(PlacedVertices vertices, const Crossings& crossings, const Evidences& evidence) {
   Mesh& mesh = vertices.mesh;
   Quads quads = find_quads(crossings, evidence);
   cut_quads(quads, mesh, crossings, evidence);
@@ -211,12 +196,9 @@ Mesh mesh_quads(PlacedVertices vertices,
   quads = {};
 
   const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
-  smooth_out(mesh, vertices.sharp, voxel_mm);
-
+  smooth_out(mesh, vertices.sharp, kSliver * voxel_mm);
   const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
-
-  smooth_out(mesh, sharp, voxel_mm);
-
+  smooth_out(mesh, sharp, kSliver * voxel_mm);
   unfold_mesh(mesh, sharp);
 
   return std::move(vertices.mesh);

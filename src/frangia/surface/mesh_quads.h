@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/evidence.h"
@@ -18,6 +17,6 @@ namespace frangia {
 /// missing  no quad where a cell has an unseen corner, nor where no view saw the surface
 [[nodiscard]] Mesh mesh_quads(PlacedVertices vertices,
                               const Crossings& crossings,
-                              std::span<const Evidence> evidence);
+                              const Evidences& evidence);
 
 }  // namespace frangia

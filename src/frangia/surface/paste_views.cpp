@@ -106,7 +106,7 @@ Mesh paste_views(const ViewStore& views,
   const Crossings crossings = find_crossings(field);
   field = {};
 
-  Evidences evidence = no_evidence(crossings.points_mm.size());
+  Evidences evidence(crossings.points_mm.size());
   for_each_view(views, 1, rays, {.widen = true}, [&](const LocalPlanes& view) {
     add_evidence(evidence, crossings, view, rays, {near_mm, band.front_mm});
     run.report(done += progress);

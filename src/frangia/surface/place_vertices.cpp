@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -35,7 +36,7 @@ struct Cell {
 /// What there is to place vertices by.
 struct Ground {
   const Crossings& crossings;
-  std::span<const Evidence> evidence;
+  const Evidences& evidence;
   Facets facets;
 };
 
@@ -152,7 +153,7 @@ bool add_sides(Meeting& meeting, const Loop& loop, const Ground& ground, const C
   for (std::size_t i = 0; i < loop.count; ++i) {
     if (!loop.facets[i]->has_side) continue;
     const std::uint32_t crossing = loop.crossings[i];
-    const Facet side = side_facet(ground.crossings.points_mm[crossing], ground.evidence[crossing]);
+    const Facet side = side_facet(ground.crossings, ground.evidence, crossing);
     if (!cell.holds(side.point)) continue;
     meeting.add(side);
     any = true;
@@ -243,7 +244,7 @@ void place_in_block(PlacedVertices& placed, const Ground& ground, std::size_t bl
 
 }  // namespace
 
-PlacedVertices place_vertices(const Crossings& crossings, std::span<const Evidence> evidence) {
+PlacedVertices place_vertices(const Crossings& crossings, const Evidences& evidence) {
   const Ground ground{crossings, evidence, make_facets(crossings, evidence)};
   PlacedVertices placed;
   placed.mesh.vertices_mm.assign(crossings.vertices, Eigen::Vector3f::Zero());

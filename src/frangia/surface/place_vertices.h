@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "frangia/surface/crossings.h"
@@ -24,7 +23,6 @@ struct PlacedVertices {
 /// shape    `crossings.vertices` vertices
 /// missing  a vertex none of whose crossings holds is zero
 /// source   dual contouring, Ju et al. 2002; several vertices a cell, Schaefer et al. 2007
-[[nodiscard]] PlacedVertices place_vertices(const Crossings& crossings,
-                                            std::span<const Evidence> evidence);
+[[nodiscard]] PlacedVertices place_vertices(const Crossings& crossings, const Evidences& evidence);
 
 }  // namespace frangia

@@ -15,6 +15,11 @@ namespace frangia {
   return t[0] == vertex || t[1] == vertex || t[2] == vertex;
 }
 
+/// Whether a triangle was taken away, but not yet from the mesh's list.
+[[nodiscard]] inline bool is_gone(const Mesh::Triangle& t) {
+  return t[0] == t[1];
+}
+
 /// The triangles around the ends of some edges.
 class Stars {
  public:
@@ -36,27 +41,31 @@ class Stars {
     parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         const auto& [a, b, c] = mesh.triangles[t];
-        if (is_marked(a) || is_marked(b) || is_marked(c))
+        if ((is_marked(a) || is_marked(b) || is_marked(c)) && !is_gone(mesh.triangles[t]))
           parts[begin / kChunk].push_back(static_cast<std::uint32_t>(t));
       }
     });
-    triangles_.resize(count);
+    around_.resize(count);
     for (const auto& part : parts) {
+      triangles_.insert(triangles_.end(), part.begin(), part.end());
       for (const std::uint32_t t : part) {
         for (const std::uint32_t v : mesh.triangles[t]) {
-          if (place_[v] != kNone) triangles_[place_[v]].push_back(t);
+          if (place_[v] != kNone) around_[place_[v]].push_back(t);
         }
       }
     }
   }
+  /// Of all of them, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& triangles() const { return triangles_; }
   [[nodiscard]] const std::vector<std::uint32_t>& of(std::uint32_t vertex) const {
-    return triangles_[place_[vertex]];
+    return around_[place_[vertex]];
   }
 
  private:
   static constexpr std::uint32_t kNone = ~0U;
   std::vector<std::uint32_t> place_;
-  std::vector<std::vector<std::uint32_t>> triangles_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<std::vector<std::uint32_t>> around_;
 };
 
 /// The vertices joined to `v`, each as often as a triangle says so: twice, or once at the rim.

@@ -18,7 +18,8 @@ namespace {
 /// two triangles and a vertex, which are copied once.
 constexpr double kBytesPerBlock =
     sizeof(DistanceField::Block) +
-    0.63 * (sizeof(Crossings::Block) + 64.0 * (sizeof(Evidence) + sizeof(Facet) + 170.0));
+    0.63 * (sizeof(Crossings::Block) +
+            64.0 * (sizeof(Evidence) + sizeof(Evidence::Face) + sizeof(Facet) + 170.0));
 
 /// Blocks for each that the surface of one view would fill: they reach into the neighbours.
 constexpr double kBlocksPerFlatOne = 1.8;

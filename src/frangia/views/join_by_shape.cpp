@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
+#include "frangia/core/angles.h"
 #include "frangia/views/find_places.h"
 #include "frangia/views/surface_features.h"
 
@@ -59,6 +61,21 @@ double usual_residual(const std::vector<Candidate>& candidates, const JoinByShap
   return least;
 }
 
+/// Whether two groups of one view each see the same, from the same place.
+bool are_twins(const ViewGroup& to, const ViewGroup& from, const GroupPlace& place) {
+  constexpr double kSame = 0.85;  // of the points: the rest are rims
+  constexpr double kTurned = rad_from_deg(3.0);
+  constexpr double kNearer = 0.05;
+  if (to.members.size() != 1 || from.members.size() != 1 || place.fit.overlap < kSame) return false;
+  const Eigen::Vector3d one = to.members[0].rig_from_group.inverse().translation();
+  const Eigen::Vector3d other =
+      place.to_from * from.members[0].rig_from_group.inverse().translation();
+  const Eigen::Vector3d to_one = one - place.fit.centre_mm;
+  const Eigen::Vector3d to_other = other - place.fit.centre_mm;
+  const double turned = std::atan2(to_one.cross(to_other).norm(), to_one.dot(to_other));
+  return turned < kTurned && std::abs(to_other.norm() - to_one.norm()) < kNearer * to_one.norm();
+}
+
 /// Joins clusters, those that fit best first, as long as any fit together.
 class Joiner {
  public:
@@ -94,6 +111,21 @@ class Joiner {
       return true;
     }
     return false;
+  }
+
+  /// Leaves out the later one of two that look the same.
+  void leave_out_twins(JoinedGroups& out) {
+    for (const Candidate& candidate : candidates_) {
+      const auto& [to, from, place] = candidate;
+      if (out.twin_of[to] || out.twin_of[from] || !holds(place.fit, 1.0)) continue;
+      if (are_twins(clusters_[to], clusters_[from], place)) out.twin_of[from] = to;
+    }
+    const auto is_left_out = [&](const Candidate& candidate) {
+      return out.twin_of[candidate.to] || out.twin_of[candidate.from];
+    };
+    std::erase_if(candidates_, is_left_out);
+    for (std::size_t i = 0; i < clusters_.size(); ++i)
+      if (out.twin_of[i]) clusters_[i] = {};
   }
 
   /// Looks for places of whole clusters on each other, which have more in common than their groups.
@@ -155,16 +187,18 @@ class Joiner {
 
   /// `slack` 1 as the options say, more is easier; but what is seen through is so in any case.
   [[nodiscard]] bool holds(const GroupFit& fit, double slack) const {
+    return fit.firmness >= options_.min_firmness / slack && fits(fit, slack);
+  }
+  [[nodiscard]] bool fits(const GroupFit& fit, double slack) const {
     return fit.overlap >= options_.min_overlap / slack &&
            fit.contradiction() <= options_.max_contradiction &&
-           fit.firmness >= options_.min_firmness / slack &&
            fit.residual_mm <= slack * options_.max_residual * usual_mm_;
   }
-  /// Whether another place would nearly do as well as the first.
+  /// Whether another place would nearly do as well as the first, be it one that slides.
   [[nodiscard]] bool rivalled(const std::vector<GroupPlace>& places) const {
     constexpr double kSlack = 3.0;
     return std::any_of(places.begin() + 1, places.end(), [&](const GroupPlace& other) {
-      return holds(other.fit, kSlack) &&
+      return fits(other.fit, kSlack) &&
              other.score(usual_mm_) > options_.max_runner_up * places[0].score(usual_mm_);
     });
   }
@@ -228,7 +262,9 @@ JoinedGroups join_by_shape(std::span<const ViewGroup> groups,
                            const Run& run) {
   JoinedGroups out;
   out.ambiguous.assign(groups.size(), false);
+  out.twin_of.assign(groups.size(), std::nullopt);
   Joiner joiner(groups, views, all_candidates(groups, views, {options.spacing_mm}, run), options);
+  if (options.leave_out_twins) joiner.leave_out_twins(out);
   for (bool again = true; again;) {
     const std::size_t joints = out.joints.size();
     while (joiner.join_next(out))

@@ -18,8 +18,12 @@ struct JoinByShapeOptions {
   double min_overlap = 0.12;         ///< share of the smaller group's points
   double max_contradiction = 0.015;  ///< of the points compared, that the other saw through
   double max_runner_up = 0.85;       ///< what fits elsewhere, as a share of what fits here
-  double min_firmness = 0.0015;      ///< less, and one slides or turns on the other
+  double min_firmness = 0.0002;      ///< less, and one slides or turns on the other; what slides a
+                                     ///< little less freely is told by fitting beside, too
   double max_residual = 3.0;  ///< median distance, as a multiple of that where groups fit best
+  /// Of two views that look the same from the same place only the first is joined: either the part
+  /// was not moved, or it looks alike from two sides, and nothing tells which.
+  bool leave_out_twins = false;
 };
 
 /// Two clusters of groups that were put together.
@@ -34,6 +38,7 @@ struct JoinedGroups {
   std::vector<std::optional<Eigen::Isometry3d>>
       reference_from_group;     ///< none: could not be joined
   std::vector<bool> ambiguous;  ///< fits in more than one place, as far as others are joined
+  std::vector<std::optional<std::size_t>> twin_of;  ///< the view that looks the same, if left out
   std::vector<Joint> joints;
 };
 

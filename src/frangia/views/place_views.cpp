@@ -21,19 +21,24 @@ std::vector<ViewGroup> groups_of(const Members& members,
   return groups;
 }
 
-void leave_out(std::size_t view,
-               bool ambiguous,
-               ViewStore& views,
-               std::vector<PlaneMap>& maps,
-               const std::string& name,
-               const Run& run) {
-  run.warn(fmt::format(
-      "{}: {}, and is left out",
-      name,
-      ambiguous ? "fits the others in more than one place, as parts do that look alike from "
-                  "several sides"
-                : "fits none of the others in a place that their shape determines: it overlaps too "
-                  "little with them, or slides on them"));
+/// Why a view could not be placed.
+std::string reason(const JoinedGroups& joined,
+                   std::size_t view,
+                   std::span<const std::string> names) {
+  if (const auto twin = joined.twin_of[view]) {
+    return fmt::format(
+        "looks the same as {}: the part was not moved, or looks alike from two "
+        "sides, which needs poses in a .conf",
+        names[*twin]);
+  }
+  return joined.ambiguous[view]
+             ? "fits the others in more than one place, as parts do that look alike from several "
+               "sides"
+             : "fits none of the others in a place that their shape determines: it overlaps too "
+               "little with them, or slides on them";
+}
+
+void leave_out(std::size_t view, ViewStore& views, std::vector<PlaneMap>& maps) {
   views.clear(view);
   for (auto& spot : maps[view].spots.pixels())
     spot = {};
@@ -62,7 +67,8 @@ PlacedViews place_views(ViewStore& views,
   const double spacing_mm = spacing_for(members, maps);
   const auto groups = groups_of(members, maps, spacing_mm);
   const FastLens lens(camera);
-  const JoinedGroups joined = join_by_shape(groups, {maps, lens}, {.spacing_mm = spacing_mm}, run);
+  const JoinedGroups joined =
+      join_by_shape(groups, {maps, lens}, {.spacing_mm = spacing_mm, .leave_out_twins = true}, run);
   if (joined.joints.empty()) {
     throw Error(ErrorKind::Input,
                 "no two scans fit together in just one place: they overlap too little, or look "
@@ -80,7 +86,8 @@ PlacedViews place_views(ViewStore& views,
       views.set_rig_from_object(i, pose->inverse() * held);
       ++out.placed;
     } else {
-      leave_out(i, joined.ambiguous[i], views, maps, names[i], run);
+      run.warn(fmt::format("{}: {}; it is left out", names[i], reason(joined, i, names)));
+      leave_out(i, views, maps);
       out.left_out.push_back(i);
     }
   }
