@@ -20,7 +20,7 @@ struct Scene {
   RangeGrid range{Image<float>(80, 60, 500.0F), Image<float>(80, 60, 0.02F)};
   Image<PixelFate> fate{80, 60, PixelFate::Measured};
 
-  std::size_t drop() { return drop_mixed_edges(range, rays, fate); }
+  std::size_t drop() { return drop_mixed_edges(range, rays, fate).size(); }
 };
 
 TEST(DropMixedEdges, KeepsEveryPointOfASlopedSurface) {

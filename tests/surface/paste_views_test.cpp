@@ -72,6 +72,33 @@ TEST(PasteViews, StaysOpenWhereNothingWasSeen) {
   EXPECT_LT(VertexErrors(mesh, truth).rms_mm, 0.01);
 }
 
+TEST(PasteViews, ReachesTheRimOfWhatWasSeenWithinAPixelAndNotBeyond) {
+  const double radius = 50.0;
+  const double steepest = rad_from_deg(70.0);
+  const Shape truth = testing::sphere(radius);
+  const Mesh mesh = paste_views(snapshots(truth,
+                                          small_lens(),
+                                          {testing::look_from(0.4, 0.9, kDistance)},
+                                          {.steepest_rad = steepest}),
+                                small_lens());
+  // The cap that one view sees, and a pixel less or half a pixel more of it.
+  const auto cap_mm2 = [&](double pixels) {
+    const double pixel_rad = 1.0 / (1500.0 * std::cos(steepest)) * (kDistance - 20.0) / radius;
+    const double from_camera = std::asin(radius * std::sin(steepest) / kDistance);
+    return kTurn * radius * radius * (1.0 - std::cos(steepest - from_camera + pixels * pixel_rad));
+  };
+  double area_mm2 = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3f& origin = mesh.vertices_mm[a];
+    area_mm2 +=
+        0.5 * static_cast<double>(
+                  (mesh.vertices_mm[b] - origin).cross(mesh.vertices_mm[c] - origin).norm());
+  }
+  EXPECT_GT(area_mm2, cap_mm2(-1.0));
+  EXPECT_LT(area_mm2, cap_mm2(0.5));
+  EXPECT_LT(VertexErrors(mesh, truth).max_mm, 0.3);
+}
+
 TEST(PasteViews, KeepsTheEdgesOfABoxSharp) {
   const TurnedBox box;
   const double voxel_mm = 0.6;

@@ -42,6 +42,19 @@ TEST(ViewStore, ReplacesOneViewAndLeavesTheOthers) {
   EXPECT_THROW(store.replace(1, view_of(1.0F, 5, 5)), Error);
 }
 
+TEST(ViewStore, KeepsTheRimApartFromWhatWasSeen) {
+  ViewStore store;
+  View view = view_of(1.0F);
+  view.rim = {{4 * 30 + 3, 5.0F, 0.5F}};
+  store.add(view);
+  const View loaded = store.load(0);
+  EXPECT_TRUE(std::isnan(loaded.range.depth_mm(3, 4)));
+  ASSERT_EQ(loaded.rim.size(), 1U);
+  EXPECT_EQ(loaded.rim[0].depth_mm, 5.0F);
+  store.clear(0);
+  EXPECT_TRUE(store.load(0).rim.empty());
+}
+
 TEST(ViewStore, KeepsItsViewsWhenMoved) {
   ViewStore store;
   store.add(view_of(3.0F));

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/range/is_connected.h"
 
 namespace frangia {
 namespace {
@@ -20,11 +22,7 @@ struct Grid {
 
   /// Whether a continuous surface can run from one pixel to its neighbour.
   [[nodiscard]] bool connected(int x, int y, int u, int v) const {
-    const float a = range.depth_mm(x, y);
-    const float b = range.depth_mm(u, v);
-    const float across = (rays(x, y) - rays(u, v)).norm() * 0.5F * (a + b);
-    const float noise = std::hypot(range.sigma_mm(x, y), range.sigma_mm(u, v));
-    return std::abs(a - b) <= max_slope * across + 4.0F * noise;  // false for NaN
+    return is_connected(range, rays, {x, y}, {u, v}, max_slope);
   }
 };
 
@@ -133,10 +131,10 @@ void mark_low_steps(const Grid& grid, Image<std::uint8_t>& drop) {
 
 }  // namespace
 
-std::size_t drop_mixed_edges(RangeGrid& range,
-                             const Image<Eigen::Vector2f>& rays,
-                             Image<PixelFate>& fate,
-                             const EdgeOptions& options) {
+std::vector<RangePixel> drop_mixed_edges(RangeGrid& range,
+                                         const Image<Eigen::Vector2f>& rays,
+                                         Image<PixelFate>& fate,
+                                         const EdgeOptions& options) {
   require(same_size(range.depth_mm, rays) && same_size(range.depth_mm, fate),
           "drop_mixed_edges: range, rays and fate differ in size");
   const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
@@ -150,13 +148,15 @@ std::size_t drop_mixed_edges(RangeGrid& range,
   });
   mark_low_steps(grid, drop);
   mark_small_patches(grid, options.min_patch_px, drop);
-  std::size_t dropped = 0;
+  std::vector<RangePixel> dropped;
   for (std::size_t i = 0; i < drop.pixels().size(); ++i) {
-    if (drop.pixels()[i] == 0 || std::isnan(range.depth_mm.pixels()[i])) continue;
-    range.depth_mm.pixels()[i] = kMissing;
-    range.sigma_mm.pixels()[i] = kMissing;
+    float& depth = range.depth_mm.pixels()[i];
+    float& sigma = range.sigma_mm.pixels()[i];
+    if (drop.pixels()[i] == 0 || std::isnan(depth)) continue;
+    dropped.push_back({static_cast<std::uint32_t>(i), depth, sigma});
+    depth = kMissing;
+    sigma = kMissing;
     fate.pixels()[i] = PixelFate::MixedEdge;
-    ++dropped;
   }
   return dropped;
 }

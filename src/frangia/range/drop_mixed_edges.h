@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
@@ -20,10 +22,11 @@ struct EdgeOptions {
 /// At a depth step the pixels on both sides may hold light of both surfaces, so they go. On a
 /// silhouette against the dark the outermost pixel holds light of its covered part only, which is
 /// not its centre, so it goes too. What is left in patches too small to be a surface goes last.
-/// Dropped pixels are marked MixedEdge in `fate`. Returns how many.
-std::size_t drop_mixed_edges(RangeGrid& range,
-                             const Image<Eigen::Vector2f>& rays,
-                             Image<PixelFate>& fate,
-                             const EdgeOptions& options = {});
+/// Dropped pixels are marked MixedEdge in `fate`. Returns them, in order, as they were: some may
+/// see one surface after all, see `find_rim`.
+std::vector<RangePixel> drop_mixed_edges(RangeGrid& range,
+                                         const Image<Eigen::Vector2f>& rays,
+                                         Image<PixelFate>& fate,
+                                         const EdgeOptions& options = {});
 
 }  // namespace frangia

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "frangia/core/image.h"
 
 namespace frangia {
@@ -9,6 +11,13 @@ namespace frangia {
 struct RangeGrid {
   Image<float> depth_mm;  ///< z, along the optical axis
   Image<float> sigma_mm;  ///< standard deviation of the point along its viewing ray
+};
+
+/// One pixel of a range grid, by itself.
+struct RangePixel {
+  std::uint32_t pixel = 0;  ///< x + y * width
+  float depth_mm = 0.0F;
+  float sigma_mm = 0.0F;
 };
 
 }  // namespace frangia

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/range/find_rim.h"
 #include "frangia/range/triangulate.h"
 #include "frangia/scan/survey_scan.h"
 
@@ -52,6 +54,7 @@ void tell_verdicts(const Scan& scan,
 /// What the frames of one view say, in mm.
 struct MeasuredView {
   RangeGrid range;
+  std::vector<RangePixel> rim;
   DecodedView decoded;
   std::size_t points = 0;
 };
@@ -70,7 +73,8 @@ MeasuredView measure_view(const Scan& scan,
   tell_verdicts(scan, view, out.decoded.verdicts, run);
   run.stage("range");
   out.range = triangulate(out.decoded.phase, scan.rig, rays);
-  drop_mixed_edges(out.range, rays, out.decoded.phase.fate, edges);
+  const auto dropped = drop_mixed_edges(out.range, rays, out.decoded.phase.fate, edges);
+  out.rim = find_rim(out.range, rays, dropped, {.max_incidence_deg = edges.max_incidence_deg});
   out.points = count_points(out.range);
   return out;
 }
@@ -100,7 +104,9 @@ MeasuredViews measure_views(const Scan& scan,
     all.unwrapped_in_space = one.decoded.relative.has_value();
     all.stops.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
     all.rounds.push_back(scan.views[i].round);
-    all.views.add({std::move(one.range), scan.rig.rig_from_object(scan.views[i].angle_rad)});
+    all.views.add({std::move(one.range),
+                   scan.rig.rig_from_object(scan.views[i].angle_rad),
+                   std::move(one.rim)});
     all.points += one.points;
   }
   return all;

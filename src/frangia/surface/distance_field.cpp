@@ -15,6 +15,11 @@ constexpr int kEdge = DistanceField::kEdge;
 /// Of a guess beside what was seen, in 1/mm^2: it counts where nobody knows better.
 constexpr float kBesideWeight = 1e-6F;
 
+/// And of one deeper than the band: that the object is there needs no saying but at a rim, where a
+/// cell would lack a corner.
+constexpr float kDeepWeight = 1e-9F;
+constexpr float kDeepest = 10.0F;  // times the band's depth
+
 /// Distance of voxels from what a view saw, a row of a block at a time.
 struct Sampler {
   const LocalPlanes& view;
@@ -22,21 +27,27 @@ struct Sampler {
   float front;
   float back;
   float guess;
+  float voxel;
 
   Sampler(const LocalPlanes& seen, const Lens& camera, const Band& band)
       : view(seen),
         lens(camera),
         front(static_cast<float>(band.front_mm)),
         back(static_cast<float>(band.back_mm)),
-        guess(static_cast<float>(band.guess_mm)) {}
+        guess(static_cast<float>(band.guess_mm)),
+        voxel(static_cast<float>(band.voxel_mm)) {}
 
   /// What a view's word on a voxel counts, 0 outside the band. Behind its surface a view can only
   /// guess: the object may be thin, or end beside the ray.
   [[nodiscard]] float weighed(float weight, float distance) const {
     const float depth = std::min(distance, 0.0F) / guess;
     const float trust = 1.0F / ((1.0F + depth * depth) * (1.0F + depth * depth));
-    return distance < front && distance > -back ? weight * trust : 0.0F;
+    const float deep = distance > -kDeepest * back ? kDeepWeight : 0.0F;
+    const float behind = distance > -back ? weight * trust : deep;
+    return distance < front ? behind : 0.0F;
   }
+  /// The distance that it gives: below the band a voxel, so that a crossing beside it is no jump.
+  [[nodiscard]] float told(float distance) const { return distance > -back ? distance : -voxel; }
 };
 
 /// Eight voxels in a row, seen from the view.
@@ -137,7 +148,7 @@ struct Row {
     const float share = how.weighed(weight[i], distance);
     const bool smooth = row.kind[i] == kSmooth;
     row.weight[i] = smooth ? share : 0.0F;
-    row.weighted[i] = smooth ? share * distance : 0.0F;
+    row.weighted[i] = smooth ? share * how.told(distance) : 0.0F;
   }
 }
 
@@ -151,7 +162,7 @@ void weigh_rough(Row& row, std::size_t i, const Sampler& sampler, const Eigen::V
   const auto quad = static_cast<std::size_t>(row.quad[i]);
   const float weight = beside ? kBesideWeight : view.quads.pixels()[quad].weight;
   row.weight[i] = sampler.weighed(weight, distance);
-  row.weighted[i] = row.weight[i] * distance;
+  row.weighted[i] = row.weight[i] * sampler.told(distance);
 }
 
 /// Adds a view to a block, given in camera coordinates: the first voxel, and the step along each

@@ -59,20 +59,8 @@ struct Questioner {
     if (!(p.z() > 0.0F)) return;
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
     if (quad == nullptr) {
-      // Half a pixel beside the last quad, where that is not far on the surface.
-      constexpr float kRim = 0.1F;  // of the weight: what lies further in is better known
-      constexpr float kFlattest = 0.5F;
       const LocalPlanes::Plane* pixel = view.pixel_at(u, v);
-      if (pixel != nullptr && pixel->window != WindowKind::Small &&
-          -pixel->normal.dot(p) > kFlattest * p.norm()) {
-        support(at,
-                {p,
-                 pixel->normal,
-                 pixel->normal.dot(p) + pixel->through_mm,
-                 kRim * pixel->weight,
-                 true},
-                outward);
-      }
+      if (pixel != nullptr) support_beside(at, p, *pixel, outward);
       return;
     }
     const float chord = (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
@@ -83,7 +71,9 @@ struct Questioner {
                : view.nearest_face(u, v, p);
     const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
-      support(at, {p, plane.normal, distance, quad->weight, is_at_rim(u, v)}, outward);
+      const bool at_rim = is_at_rim(u, v);
+      if (at_rim && !sees(p - distance * plane.normal)) return;
+      support(at, {p, plane.normal, distance, quad->weight, at_rim}, outward);
     } else if (distance > through_mm && is_clear(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
       // That it sees through is as sure however well it knows what lies behind: what speaks for the
@@ -106,6 +96,30 @@ struct Questioner {
       if (plane.in_front_mm(point) < 0.5F * through_mm) return false;
     }
     return true;
+  }
+
+  /// Half a pixel beside the last quad, where that is not far on the surface.
+  void support_beside(Point at,
+                      const Eigen::Vector3f& point,
+                      const LocalPlanes::Plane& pixel,
+                      int outward) const {
+    constexpr float kRim = 0.1F;  // of the weight: what lies further in is better known
+    constexpr float kFlattest = 0.3F;
+    constexpr float kFlattestOfSmall = 0.5F;  // whose slope is known worse
+    const float flattest = pixel.window == WindowKind::Small ? kFlattestOfSmall : kFlattest;
+    if (!(-pixel.normal.dot(point) > flattest * point.norm())) return;
+    const float distance = pixel.normal.dot(point) + pixel.through_mm;
+    if (!sees(point - distance * pixel.normal)) return;
+    support(at, {point, pixel.normal, distance, kRim * pixel.weight, true}, outward);
+  }
+
+  /// Whether the view has a surface where a point would be moved to: at a rim a plane goes on where
+  /// the object may not.
+  [[nodiscard]] bool sees(const Eigen::Vector3f& point) const {
+    float u = 0.0F;
+    float v = 0.0F;
+    lens.project(point.x(), point.y(), point.z(), u, v);
+    return view.quad_at(u, v) != nullptr || view.pixel_at(u, v) != nullptr;
   }
 
   [[nodiscard]] bool is_at_rim(float u, float v) const {

@@ -17,6 +17,7 @@
 #include "frangia/surface/place_vertices.h"
 #include "frangia/surface/tidy_mesh.h"
 #include "frangia/surface/voxel_budget.h"
+#include "frangia/views/add_rim.h"
 #include "frangia/views/local_planes.h"
 #include "frangia/views/thin_out.h"
 
@@ -44,6 +45,7 @@ void for_each_view(const ViewStore& views,
   const auto read = [&](std::size_t i) {
     return std::async(std::launch::async, [&views, step, i] {
       View view = views.load(i);
+      add_rim(view);
       return step > 1 ? thin_out(view, step) : view;
     });
   };

@@ -1,5 +1,6 @@
 #include "frangia/views/clip_views.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -17,14 +18,17 @@ struct Count {
 Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip) {
   const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
   Image<float>& depth = view.range.depth_mm;
+  const auto keeps = [&](const Eigen::Vector2f& ray, float depth_mm) {
+    const Eigen::Vector3f seen = depth_mm * ray.homogeneous();
+    const Eigen::Vector3d point = object_from_rig * seen.cast<double>();
+    return clip.floor.signedDistance(point) > 0.0 && point.head<2>().norm() < clip.max_radius_mm;
+  };
   std::vector<Count> rows(static_cast<std::size_t>(depth.height()));
   parallel_rows(depth.height(), [&](int y) {
     Count& count = rows[static_cast<std::size_t>(y)];
     for (int x = 0; x < depth.width(); ++x) {
       if (std::isnan(depth(x, y))) continue;
-      const Eigen::Vector3f seen = depth(x, y) * rays(x, y).homogeneous();
-      const Eigen::Vector3d point = object_from_rig * seen.cast<double>();
-      if (clip.floor.signedDistance(point) > 0.0 && point.head<2>().norm() < clip.max_radius_mm) {
+      if (keeps(rays(x, y), depth(x, y))) {
         ++count.kept;
       } else {
         ++count.dropped;
@@ -33,6 +37,11 @@ Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip
     }
   });
   Count all;
+  const auto beyond = std::remove_if(view.rim.begin(), view.rim.end(), [&](const RangePixel& p) {
+    return !keeps(rays.pixels()[p.pixel], p.depth_mm);
+  });
+  all.dropped += static_cast<std::size_t>(view.rim.end() - beyond);
+  view.rim.erase(beyond, view.rim.end());
   for (const Count& row : rows) {
     all.kept += row.kept;
     all.dropped += row.dropped;

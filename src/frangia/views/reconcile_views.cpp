@@ -179,6 +179,7 @@ std::size_t reconcile_view(ViewStore& views,
   }
   Image<PixelFate> fate(width, height, PixelFate::Measured);
   drop_mixed_edges(view.range, set.rays, fate);
+  view.rim.clear();  // what it hung on may be elsewhere
   views.replace(own, view);
   return moved;
 }

@@ -84,7 +84,7 @@ void ViewStore::write(const Entry& entry, const View& view) {
 
 void ViewStore::add(const View& view) {
   const Image<float>& depth = view.range.depth_mm;
-  const Entry entry{view.rig_from_object, depth.width(), depth.height(), end_};
+  const Entry entry{view.rig_from_object, view.rim, depth.width(), depth.height(), end_};
   write(entry, view);
   end_ += static_cast<std::int64_t>(2 * bytes_of(depth));
   entries_.push_back(entry);
@@ -96,12 +96,14 @@ void ViewStore::replace(std::size_t index, const View& view) {
       view.range.depth_mm.width() == entry.width && view.range.depth_mm.height() == entry.height,
       "ViewStore::replace: the grid has another size");
   entry.rig_from_object = view.rig_from_object;
+  entry.rim = view.rim;
   write(entry, view);
 }
 
 void ViewStore::clear(std::size_t index) {
   View view = load(index);
   std::fill(view.range.depth_mm.pixels().begin(), view.range.depth_mm.pixels().end(), kMissing);
+  view.rim.clear();
   replace(index, view);
 }
 
@@ -109,6 +111,7 @@ View ViewStore::load(std::size_t index) const {
   const Entry& entry = entries_.at(index);
   View view;
   view.rig_from_object = entry.rig_from_object;
+  view.rim = entry.rim;
   view.range.depth_mm = Image<float>(entry.width, entry.height, Unfilled{});
   view.range.sigma_mm = Image<float>(entry.width, entry.height, Unfilled{});
   read_all(file_, view.range.depth_mm, entry.offset);

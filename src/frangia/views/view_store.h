@@ -9,7 +9,8 @@
 
 namespace frangia {
 
-/// Views kept in an unnamed temporary file, so that memory holds one of them at a time.
+/// Views kept in an unnamed temporary file, so that memory holds one of them at a time, and the
+/// rims of all.
 ///
 /// errors   Error(File) when the temporary folder is full
 class ViewStore {
@@ -39,6 +40,7 @@ class ViewStore {
  private:
   struct Entry {
     Eigen::Isometry3d rig_from_object;
+    std::vector<RangePixel> rim;
     int width = 0;
     int height = 0;
     std::int64_t offset = 0;

@@ -1,0 +1,120 @@
+#include "frangia/range/continues_surface.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <Eigen/Cholesky>
+
+#include "frangia/range/is_connected.h"
+
+namespace frangia {
+namespace {
+
+using Vector6 = Eigen::Matrix<float, 6, 1>;
+using Matrix6 = Eigen::Matrix<float, 6, 6>;
+
+constexpr int kRadius = 3;
+constexpr int kSide = 2 * kRadius + 1;
+constexpr int kFewest = 10;            // pixels: six unknowns, and some to judge them by
+constexpr float kMostLeverage = 8.0F;  // of a pixel's variance, what the paraboloid has out there
+constexpr float kRough = 4.0F;         // in variance: what is left over is more than noise
+constexpr float kSigmas = 3.0F;
+constexpr float kLit = 0.7F;  // of the light expected: less, and the surface ends in the pixel
+
+constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+
+/// Pixels of the window about one that hang together.
+struct Group {
+  std::array<Eigen::Vector2i, kSide * kSide> at;
+  std::size_t count = 0;
+};
+
+bool is_seen(const SoundPixels& sound, const Eigen::Vector2i& p) {
+  const auto& depth = sound.range.depth_mm;
+  return p.minCoeff() >= 0 && p.x() < depth.width() && p.y() < depth.height() &&
+         !std::isnan(depth(p.x(), p.y()));
+}
+
+Group group_of(const SoundPixels& sound,
+               const Eigen::Vector2i& middle,
+               const Eigen::Vector2i& start) {
+  std::array<bool, kSide * kSide> seen{};
+  Group group;
+  const auto add = [&](const Eigen::Vector2i& p) {
+    const Eigen::Vector2i from = p - middle + Eigen::Vector2i::Constant(kRadius);
+    bool& known = seen[static_cast<std::size_t>(from.y() * kSide + from.x())];
+    if (!known) group.at[group.count++] = p;
+    known = true;
+  };
+  add(start);
+  for (std::size_t head = 0; head < group.count; ++head) {
+    const Eigen::Vector2i p = group.at[head];
+    for (const auto& [dx, dy] : kBeside) {
+      const Eigen::Vector2i next = p + Eigen::Vector2i(dx, dy);
+      if ((next - middle).cwiseAbs().maxCoeff() > kRadius || !is_seen(sound, next)) continue;
+      if (is_connected(sound.range, sound.rays, p, next, sound.max_slope)) add(next);
+    }
+  }
+  return group;
+}
+
+Vector6 powers(const Eigen::Vector2i& from) {
+  const auto x = static_cast<float>(from.x());
+  const auto y = static_cast<float>(from.y());
+  Vector6 row;
+  row << 1.0F, x, y, x * x, x * y, y * y;
+  return row;
+}
+
+bool leads_to(const SoundPixels& sound,
+              const Group& group,
+              const Eigen::Vector2i& at,
+              const RangePixel& pixel) {
+  if (group.count < kFewest) return false;
+  const auto& [depth, sigma] = sound.range;
+  const float here = 1.0F / pixel.depth_mm;
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 pull = Vector6::Zero();   // of inverse depths less the pixel's: small ones keep digits
+  Vector6 light = Vector6::Zero();  // in units of the pixel's
+  float squares = 0.0F;
+  for (std::size_t i = 0; i < group.count; ++i) {
+    const Eigen::Vector2i& p = group.at[i];
+    const Vector6 row = powers(p - at);
+    const float off = 1.0F / depth(p.x(), p.y()) - here;
+    const float ratio = pixel.sigma_mm / sigma(p.x(), p.y());
+    normal += row * row.transpose();
+    pull += off * row;
+    light += ratio * ratio * row;
+  }
+  const Eigen::LDLT<Matrix6> solver(normal);
+  const Vector6 fit = solver.solve(pull);
+  const float leverage = solver.solve(Vector6::Unit(0))[0];
+  if (!fit.allFinite() || !(leverage > 0.0F && leverage < kMostLeverage)) return false;
+  if (!(kLit * solver.solve(light)[0] < 1.0F)) return false;
+  for (std::size_t i = 0; i < group.count; ++i) {
+    const Eigen::Vector2i& p = group.at[i];
+    const float off = 1.0F / depth(p.x(), p.y()) - here - powers(p - at).dot(fit);
+    squares += off * off;
+  }
+  const float noise = pixel.sigma_mm * here * here;
+  const float variance = noise * noise;
+  if (squares > kRough * variance * static_cast<float>(group.count - 6)) return false;
+  return fit[0] * fit[0] < kSigmas * kSigmas * variance * (1.0F + leverage);
+}
+
+}  // namespace
+
+bool continues_surface(const SoundPixels& sound, const RangePixel& pixel) {
+  const auto width = static_cast<std::uint32_t>(sound.range.depth_mm.width());
+  const Eigen::Vector2i at(static_cast<int>(pixel.pixel % width),
+                           static_cast<int>(pixel.pixel / width));
+  for (const auto& [dx, dy] : kBeside) {
+    const Eigen::Vector2i next = at + Eigen::Vector2i(dx, dy);
+    if (is_seen(sound, next) && leads_to(sound, group_of(sound, at, next), at, pixel)) return true;
+  }
+  return false;
+}
+
+}  // namespace frangia

@@ -1,0 +1,80 @@
+#include "frangia/range/continues_surface.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/rig/lens.h"
+
+namespace frangia {
+namespace {
+
+constexpr float kSigma_mm = 0.02F;
+
+/// A cylinder of 10 mm radius; columns from 30 on are no sound pixels.
+struct Scene {
+  Lens lens{.width_px = 40,
+            .height_px = 20,
+            .focal_px = {1000.0, 1000.0},
+            .principal_point_px = {19.5, 9.5}};
+  Image<Eigen::Vector2f> rays = rays_of(lens);
+  RangeGrid all{Image<float>(40, 20), Image<float>(40, 20, kSigma_mm)};
+
+  Scene() {
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 40; ++x) {
+        const float across = 0.5F * (static_cast<float>(x) - 19.5F);
+        all.depth_mm(x, y) = 500.0F - std::sqrt(100.0F - across * across);
+      }
+    }
+  }
+  [[nodiscard]] bool continues(int x) const {
+    RangeGrid sound = all;
+    for (int y = 0; y < 20; ++y) {
+      for (int u = 30; u < 40; ++u)
+        sound.depth_mm(u, y) = kMissing;
+    }
+    const auto pixel = static_cast<std::uint32_t>(10 * 40 + x);
+    return continues_surface({sound, rays, 7.0F},
+                             {pixel, all.depth_mm(x, 10), all.sigma_mm(x, 10)});
+  }
+};
+
+TEST(ContinuesSurface, FollowsARoundSurface) {
+  const Scene scene;
+  EXPECT_TRUE(scene.continues(30));
+}
+
+TEST(ContinuesSurface, TellsAPixelOffTheSurfaceByMoreThanNoise) {
+  for (const float off_mm : {-0.5F, 0.5F}) {
+    Scene scene;
+    scene.all.depth_mm(30, 10) += off_mm;
+    EXPECT_FALSE(scene.continues(30)) << off_mm;
+    scene.all.sigma_mm = Image<float>(40, 20, 0.5F);  // as much as the noise
+    EXPECT_TRUE(scene.continues(30)) << off_mm;
+  }
+}
+
+TEST(ContinuesSurface, TellsAPixelThatIsDarkerThanItsNeighboursLead) {
+  Scene scene;
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 40; ++x)  // light that falls by 3 % a column
+      scene.all.sigma_mm(x, y) = kSigma_mm / std::sqrt(1.2F - 0.03F * static_cast<float>(x));
+  }
+  EXPECT_TRUE(scene.continues(30));
+  scene.all.sigma_mm(30, 10) /= std::sqrt(0.6F);
+  EXPECT_FALSE(scene.continues(30));
+}
+
+TEST(ContinuesSurface, NeedsSoundPixelsBeside) {
+  Scene scene;
+  EXPECT_FALSE(scene.continues(31));  // there is one between
+  for (int y = 0; y < 20; ++y)
+    scene.all.depth_mm(28, y) = kMissing;  // a column alone tells no slope
+  EXPECT_FALSE(scene.continues(30));
+}
+
+}  // namespace
+}  // namespace frangia
