@@ -14,7 +14,7 @@ namespace {
 constexpr float kSigma_mm = 0.02F;
 
 /// A cylinder of 10 mm radius; columns from 30 on are no sound pixels.
-struct Scene {
+struct HalfCylinder {
   Lens lens{.width_px = 40,
             .height_px = 20,
             .focal_px = {1000.0, 1000.0},
@@ -22,7 +22,7 @@ struct Scene {
   Image<Eigen::Vector2f> rays = rays_of(lens);
   RangeGrid all{Image<float>(40, 20), Image<float>(40, 20, kSigma_mm)};
 
-  Scene() {
+  HalfCylinder() {
     for (int y = 0; y < 20; ++y) {
       for (int x = 0; x < 40; ++x) {
         const float across = 0.5F * (static_cast<float>(x) - 19.5F);
@@ -43,13 +43,13 @@ struct Scene {
 };
 
 TEST(ContinuesSurface, FollowsARoundSurface) {
-  const Scene scene;
+  const HalfCylinder scene;
   EXPECT_TRUE(scene.continues(30));
 }
 
 TEST(ContinuesSurface, TellsAPixelOffTheSurfaceByMoreThanNoise) {
   for (const float off_mm : {-0.5F, 0.5F}) {
-    Scene scene;
+    HalfCylinder scene;
     scene.all.depth_mm(30, 10) += off_mm;
     EXPECT_FALSE(scene.continues(30)) << off_mm;
     scene.all.sigma_mm = Image<float>(40, 20, 0.5F);  // as much as the noise
@@ -58,7 +58,7 @@ TEST(ContinuesSurface, TellsAPixelOffTheSurfaceByMoreThanNoise) {
 }
 
 TEST(ContinuesSurface, TellsAPixelThatIsDarkerThanItsNeighboursLead) {
-  Scene scene;
+  HalfCylinder scene;
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 40; ++x)  // light that falls by 3 % a column
       scene.all.sigma_mm(x, y) = kSigma_mm / std::sqrt(1.2F - 0.03F * static_cast<float>(x));
@@ -69,7 +69,7 @@ TEST(ContinuesSurface, TellsAPixelThatIsDarkerThanItsNeighboursLead) {
 }
 
 TEST(ContinuesSurface, NeedsSoundPixelsBeside) {
-  Scene scene;
+  HalfCylinder scene;
   EXPECT_FALSE(scene.continues(31));  // there is one between
   for (int y = 0; y < 20; ++y)
     scene.all.depth_mm(28, y) = kMissing;  // a column alone tells no slope

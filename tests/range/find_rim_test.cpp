@@ -12,16 +12,16 @@
 namespace frangia {
 namespace {
 
-constexpr float kSigma_mm = 0.02F;
+constexpr float kEdgeSigma_mm = 0.02F;
 
 /// A plane at 500 mm, before anything is dropped.
-struct Scene {
+struct EdgeScene {
   Lens lens{.width_px = 80,
             .height_px = 60,
             .focal_px = {1000.0, 1000.0},
             .principal_point_px = {39.5, 29.5}};
   Image<Eigen::Vector2f> rays = rays_of(lens);
-  RangeGrid range{Image<float>(80, 60, 500.0F), Image<float>(80, 60, kSigma_mm)};
+  RangeGrid range{Image<float>(80, 60, 500.0F), Image<float>(80, 60, kEdgeSigma_mm)};
   Image<PixelFate> fate{80, 60, PixelFate::Measured};
 
   void set_columns(int from, int to, float depth_mm) {
@@ -42,11 +42,11 @@ struct Scene {
 };
 
 /// Column 60 and what follows is dark; a pixel of column 59 has `lit` of its light.
-Scene silhouette(float lit) {
-  Scene scene;
+EdgeScene silhouette(float lit) {
+  EdgeScene scene;
   scene.set_columns(60, 80, kMissing);
   for (int y = 0; y < 60; ++y) {
-    scene.range.sigma_mm(59, y) = kSigma_mm / std::sqrt(lit);
+    scene.range.sigma_mm(59, y) = kEdgeSigma_mm / std::sqrt(lit);
     for (int x = 60; x < 80; ++x)
       scene.fate(x, y) = PixelFate::Unmodulated;
   }
@@ -62,14 +62,14 @@ TEST(FindRim, LeavesAnOutermostPixelThatSeesThePartWithHalfOfItsSquare) {
 }
 
 TEST(FindRim, GivesBackThePixelsOnBothSidesOfOneThatSeesTwoSurfaces) {
-  Scene scene;
+  EdgeScene scene;
   scene.set_columns(40, 41, 510.0F);
   scene.set_columns(41, 80, 530.0F);
   EXPECT_EQ(scene.rim(), (std::vector<int>{39, 41, 42}));
 }
 
 TEST(FindRim, LeavesThePixelBehindALowStepThatWouldBeJoinedToTheOneBefore) {
-  Scene scene;  // 2 mm at pixels of 0.5 mm: no steeper than a slope may be
+  EdgeScene scene;  // 2 mm at pixels of 0.5 mm: no steeper than a slope may be
   scene.set_columns(41, 80, 502.0F);
   const auto rim = scene.rim();
   EXPECT_TRUE(std::find(rim.begin(), rim.end(), 40) != rim.end());
@@ -77,13 +77,13 @@ TEST(FindRim, LeavesThePixelBehindALowStepThatWouldBeJoinedToTheOneBefore) {
 }
 
 TEST(FindRim, GoesNoDeeperThanItIsTold) {
-  Scene scene;
+  EdgeScene scene;
   scene.set_columns(41, 80, 530.0F);
   const RangeGrid all = scene.range;
   std::vector<RangePixel> dropped;
   for (int x = 30; x <= 40; ++x) {
     for (int y = 0; y < 60; ++y) {
-      dropped.push_back({static_cast<std::uint32_t>(y * 80 + x), 500.0F, kSigma_mm});
+      dropped.push_back({static_cast<std::uint32_t>(y * 80 + x), 500.0F, kEdgeSigma_mm});
       scene.range.depth_mm(x, y) = kMissing;
     }
   }
