@@ -9,7 +9,7 @@ namespace frangia {
 struct SmoothOptions {
   int iterations = 10;
   /// No vertex moves farther than so many of its sigma, at sharp edges than a seventh of it, and
-  /// beside them than half; 0: no bound.
+  /// beside them than two fifths; 0: no bound.
   double max_sigmas = 3.0;
   Selection only;  ///< move the vertices of these triangles alone; empty: all
 };

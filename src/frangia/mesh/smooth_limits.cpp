@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSharpCosine = 0.8;  // of 37 degrees between two triangles
 constexpr float kAtEdges = 0.15F;     // of the bound: edges are shape rather than noise
-constexpr float kBesideEdges = 0.5F;  // of the bound: some of these vertices lie on the edge too
+constexpr float kBesideEdges = 0.4F;  // of the bound: some of these vertices lie on the edge too
 
 /// The share of its bound that each vertex may move by: less where two triangles turn from each
 /// other like an edge of the part.
