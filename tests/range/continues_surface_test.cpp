@@ -1,7 +1,6 @@
 #include "frangia/range/continues_surface.h"
 
 #include <cmath>
-#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -36,9 +35,8 @@ struct HalfCylinder {
       for (int u = 30; u < 40; ++u)
         sound.depth_mm(u, y) = kMissing;
     }
-    const auto pixel = static_cast<std::uint32_t>(10 * 40 + x);
     return continues_surface({sound, rays, 7.0F},
-                             {pixel, all.depth_mm(x, 10), all.sigma_mm(x, 10)});
+                             {x, 10, all.depth_mm(x, 10), all.sigma_mm(x, 10)});
   }
 };
 

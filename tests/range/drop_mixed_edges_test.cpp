@@ -5,21 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
-#include "frangia/rig/lens.h"
+
+#include "range/flat_view.h"
 
 namespace frangia {
 namespace {
 
-const Lens kLens{.width_px = 80,
-                 .height_px = 60,
-                 .focal_px = {1000.0, 1000.0},
-                 .principal_point_px = {39.5, 29.5}};
-
-struct Scene {
-  Image<Eigen::Vector2f> rays = rays_of(kLens);
-  RangeGrid range{Image<float>(80, 60, 500.0F), Image<float>(80, 60, 0.02F)};
-  Image<PixelFate> fate{80, 60, PixelFate::Measured};
-
+struct Scene : FlatView {
   std::size_t drop() { return drop_mixed_edges(range, rays, fate).size(); }
 };
 

@@ -2,40 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
 #include "frangia/range/drop_mixed_edges.h"
-#include "frangia/rig/lens.h"
+
+#include "range/flat_view.h"
 
 namespace frangia {
 namespace {
 
 constexpr float kEdgeSigma_mm = 0.02F;
 
-/// A plane at 500 mm, before anything is dropped.
-struct EdgeScene {
-  Lens lens{.width_px = 80,
-            .height_px = 60,
-            .focal_px = {1000.0, 1000.0},
-            .principal_point_px = {39.5, 29.5}};
-  Image<Eigen::Vector2f> rays = rays_of(lens);
-  RangeGrid range{Image<float>(80, 60, 500.0F), Image<float>(80, 60, kEdgeSigma_mm)};
-  Image<PixelFate> fate{80, 60, PixelFate::Measured};
-
-  void set_columns(int from, int to, float depth_mm) {
-    for (int y = 0; y < 60; ++y) {
-      for (int x = from; x < to; ++x)
-        range.depth_mm(x, y) = depth_mm;
-    }
-  }
+struct EdgeScene : FlatView {
   /// Columns of row 30 whose pixels are dropped and given back.
   [[nodiscard]] std::vector<int> rim() {
     const auto dropped = drop_mixed_edges(range, rays, fate);
     std::vector<int> columns;
     for (const RangePixel& pixel : find_rim(range, rays, dropped)) {
-      if (pixel.pixel / 80 == 30) columns.push_back(static_cast<int>(pixel.pixel % 80));
+      if (pixel.y == 30) columns.push_back(pixel.x);
     }
     return columns;
   }
@@ -83,7 +70,7 @@ TEST(FindRim, GoesNoDeeperThanItIsTold) {
   std::vector<RangePixel> dropped;
   for (int x = 30; x <= 40; ++x) {
     for (int y = 0; y < 60; ++y) {
-      dropped.push_back({static_cast<std::uint32_t>(y * 80 + x), 500.0F, kEdgeSigma_mm});
+      dropped.push_back({x, y, 500.0F, kEdgeSigma_mm});
       scene.range.depth_mm(x, y) = kMissing;
     }
   }

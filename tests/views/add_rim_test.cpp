@@ -10,7 +10,8 @@ namespace frangia {
 namespace {
 
 TEST(AddRim, PutsThePixelsWhereTheyBelong) {
-  View view{{Image<float>(4, 3, kMissing), Image<float>(4, 3, kMissing)}, {}, {{6, 500.0F, 0.1F}}};
+  View view{
+      {Image<float>(4, 3, kMissing), Image<float>(4, 3, kMissing)}, {}, {{2, 1, 500.0F, 0.1F}}};
   add_rim(view);
   EXPECT_EQ(view.range.depth_mm(2, 1), 500.0F);
   EXPECT_EQ(view.range.sigma_mm(2, 1), 0.1F);

@@ -59,14 +59,14 @@ TEST(ClipViews, KeepsWhatIsNearTheAxis) {
 TEST(ClipViews, TakesThePixelsOfARimAwayAsTheOthers) {
   ViewStore views = sphere_views();
   View view = views.load(0);
-  const std::uint32_t middle = 60 * 120 + 60;
-  const float depth_mm = view.range.depth_mm.pixels()[middle];
+  const float depth_mm = view.range.depth_mm(60, 60);
   ASSERT_GT(depth_mm, 0.0F);
-  view.rim = {{middle, depth_mm, 0.1F}, {middle, depth_mm + 300.0F, 0.1F}};  // before and behind
-  views.replace(0, view);
-  static_cast<void>(clip_views(views, small_lens(120, 600.0), {.max_radius_mm = 100.0}));
-  ASSERT_EQ(views.load(0).rim.size(), 1U);
-  EXPECT_EQ(views.load(0).rim[0].depth_mm, depth_mm);
+  view.rim = {{60, 60, depth_mm, 0.1F}, {60, 60, depth_mm + 300.0F, 0.1F}};  // before and behind
+  ViewStore one;
+  one.add(view);
+  static_cast<void>(clip_views(one, small_lens(120, 600.0), {.max_radius_mm = 100.0}));
+  ASSERT_EQ(one.load(0).rim.size(), 1U);
+  EXPECT_EQ(one.load(0).rim[0].depth_mm, depth_mm);
 }
 
 TEST(ClipViews, KeepsAllWithoutALimit) {

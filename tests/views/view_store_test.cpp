@@ -45,14 +45,18 @@ TEST(ViewStore, ReplacesOneViewAndLeavesTheOthers) {
 TEST(ViewStore, KeepsTheRimApartFromWhatWasSeen) {
   ViewStore store;
   View view = view_of(1.0F);
-  view.rim = {{4 * 30 + 3, 5.0F, 0.5F}};
+  view.rim = {{3, 4, 5.0F, 0.5F}};
   store.add(view);
   const View loaded = store.load(0);
   EXPECT_TRUE(std::isnan(loaded.range.depth_mm(3, 4)));
   ASSERT_EQ(loaded.rim.size(), 1U);
   EXPECT_EQ(loaded.rim[0].depth_mm, 5.0F);
+  EXPECT_EQ(loaded.rim[0].x, 3);
+  store.add(view_of(2.0F));
   store.clear(0);
   EXPECT_TRUE(store.load(0).rim.empty());
+  EXPECT_EQ(store.load(1).range.depth_mm(0, 0), 2.0F);
+  EXPECT_THROW(store.replace(1, view), Error);  // there is no room for its rim
 }
 
 TEST(ViewStore, KeepsItsViewsWhenMoved) {

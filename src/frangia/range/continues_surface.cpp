@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 #include <Eigen/Cholesky>
 
+#include "frangia/core/beside.h"
 #include "frangia/range/is_connected.h"
 
 namespace frangia {
@@ -22,8 +22,6 @@ constexpr float kMostLeverage = 8.0F;  // of a pixel's variance, what the parabo
 constexpr float kRough = 4.0F;         // in variance: what is left over is more than noise
 constexpr float kSigmas = 3.0F;
 constexpr float kLit = 0.7F;  // of the light expected: less, and the surface ends in the pixel
-
-constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
 /// Pixels of the window about one that hang together.
 struct Group {
@@ -107,9 +105,7 @@ bool leads_to(const SoundPixels& sound,
 }  // namespace
 
 bool continues_surface(const SoundPixels& sound, const RangePixel& pixel) {
-  const auto width = static_cast<std::uint32_t>(sound.range.depth_mm.width());
-  const Eigen::Vector2i at(static_cast<int>(pixel.pixel % width),
-                           static_cast<int>(pixel.pixel / width));
+  const Eigen::Vector2i at(pixel.x, pixel.y);
   for (const auto& [dx, dy] : kBeside) {
     const Eigen::Vector2i next = at + Eigen::Vector2i(dx, dy);
     if (is_seen(sound, next) && leads_to(sound, group_of(sound, at, next), at, pixel)) return true;

@@ -11,6 +11,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/range/is_connected.h"
+#include "frangia/range/is_step.h"
 
 namespace frangia {
 namespace {
@@ -48,13 +49,10 @@ bool is_low_step(const Grid& grid, int x, int y, int dx, int dy) {
   };
   const float jump = at(1) - at(-1);
   if (std::isnan(jump)) return false;
-  const float before = at(-1) - at(-3);  // over two pixels, as the jump
-  const float behind = at(3) - at(1);
   const float pixel_mm = (grid.rays(x, y) - grid.rays(x + dx, y + dy)).norm() * at(-1);
   const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump less what its sides expect
-  const float excess = std::abs(jump - 0.5F * (before + behind));
-  const float steepest = std::max(std::abs(before), std::abs(behind));
-  return excess > 2.5F * pixel_mm + 4.0F * noise && std::abs(jump) > steepest;  // false for NaN
+  const DepthChange change{jump, at(-1) - at(-3), at(3) - at(1)};  // each over two pixels
+  return is_step(change, 2.5F * pixel_mm + 4.0F * noise);
 }
 
 /// Three dark neighbours make a border; fewer are specks.
@@ -149,14 +147,16 @@ std::vector<RangePixel> drop_mixed_edges(RangeGrid& range,
   mark_low_steps(grid, drop);
   mark_small_patches(grid, options.min_patch_px, drop);
   std::vector<RangePixel> dropped;
-  for (std::size_t i = 0; i < drop.pixels().size(); ++i) {
-    float& depth = range.depth_mm.pixels()[i];
-    float& sigma = range.sigma_mm.pixels()[i];
-    if (drop.pixels()[i] == 0 || std::isnan(depth)) continue;
-    dropped.push_back({static_cast<std::uint32_t>(i), depth, sigma});
-    depth = kMissing;
-    sigma = kMissing;
-    fate.pixels()[i] = PixelFate::MixedEdge;
+  for (int y = 0; y < drop.height(); ++y) {
+    for (int x = 0; x < drop.width(); ++x) {
+      float& depth = range.depth_mm(x, y);
+      float& sigma = range.sigma_mm(x, y);
+      if (drop(x, y) == 0 || std::isnan(depth)) continue;
+      dropped.push_back({x, y, depth, sigma});
+      depth = kMissing;
+      sigma = kMissing;
+      fate(x, y) = PixelFate::MixedEdge;
+    }
   }
   return dropped;
 }

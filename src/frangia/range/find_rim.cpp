@@ -1,21 +1,20 @@
 #include "frangia/range/find_rim.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/beside.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/range/continues_surface.h"
+#include "frangia/range/is_step.h"
 
 namespace frangia {
 namespace {
-
-constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
 enum Verdict : std::uint8_t { Dropped, GivenBack, BehindStep };
 using Verdicts = std::vector<std::uint8_t>;
@@ -32,8 +31,8 @@ void give_back(RangeGrid& grid,
   });
   for (std::size_t i = 0; i < dropped.size(); ++i) {
     if (verdicts[i] != GivenBack) continue;
-    grid.depth_mm.pixels()[dropped[i].pixel] = dropped[i].depth_mm;
-    grid.sigma_mm.pixels()[dropped[i].pixel] = dropped[i].sigma_mm;
+    grid.depth_mm(dropped[i].x, dropped[i].y) = dropped[i].depth_mm;
+    grid.sigma_mm(dropped[i].x, dropped[i].y) = dropped[i].sigma_mm;
   }
 }
 
@@ -50,21 +49,16 @@ bool is_behind(const SoundPixels& seen, const Eigen::Vector2i& at, const Eigen::
   };
   const float jump = depth_at(0) - depth_at(1);
   if (!(jump > 0.0F)) return false;
-  const float before = depth_at(-1) - depth_at(0);
-  const float behind = depth_at(1) - depth_at(2);
   const Eigen::Vector2i next = at + step;
   const float pixel_mm =
       (seen.rays(at.x(), at.y()) - seen.rays(next.x(), next.y())).norm() * depth_at(0);
   const float noise = seen.range.sigma_mm(at.x(), at.y());
-  const float excess = std::abs(jump - 0.5F * (before + behind));
-  return excess > kLeast * pixel_mm + kSigmas * noise &&
-         jump > std::max(std::abs(before), std::abs(behind));  // false for NaN
+  return is_step({jump, depth_at(-1) - depth_at(0), depth_at(1) - depth_at(2)},
+                 kLeast * pixel_mm + kSigmas * noise);
 }
 
 bool is_behind_step(const SoundPixels& seen, const RangePixel& pixel) {
-  const int width = seen.range.depth_mm.width();
-  const auto place = static_cast<int>(pixel.pixel);
-  const Eigen::Vector2i at(place % width, place / width);
+  const Eigen::Vector2i at(pixel.x, pixel.y);
   return std::any_of(kBeside.begin(), kBeside.end(), [&](const auto& step) {
     return is_behind(seen, at, {step[0], step[1]});
   });

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "frangia/core/image.h"
 
 namespace frangia {
@@ -15,7 +13,8 @@ struct RangeGrid {
 
 /// One pixel of a range grid, by itself.
 struct RangePixel {
-  std::uint32_t pixel = 0;  ///< x + y * width
+  int x = 0;
+  int y = 0;
   float depth_mm = 0.0F;
   float sigma_mm = 0.0F;
 };

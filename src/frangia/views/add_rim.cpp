@@ -4,8 +4,8 @@ namespace frangia {
 
 void add_rim(View& view) {
   for (const RangePixel& pixel : view.rim) {
-    view.range.depth_mm.pixels()[pixel.pixel] = pixel.depth_mm;
-    view.range.sigma_mm.pixels()[pixel.pixel] = pixel.sigma_mm;
+    view.range.depth_mm(pixel.x, pixel.y) = pixel.depth_mm;
+    view.range.sigma_mm(pixel.x, pixel.y) = pixel.sigma_mm;
   }
   view.rim.clear();
 }

@@ -1,16 +1,14 @@
 #include "frangia/views/carry_planes.h"
 
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "frangia/core/beside.h"
 #include "frangia/core/parallel.h"
 
 namespace frangia {
 namespace {
-
-constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
 /// Missing pixels beside one that has a plane, row by row.
 std::vector<Eigen::Vector2i> find_rim(const LocalPlanes& view) {

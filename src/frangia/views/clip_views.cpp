@@ -38,7 +38,7 @@ Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip
   });
   Count all;
   const auto beyond = std::remove_if(view.rim.begin(), view.rim.end(), [&](const RangePixel& p) {
-    return !keeps(rays.pixels()[p.pixel], p.depth_mm);
+    return !keeps(rays(p.x, p.y), p.depth_mm);
   });
   all.dropped += static_cast<std::size_t>(view.rim.end() - beyond);
   view.rim.erase(beyond, view.rim.end());

@@ -1,7 +1,9 @@
 #include "frangia/views/view_store.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -28,35 +30,33 @@ std::FILE* open_unnamed() {
   return ::fdopen(descriptor, "w+b");
 }
 
-std::size_t bytes_of(const Image<float>& image) {
-  return image.pixels().size() * sizeof(float);
-}
+/// Writes or reads one after the other, from a place in the file on.
+class Cursor {
+ public:
+  Cursor(std::FILE* file, std::int64_t offset) : descriptor_(::fileno(file)), offset_(offset) {}
 
-void write_all(std::FILE* file, const Image<float>& image, std::int64_t offset) {
-  const auto* data = reinterpret_cast<const char*>(image.pixels().data());  // NOLINT
-  std::size_t done = 0;
-  while (done < bytes_of(image)) {
-    const auto wrote = ::pwrite(::fileno(file),
-                                data + done,
-                                bytes_of(image) - done,
-                                offset + static_cast<std::int64_t>(done));
-    if (wrote <= 0) fail(std::strerror(errno));  // NOLINT(concurrency-mt-unsafe)
-    done += static_cast<std::size_t>(wrote);
+  void write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const auto wrote = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset_);
+      if (wrote <= 0) fail(std::strerror(errno));  // NOLINT(concurrency-mt-unsafe)
+      bytes = bytes.subspan(static_cast<std::size_t>(wrote));
+      offset_ += wrote;
+    }
   }
-}
+  void read(std::span<std::byte> bytes) {
+    while (!bytes.empty()) {
+      const auto got = ::pread(descriptor_, bytes.data(), bytes.size(), offset_);
+      if (got <= 0) fail("a view could not be read back");
+      bytes = bytes.subspan(static_cast<std::size_t>(got));
+      offset_ += got;
+    }
+  }
+  [[nodiscard]] std::int64_t offset() const { return offset_; }
 
-void read_all(std::FILE* file, Image<float>& image, std::int64_t offset) {
-  auto* data = reinterpret_cast<char*>(image.pixels().data());  // NOLINT
-  std::size_t done = 0;
-  while (done < bytes_of(image)) {
-    const auto got = ::pread(::fileno(file),
-                             data + done,
-                             bytes_of(image) - done,
-                             offset + static_cast<std::int64_t>(done));
-    if (got <= 0) fail("a view could not be read back");
-    done += static_cast<std::size_t>(got);
-  }
-}
+ private:
+  int descriptor_;
+  std::int64_t offset_;
+};
 
 }  // namespace
 
@@ -75,18 +75,18 @@ ViewStore::~ViewStore() {
   if (file_ != nullptr) static_cast<void>(std::fclose(file_));
 }
 
-void ViewStore::write(const Entry& entry, const View& view) {
-  write_all(file_, view.range.depth_mm, entry.offset);
-  write_all(file_,
-            view.range.sigma_mm,
-            entry.offset + static_cast<std::int64_t>(bytes_of(view.range.depth_mm)));
+std::int64_t ViewStore::write(const View& view, std::int64_t offset) {
+  Cursor cursor(file_, offset);
+  cursor.write(std::as_bytes(view.range.depth_mm.pixels()));
+  cursor.write(std::as_bytes(view.range.sigma_mm.pixels()));
+  cursor.write(std::as_bytes(std::span(view.rim)));
+  return cursor.offset();
 }
 
 void ViewStore::add(const View& view) {
   const Image<float>& depth = view.range.depth_mm;
-  const Entry entry{view.rig_from_object, view.rim, depth.width(), depth.height(), end_};
-  write(entry, view);
-  end_ += static_cast<std::int64_t>(2 * bytes_of(depth));
+  const Entry entry{view.rig_from_object, depth.width(), depth.height(), view.rim.size(), end_};
+  end_ = write(view, end_);
   entries_.push_back(entry);
 }
 
@@ -95,9 +95,10 @@ void ViewStore::replace(std::size_t index, const View& view) {
   require(
       view.range.depth_mm.width() == entry.width && view.range.depth_mm.height() == entry.height,
       "ViewStore::replace: the grid has another size");
+  require(view.rim.size() <= entry.rim, "ViewStore::replace: the rim has grown");
   entry.rig_from_object = view.rig_from_object;
-  entry.rim = view.rim;
-  write(entry, view);
+  entry.rim = view.rim.size();
+  write(view, entry.offset);
 }
 
 void ViewStore::clear(std::size_t index) {
@@ -111,13 +112,13 @@ View ViewStore::load(std::size_t index) const {
   const Entry& entry = entries_.at(index);
   View view;
   view.rig_from_object = entry.rig_from_object;
-  view.rim = entry.rim;
+  view.rim.resize(entry.rim);
   view.range.depth_mm = Image<float>(entry.width, entry.height, Unfilled{});
   view.range.sigma_mm = Image<float>(entry.width, entry.height, Unfilled{});
-  read_all(file_, view.range.depth_mm, entry.offset);
-  read_all(file_,
-           view.range.sigma_mm,
-           entry.offset + static_cast<std::int64_t>(bytes_of(view.range.depth_mm)));
+  Cursor cursor(file_, entry.offset);
+  cursor.read(std::as_writable_bytes(view.range.depth_mm.pixels()));
+  cursor.read(std::as_writable_bytes(view.range.sigma_mm.pixels()));
+  cursor.read(std::as_writable_bytes(std::span(view.rim)));
   return view;
 }
 

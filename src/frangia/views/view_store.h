@@ -9,8 +9,7 @@
 
 namespace frangia {
 
-/// Views kept in an unnamed temporary file, so that memory holds one of them at a time, and the
-/// rims of all.
+/// Views kept in an unnamed temporary file, so that memory holds one of them at a time.
 ///
 /// errors   Error(File) when the temporary folder is full
 class ViewStore {
@@ -24,7 +23,7 @@ class ViewStore {
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
   void add(const View& view);
-  /// Replaces view `index`; the grid must have the size it had.
+  /// Replaces view `index`; the grid must have the size it had, the rim no more pixels.
   void replace(std::size_t index, const View& view);
   /// Takes all points of view `index` away: it stays, but saw nothing.
   void clear(std::size_t index);
@@ -40,12 +39,13 @@ class ViewStore {
  private:
   struct Entry {
     Eigen::Isometry3d rig_from_object;
-    std::vector<RangePixel> rim;
     int width = 0;
     int height = 0;
+    std::size_t rim = 0;  ///< pixels
     std::int64_t offset = 0;
   };
-  void write(const Entry& entry, const View& view);
+  /// Returns where it ends.
+  std::int64_t write(const View& view, std::int64_t offset);
 
   std::vector<Entry> entries_;
   std::FILE* file_ = nullptr;
