@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <vector>
+
+#include "frangia/core/pixel_allocator.h"
 
 namespace frangia {
 
@@ -31,7 +32,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  LargeVector<std::uint32_t> parent_;
 };
 
 }  // namespace frangia

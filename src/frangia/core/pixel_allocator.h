@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace frangia {
 
@@ -40,5 +41,9 @@ struct PixelAllocator {
     return true;
   }
 };
+
+/// For millions of values; those made without a value stay uninitialised.
+template <typename T>
+using LargeVector = std::vector<T, PixelAllocator<T>>;
 
 }  // namespace frangia

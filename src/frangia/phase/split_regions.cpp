@@ -84,8 +84,8 @@ void dilate(int radius, Mask& mask) {
   });
 }
 
-/// Pixels in raster order, as their index; a large one, so its memory is an image's.
-using Front = std::vector<std::uint32_t, PixelAllocator<std::uint32_t>>;
+/// Pixels in raster order, as their index.
+using Front = LargeVector<std::uint32_t>;
 
 /// Spreads labels over smooth jumps, breadth first, into pixels that `allowed` admits.
 template <typename Allowed>

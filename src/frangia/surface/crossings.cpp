@@ -1,5 +1,6 @@
 #include "frangia/surface/crossings.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -116,6 +117,7 @@ struct Found {
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<std::int8_t> outward;
   std::uint32_t vertices = 0;
+  std::size_t crossings_before = 0;  ///< in the blocks before, once they are numbered
 };
 
 std::uint8_t pattern_at(const Corners& corners, int x, int y, int z, float largest_jump) {
@@ -196,6 +198,29 @@ std::unique_ptr<Found> search(const DistanceField& field, const Eigen::Vector3i&
   return empty ? nullptr : std::move(found);
 }
 
+/// The blocks, and room for what they hold.
+Crossings number_through(const DistanceField& field,
+                         const std::vector<std::unique_ptr<Found>>& parts) {
+  Crossings all;
+  all.voxel_mm = field.voxel_mm;
+  std::size_t crossings = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!parts[i]) continue;
+    Found& part = *parts[i];
+    part.crossings_before = crossings;
+    part.block->crossings_before = static_cast<std::uint32_t>(crossings);
+    part.block->vertices_before = static_cast<std::uint32_t>(all.vertices);
+    all.index.add(block_key(field.places[i]), static_cast<std::uint32_t>(all.blocks.size()));
+    all.places.push_back(field.places[i]);
+    all.blocks.push_back(std::move(part.block));
+    crossings += part.points_mm.size();
+    all.vertices += part.vertices;
+  }
+  all.points_mm.resize(crossings);
+  all.outward.resize(crossings);
+  return all;
+}
+
 }  // namespace
 
 Crossings::Around Crossings::around(std::size_t block) const {
@@ -225,21 +250,17 @@ Crossings find_crossings(const DistanceField& field) {
     for (std::size_t i = begin; i < end; ++i)
       parts[i] = search(field, field.places[i]);
   });
-  Crossings all;
-  all.voxel_mm = field.voxel_mm;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!parts[i]) continue;
-    Found& part = *parts[i];
-    part.block->crossings_before = static_cast<std::uint32_t>(all.points_mm.size());
-    part.block->vertices_before = static_cast<std::uint32_t>(all.vertices);
-    all.index.add(block_key(field.places[i]), static_cast<std::uint32_t>(all.blocks.size()));
-    all.places.push_back(field.places[i]);
-    all.blocks.push_back(std::move(part.block));
-    all.points_mm.insert(all.points_mm.end(), part.points_mm.begin(), part.points_mm.end());
-    all.outward.insert(all.outward.end(), part.outward.begin(), part.outward.end());
-    all.vertices += part.vertices;
-    parts[i].reset();
-  }
+  Crossings all = number_through(field, parts);
+  parallel_chunks(parts.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!parts[i]) continue;
+      const auto first = static_cast<std::ptrdiff_t>(parts[i]->crossings_before);
+      std::copy(
+          parts[i]->points_mm.begin(), parts[i]->points_mm.end(), all.points_mm.begin() + first);
+      std::copy(parts[i]->outward.begin(), parts[i]->outward.end(), all.outward.begin() + first);
+      parts[i].reset();
+    }
+  });
   return all;
 }
 

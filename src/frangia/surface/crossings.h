@@ -45,6 +45,14 @@ struct Crossings {
   std::vector<std::int8_t> outward;        ///< axis + 1, negative when outside is at the lower end
   std::size_t vertices = 0;                ///< one a loop
 
+  /// The first crossing of a block, or the end of all after the last block.
+  [[nodiscard]] std::size_t first_of(std::size_t block) const {
+    return block < blocks.size() ? blocks[block]->crossings_before : points_mm.size();
+  }
+  [[nodiscard]] std::size_t first_vertex_of(std::size_t block) const {
+    return block < blocks.size() ? blocks[block]->vertices_before : vertices;
+  }
+
   /// A voxel's block and its place in there.
   struct Address {
     const Block* block = nullptr;  ///< null where there is none

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "frangia/core/pixel_allocator.h"
+#include "frangia/core/pieces.h"
 #include "frangia/surface/block_index.h"
 #include "frangia/views/local_planes.h"
 
@@ -36,31 +36,9 @@ struct DistanceField {
   };
   using Block = std::array<Voxel, kVoxels>;  ///< x runs fastest
 
-  /// Blocks that stay where they are while others are added, on large pages.
-  class Blocks {
-   public:
-    [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] bool empty() const { return size_ == 0; }
-    [[nodiscard]] Block& operator[](std::size_t i) { return parts_[i / kPart][i % kPart]; }
-    [[nodiscard]] const Block& operator[](std::size_t i) const {
-      return parts_[i / kPart][i % kPart];
-    }
-    /// Adds one whose voxels hold nothing yet, not even zeros.
-    void add() {
-      if (size_ % kPart == 0) parts_.emplace_back(kPart);
-      ++size_;
-    }
-
-   private:
-    static constexpr std::size_t kPart = 1024;
-    using Part = std::vector<Block, PixelAllocator<Block>>;
-    std::vector<Part> parts_;
-    std::size_t size_ = 0;
-  };
-
   double voxel_mm = 0.0;
   std::vector<Eigen::Vector3i> places;  ///< of each block, in blocks
-  Blocks blocks;
+  Pieces<Block> blocks;
   BlockIndex index;
 };
 

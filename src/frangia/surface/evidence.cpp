@@ -189,17 +189,22 @@ struct Questioner {
 const Evidence::Face Evidences::kNoFace{
     0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, Eigen::Vector3f::Zero(), 0};
 
-Evidences::Evidences(std::size_t count) : all_(count), others_(count) {
+Evidences::Evidences(std::size_t count)
+    : all_(count), others_((count + kTogether - 1) / kTogether) {
   parallel_chunks(count, 16384, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      all_[i] = {kNoFace, 0.0F, 0.0F, false};
+      all_[i] = {kNoFace, 0.0F, 0.0F, 0};
   });
 }
 
 Evidence::Face& Evidences::make_other(std::size_t i) {
-  if (!all_[i].has_other) others_[i] = kNoFace;
-  all_[i].has_other = true;
-  return others_[i];
+  auto& together = others_[i / kTogether];
+  std::uint32_t& other = all_[i].other;
+  if (other == 0) {
+    together.push_back(kNoFace);
+    other = static_cast<std::uint32_t>(together.size());
+  }
+  return together[other - 1];
 }
 
 float correlation(float distance_mm, float spacing_mm) {
@@ -222,7 +227,7 @@ void add_evidence(Evidences& evidence,
                               static_cast<float>(1.0 / camera.lens.focal_px.mean()),
                               static_cast<float>(options.near_mm),
                               static_cast<float>(options.through_mm)};
-  parallel_chunks(evidence.size(), 4096, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(evidence.size(), Evidences::kTogether, [&](std::size_t begin, std::size_t end) {
     Questioner::Batch batch;
     for (std::size_t from = begin; from < end; from += Questioner::Batch::kMost) {
       const std::size_t count = std::min(Questioner::Batch::kMost, end - from);
@@ -241,10 +246,8 @@ void add_evidence(Evidences& evidence,
 void add_disagreement(Evidences& evidence, const Crossings& crossings) {
   parallel_chunks(crossings.blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
-      const std::size_t first = crossings.blocks[block]->crossings_before;
-      const std::size_t last = block + 1 < crossings.blocks.size()
-                                   ? crossings.blocks[block + 1]->crossings_before
-                                   : evidence.size();
+      const std::size_t first = crossings.first_of(block);
+      const std::size_t last = crossings.first_of(block + 1);
       float excess = 0.0F;  // of the scatter between views over what their noise explains
       float freedom = 0.0F;
       for (std::size_t i = first; i < last; ++i) {

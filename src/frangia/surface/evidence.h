@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "frangia/core/pixel_allocator.h"
+#include "frangia/core/pieces.h"
 #include "frangia/surface/crossings.h"
 #include "frangia/views/local_planes.h"
 
@@ -33,14 +33,17 @@ struct Evidence {
   };
 
   Face first;
-  float against;   ///< sum of 1/sigma^2 over the views that see through
-  float common;    ///< variance that does not average away between neighbouring points
-  bool has_other;  ///< face, as points near an edge of the object do
+  float against;        ///< sum of 1/sigma^2 over the views that see through
+  float common;         ///< variance that does not average away between neighbouring points
+  std::uint32_t other;  ///< face, as points near an edge have: its number + 1, or 0
 };
 
-/// One for each point. Few have another face: memory for those that do not is never touched.
+/// One for each point; few have another face.
 class Evidences {
  public:
+  /// Points whose other faces are kept together: one thread at a time may make such.
+  static constexpr std::size_t kTogether = 4096;
+
   /// Of points that no view has spoken of yet.
   explicit Evidences(std::size_t count);
 
@@ -50,9 +53,10 @@ class Evidences {
 
   /// The other face, one that nobody speaks for where there is none.
   [[nodiscard]] const Evidence::Face& other(std::size_t i) const {
-    return all_[i].has_other ? others_[i] : kNoFace;
+    const std::uint32_t other = all_[i].other;
+    return other == 0 ? kNoFace : others_[i / kTogether][other - 1];
   }
-  /// The other face, made where there is none.
+  /// The other face, made where there is none; it moves when the next is made.
   [[nodiscard]] Evidence::Face& make_other(std::size_t i);
 
   /// The face that most weight speaks for.
@@ -69,8 +73,8 @@ class Evidences {
  private:
   static const Evidence::Face kNoFace;
 
-  std::vector<Evidence, PixelAllocator<Evidence>> all_;
-  std::vector<Evidence::Face, PixelAllocator<Evidence::Face>> others_;  ///< unfilled without one
+  Pieces<Evidence> all_;
+  std::vector<std::vector<Evidence::Face>> others_;  ///< of `kTogether` points each
 };
 
 /// How much the mean over pixels at one point has to do with the mean at another: linear

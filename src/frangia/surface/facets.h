@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <Eigen/Core>
 
-#include "frangia/core/pixel_allocator.h"
+#include "frangia/core/pieces.h"
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/evidence.h"
 
@@ -26,7 +25,7 @@ struct Facet {
   bool has_side;  ///< another face runs near, and more than chance speaks for it
 };
 
-using Facets = std::vector<Facet, PixelAllocator<Facet>>;
+using Facets = Pieces<Facet>;
 
 /// One facet a crossing.
 [[nodiscard]] Facets make_facets(const Crossings& crossings, const Evidences& evidence);

@@ -54,7 +54,7 @@ Fans::Fans(const Mesh& mesh) : first_(mesh.vertices_mm.size() + 1, 0) {
   for (std::size_t v = 1; v < first_.size(); ++v)
     first_[v] += first_[v - 1];
   triangles_.resize(3 * mesh.triangles.size());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  LargeVector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t])
       triangles_[next[v]++] = t;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "frangia/core/pixel_allocator.h"
 #include "frangia/surface/mesh.h"
 
 namespace frangia {
@@ -18,8 +19,8 @@ class Fans {
   }
 
  private:
-  std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> triangles_;
+  LargeVector<std::uint32_t> first_;
+  LargeVector<std::uint32_t> triangles_;
 };
 
 /// A vertex and those that edges join to it within `rings` steps and, in a straight line,

@@ -28,7 +28,7 @@ struct EdgeSpots {
 
   std::vector<std::uint32_t> vertices;
   std::vector<EdgeSpot> spots;        ///< one for each of them
-  std::vector<std::uint32_t> places;  ///< of each vertex of the mesh in there, or kNone
+  LargeVector<std::uint32_t> places;  ///< of each vertex of the mesh in there, or kNone
 
   /// Null where nothing is known.
   [[nodiscard]] const EdgeSpot* at(std::uint32_t vertex) const {

@@ -95,8 +95,10 @@ Quads find_quads(const Crossings& crossings, const Evidences& evidence) {
   constexpr std::size_t kChunk = 64;
   Quads quads((crossings.blocks.size() + kChunk - 1) / kChunk);
   parallel_chunks(crossings.blocks.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<Quad>& part = quads[begin / kChunk];
+    part.reserve(crossings.first_of(end) - crossings.first_of(begin));
     for (std::size_t block = begin; block < end; ++block)
-      add_quads(quads[begin / kChunk], crossings, evidence, block);
+      add_quads(part, crossings, evidence, block);
   });
   return quads;
 }

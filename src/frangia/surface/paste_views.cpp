@@ -114,9 +114,7 @@ Mesh paste_views(const ViewStore& views,
   add_disagreement(evidence, crossings);
   Mesh mesh = mesh_quads(place_vertices(crossings, evidence), crossings, evidence);
   run.report(0.95);
-  drop_small_parts(mesh, options.min_part_triangles);
-  split_bow_ties(mesh);
-  drop_unused_vertices(mesh);
+  tidy_mesh(mesh, options.min_part_triangles);
   run.report(1.0);
   return mesh;
 }

@@ -222,8 +222,16 @@ void place_vertex(PlacedVertices& placed,
   mesh.views[vertex] = static_cast<std::uint16_t>(std::lround(loop.views()));
 }
 
+/// Those that no facet holds are dropped in the end, but not before all have been looked at.
+void clear_vertices(PlacedVertices& placed, std::size_t begin, std::size_t end) {
+  for (Eigen::Vector3f* points :
+       {placed.mesh.vertices_mm.data(), placed.mesh.normals.data(), placed.within_mm.data()})
+    std::fill(points + begin, points + end, Eigen::Vector3f::Zero());
+}
+
 void place_in_block(PlacedVertices& placed, const Ground& ground, std::size_t block) {
   const Crossings& crossings = ground.crossings;
+  clear_vertices(placed, crossings.first_vertex_of(block), crossings.first_vertex_of(block + 1));
   const Crossings::Block& cells = *crossings.blocks[block];
   const Crossings::Around around = crossings.around(block);
   const auto& shapes = cell_loops();
@@ -247,12 +255,13 @@ void place_in_block(PlacedVertices& placed, const Ground& ground, std::size_t bl
 PlacedVertices place_vertices(const Crossings& crossings, const Evidences& evidence) {
   const Ground ground{crossings, evidence, make_facets(crossings, evidence)};
   PlacedVertices placed;
-  placed.mesh.vertices_mm.assign(crossings.vertices, Eigen::Vector3f::Zero());
-  placed.mesh.normals.assign(crossings.vertices, Eigen::Vector3f::Zero());
-  placed.mesh.sigma_mm.assign(crossings.vertices, 0.0F);
-  placed.mesh.views.assign(crossings.vertices, 0);
-  placed.sharp.assign(crossings.vertices, 0);
-  placed.within_mm = placed.mesh.vertices_mm;
+  // Eigen's vectors are made unfilled: memory is first touched by the thread that fills it.
+  placed.mesh.vertices_mm.resize(crossings.vertices);
+  placed.mesh.normals.resize(crossings.vertices);
+  placed.within_mm.resize(crossings.vertices);
+  placed.mesh.sigma_mm.resize(crossings.vertices);
+  placed.mesh.views.resize(crossings.vertices);
+  placed.sharp.resize(crossings.vertices);
   parallel_chunks(crossings.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block)
       place_in_block(placed, ground, block);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "frangia/core/pixel_allocator.h"
 #include "frangia/surface/crossings.h"
 #include "frangia/surface/evidence.h"
 #include "frangia/surface/mesh.h"
@@ -11,7 +12,7 @@ namespace frangia {
 /// Vertices with normals, sigma and views; no triangles yet.
 struct PlacedVertices {
   Mesh mesh;
-  std::vector<Eigen::Vector3f> within_mm;  ///< where each would be if it had to stay in its cell
+  LargeVector<Eigen::Vector3f> within_mm;  ///< where each would be if it had to stay in its cell
   std::vector<std::uint8_t> sharp;         ///< 1 for a vertex on an edge or a corner of the object
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/core/parallel.h"
+#include "frangia/core/pixel_allocator.h"
 #include "frangia/surface/mesh.h"
 
 namespace frangia {
@@ -63,7 +64,7 @@ class Stars {
 
  private:
   static constexpr std::uint32_t kNone = ~0U;
-  std::vector<std::uint32_t> place_;
+  LargeVector<std::uint32_t> place_;
   std::vector<std::uint32_t> triangles_;
   std::vector<std::vector<std::uint32_t>> around_;
 };

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "frangia/core/disjoint_sets.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/pixel_allocator.h"
 
 namespace frangia {
 namespace {
@@ -19,7 +22,7 @@ std::uint64_t scrambled(std::uint32_t i) {
 
 /// Vertices at the mesh's rim: around others each edge is entered as often as it is left.
 std::vector<bool> rim_of(const Mesh& mesh) {
-  std::vector<std::uint64_t> balance(mesh.vertices_mm.size(), 0);
+  LargeVector<std::uint64_t> balance(mesh.vertices_mm.size(), 0);
   for (const auto& t : mesh.triangles) {
     const std::array<std::uint64_t, 3> number{scrambled(t[0]), scrambled(t[1]), scrambled(t[2])};
     for (std::size_t i = 0; i < 3; ++i)
@@ -58,32 +61,45 @@ std::vector<std::uint32_t> fans_of(const Mesh& mesh, const std::vector<Corner>& 
   return fans;
 }
 
-}  // namespace
-
-void drop_small_parts(Mesh& mesh, std::size_t min_triangles) {
-  DisjointSets parts(mesh.vertices_mm.size());
-  for (const auto& t : mesh.triangles) {
-    parts.join(t[0], t[1]);
-    parts.join(t[0], t[2]);
+/// The connected parts of a mesh that have too few triangles.
+class SmallParts {
+ public:
+  SmallParts(const Mesh& mesh, std::size_t min_triangles)
+      : parts_(mesh.vertices_mm.size()),
+        sizes_(mesh.vertices_mm.size(), 0),
+        min_triangles_(min_triangles) {
+    for (const auto& t : mesh.triangles) {
+      parts_.join(t[0], t[1]);
+      parts_.join(t[0], t[2]);
+    }
+    for (const auto& t : mesh.triangles)
+      ++sizes_[parts_.find(t[0])];
   }
-  std::vector<std::uint32_t> sizes(mesh.vertices_mm.size(), 0);
-  for (const auto& t : mesh.triangles)
-    ++sizes[parts.find(t[0])];
-  const auto is_small = [&](std::uint32_t size) { return size != 0 && size < min_triangles; };
-  if (std::none_of(sizes.begin(), sizes.end(), is_small)) return;
-  const auto small = [&](const Mesh::Triangle& t) { return is_small(sizes[parts.find(t[0])]); };
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (small(mesh.triangles[i])) continue;
-    if (!mesh.triangle_marks.empty()) mesh.triangle_marks[kept] = mesh.triangle_marks[i];
-    mesh.triangles[kept++] = mesh.triangles[i];
-  }
-  mesh.triangles.resize(kept);
-  if (!mesh.triangle_marks.empty()) mesh.triangle_marks.resize(kept);
-}
 
-void split_bow_ties(Mesh& mesh) {
-  const std::vector<bool> rim = rim_of(mesh);
+  void drop_from(Mesh& mesh) {
+    if (std::none_of(sizes_.begin(), sizes_.end(), [&](auto size) { return is_small(size); }))
+      return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (is_small(sizes_[parts_.find(mesh.triangles[i][0])])) continue;
+      if (!mesh.triangle_marks.empty()) mesh.triangle_marks[kept] = mesh.triangle_marks[i];
+      mesh.triangles[kept++] = mesh.triangles[i];
+    }
+    mesh.triangles.resize(kept);
+    if (!mesh.triangle_marks.empty()) mesh.triangle_marks.resize(kept);
+  }
+
+ private:
+  [[nodiscard]] bool is_small(std::uint32_t size) const {
+    return size != 0 && size < min_triangles_;
+  }
+
+  DisjointSets parts_;
+  LargeVector<std::uint32_t> sizes_;  ///< in triangles, of each part at its own number
+  std::size_t min_triangles_;
+};
+
+void split_at(const std::vector<bool>& rim, Mesh& mesh) {
   std::vector<Corner> corners;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -114,9 +130,35 @@ void split_bow_ties(Mesh& mesh) {
   }
 }
 
+}  // namespace
+
+void drop_small_parts(Mesh& mesh, std::size_t min_triangles) {
+  SmallParts(mesh, min_triangles).drop_from(mesh);
+}
+
+void split_bow_ties(Mesh& mesh) {
+  split_at(rim_of(mesh), mesh);
+}
+
+void tidy_mesh(Mesh& mesh, std::size_t min_triangles) {
+  // Both look at all triangles, and without the small parts the rim of the others is the same.
+  std::optional<SmallParts> small;
+  std::vector<bool> rim;
+  parallel_chunks(2, 1, [&](std::size_t which, std::size_t) {
+    if (which == 0) {
+      small.emplace(mesh, min_triangles);
+    } else {
+      rim = rim_of(mesh);
+    }
+  });
+  small->drop_from(mesh);
+  split_at(rim, mesh);
+  drop_unused_vertices(mesh);
+}
+
 void drop_unused_vertices(Mesh& mesh) {
   constexpr std::uint32_t kUnused = ~0U;
-  std::vector<std::uint32_t> renamed(mesh.vertices_mm.size(), kUnused);
+  LargeVector<std::uint32_t> renamed(mesh.vertices_mm.size(), kUnused);
   for (const auto& t : mesh.triangles) {
     for (const std::uint32_t vertex : t)
       renamed[vertex] = 0;
@@ -138,10 +180,12 @@ void drop_unused_vertices(Mesh& mesh) {
   keep(mesh.sigma_mm);
   keep(mesh.views);
   keep(mesh.vertex_marks);
-  for (auto& t : mesh.triangles) {
-    for (std::uint32_t& vertex : t)
-      vertex = renamed[vertex];
-  }
+  parallel_chunks(mesh.triangles.size(), 65536, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (std::uint32_t& vertex : mesh.triangles[t])
+        vertex = renamed[vertex];
+    }
+  });
 }
 
 }  // namespace frangia

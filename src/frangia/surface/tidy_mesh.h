@@ -12,6 +12,9 @@ void drop_small_parts(Mesh& mesh, std::size_t min_triangles);
 /// Gives each fan of triangles a vertex of its own where several meet in one vertex only.
 void split_bow_ties(Mesh& mesh);
 
+/// All of that, and drops what vertices it leaves unused.
+void tidy_mesh(Mesh& mesh, std::size_t min_triangles);
+
 /// Drops vertices without a triangle; the others keep their order.
 void drop_unused_vertices(Mesh& mesh);
 
