@@ -48,11 +48,16 @@ void LineShifter::start(const Deadline& deadline) {
 }
 
 void LineShifter::wait_until_settled(const Deadline& deadline) {
-  while (line_.ask(protocol_.settled_query, deadline) != protocol_.settled_answer) {
-    deadline.sleep(0.005);
-    if (deadline.passed()) {
-      device_fault(*this, fmt::format("has not settled within {:.3g} s", deadline.given_s));
+  bool answered = false;
+  try {
+    while (line_.ask(protocol_.settled_query, deadline) != protocol_.settled_answer) {
+      answered = true;
+      deadline.sleep(0.005);
     }
+  } catch (const Error& error) {
+    // The question that the deadline cuts off is not what is wrong.
+    if (!answered || error.kind() != ErrorKind::Device || !deadline.passed()) throw;
+    device_fault(*this, fmt::format("has not settled within {:.3g} s", deadline.given_s));
   }
 }
 
