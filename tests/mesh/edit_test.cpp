@@ -13,7 +13,6 @@
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/offset_mesh.h"
 #include "frangia/mesh/orient.h"
-#include "frangia/mesh/remove_spikes.h"
 #include "frangia/mesh/select_by_place.h"
 #include "frangia/mesh/select_by_vertices.h"
 #include "frangia/mesh/self_intersections.h"
@@ -268,16 +267,6 @@ TEST(Smooth, MarksWhatMovedBeyondItsSigmaAndNothingElse) {
     const bool moved = (smooth.vertices_mm[i] - mesh.vertices_mm[i]).norm() > 0.05F;
     ASSERT_EQ(smooth.vertex_marks[i] == Mark::Moved, moved);
   }
-}
-
-TEST(RemoveSpikes, SetsATipDownAndLeavesTheRest) {
-  Mesh mesh = ball();
-  mesh.vertices_mm[1000] *= 2.0F;
-  const Mesh flat = remove_spikes(mesh);
-  EXPECT_LT(farthest_from_ball(flat), 0.2);
-  EXPECT_EQ(flat.vertex_marks[1000], Mark::Moved);
-  EXPECT_EQ(remove_spikes(box({0, 0, 0}, {1, 1, 1})).vertices_mm,
-            box({0, 0, 0}, {1, 1, 1}).vertices_mm);
 }
 
 TEST(Stitch, ClosesABallOfLooseTriangles) {

@@ -1,6 +1,8 @@
 #include "frangia/mesh/remove_spikes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -37,11 +39,59 @@ std::optional<Vector3f> place_of_tip(const Mesh& mesh,
   return mean / static_cast<float>(leaving.size());
 }
 
+float mean_edge_mm(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += (mesh.vertices_mm[a] - mesh.vertices_mm[b]).norm();
+  return static_cast<float>(sum /
+                            static_cast<double>(std::max<std::size_t>(1, mesh.triangles.size())));
+}
+
+/// Whether a vertex of the boundary stands out like a needle: a scanner's flying pixel.
+bool is_needle(const Mesh& mesh,
+               const HalfEdges& edges,
+               std::uint32_t vertex,
+               float below_rad,
+               float shortest_mm) {
+  bool at_boundary = false;
+  float angles = 0.0F;
+  for (const std::uint32_t edge : edges.leaving(vertex)) {
+    at_boundary =
+        at_boundary || edges.is_boundary(edge) || edges.is_boundary(HalfEdges::before(edge));
+    const Vector3f next = mesh.vertices_mm[to_of(mesh, edge)] - mesh.vertices_mm[vertex];
+    const Vector3f last = mesh.vertices_mm[across_of(mesh, edge)] - mesh.vertices_mm[vertex];
+    if (std::min(next.norm(), last.norm()) < shortest_mm) return false;
+    angles += std::atan2(next.cross(last).norm(), next.dot(last));
+  }
+  return at_boundary && angles < below_rad;
+}
+
+/// Takes away the triangles at such tips: where the surface would end without them, nothing tells.
+/// Returns who is beside whom in what is left.
+HalfEdges cut_needles(Mesh& mesh, const RemoveSpikesOptions& options) {
+  constexpr float kSharp = 1.0F / 12.0F;  // of a spike's angles: 15 degrees instead of 180
+  constexpr float kLong = 2.0F;           // mean edges
+  const float below_rad = kSharp * static_cast<float>(options.below_rad);
+  const float shortest_mm = kLong * mean_edge_mm(mesh);
+  for (int round = 0;; ++round) {
+    HalfEdges edges(mesh);
+    std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
+    for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) {
+      if (!is_needle(mesh, edges, v, below_rad, shortest_mm)) continue;
+      for (const std::uint32_t edge : edges.leaving(v))
+        keep[edge / 3] = 0;
+    }
+    const bool none = std::find(keep.begin(), keep.end(), 0) == keep.end();
+    if (none || round == options.rounds) return edges;
+    keep_triangles(mesh, keep);
+  }
+}
+
 }  // namespace
 
 Mesh remove_spikes(Mesh mesh, const RemoveSpikesOptions& options, const Run& run) {
   constexpr std::size_t kChunk = 8192;
-  const HalfEdges edges(mesh);
+  const HalfEdges edges = cut_needles(mesh, options);
   const std::vector<Vector3f> before = mesh.vertices_mm;
   const auto below = static_cast<float>(options.below_rad);
   for (int round = 0; round < options.rounds; ++round) {

@@ -15,7 +15,8 @@ struct RemoveSpikesOptions {
 
 /// The mesh with the tips of spikes set down on the mean of their neighbours, and marked as moved.
 ///
-/// missing  vertices on the boundary stay
+/// missing  a tip on the boundary stays, unless it is a needle: a twelfth as sharp and longer than
+///          two mean edges. Such a one goes with its triangles
 [[nodiscard]] Mesh remove_spikes(Mesh mesh,
                                  const RemoveSpikesOptions& options = {},
                                  const Run& run = {});

@@ -91,7 +91,7 @@ std::vector<EditOperation> of_the_rest() {
       {"remove-spikes",
        kGroup,
        "",
-       "set tips sharper than a cone of 60 degrees down",
+       "set tips sharper than a cone of 60 degrees down, cut needles at the rim off",
        [](EditState& s, const Text&, const Run& run) {
          s.mesh = remove_spikes(std::move(s.mesh), {}, run);
        }},

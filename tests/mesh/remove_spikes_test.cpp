@@ -1,0 +1,52 @@
+#include "frangia/mesh/remove_spikes.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "files/sample_meshes.h"
+#include "support/mesh_truths.h"
+
+namespace frangia {
+namespace {
+
+TEST(RemoveSpikes, SetsATipDownAndLeavesTheRest) {
+  constexpr float kRadius = 20.0F;
+  Mesh mesh = testing::sphere(Eigen::Vector3d::Zero(), kRadius, 40);
+  mesh.vertices_mm[1000] *= 2.0F;
+  const Mesh flat = remove_spikes(mesh);
+  for (const auto& vertex : flat.vertices_mm)
+    ASSERT_NEAR(vertex.norm(), kRadius, 0.2F);
+  EXPECT_EQ(flat.vertex_marks[1000], Mark::Moved);
+}
+
+TEST(RemoveSpikes, LeavesTheCornersOfABoxAndTheRimOfASheet) {
+  for (const Mesh& mesh :
+       {testing::box(Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones()), testing::sheet(21)}) {
+    const Mesh same = remove_spikes(mesh);
+    EXPECT_EQ(same.vertices_mm, mesh.vertices_mm);
+    EXPECT_EQ(same.triangles, mesh.triangles);
+  }
+}
+
+TEST(RemoveSpikes, CutsNeedlesAtTheRimOff) {
+  const Mesh sheet = testing::sheet(21);
+  Mesh mesh = sheet;
+  mesh.vertices_mm[10].y() -= 8.0F;        // in the sheet, away from it
+  mesh.vertices_mm[210].z() += 8.0F;       // across it
+  mesh.vertices_mm[211 + 63].z() += 8.0F;  // amid the sheet
+  const Mesh mended = remove_spikes(mesh);
+  for (const auto& vertex : mended.vertices_mm) {
+    EXPECT_LT(std::abs(vertex.z()), 0.5F);
+    EXPECT_GE(vertex.y(), 0.0F);
+  }
+  EXPECT_EQ(mended.triangles.size() + 6, sheet.triangles.size());  // three at each
+  EXPECT_EQ(mended.vertices_mm.size() + 2, sheet.vertices_mm.size());
+}
+
+TEST(RemoveSpikes, LeavesAMeshWithoutTrianglesAlone) {
+  EXPECT_TRUE(remove_spikes(Mesh{}).vertices_mm.empty());
+}
+
+}  // namespace
+}  // namespace frangia
