@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "frangia/mesh/boundary_loops.h"
 #include "frangia/mesh/change_selection.h"
 #include "frangia/mesh/connected_parts.h"
