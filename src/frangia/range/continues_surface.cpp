@@ -1,5 +1,6 @@
 #include "frangia/range/continues_surface.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -23,9 +24,11 @@ constexpr float kRough = 4.0F;         // in variance: what is left over is more
 constexpr float kSigmas = 3.0F;
 constexpr float kLit = 0.7F;  // of the light expected: less, and the surface ends in the pixel
 
+constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
+
 /// Pixels of the window about one that hang together.
 struct Group {
-  std::array<Eigen::Vector2i, kSide * kSide> at;
+  std::array<Eigen::Vector2i, kPixels> at;
   std::size_t count = 0;
 };
 
@@ -38,11 +41,12 @@ bool is_seen(const SoundPixels& sound, const Eigen::Vector2i& p) {
 Group group_of(const SoundPixels& sound,
                const Eigen::Vector2i& middle,
                const Eigen::Vector2i& start) {
-  std::array<bool, kSide * kSide> seen{};
+  std::array<bool, kPixels> seen{};
   Group group;
   const auto add = [&](const Eigen::Vector2i& p) {
     const Eigen::Vector2i from = p - middle + Eigen::Vector2i::Constant(kRadius);
-    bool& known = seen[static_cast<std::size_t>(from.y() * kSide + from.x())];
+    const int place = from.y() * kSide + from.x();
+    bool& known = seen[static_cast<std::size_t>(place)];
     if (!known) group.at[group.count++] = p;
     known = true;
   };
@@ -106,11 +110,10 @@ bool leads_to(const SoundPixels& sound,
 
 bool continues_surface(const SoundPixels& sound, const RangePixel& pixel) {
   const Eigen::Vector2i at(pixel.x, pixel.y);
-  for (const auto& [dx, dy] : kBeside) {
-    const Eigen::Vector2i next = at + Eigen::Vector2i(dx, dy);
-    if (is_seen(sound, next) && leads_to(sound, group_of(sound, at, next), at, pixel)) return true;
-  }
-  return false;
+  return std::any_of(kBeside.begin(), kBeside.end(), [&](const auto& step) {
+    const Eigen::Vector2i next = at + Eigen::Vector2i(step[0], step[1]);
+    return is_seen(sound, next) && leads_to(sound, group_of(sound, at, next), at, pixel);
+  });
 }
 
 }  // namespace frangia

@@ -18,7 +18,7 @@ constexpr float kLargestJump = 2.5F;  // voxels, between the ends of an edge one
 /// Distances at the corners of a block's cells: 9^3, NaN where unseen.
 struct Corners {
   static constexpr int kSide = kEdge + 1;
-  std::array<float, kSide * kSide * kSide> distance{};
+  std::array<float, std::size_t{kSide} * kSide * kSide> distance{};
 
   static constexpr std::size_t at(int x, int y, int z) {
     const int place = x + kSide * (y + kSide * z);

@@ -1,6 +1,7 @@
 #include "frangia/surface/evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -14,6 +15,12 @@ namespace {
 constexpr float kAgree = 0.8F;   // cosine between normals of one face
 constexpr float kBack = -0.3F;   // a normal that points so far inward is the back of a thin wall
 constexpr float kAround = 4.0F;  // pixels: sight is clear when it is so this far to all sides
+
+/// The pixel that a place in the picture belongs to.
+int nearest(float place_px) {
+  const float past = place_px + 0.5F;
+  return static_cast<int>(past);
+}
 
 /// One of the points that are asked about.
 struct Point {
@@ -67,8 +74,7 @@ struct Questioner {
     if (chord < -2.0F * near_mm) return;  // hidden behind what the view saw
     const bool smooth = quad->kind == LocalPlanes::Kind::Smooth;
     const LocalPlanes::Plane& plane =
-        smooth ? view.planes(static_cast<int>(u + 0.5F), static_cast<int>(v + 0.5F))
-               : view.nearest_face(u, v, p);
+        smooth ? view.planes(nearest(u), nearest(v)) : view.nearest_face(u, v, p);
     const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
       const bool at_rim = is_at_rim(u, v);
@@ -86,16 +92,15 @@ struct Questioner {
   /// Whether the point is as far in front of all that the view saw around it: beside a silhouette a
   /// small error of the pose looks like sight through it.
   [[nodiscard]] bool is_clear(float u, float v, const Eigen::Vector3f& point) const {
-    for (const auto& [right, down] :
-         {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}) {
-      const float x = u + kAround * static_cast<float>(right);
-      const float y = v + kAround * static_cast<float>(down);
-      const LocalPlanes::Quad* quad = view.quad_at(x, y);
-      if (quad == nullptr) continue;
+    static constexpr std::array<std::pair<int, int>, 8> kSides{
+        {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+    return std::all_of(kSides.begin(), kSides.end(), [&](const auto& side) {
+      const float x = u + kAround * static_cast<float>(side.first);
+      const float y = v + kAround * static_cast<float>(side.second);
+      if (view.quad_at(x, y) == nullptr) return true;
       const auto& plane = view.planes(static_cast<int>(x), static_cast<int>(y));
-      if (plane.in_front_mm(point) < 0.5F * through_mm) return false;
-    }
-    return true;
+      return !(plane.in_front_mm(point) < 0.5F * through_mm);
+    });
   }
 
   /// Half a pixel beside the last quad, where that is not far on the surface.

@@ -164,8 +164,8 @@ void drop_unused_vertices(Mesh& mesh) {
       renamed[vertex] = 0;
   }
   std::uint32_t next = 0;
-  for (std::size_t i = 0; i < renamed.size(); ++i) {
-    if (renamed[i] != kUnused) renamed[i] = next++;
+  for (std::uint32_t& name : renamed) {
+    if (name != kUnused) name = next++;
   }
   if (next == renamed.size()) return;
   const auto keep = [&](auto& values) {

@@ -72,7 +72,7 @@ ViewStore& ViewStore::operator=(ViewStore&& other) noexcept {
   return *this;
 }
 ViewStore::~ViewStore() {
-  if (file_ != nullptr) static_cast<void>(std::fclose(file_));
+  if (file_ != nullptr) static_cast<void>(std::fclose(file_));  // NOLINT(*-owning-memory)
 }
 
 std::int64_t ViewStore::write(const View& view, std::int64_t offset) {
