@@ -32,7 +32,7 @@ template <typename Surface>
   for (const auto id : surface.vertices()) {
     number[id.idx()] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
     const auto& p = surface.point(id);
-    mesh.vertices_mm.push_back(Eigen::Vector3d(p.x(), p.y(), p.z()).template cast<float>());
+    mesh.vertices_mm.emplace_back(Eigen::Vector3d(p.x(), p.y(), p.z()).template cast<float>());
   }
   for (const auto face : surface.faces()) {
     Mesh::Triangle triangle{};

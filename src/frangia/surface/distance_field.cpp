@@ -175,8 +175,10 @@ void weigh_rough(Row& row, std::size_t i, const Sampler& sampler, const Eigen::V
   const Eigen::Vector3f step = steps.col(0);
   Row row;
   for (int r = 0; r < kEdge * kEdge; ++r) {
-    const Eigen::Vector3f start = first + steps.col(1) * static_cast<float>(r % kEdge) +
-                                  steps.col(2) * static_cast<float>(r / kEdge);
+    const int across = r % kEdge;
+    const int up = r / kEdge;
+    const Eigen::Vector3f start =
+        first + steps.col(1) * static_cast<float>(across) + steps.col(2) * static_cast<float>(up);
     look_up(row, sampler, start, step);
     std::int32_t seen = 0;
     std::int32_t rough = 0;
