@@ -11,6 +11,7 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/mesh/half_edges.h"
+#include "frangia/mesh/surface_gap.h"
 #include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
@@ -39,14 +40,6 @@ std::optional<Vector3f> place_of_tip(const Mesh& mesh,
   return mean / static_cast<float>(leaving.size());
 }
 
-float mean_edge_mm(const Mesh& mesh) {
-  double sum = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += (mesh.vertices_mm[a] - mesh.vertices_mm[b]).norm();
-  return static_cast<float>(sum /
-                            static_cast<double>(std::max<std::size_t>(1, mesh.triangles.size())));
-}
-
 /// Whether a vertex of the boundary stands out like a needle: a scanner's flying pixel.
 bool is_needle(const Mesh& mesh,
                const HalfEdges& edges,
@@ -72,7 +65,7 @@ HalfEdges cut_needles(Mesh& mesh, const RemoveSpikesOptions& options) {
   constexpr float kSharp = 1.0F / 12.0F;  // of a spike's angles: 15 degrees instead of 180
   constexpr float kLong = 2.0F;           // mean edges
   const float below_rad = kSharp * static_cast<float>(options.below_rad);
-  const float shortest_mm = kLong * mean_edge_mm(mesh);
+  const float shortest_mm = kLong * static_cast<float>(mean_edge_mm(mesh));
   for (int round = 0;; ++round) {
     HalfEdges edges(mesh);
     std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);

@@ -16,12 +16,6 @@ constexpr float kAgree = 0.8F;   // cosine between normals of one face
 constexpr float kBack = -0.3F;   // a normal that points so far inward is the back of a thin wall
 constexpr float kAround = 4.0F;  // pixels: sight is clear when it is so this far to all sides
 
-/// The pixel that a place in the picture belongs to.
-int nearest(float place_px) {
-  const float past = place_px + 0.5F;
-  return static_cast<int>(past);
-}
-
 /// One of the points that are asked about.
 struct Point {
   Evidences& all;
@@ -73,8 +67,7 @@ struct Questioner {
     const float chord = (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
     if (chord < -2.0F * near_mm) return;  // hidden behind what the view saw
     const bool smooth = quad->kind == LocalPlanes::Kind::Smooth;
-    const LocalPlanes::Plane& plane =
-        smooth ? view.planes(nearest(u), nearest(v)) : view.nearest_face(u, v, p);
+    const LocalPlanes::Plane& plane = smooth ? view.nearest(u, v) : view.nearest_face(u, v, p);
     const float distance = smooth ? view.smooth_mm(u, v, p) : plane.in_front_mm(p);
     if (std::abs(distance) < near_mm) {
       const bool at_rim = is_at_rim(u, v);

@@ -77,15 +77,21 @@ struct LocalPlanes {
     return quad != nullptr && quad->kind == Kind::Beside ? nullptr : quad;
   }
 
-  /// The plane of the pixel whose square (u, v) falls into, when it has one of its own: what is
-  /// half a pixel beside the last quad was seen, too.
+  /// The plane of the pixel whose square (u, v) falls into, which is in the picture.
+  [[nodiscard]] const Plane& nearest(float u, float v) const {
+    const float right = u + 0.5F;
+    const float down = v + 0.5F;
+    return planes(static_cast<int>(right), static_cast<int>(down));
+  }
+  /// The same, null where the picture ends or the pixel has no plane: what is half a pixel beside
+  /// the last quad was seen, too.
   [[nodiscard]] const Plane* pixel_at(float u, float v) const {
     const float right = u + 0.5F;
     const float down = v + 0.5F;
     const bool within = right > 0.0F && down > 0.0F && right < static_cast<float>(planes.width()) &&
                         down < static_cast<float>(planes.height());
     if (!within) return nullptr;
-    const Plane& plane = planes(static_cast<int>(right), static_cast<int>(down));
+    const Plane& plane = nearest(u, v);
     return plane.weight > 0.0F ? &plane : nullptr;
   }
 
