@@ -16,6 +16,7 @@
 #include "frangia/scan/sweep_piezo.h"
 
 #include "drivers.h"
+#include "option_values.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -95,16 +96,16 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
   piezo->add_option("rig,--rig", arguments->rig, "the rig.toml, with its [devices.*]")->required();
   piezo->add_option("-o,--output", arguments->output, "the same rig with the curve in it");
   piezo->add_option("--steps", arguments->options.steps, "commands over the shifter's range")
-      ->check(CLI::Range(6, 200))
+      ->check(from_to(6, 200))
       ->capture_default_str();
   piezo->add_option("--exposure", arguments->options.capture.camera.exposure_ms, "milliseconds")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   piezo
       ->add_option("--fringes-per-degree",
                    arguments->options.fringes_per_degree,
                    "of the fringes to look at")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   piezo->callback([arguments, &terminal] { calibrate_piezo(*arguments, terminal); });
 }

@@ -13,6 +13,7 @@
 #include "frangia/scan/stage_pictures.h"
 #include "frangia/scan/write_stages.h"
 
+#include "option_values.h"
 #include "reconstruct_options.h"
 #include "verbs.h"
 
@@ -87,7 +88,9 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
   verb->footer("example:\n  frangia decode ball-bar --view 3 -o stages");
   verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
       ->required();
-  verb->add_option("--view", arguments->view, "number of the view, from 0")->capture_default_str();
+  verb->add_option("--view", arguments->view, "number of the view, from 0")
+      ->check(zero_or_more())
+      ->capture_default_str();
   verb->add_option("-o,--output", arguments->folder, "the folder to write into")->required();
   add_decode_options(*verb, arguments->options);
   arguments->options.in_space.keep_order = true;

@@ -19,6 +19,7 @@
 #include "frangia/inspect/surface_soundness.h"
 #include "frangia/scan/scan_folder.h"
 
+#include "option_values.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -166,26 +167,26 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
                    arguments->scan,
                    "count only what the views of this scan could measure as to be covered");
   verb->add_option("--within", arguments->within_mm, "a place is covered with mesh this near, mm")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--max-angle",
                    arguments->max_angle_deg,
                    "a view could measure what camera and light see within this angle, degrees")
-      ->check(CLI::Range(1.0, 90.0))
+      ->check(from_to(1.0, 90.0))
       ->capture_default_str();
   verb->add_option("--picture", arguments->picture, "draw the mesh into this .png");
   verb->add_option("--show",
                    arguments->show,
                    "what its colors are: deviation, sigma, views (how many saw it), marks (red was "
                    "invented), or shape for none")
-      ->check(CLI::IsMember({"deviation", "sigma", "views", "marks", "shape"}))
+      ->check(one_of({"deviation", "sigma", "views", "marks", "shape"}))
       ->capture_default_str();
   verb->add_option("--from", arguments->from_deg, "where the viewer is: azimuth,elevation, degrees")
       ->delimiter(',')
       ->expected(2)
       ->capture_default_str();
   verb->add_option("--scale", arguments->scale_mm, "deviation or sigma of the strongest color, mm")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->callback([arguments, &terminal] { inspect(*arguments, terminal); });
 }

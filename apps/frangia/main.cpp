@@ -7,7 +7,9 @@
 
 #include "frangia/core/error.h"
 
+#include "option_values.h"
 #include "paste_verb.h"
+#include "usage.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -53,7 +55,7 @@ int run_program(int argc, char** argv) {
                 tbb::global_control::max_allowed_parallelism, count);
           },
           "cores to use; the result has the same bytes for any number")
-      ->check(CLI::Range(1, 1024));
+      ->check(from_to(1, 1024));
   program.fallthrough();
   add_demo_verb(program, terminal);
   add_simulate_verb(program, terminal);
@@ -69,10 +71,15 @@ int run_program(int argc, char** argv) {
   add_devices_verb(program, terminal);
   add_calibrate_verb(program, terminal);
   add_paste_verb(program, terminal);
+  if (argc == 1) {
+    fmt::print(stderr, "{}", program.help());
+    return Usage;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(Usage);
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help and --version
+    return complain(terminal, usage_sentence(program, error), Usage);
   } catch (const Error& error) {
     return complain(terminal, error.what(), exit_code_of(error.kind()));
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,7 @@
 #include "frangia/scan/paste_scans.h"
 
 #include "mesh_answer.h"
+#include "option_values.h"
 #include "write_options.h"
 
 namespace frangia {
@@ -105,24 +106,24 @@ void add_paste_verb(CLI::App& program, Terminal& terminal) {
                    arguments->options.poses,
                    "where the scans stand: given, as the files say; shape, found from their shape; "
                    "auto (the default), found when what the files say cannot be")
-      ->transform(CLI::CheckedTransformer(kPoses).description(""));
+      ->transform(named(kPoses));
   verb->add_flag("--no-register", arguments->no_register, "take the poses as they are");
   verb->add_option("--reach",
                    arguments->options.registration.reach_mm,
                    "how far surfaces that are one may lie apart at the start, in mm")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--voxel",
                    arguments->options.paste.voxel_mm,
                    "sampling of the surface in mm; chosen from the data when not given")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->add_flag("--watertight",
                  arguments->options.finish.watertight,
                  "close what was not seen; each such triangle is marked as invented");
   verb->add_option("--tolerance",
                    arguments->options.finish.tolerance_mm,
                    "fewer triangles, never farther than this from the mesh, in mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->callback([arguments, &terminal] { paste(*arguments, terminal); });
 }
 

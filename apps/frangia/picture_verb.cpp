@@ -13,6 +13,7 @@
 #include "frangia/inspect/contact_sheet.h"
 #include "frangia/inspect/shade_mesh.h"
 
+#include "option_values.h"
 #include "picture_file.h"
 #include "verbs.h"
 
@@ -54,7 +55,7 @@ void add_picture_verb(CLI::App& program, Terminal& terminal) {
       ->required();
   verb->add_option("-o,--output", arguments->output, "the picture, a .png")->required();
   const auto size = [&](const char* name, int& value, const char* help) {
-    verb->add_option(name, value, help)->check(CLI::Range(16, 16'384))->capture_default_str();
+    verb->add_option(name, value, help)->check(from_to(16, 16'384))->capture_default_str();
   };
   size("--width", arguments->shade.width_px, "of each mesh's picture, pixels");
   size("--height", arguments->shade.height_px, "pixels");
@@ -63,7 +64,7 @@ void add_picture_verb(CLI::App& program, Terminal& terminal) {
       ->capture_default_str();
   verb->add_option(
           "--elevation", arguments->elevation_deg, "of the viewer above the ground, degrees")
-      ->check(CLI::Range(-90.0, 90.0))
+      ->check(from_to(-90.0, 90.0))
       ->capture_default_str();
   verb->add_flag("--edges", arguments->shade.show_edges, "draw the edges of the triangles");
   verb->add_flag(

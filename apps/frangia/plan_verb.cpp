@@ -11,6 +11,7 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/rig_presets.h"
 
+#include "option_values.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -67,7 +68,7 @@ void add_plan_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--sigma", arguments->sigma_rad, "noise of one phase map, rad")
       ->capture_default_str();
   verb->add_option("--max-wrong-order", arguments->max_wrong_order, "chance allowed a pixel")
-      ->check(CLI::Range(1e-15, 0.5))
+      ->check(from_to(1e-15, 0.5))
       ->capture_default_str();
   verb->callback([arguments, &terminal] { plan(*arguments, terminal); });
 }

@@ -9,6 +9,8 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/scan/reconstruct.h"
 
+#include "option_values.h"
+
 namespace frangia {
 
 /// The options of `reconstruct` that `decode` has too.
@@ -25,7 +27,7 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
                   options.in_space.method,
                   "how a phase is unwrapped in space: default, takeda-abe (the paper's growth) or "
                   "herraez (sorted by reliability)")
-      ->transform(CLI::CheckedTransformer(kMethods).description(""));
+      ->transform(named(kMethods));
   verb.add_flag("--recover-saturated",
                 options.recover_saturated,
                 "recover the one saturated frame of four, 90 degrees apart, from the others");
@@ -43,7 +45,7 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
   verb.add_option("--max-sigma",
                   options.wrap.max_sigma_rad,
                   "drop pixels whose phase is less certain than this, in rad")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
 }
 

@@ -15,6 +15,7 @@
 #include "frangia/scan/reconstruct.h"
 
 #include "mesh_answer.h"
+#include "option_values.h"
 #include "reconstruct_options.h"
 #include "verbs.h"
 #include "write_options.h"
@@ -118,11 +119,12 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
 void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
   verb.add_option("--clip-below",
                   arguments.options.clip_below_mm,
-                  "leave out what lies below this height above the turntable's origin, in mm");
+                  "leave out what lies below this height above the turntable's origin, in mm")
+      ->check(a_number());
   verb.add_option("--clip-radius",
                   arguments.options.clip_radius_mm,
                   "leave out what lies farther from the turntable's axis, in mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb.add_flag("--keep-platter",
                 arguments.options.keep_platter,
                 "do not look for the top of the turntable and leave it out");
@@ -135,7 +137,7 @@ void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
   verb.add_option("--voxel",
                   arguments.options.paste.voxel_mm,
                   "sampling of the surface in mm; chosen from the data when not given")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb.add_flag("--watertight",
                 arguments.options.finish.watertight,
                 "close what was not seen; each such triangle is marked as invented (mark 2 in a "
@@ -144,7 +146,7 @@ void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
                   arguments.options.finish.tolerance_mm,
                   "fewer triangles where the part is flat, never farther than this from the mesh, "
                   "in mm")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb.add_option(
       "--keep-raw", arguments.raw, "write the registered points with sigma to this .ply");
 }

@@ -12,6 +12,7 @@
 #include "frangia/simulate/default_patterns.h"
 
 #include "drivers.h"
+#include "option_values.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -34,31 +35,31 @@ void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
   verb.add_option("-o,--output", arguments.output, "the scan folder; one begun is gone on with")
       ->required();
   verb.add_option("--views", arguments.views, "stops of the turntable, evenly over a turn")
-      ->check(CLI::Range(1, 3600))
+      ->check(from_to(1, 3600))
       ->capture_default_str();
   verb.add_option("--shifts", patterns.shifts, "frames of each fringe pattern")
-      ->check(CLI::Range(3, 360))
+      ->check(from_to(3, 360))
       ->capture_default_str();
   verb.add_option("--periods",
                   patterns.periods_px,
                   "a digital projector's fringe periods in pixels, such as 1280,160,20")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb.add_option("--fringes-per-degree",
                   patterns.fringes_per_degree,
                   "an angular projector's finest fringes")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb.add_option("--sequence",
                   patterns.sequence,
                   "instead: doubling, negative-exponential, heterodyne or gray, up to --fringes");
   verb.add_option("--fringes", patterns.fringes, "over the field, of the --sequence")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb.add_option("--ramp",
                   patterns.ramp,
                   "levels of a grey ramp, to measure the projector's response by; 0 for none")
-      ->check(CLI::Range(0, 256));
+      ->check(from_to(0, 256));
 }
 
 void add_light_options(CLI::App& verb, ScanArguments& arguments) {
@@ -68,21 +69,21 @@ void add_light_options(CLI::App& verb, ScanArguments& arguments) {
           arguments.exposure,
           "milliseconds; or auto: as long as nothing much saturates; or bracket: as many as "
           "a part that shines needs")
-      ->check(CLI::PositiveNumber | CLI::IsMember({"auto", "bracket"}))
+      ->check(above_zero({"auto", "bracket"}))
       ->capture_default_str()
       ->group("Light");
   verb.add_option("--exposures",
                   arguments.patterns.exposures_ms,
                   "take each frame at these exposures in ms, such as 2,8")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->group("Light");
   verb.add_option("--gain", options.camera.gain_db, "of the camera, dB")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(from_to(0.0, 60.0))
       ->capture_default_str()
       ->group("Light");
   verb.add_option("--black-level", options.camera.black_level_counts, "of the camera, counts")
-      ->check(CLI::Range(0.0, 65535.0))
+      ->check(from_to(0.0, 65535.0))
       ->capture_default_str()
       ->group("Light");
 }
@@ -90,10 +91,7 @@ void add_light_options(CLI::App& verb, ScanArguments& arguments) {
 void add_care_options(CLI::App& verb, ScanArguments& arguments) {
   CaptureOptions& options = arguments.options;
   const auto add = [&](const char* name, auto& value, const char* help) {
-    verb.add_option(name, value, help)
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str()
-        ->group("Care");
+    verb.add_option(name, value, help)->check(zero_or_more())->capture_default_str()->group("Care");
   };
   add("--settle", options.settle_s, "wait after a move of the table, s");
   add("--patience", options.patience_s, "of each call to a device, s");

@@ -17,6 +17,7 @@
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 
+#include "option_values.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -50,26 +51,26 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                   fmt::format("{}; or a rig.toml", fmt::join(rig_preset_names(), ", ")))
       ->capture_default_str();
   verb.add_option("--views", arguments.views, "stops of the turntable, evenly over a turn")
-      ->check(CLI::Range(1, 3600))
+      ->check(from_to(1, 3600))
       ->capture_default_str();
   verb.add_option("--rounds",
                   arguments.rounds_deg,
                   "further rounds of as many views, in each of which the part is tilted by so many "
                   "degrees and set down anyhow, such as 180 or 90,180")
       ->delimiter(',')
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(from_to(-360.0, 360.0));
   verb.add_option("--shifts", arguments.patterns.shifts, "frames of each fringe pattern")
-      ->check(CLI::Range(3, 360))
+      ->check(from_to(3, 360))
       ->capture_default_str();
   verb.add_option("--periods",
                   arguments.patterns.periods_px,
                   "a digital projector's fringe periods in pixels, such as 1280,160,20")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb.add_option("--fringes-per-degree",
                   arguments.patterns.fringes_per_degree,
                   "an angular projector's finest fringes")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb.add_option("--sequence",
                   arguments.patterns.sequence,
@@ -78,15 +79,16 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                   arguments.patterns.exposures_ms,
                   "take each frame at these exposures in ms, such as 2,8; the first is --exposure")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb.add_option("--ramp",
                   arguments.patterns.ramp,
                   "levels of a grey ramp, to measure the projector's response by; 0 for none")
-      ->check(CLI::Range(0, 256));
+      ->check(from_to(0, 256));
   verb.add_option("--fringes", arguments.patterns.fringes, "over the field, of the --sequence")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb.add_option("--seed", arguments.options.seed, "another seed, other noise")
+      ->check(zero_or_more())
       ->capture_default_str();
   verb.add_option("--samples", arguments.options.samples_per_px, "rays a pixel; 4 mix its edges")
       ->capture_default_str();

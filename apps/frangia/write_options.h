@@ -15,6 +15,8 @@
 #include "frangia/files/write_mesh.h"
 #include "frangia/scan/finish_mesh.h"
 
+#include "option_values.h"
+
 namespace frangia {
 
 /// What an -o says of the files it takes.
@@ -29,7 +31,7 @@ inline void add_write_options(CLI::App& verb, WriteOptions& options) {
   verb.add_option("--dxf",
                   options.dxf.variant,
                   "DXF as faces (3DFACE, the default), polyface (POLYLINE) or mesh (MESH)")
-      ->transform(CLI::CheckedTransformer(kVariants).description(""));
+      ->transform(named(kVariants));
   verb.add_flag("--stl-text", options.stl.ascii, "STL as text instead of binary");
 }
 
@@ -62,6 +64,7 @@ inline void add_mesh_outputs(CLI::App& verb, MeshOutputs& outputs) {
   verb.add_option("--dxf-faces",
                   outputs.dxf_faces,
                   "the most triangles that a DXF gets, simplified to it; 0 for all")
+      ->check(zero_or_more())
       ->capture_default_str();
 }
 

@@ -95,11 +95,42 @@ TEST_F(Program, ShowsWhatAnEditWouldDoAndWritesNoMesh) {
   EXPECT_EQ(run_program(edit + quoted(out("look.jpg"))).exit_code, 3);
 }
 
-TEST_F(Program, SaysUsageErrorsWithTwo) {
+void expect_usage_error(const std::string& arguments, const std::string& sentence) {
+  const Answer answer = run_program(arguments);
+  EXPECT_EQ(answer.exit_code, 2) << arguments;
+  EXPECT_EQ(answer.output, fmt::format("frangia: {}\n", sentence)) << arguments;
+}
+
+TEST_F(Program, SaysUsageErrorsWithTwoAndOneSentence) {
   EXPECT_EQ(run_program("").exit_code, 2);
-  EXPECT_EQ(run_program("fly").exit_code, 2);
-  EXPECT_EQ(run_program("reconstruct").exit_code, 2);
-  EXPECT_EQ(run_program("reconstruct --voxel -3 x -o y.ply").exit_code, 2);
+  expect_usage_error("fly", "there is no verb fly; frangia --help lists them");
+  expect_usage_error(
+      "recnstruct x",
+      "there is no verb recnstruct, perhaps reconstruct was meant; frangia --help lists them");
+  expect_usage_error("--quiet", "a verb is missing; frangia --help lists them");
+  expect_usage_error("reconstruct", "SCAN is required; see frangia reconstruct --help");
+  expect_usage_error("reconstruct x -o", "--output needs a value; see frangia reconstruct --help");
+  expect_usage_error(
+      "reconstruct x y -o z.ply",
+      "y is one argument more than reconstruct takes; see frangia reconstruct --help");
+  expect_usage_error("reconstruct x --voxl 3 -o z.ply",
+                     "reconstruct has no option --voxl, perhaps --voxel was meant; see frangia "
+                     "reconstruct --help");
+}
+
+TEST_F(Program, SaysWhatTheValueOfAnOptionMayBe) {
+  const auto expect = [](const std::string& options, const std::string& sentence) {
+    expect_usage_error("reconstruct x -o y.ply " + options,
+                       sentence + "; see frangia reconstruct --help");
+  };
+  for (const char* wrong : {"0", "-3", "nan", "inf", "wide"})
+    expect(fmt::format("--voxel {}", wrong),
+           fmt::format("--voxel: {} is not a number above 0", wrong));
+  expect("--voxel 1 --voxel 2", "--voxel is given more than once");
+  expect("--clip-below low", "--clip-below: low is not a number");
+  expect("--dxf-faces -1", "--dxf-faces: -1 is not a number of 0 or more");
+  expect("--dxf-faces 2.5", "--dxf-faces cannot be 2.5");
+  expect("--unwrap 1", "--unwrap: 1 is not one of default, herraez, takeda-abe");
 }
 
 TEST_F(Program, ShowsAnExampleInTheHelpOfEveryVerb) {

@@ -35,6 +35,16 @@ std::optional<double> number_of(std::string_view kind, std::string_view word) {
   return number;
 }
 
+/// What a number of the pattern is, where its name alone does not tell.
+std::string_view meaning_of(std::string_view pattern) {
+  const auto has = [&](std::string_view kind) {
+    return pattern.find(kind) != std::string_view::npos;
+  };
+  if (has("MM")) return "; lengths are in mm, with or without their unit: 10mm";
+  if (has("HOLE")) return "; a hole is named by its number in --list: 0";
+  return "";
+}
+
 }  // namespace
 
 std::vector<double> edit_numbers(std::string_view pattern, const std::string& value) {
@@ -47,12 +57,7 @@ std::vector<double> edit_numbers(std::string_view pattern, const std::string& va
   }
   if (numbers.size() != kinds.size()) {
     throw Error(ErrorKind::Input,
-                fmt::format("'{}' is not {}{}",
-                            value,
-                            pattern,
-                            pattern.find("MM") != std::string_view::npos
-                                ? "; lengths are in mm, with or without their unit: 10mm"
-                                : ""));
+                fmt::format("'{}' is not {}{}", value, pattern, meaning_of(pattern)));
   }
   return numbers;
 }

@@ -1,0 +1,70 @@
+#include "option_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/ranges.h>
+
+namespace frangia {
+namespace {
+
+std::optional<double> finite(const std::string& input) {
+  double number = 0.0;
+  if (!CLI::detail::lexical_cast(input, number) || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+bool is_among(const std::vector<std::string>& words, const std::string& input) {
+  return std::find(words.begin(), words.end(), input) != words.end();
+}
+
+template <typename IsRight>
+CLI::Validator number_that(const IsRight& is_right,
+                           const std::string& what,
+                           const std::string& help,
+                           const std::vector<std::string>& words = {}) {
+  return {[=](const std::string& input) {
+            const auto number = finite(input);
+            const bool right = (number && is_right(*number)) || is_among(words, input);
+            return right ? "" : fmt::format("{} is not {}", input, what);
+          },
+          help};
+}
+
+}  // namespace
+
+CLI::Validator a_number() {
+  return number_that([](double) { return true; }, "a number", "");
+}
+
+CLI::Validator above_zero(const std::vector<std::string>& words) {
+  std::string what = "a number above 0";
+  for (const auto& word : words)
+    what += (word == words.back() ? " or " : ", ") + word;
+  return number_that([](double number) { return number > 0.0; }, what, "POSITIVE", words);
+}
+
+CLI::Validator zero_or_more() {
+  return number_that(
+      [](double number) { return number >= 0.0; }, "a number of 0 or more", "NONNEGATIVE");
+}
+
+CLI::Validator from_to(double least, double most) {
+  const std::string range = fmt::format("{} to {}", least, most);
+  return number_that([=](double number) { return number >= least && number <= most; },
+                     "a number from " + range,
+                     range);
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](const std::string& input) {
+            return is_among(words, input)
+                       ? ""
+                       : fmt::format("{} is not one of {}", input, fmt::join(words, ", "));
+          },
+          ""};
+}
+
+}  // namespace frangia
