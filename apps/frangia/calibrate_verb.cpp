@@ -30,6 +30,7 @@ struct PiezoArguments {
 
 std::vector<double> degrees(const std::vector<double>& angles_rad) {
   std::vector<double> angles_deg;
+  angles_deg.reserve(angles_rad.size());
   for (const double angle_rad : angles_rad)
     angles_deg.push_back(deg_from_rad(angle_rad));
   return angles_deg;

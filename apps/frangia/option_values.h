@@ -31,6 +31,7 @@ namespace frangia {
 template <typename Enum>
 [[nodiscard]] CLI::Validator named(const std::map<std::string, Enum>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& [name, value] : values)
     names.push_back(name);
   return {[values, known = one_of(names)](std::string& input) {

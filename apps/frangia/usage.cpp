@@ -11,13 +11,13 @@ namespace frangia {
 namespace {
 
 /// How many letters make one word of the other: Levenshtein 1966.
-std::size_t letters_between(const std::string& one, const std::string& other) {
-  std::vector<std::size_t> row(other.size() + 1);
+std::size_t letters_between(const std::string& word, const std::string& name) {
+  std::vector<std::size_t> row(name.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < one.size(); ++i) {
+  for (const char letter : word) {
     std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < other.size(); ++j) {
-      const std::size_t changed = diagonal + (one[i] == other[j] ? 0 : 1);
+    for (std::size_t j = 0; j < name.size(); ++j) {
+      const std::size_t changed = diagonal + (letter == name[j] ? 0 : 1);
       diagonal = row[j + 1];
       row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
     }
@@ -25,7 +25,7 @@ std::size_t letters_between(const std::string& one, const std::string& other) {
   return row.back();
 }
 
-/// ", did you mean ...?" when one of the names is nearly the word.
+/// ", perhaps ... was meant" when one of the names is nearly the word.
 std::string hint(const std::string& word, const std::vector<std::string>& names) {
   const auto nearest = std::min_element(
       names.begin(), names.end(), [&](const std::string& one, const std::string& other) {
@@ -44,9 +44,10 @@ std::vector<std::string> verbs_of(const CLI::App& program) {
 
 std::vector<std::string> options_of(const CLI::App& verb) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : verb.get_options())
+  for (const CLI::Option* option : verb.get_options()) {
     for (const std::string& name : option->get_lnames())
       names.push_back("--" + name);
+  }
   return names;
 }
 

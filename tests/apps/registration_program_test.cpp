@@ -31,12 +31,13 @@ class Together : public ::testing::Test {
   void write_relief(const std::string& name,
                     const std::function<double(double, double)>& height_mm) const {
     constexpr std::uint32_t kSide = 60;
+    constexpr double kMiddle = 30.0;
     Mesh mesh;
     for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
       const double x = i % kSide;
       const double y = i / kSide;  // NOLINT(bugprone-integer-division): the row
       mesh.vertices_mm.emplace_back(
-          Eigen::Vector3d(x, y, height_mm(x - kSide / 2, y - kSide / 2)).cast<float>());
+          Eigen::Vector3d(x, y, height_mm(x - kMiddle, y - kMiddle)).cast<float>());
       if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
       mesh.triangles.push_back({i, i + 1, i + kSide + 1});
       mesh.triangles.push_back({i, i + kSide + 1, i + kSide});

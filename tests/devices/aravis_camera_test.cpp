@@ -44,7 +44,7 @@ class AravisCameraTest : public ::testing::Test {
     settings.region_px = {0, 0, width, height};
     return settings;
   }
-  void expect_ramp(const CapturedFrame& captured, const CameraInfo& info) const {
+  static void expect_ramp(const CapturedFrame& captured, const CameraInfo& info) {
     FakeExposure exposure;
     exposure.exposure_us = 1000.0 * captured.settings.exposure_ms;
     exposure.bytes_per_px = info.white_level > 255 ? 2 : 1;

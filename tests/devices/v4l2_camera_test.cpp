@@ -124,9 +124,10 @@ class FakeWebcam final : public V4l2System {
     const std::size_t step = format_ == V4L2_PIX_FMT_GREY ? 1 : 2;
     std::fill(pixels.begin(), pixels.end(), std::uint8_t{128});  // colour
     for (std::size_t y = 0; y < kHeight; ++y) {
-      for (std::size_t x = 0; x < kWidth; ++x)
+      for (std::size_t x = 0; x < kWidth; ++x) {
         pixels[y * row_bytes() + step * x] =
             static_cast<std::uint8_t>(x + 40 * static_cast<std::size_t>(frame % 4));
+      }
     }
   }
   int hand_out(v4l2_buffer& buffer) {

@@ -51,8 +51,9 @@ Shown show(bool inverted, double noise_counts) {
         double lit = 0.0;
         for (int i = -2; i <= 2; ++i)
           lit += is_lit(out.gray.pattern, k, column_of(x) + 0.4 * i) ? 0.4 : -0.4;
-        const auto place = hash(hash(100, static_cast<std::uint64_t>(k)),
-                                static_cast<std::uint64_t>(y * kColumns + x));
+        const auto place =
+            hash(hash(100, static_cast<std::uint64_t>(k)),
+                 static_cast<std::uint64_t>(y) * kColumns + static_cast<std::uint64_t>(x));
         image(x, y) = static_cast<std::uint16_t>(std::lround(
             std::clamp(30000.0 + 10000.0 * lit + noise_counts * normal_from(place), 0.0, 65535.0)));
       }

@@ -41,6 +41,7 @@ WrappedPhase level(const Scene& scene, double period_px) {
 
 std::vector<WrappedPhase> levels(const Scene& scene, const std::vector<double>& periods) {
   std::vector<WrappedPhase> out;
+  out.reserve(periods.size());
   for (const double period : periods)
     out.push_back(level(scene, period));
   return out;

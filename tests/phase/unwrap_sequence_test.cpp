@@ -31,7 +31,7 @@ WrappedPhase map_of(double fringes, double sigma, std::uint64_t seed) {
                    .fate = Image<PixelFate>(kMapWidth, kMapHeight, PixelFate::Measured)};
   for (int y = 0; y < kMapHeight; ++y) {
     for (int x = 0; x < kMapWidth; ++x) {
-      const auto place = static_cast<std::uint64_t>(y * kMapWidth + x);
+      const auto place = static_cast<std::uint64_t>(y) * kMapWidth + static_cast<std::uint64_t>(x);
       const double noise = sigma * normal_from(hash(seed, place));
       map.phase_rad(x, y) = static_cast<float>(wrap_rad(kTurn * fringes * x / kMapWidth + noise));
     }
@@ -41,6 +41,7 @@ WrappedPhase map_of(double fringes, double sigma, std::uint64_t seed) {
 
 std::vector<WrappedPhase> maps_of(const std::vector<double>& sequence, double sigma) {
   std::vector<WrappedPhase> maps;
+  maps.reserve(sequence.size());
   for (const double fringes : sequence)
     maps.push_back(map_of(fringes, sigma, maps.size() + 1));
   return maps;

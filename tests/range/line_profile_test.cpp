@@ -21,7 +21,7 @@ struct GlowingWall {
   Image<float> lit{320, 120, 100.0F};
 
   /// Where the plane meets row y: normal . (x z, y z, z) = offset.
-  [[nodiscard]] double true_column(double) const {
+  [[nodiscard]] double true_column(double /*row*/) const {
     const LightPlane& plane = *rig.line;
     const double x = (plane.offset_mm / z_mm - plane.normal.z()) / plane.normal.x();
     return rig.camera.lens.focal_px.x() * x + rig.camera.lens.principal_point_px.x();

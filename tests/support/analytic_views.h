@@ -97,6 +97,7 @@ inline std::vector<Eigen::Isometry3d> around_table(int count,
                                                    double latitude_rad,
                                                    double distance_mm) {
   std::vector<Eigen::Isometry3d> poses;
+  poses.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     poses.push_back(look_from(kTurn * i / count, latitude_rad, distance_mm));
   }

@@ -33,7 +33,7 @@ class FakeGigeCamera {
     const auto description = folder / "camera.xml";
     write_description(description);
     camera_ = arv_gv_fake_camera_new_full("127.0.0.1", serial.c_str(), description.c_str());
-    if (!arv_gv_fake_camera_is_running(camera_)) throw std::runtime_error("no fake camera");
+    if (arv_gv_fake_camera_is_running(camera_) == FALSE) throw std::runtime_error("no fake camera");
     fake_ = arv_gv_fake_camera_get_fake_camera(camera_);
     arv_fake_camera_set_fill_pattern(fake_, &FakeGigeCamera::fill, this);
   }

@@ -47,7 +47,7 @@ struct Edges {
     }
     for (const auto& [edge, times] : count) {
       repeated += times > 1 ? 1U : 0U;
-      open += count.count({edge.second, edge.first}) == 0 ? 1U : 0U;
+      open += count.contains({edge.second, edge.first}) ? 0U : 1U;
     }
   }
 };

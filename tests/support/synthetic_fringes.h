@@ -54,6 +54,7 @@ inline double aslant(int x, int y) {
 
 inline std::vector<double> equal_shifts(int count, double step_rad) {
   std::vector<double> shifts;
+  shifts.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
     shifts.push_back(step_rad * k);
   return shifts;

@@ -110,7 +110,8 @@ TEST(PasteViews, KeepsTheEdgesOfABoxSharp) {
   int all = 0;
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 4; ++side) {
-      for (double t = -0.95; t < 0.95; t += 0.06) {
+      for (int step = 0; step < 32; ++step) {
+        const double t = -0.95 + 0.06 * step;
         Eigen::Vector3d place(t, t, t);
         place[(axis + 1) % 3] = side % 2 == 0 ? -1.0 : 1.0;
         place[(axis + 2) % 3] = side / 2 == 0 ? -1.0 : 1.0;

@@ -18,7 +18,6 @@ namespace {
 
 using testing::Shape;
 using testing::small_lens;
-using testing::Snapshot;
 
 /// A rig that looks down on a part 650 mm away, and what it is believed to be.
 struct Table {

@@ -27,8 +27,10 @@ T zeroed() {
 class V4l2Camera final : public CameraDevice {
  public:
   V4l2Camera(const V4l2Settings& settings, std::shared_ptr<V4l2System> system)
-      : system_(std::move(system)), settings_(settings), name_("camera " + settings.path) {
-    file_ = system_->open(settings.path.c_str());
+      : system_(std::move(system)),
+        settings_(settings),
+        name_("camera " + settings.path),
+        file_(system_->open(settings.path.c_str())) {
     if (file_ < 0) {
       fail(errno == EBUSY
                ? "is in use by another program; close that one"
@@ -254,7 +256,7 @@ class V4l2Camera final : public CameraDevice {
   V4l2Settings settings_;
   std::string name_;
   CameraInfo info_;
-  int file_ = -1;
+  int file_;
   unsigned format_ = 0;
   unsigned row_bytes_ = 0;
   double exposure_ms_ = 10.0;

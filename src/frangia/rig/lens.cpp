@@ -9,6 +9,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/vectorised.h"
 
 namespace frangia {
 namespace {
@@ -24,8 +25,7 @@ struct RowOfRays {
 };
 
 /// One step of Newton's method for all of them; returns the largest squared error before it.
-[[gnu::target_clones("avx512f", "avx2", "default")]] double step_back(const Lens& lens,
-                                                                      RowOfRays& row) {
+FRANGIA_VECTORISED_WIDELY double step_back(const Lens& lens, RowOfRays& row) {
   const auto [k1, k2, p1, p2, k3] = lens.distortion;
   double* to_x = row.x.data();
   double* to_y = row.y.data();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frangia/core/parallel.h"
+#include "frangia/core/vectorised.h"
 #include "frangia/surface/blocks_near.h"
 #include "frangia/views/fast_lens.h"
 
@@ -167,10 +168,10 @@ void weigh_rough(Row& row, std::size_t i, const Sampler& sampler, const Eigen::V
 
 /// Adds a view to a block, given in camera coordinates: the first voxel, and the step along each
 /// axis.
-[[gnu::target_clones("avx512f", "avx2", "default")]] void add_block(DistanceField::Block& block,
-                                                                    const Sampler& sampler,
-                                                                    const Eigen::Vector3f& first,
-                                                                    const Eigen::Matrix3f& steps) {
+FRANGIA_VECTORISED_WIDELY void add_block(DistanceField::Block& block,
+                                         const Sampler& sampler,
+                                         const Eigen::Vector3f& first,
+                                         const Eigen::Matrix3f& steps) {
   constexpr auto kSmooth = static_cast<std::int32_t>(LocalPlanes::Kind::Smooth);
   const Eigen::Vector3f step = steps.col(0);
   Row row;

@@ -79,6 +79,7 @@ std::optional<MovedView> find_moved_view(Bundle& bundle,
   const TableState state = bundle.state;
   const double gate_mm = bundle.gate_mm;
   std::vector<Trial> trials;
+  trials.reserve(suspects.size());
   for (const std::size_t view : suspects)
     trials.push_back(try_without(view, bundle, spots, options, run));
   bundle.left_out.reset();

@@ -15,7 +15,7 @@ using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
 constexpr int kRadius = kPatchRadius;
 constexpr int kSide = 2 * kRadius + 1;
-constexpr std::size_t kPixels = kSide * kSide;
+constexpr std::size_t kPixels = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kFewest = 12;    // pixels: six unknowns and as many to judge them by
 constexpr float kMostVariance = 0.8F;  // less than that is not worth it
 constexpr PatchFit kNone{kNoFit, kMissing};
@@ -34,10 +34,11 @@ Patch patch_at(const Image<float>& image, const Eigen::Vector2i& at, float less)
   for (int down = 0; down < kSide; ++down) {
     const int y = at.y() + down - kRadius;
     if (y < 0 || y >= image.height()) continue;
+    const std::size_t row = static_cast<std::size_t>(down) * kSide;
     for (int right = from; right < to; ++right) {
       const float value = image(left + right, y);
       if (std::isnan(value)) continue;
-      const auto i = static_cast<std::size_t>(down * kSide + right);
+      const std::size_t i = row + static_cast<std::size_t>(right);
       patch.off[i] = value - less;
       patch.seen[i] = 1.0F;
     }
@@ -52,8 +53,10 @@ using Powers = std::array<float, 16>;
 constexpr std::array<Powers, kPixels> make_powers() {
   std::array<Powers, kPixels> all{};
   for (std::size_t i = 0; i < kPixels; ++i) {
-    const auto x = static_cast<float>(static_cast<int>(i) % kSide - kRadius);
-    const auto y = static_cast<float>(static_cast<int>(i) / kSide - kRadius);
+    const int right = static_cast<int>(i) % kSide;
+    const int down = static_cast<int>(i) / kSide;
+    const auto x = static_cast<float>(right - kRadius);
+    const auto y = static_cast<float>(down - kRadius);
     all[i] = {1.0F,
               x,
               y,
@@ -90,9 +93,10 @@ PatchFit fit_pixels(const Patch& patch, float here) {
   }
   Matrix6 normal;
   for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column <= row; ++column)
+    for (int column = 0; column <= row; ++column) {
       normal(row, column) =
           sums[kPlaces[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]];
+    }
   }
   const Eigen::LLT<Eigen::Ref<Matrix6>> solver(normal);
   if (solver.info() != Eigen::Success) return kNone;

@@ -8,6 +8,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/vectorised.h"
 
 namespace frangia {
 namespace {
@@ -143,17 +144,18 @@ template <int kRadius>
   }
 }
 
-/// One body for each instruction set: without contraction they give the same bytes.
-[[gnu::target_clones("avx512f", "avx2", "default")]] void fit_lines(const float* values,
-                                                                    std::ptrdiff_t count,
-                                                                    int radius,
-                                                                    const Lines& lines) {
+FRANGIA_VECTORISED_WIDELY void fit_lines(const float* values,
+                                         std::ptrdiff_t count,
+                                         int radius,
+                                         const Lines& lines) {
   if (radius == 1) fit_lines<1>(values, count, lines);
   if (radius == 2) fit_lines<2>(values, count, lines);
   if (radius == 3) fit_lines<3>(values, count, lines);
 }
-[[gnu::target_clones("avx512f", "avx2", "default")]] void join_lines(
-    const std::array<Lines, 7>& rows, std::ptrdiff_t count, int radius, const Windows& windows) {
+FRANGIA_VECTORISED_WIDELY void join_lines(const std::array<Lines, 7>& rows,
+                                          std::ptrdiff_t count,
+                                          int radius,
+                                          const Windows& windows) {
   if (radius == 1) join_lines<1>(rows, count, windows);
   if (radius == 2) join_lines<2>(rows, count, windows);
   if (radius == 3) join_lines<3>(rows, count, windows);

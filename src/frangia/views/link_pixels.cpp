@@ -5,6 +5,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/vectorised.h"
 
 namespace frangia {
 namespace {
@@ -25,10 +26,10 @@ struct LinkRow {
 };
 
 /// Links pixels to those beside them. Missing ones are linked to none.
-[[gnu::target_clones("avx2", "default")]] void link_row(const GridRow& from,
-                                                        const GridRow& to,
-                                                        float steepest,
-                                                        const LinkRow& row) {
+FRANGIA_VECTORISED void link_row(const GridRow& from,
+                                 const GridRow& to,
+                                 float steepest,
+                                 const LinkRow& row) {
   const auto [q, noise] = from;
   const auto [other_q, other_noise] = to;
   const auto [which, links, count] = row;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "frangia/core/missing.h"
+#include "frangia/core/vectorised.h"
 #include "frangia/views/window_structure.h"
 
 namespace frangia {
@@ -25,10 +26,10 @@ struct WindowRow {
 };
 
 /// Variances of the middles, and 1 where the window fits as well as noise allows.
-[[gnu::target_clones("avx512f", "avx2", "default")]] void judge(const WindowRow& row,
-                                                                std::ptrdiff_t count,
-                                                                float* variance,
-                                                                std::int32_t* fits) {
+FRANGIA_VECTORISED_WIDELY void judge(const WindowRow& row,
+                                     std::ptrdiff_t count,
+                                     float* variance,
+                                     std::int32_t* fits) {
   const WindowRow from = row;
 #pragma GCC ivdep
   for (std::ptrdiff_t x = 0; x < count; ++x) {
@@ -53,10 +54,10 @@ struct PlaneFigures {
   float* weight;
 };
 
-[[gnu::target_clones("avx512f", "avx2", "default")]] void fit_planes(const PlaneFigures& figures,
-                                                                     const Eigen::Vector2f* rays,
-                                                                     const FastLens& camera,
-                                                                     std::ptrdiff_t count) {
+FRANGIA_VECTORISED_WIDELY void fit_planes(const PlaneFigures& figures,
+                                          const Eigen::Vector2f* rays,
+                                          const FastLens& camera,
+                                          std::ptrdiff_t count) {
   const PlaneFigures row = figures;
   const FastLens lens = camera;
   const float* ray = rays->data();

@@ -7,6 +7,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/vectorised.h"
 
 namespace frangia {
 namespace {
@@ -33,10 +34,10 @@ struct Figures {
   const float* twist;
 };
 
-[[gnu::target_clones("avx512f", "avx2", "default")]] void correlate(const float* top,
-                                                                    std::ptrdiff_t width,
-                                                                    const Figures& figures,
-                                                                    std::span<float> structure) {
+FRANGIA_VECTORISED_WIDELY void correlate(const float* top,
+                                         std::ptrdiff_t width,
+                                         const Figures& figures,
+                                         std::span<float> structure) {
   const Figures fit = figures;
   float* to = structure.data();
   const auto count = static_cast<std::ptrdiff_t>(structure.size());
