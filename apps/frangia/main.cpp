@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <new>
@@ -96,5 +97,10 @@ int run_program(int argc, char** argv) {
 }  // namespace frangia
 
 int main(int argc, char** argv) {
-  return frangia::run_program(argc, argv);
+  try {
+    return frangia::run_program(argc, argv);
+  } catch (const std::exception& error) {  // while something else was being told
+    static_cast<void>(std::fputs(error.what(), stderr));
+    return frangia::NumericFault;
+  }
 }

@@ -90,8 +90,8 @@ TEST(LightSample, TextureDarkensByItsStrengthAtMost) {
   const Eigen::Isometry3d pose = true_pose(scene, kFacing);
   float low = 1.0F;
   float high = 0.0F;
-  for (double y = -39.0; y < 39.0; y += 1.0) {
-    for (double z = 1.0; z < 59.0; z += 1.0) {
+  for (int y = -39; y < 39; ++y) {
+    for (int z = 1; z < 59; ++z) {
       const Eigen::Vector3d point = pose * Eigen::Vector3d(3.0, y, z);
       const float albedo = sample_light(scene, pose, point.head<2>() / point.z()).albedo;
       low = std::min(low, albedo);

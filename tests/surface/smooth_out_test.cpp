@@ -14,8 +14,10 @@ Mesh rough_sheet() {
   constexpr std::uint32_t kSide = 20;
   Mesh mesh;
   for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-    const auto x = static_cast<float>(i % kSide);
-    const auto y = static_cast<float>(i / kSide);
+    const std::uint32_t column = i % kSide;
+    const std::uint32_t row = i / kSide;
+    const auto x = static_cast<float>(column);
+    const auto y = static_cast<float>(row);
     const bool inside = x > 0.0F && y > 0.0F && x + 1.0F < kSide && y + 1.0F < kSide;
     const float push = inside ? 0.48F : 0.0F;
     mesh.vertices_mm.emplace_back(

@@ -13,9 +13,10 @@ constexpr std::uint32_t kSide = 5;
 /// A level grid of vertices one apart.
 Mesh level() {
   Mesh mesh;
-  for (std::uint32_t i = 0; i < kSide * kSide; ++i)
-    mesh.vertices_mm.emplace_back(
-        static_cast<float>(i % kSide), static_cast<float>(i / kSide), 0.0F);
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x)
+      mesh.vertices_mm.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
+  }
   for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
     for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
       const std::uint32_t a = y * kSide + x;

@@ -23,7 +23,7 @@ TEST(AnchorByViews, PutsALooseRegionWhereItsNeighboursSawIt) {
     if (i == 2) loose.push_back(ball.loosen(view, 2, 4));
     views.add(view);
   }
-  const auto result = anchor_by_views(views, loose, kBallPattern, ball.rig, ball.rays);
+  const auto result = anchor_by_views(views, loose, {kBallPattern, ball.rig, ball.rays});
   EXPECT_EQ(result.dropped_points, 0U);
   EXPECT_EQ(result.anchored_points, loose[0].region.pixel.size());
   const View anchored = views.load(2);
@@ -41,7 +41,7 @@ TEST(AnchorByViews, DropsWhatNoOtherViewConfirms) {
   View only = ball.view(0.0);
   const std::vector<LoosePart> loose = {ball.loosen(only, 0, 1)};
   views.add(only);
-  const auto result = anchor_by_views(views, loose, kBallPattern, ball.rig, ball.rays);
+  const auto result = anchor_by_views(views, loose, {kBallPattern, ball.rig, ball.rays});
   EXPECT_EQ(result.anchored_points, 0U);
   EXPECT_EQ(result.dropped_points, loose[0].region.pixel.size());
 }
@@ -50,7 +50,7 @@ TEST(AnchorByViews, HasNothingToDoWithoutLooseRegions) {
   const Ball ball;
   ViewStore views;
   views.add(ball.view(0.0));
-  const auto result = anchor_by_views(views, {}, kBallPattern, ball.rig, ball.rays);
+  const auto result = anchor_by_views(views, {}, {kBallPattern, ball.rig, ball.rays});
   EXPECT_EQ(result.anchored_points + result.dropped_points, 0U);
 }
 

@@ -44,7 +44,7 @@ TEST(ReconcileViews, MovesThePartOfAViewThatIsWholeFringesOff) {
   const Ball ball;
   for (const int fringes : {1, -1, 2}) {
     ViewStore views = six_views(ball, fringes);
-    EXPECT_GT(reconcile_views(views, kBallPattern, ball.rig, ball.rays), 800U);
+    EXPECT_GT(reconcile_views(views, {kBallPattern, ball.rig, ball.rays}), 800U);
     const View mended = views.load(2);
     const View truth = ball.view(kTurn * 2 / 6.0);
     int off = 0;
@@ -64,7 +64,7 @@ TEST(ReconcileViews, LeavesViewsAloneThatAgree) {
   const Ball ball;
   ViewStore views = six_views(ball, 0);
   const View before = views.load(2);
-  EXPECT_EQ(reconcile_views(views, kBallPattern, ball.rig, ball.rays), 0U);
+  EXPECT_EQ(reconcile_views(views, {kBallPattern, ball.rig, ball.rays}), 0U);
   const View after = views.load(2);
   for (std::size_t i = 0; i < before.range.depth_mm.pixels().size(); ++i) {
     const float a = before.range.depth_mm.pixels()[i];
@@ -77,7 +77,7 @@ TEST(ReconcileViews, LeavesAViewAloneThatNoOtherCanJudge) {
   const Ball ball;
   ViewStore views;
   views.add(ball.view(0.0));
-  EXPECT_EQ(reconcile_views(views, kBallPattern, ball.rig, ball.rays), 0U);
+  EXPECT_EQ(reconcile_views(views, {kBallPattern, ball.rig, ball.rays}), 0U);
 }
 
 }  // namespace

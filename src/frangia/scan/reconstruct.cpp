@@ -21,8 +21,8 @@ std::size_t number_by_views(MeasuredViews& all,
                             const Image<Eigen::Vector2f>& rays,
                             const ReconstructOptions& options,
                             const Run& run) {
-  const auto anchored =
-      anchor_by_views(all.views, all.loose, all.coarsest, rig, rays, options.anchor_by_views, run);
+  const FringeOptics optics{all.coarsest, rig, rays};
+  const auto anchored = anchor_by_views(all.views, all.loose, optics, options.anchor_by_views, run);
   if (anchored.dropped_points > 0) {
     run.warn(
         fmt::format("{} points lie in regions whose fringe neither the plane of light nor "
@@ -30,8 +30,7 @@ std::size_t number_by_views(MeasuredViews& all,
                     anchored.dropped_points));
   }
   if (!all.unwrapped_in_space) return anchored.anchored_points;
-  const std::size_t moved =
-      reconcile_views(all.views, all.coarsest, rig, rays, options.reconcile, run);
+  const std::size_t moved = reconcile_views(all.views, optics, options.reconcile, run);
   if (moved > 0) {
     run.note(fmt::format("{} points moved by whole fringes to where the other views agree", moved));
   }

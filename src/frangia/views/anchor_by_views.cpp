@@ -6,7 +6,6 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
 #include "frangia/range/fringe_ray.h"
-#include "frangia/views/fringe_candidates.h"
 
 namespace frangia {
 namespace {
@@ -88,12 +87,10 @@ std::size_t one_round(ViewStore& views,
 
 AnchorByViewsResult anchor_by_views(ViewStore& views,
                                     const std::vector<LoosePart>& loose,
-                                    const Pattern& pattern,
-                                    const Rig& rig,
-                                    const Image<Eigen::Vector2f>& rays,
+                                    const FringeOptics& optics,
                                     const AnchorByViewsOptions& options,
                                     const Run& run) {
-  const FringeSetting set{pattern, rig, rays, options.tolerance, options.max_samples};
+  const FringeSetting set{optics, options.tolerance, options.max_samples};
   AnchorByViewsResult result;
   std::vector<Case> cases;
   for (const LoosePart& part : loose) {

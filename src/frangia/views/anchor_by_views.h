@@ -3,13 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "frangia/core/image.h"
 #include "frangia/core/run.h"
-#include "frangia/pattern/pattern.h"
 #include "frangia/range/anchor_phase.h"
-#include "frangia/rig/rig.h"
+#include "frangia/views/fringe_candidates.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -38,9 +34,7 @@ struct AnchorByViewsResult {
 /// What is anchored is added to its view and helps the next. The rest is dropped.
 [[nodiscard]] AnchorByViewsResult anchor_by_views(ViewStore& views,
                                                   const std::vector<LoosePart>& loose,
-                                                  const Pattern& pattern,
-                                                  const Rig& rig,
-                                                  const Image<Eigen::Vector2f>& rays,
+                                                  const FringeOptics& optics,
                                                   const AnchorByViewsOptions& options = {},
                                                   const Run& run = {});
 

@@ -29,11 +29,15 @@ struct FringeCandidate {
   [[nodiscard]] int score() const { return agree - 2 * contradict; }
 };
 
-/// How a scan turns phase into points.
-struct FringeSetting {
+/// What turns a scan's phase into points.
+struct FringeOptics {
   const Pattern& pattern;
   const Rig& rig;
-  const Image<Eigen::Vector2f>& rays;
+  const Image<Eigen::Vector2f>& rays;  ///< of the camera's pixels
+};
+
+/// The same, and how points are compared with what other views measured.
+struct FringeSetting : FringeOptics {
   double tolerance = 0.06;  ///< of the depth between two fringes: how near counts as agreeing
   int max_samples = 400;    ///< points of a pixel set that are compared
 };

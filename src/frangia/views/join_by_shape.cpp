@@ -131,9 +131,11 @@ class Joiner {
   /// Looks for places of whole clusters on each other, which have more in common than their groups.
   void search_clusters(const Run& run) {
     std::vector<std::size_t> left;
-    for (std::size_t i = 0; i < clusters_.size(); ++i)
+    for (std::size_t i = 0; i < clusters_.size(); ++i) {
       if (!clusters_[i].members.empty()) left.push_back(i);
+    }
     std::vector<ViewGroup> thinned;
+    thinned.reserve(left.size());
     for (const std::size_t i : left)
       thinned.push_back(
           {clusters_[i].members, thin_points(clusters_[i].points, options_.spacing_mm)});

@@ -10,7 +10,6 @@
 #include "frangia/core/parallel.h"
 #include "frangia/range/drop_mixed_edges.h"
 #include "frangia/range/fringe_ray.h"
-#include "frangia/views/fringe_candidates.h"
 
 namespace frangia {
 namespace {
@@ -43,7 +42,8 @@ std::vector<Patch> patches_of(const View& view,
       if (std::isnan(depth(x, y)) || wanted(x, y) == 0) continue;
       const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(depth.width()) +
                          static_cast<std::size_t>(x);
-      FringePixels& pixels = grid[static_cast<std::size_t>(y / side * across + x / side)].pixels;
+      const int square = y / side * across + x / side;
+      FringePixels& pixels = grid[static_cast<std::size_t>(square)].pixels;
       pixels.pixel.push_back(static_cast<std::uint32_t>(pixel));
       pixels.phase_rad.push_back(static_cast<float>(
           phase_at(point_at(view, set.rays, pixel), set.pattern, set.rig.projector)));
@@ -127,31 +127,38 @@ void move_pixel(const FringeSetting& set, std::size_t pixel, double phase_rad, V
   sigma *= static_cast<float>(std::abs(after.mm_per_rad / before.mm_per_rad));
 }
 
-/// Moves the patches that are off, and marks the pixels within `reach` of them in `near`.
-std::size_t move_patches(const std::vector<Patch>& patches,
-                         const FringeSetting& set,
-                         const ReconcileOptions& options,
-                         int reach,
-                         View& view,
-                         Image<std::uint8_t>& near) {
-  std::size_t moved = 0;
+/// Moves the patches that are off; returns their pixels.
+std::vector<std::uint32_t> move_patches(const std::vector<Patch>& patches,
+                                        const FringeSetting& set,
+                                        const ReconcileOptions& options,
+                                        View& view) {
+  std::vector<std::uint32_t> moved;
   for (const Patch& patch : patches) {
     const int off = fringes_off(patch, options);
     if (off == 0) continue;
-    for (std::size_t i = 0; i < patch.pixels.pixel.size(); ++i) {
-      const std::uint32_t pixel = patch.pixels.pixel[i];
-      move_pixel(set, pixel, patch.pixels.phase_rad[i] + kTurn * off, view);
-      const int x = static_cast<int>(pixel) % near.width();
-      const int y = static_cast<int>(pixel) / near.width();
-      for (int v = std::max(0, y - reach); v <= std::min(near.height() - 1, y + reach);
-           v += reach) {
-        for (int u = std::max(0, x - reach); u <= std::min(near.width() - 1, x + reach); u += reach)
-          near(u, v) = 1;
-      }
-    }
-    moved += patch.pixels.pixel.size();
+    const FringePixels& pixels = patch.pixels;
+    for (std::size_t i = 0; i < pixels.pixel.size(); ++i)
+      move_pixel(set, pixels.pixel[i], pixels.phase_rad[i] + kTurn * off, view);
+    moved.insert(moved.end(), pixels.pixel.begin(), pixels.pixel.end());
   }
   return moved;
+}
+
+/// Marks the pixels and, in steps of `reach`, those so far to each side of them.
+Image<std::uint8_t> around(const std::vector<std::uint32_t>& pixels,
+                           int width,
+                           int height,
+                           int reach) {
+  Image<std::uint8_t> near(width, height, 0);
+  for (const std::uint32_t pixel : pixels) {
+    const int x = static_cast<int>(pixel) % width;
+    const int y = static_cast<int>(pixel) / width;
+    for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); v += reach) {
+      for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); u += reach)
+        near(u, v) = 1;
+    }
+  }
+  return near;
 }
 
 std::size_t reconcile_view(ViewStore& views,
@@ -162,16 +169,15 @@ std::size_t reconcile_view(ViewStore& views,
   const int width = view.range.depth_mm.width();
   const int height = view.range.depth_mm.height();
   const int side = std::max(4, width / options.patches_across);
-  Image<std::uint8_t> near(width, height, 0);
   auto patches = patches_of(view, set, side, Image<std::uint8_t>(width, height, 1));
   ask_others(views, own, set, patches);
-  std::size_t moved = move_patches(patches, set, options, side, view, near);
-  if (moved == 0) return 0;
+  const auto moved = move_patches(patches, set, options, view);
+  if (moved.empty()) return 0;
   // Around what moved, squares hold pixels of both kinds: again, in squares of three pixels.
   views.replace(own, view);
-  auto small = patches_of(view, set, 3, near);
+  auto small = patches_of(view, set, 3, around(moved, width, height, side));
   ask_others(views, own, set, small);
-  moved += move_patches(small, set, options, 1, view, near);
+  const auto moved_too = move_patches(small, set, options, view);
   for (const Patch& patch : small) {
     if (fringes_off(patch, options) != 0 || !is_refuted(patch, options)) continue;
     for (const std::uint32_t pixel : patch.pixels.pixel)
@@ -181,18 +187,16 @@ std::size_t reconcile_view(ViewStore& views,
   drop_mixed_edges(view.range, set.rays, fate);
   view.rim.clear();  // what it hung on may be elsewhere
   views.replace(own, view);
-  return moved;
+  return moved.size() + moved_too.size();
 }
 
 }  // namespace
 
 std::size_t reconcile_views(ViewStore& views,
-                            const Pattern& pattern,
-                            const Rig& rig,
-                            const Image<Eigen::Vector2f>& rays,
+                            const FringeOptics& optics,
                             const ReconcileOptions& options,
                             const Run& run) {
-  const FringeSetting set{pattern, rig, rays, options.tolerance, kSamples};
+  const FringeSetting set{optics, options.tolerance, kSamples};
   std::size_t moved = 0;
   // What one view puts right helps to judge the next; a second round judges the first views so too.
   for (int round = 0; round < 2; ++round) {

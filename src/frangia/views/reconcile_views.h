@@ -2,12 +2,8 @@
 
 #include <cstddef>
 
-#include <Eigen/Core>
-
-#include "frangia/core/image.h"
 #include "frangia/core/run.h"
-#include "frangia/pattern/pattern.h"
-#include "frangia/rig/rig.h"
+#include "frangia/views/fringe_candidates.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -28,9 +24,7 @@ struct ReconcileOptions {
 ///
 /// missing  pixels where a moved patch meets one that stayed are dropped as mixed edges
 [[nodiscard]] std::size_t reconcile_views(ViewStore& views,
-                                          const Pattern& pattern,
-                                          const Rig& rig,
-                                          const Image<Eigen::Vector2f>& rays,
+                                          const FringeOptics& optics,
                                           const ReconcileOptions& options = {},
                                           const Run& run = {});
 
