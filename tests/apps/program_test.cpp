@@ -123,9 +123,10 @@ TEST_F(Program, SaysWhatTheValueOfAnOptionMayBe) {
     expect_usage_error("reconstruct x -o y.ply " + options,
                        sentence + "; see frangia reconstruct --help");
   };
-  for (const char* wrong : {"0", "-3", "nan", "inf", "wide"})
+  for (const char* wrong : {"0", "-3", "nan", "inf", "wide"}) {
     expect(fmt::format("--voxel {}", wrong),
            fmt::format("--voxel: {} is not a number above 0", wrong));
+  }
   expect("--voxel 1 --voxel 2", "--voxel is given more than once");
   expect("--clip-below low", "--clip-below: low is not a number");
   expect("--dxf-faces -1", "--dxf-faces: -1 is not a number of 0 or more");

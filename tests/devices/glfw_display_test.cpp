@@ -9,6 +9,7 @@
 #include <dlfcn.h>
 
 #include "support/error_of.h"
+#include "support/run_program.h"
 #include "support/soon.h"
 #include "support/temporary_folder.h"
 #include "support/test_screen.h"
@@ -99,9 +100,10 @@ TEST(GlfwDisplay, LightsTheChosenOneOfTwoMonitorsOnly) {
                            (folder.path() / "log").string(),
                            "-novtswitch",
                            "-sharevts"});
-  if (!screen.runs() || std::system("xrandr --addmode DUMMY1 640x480 && "
-                                    "xrandr --output DUMMY1 --mode 640x480 --right-of DUMMY0 && "
-                                    "xrandr > /dev/null") != 0) {
+  const std::string beside =
+      "xrandr --addmode DUMMY1 640x480 && "
+      "xrandr --output DUMMY1 --mode 640x480 --right-of DUMMY0 && xrandr";
+  if (!screen.runs() || testing::run_shell(beside).exit_code != 0) {
     GTEST_SKIP() << "needs root and xserver-xorg-core, xserver-xorg-video-dummy, x11-xserver-utils";
   }
   const auto found = find_glfw_monitors();

@@ -10,10 +10,13 @@
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "frangia/core/image.h"
+
+#include "support/run_program.h"
 
 namespace frangia::testing {
 
@@ -35,14 +38,14 @@ class TestScreen {
     ::close(pipe[0]);
     if (number.empty()) return;
     display_ = ":" + number;
-    ::setenv("DISPLAY", display_.c_str(), 1);
+    ::setenv("DISPLAY", display_.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): no other thread
   }
   TestScreen(const TestScreen&) = delete;
   TestScreen& operator=(const TestScreen&) = delete;
   TestScreen(TestScreen&&) = delete;
   TestScreen& operator=(TestScreen&&) = delete;
   ~TestScreen() {
-    ::unsetenv("DISPLAY");
+    ::unsetenv("DISPLAY");  // NOLINT(concurrency-mt-unsafe)
     if (process_ <= 0) return;
     ::kill(process_, SIGTERM);
     ::waitpid(process_, nullptr, 0);
@@ -54,7 +57,7 @@ class TestScreen {
   [[nodiscard]] Image<std::uint8_t> read_back(const std::filesystem::path& folder) const {
     const auto file = folder / "screen.xwd";
     const std::string command = "xwd -silent -root -display " + display_ + " -out " + file.string();
-    if (std::system(command.c_str()) != 0) return {};
+    if (run_shell(command).exit_code != 0) return {};
     std::ifstream in(file, std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
     const auto word = [&](std::size_t index) {  // the header is big-endian
@@ -79,11 +82,13 @@ class TestScreen {
  private:
   [[noreturn]] static void run(const std::vector<std::string>& command) {
     std::vector<char*> words;
+    words.reserve(command.size() + 1);
     for (const std::string& word : command)
       words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
-    static_cast<void>(std::freopen("/dev/null", "w", stdout));
-    static_cast<void>(std::freopen("/dev/null", "w", stderr));
+    const int nowhere = ::open("/dev/null", O_WRONLY);  // NOLINT(*-vararg)
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, STDERR_FILENO);
     ::execvp(words.front(), words.data());
     ::_exit(127);
   }
