@@ -68,7 +68,7 @@ double shift_mm(const Turntable& one, const Turntable& other) {
 TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   const Table table(8);
   ViewStore views = table.take(knobbly);
-  const auto report = register_views(views, small_lens(), table.given, table.stops());
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()});
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
   EXPECT_LT(shift_mm(report.table, table.truth), 0.01);
   EXPECT_EQ(report.angles_rad[0], table.angles_rad[0]);
@@ -89,7 +89,7 @@ TEST(RegisterViews, KeepsARigThatFitsAsWell) {
   Table table(6, 0.0);
   table.given = table.truth;
   ViewStore views = table.take(knobbly);
-  const auto report = register_views(views, small_lens(), table.given, table.stops());
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()});
   EXPECT_TRUE(report.kept_rig) << report.text();
   EXPECT_EQ(report.axis_moved_mm(), 0.0);
   EXPECT_EQ(report.largest_turn_rad(), 0.0);
@@ -98,7 +98,7 @@ TEST(RegisterViews, KeepsARigThatFitsAsWell) {
 TEST(RegisterViews, PutsTheViewsInTheRefinedFrame) {
   const Table table(6);
   ViewStore views = table.take(knobbly);
-  const auto report = register_views(views, small_lens(), table.given, table.stops());
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()});
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto expected = report.table.rig_from_object(report.angles_rad[i]);
     EXPECT_TRUE(views.rig_from_object(i).isApprox(expected));
@@ -114,7 +114,7 @@ TEST(RegisterViews, LeavesWhatARoundPartDoesNotTellToThePrior) {
     return 0.8 * std::max(std::hypot(p.x(), p.y()) - wide, std::abs(p.z()) - 30.0);
   };
   ViewStore views = table.take(vase);
-  const auto report = register_views(views, small_lens(), table.given, table.stops());
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()});
   ASSERT_EQ(report.open.size(), 1U) << report.text();
   EXPECT_EQ(report.open[0], "the angles of the views");
   for (std::size_t i = 0; i < report.angles_rad.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
   std::vector<std::string> warnings;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  const auto report = register_views(views, small_lens(), table.given, table.stops(), {}, run);
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()}, {}, run);
   ASSERT_EQ(report.outliers.size(), 1U);
   EXPECT_EQ(report.outliers[0], 3U);
   ASSERT_EQ(warnings.size(), 1U);
@@ -157,7 +157,7 @@ TEST(RegisterViews, IsNotBentByAViewOfAPartThatSlidOnItsFaces) {
   views.replace(1,
                 testing::snapshot(
                     pushed, small_lens(), table.truth.rig_from_object(table.true_angles_rad[1])));
-  const auto report = register_views(views, small_lens(), table.given, table.stops());
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()});
   EXPECT_EQ(report.outliers, std::vector<std::size_t>{1});
   EXPECT_LT(shift_mm(report.table, table.truth), 0.03);
 }
@@ -179,7 +179,7 @@ TEST(RegisterViews, SaysSoWhenTooManyViewsContradictEachOther) {
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   RegisterOptions few;
   few.max_iterations = 10;
-  const auto report = register_views(views, lens, table.given, table.stops(), few, run);
+  const auto report = register_views(views, lens, {table.given, table.stops()}, few, run);
   ASSERT_FALSE(warnings.empty()) << report.text();
   EXPECT_NE(warnings.back().find("contradict each other"), std::string::npos) << warnings.back();
 }
@@ -194,7 +194,7 @@ TEST(RegisterViews, SaysHowWellAnOverlapTellsWhereTheAxisIs) {
   std::vector<std::string> warnings;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  const auto report = register_views(views, lens, table.given, table.stops(), {}, run);
+  const auto report = register_views(views, lens, {table.given, table.stops()}, {}, run);
   EXPECT_GT(report.axis_known_mm, 0.05);
   ASSERT_EQ(warnings.size(), 1U) << report.text();
   EXPECT_NE(warnings[0].find("tell where the axis is to no better than"), std::string::npos);
@@ -206,7 +206,7 @@ TEST(RegisterViews, KeepsTheRigWithOneView) {
   int warnings = 0;
   frangia::Run run;
   run.on_warning = [&](const std::string&) { ++warnings; };
-  const auto report = register_views(views, small_lens(), table.given, table.stops(), {}, run);
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()}, {}, run);
   EXPECT_EQ(warnings, 1);
   EXPECT_EQ(report.table.point_mm, table.given.point_mm);
 }
@@ -221,7 +221,7 @@ TEST(RegisterViews, KeepsTheRigWhenViewsDoNotOverlap) {
   int warnings = 0;
   frangia::Run run;
   run.on_warning = [&](const std::string&) { ++warnings; };
-  const auto report = register_views(views, small_lens(), table.given, table.stops(), {}, run);
+  const auto report = register_views(views, small_lens(), {table.given, table.stops()}, {}, run);
   EXPECT_EQ(warnings, 1);
   EXPECT_EQ(report.angles_rad, table.angles_rad);
 }
@@ -231,7 +231,7 @@ TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
   const auto find = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     ViewStore views = table.take(knobbly);
-    return register_views(views, small_lens(), table.given, table.stops());
+    return register_views(views, small_lens(), {table.given, table.stops()});
   };
   const auto one = find(1);
   const auto two = find(2);
@@ -243,7 +243,8 @@ TEST(RegisterViews, RefusesTooFewAngles) {
   const Table table(2);
   ViewStore views = table.take(knobbly);
   const std::vector<RegisteredView> angles(1);
-  EXPECT_THROW(static_cast<void>(register_views(views, small_lens(), table.given, angles)), Error);
+  EXPECT_THROW(static_cast<void>(register_views(views, small_lens(), {table.given, angles})),
+               Error);
 }
 
 }  // namespace

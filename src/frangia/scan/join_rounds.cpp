@@ -182,7 +182,7 @@ Round join_rounds(std::vector<Round> rounds,
     return joined;
   }
   joined.registration = register_views(
-      joined.measured.views, camera, *rig.turntable, joined.measured.stops, registration, run);
+      joined.measured.views, camera, {*rig.turntable, joined.measured.stops}, registration, run);
   return joined;
 }
 

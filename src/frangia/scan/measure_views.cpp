@@ -59,12 +59,16 @@ struct MeasuredView {
   std::size_t points = 0;
 };
 
-MeasuredView measure_view(const Scan& scan,
-                          std::size_t view,
-                          const Image<Eigen::Vector2f>& rays,
-                          const DecodeOptions& decode,
-                          const EdgeOptions& edges,
-                          const Run& run) {
+/// What all views are measured with.
+struct Measuring {
+  const Scan& scan;
+  const Image<Eigen::Vector2f>& rays;
+  DecodeOptions decode;
+  const EdgeOptions& edges;
+};
+
+MeasuredView measure_view(const Measuring& with, std::size_t view, const Run& run) {
+  const auto& [scan, rays, decode, edges] = with;
   run.stage("frames");
   const auto frames = read_frames(scan, view, run);
   run.stage("phase");
@@ -88,12 +92,12 @@ MeasuredViews measure_views(const Scan& scan,
                             const Run& run) {
   MeasuredViews all;
   run.stage("survey");
-  DecodeOptions informed = decode;
-  informed.survey = survey_scan(scan, run);
-  informed.keep_maps = false;
+  Measuring with{scan, rays, decode, edges};
+  with.decode.survey = survey_scan(scan, run);
+  with.decode.keep_maps = false;
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
-    MeasuredView one = measure_view(scan, i, rays, informed, edges, run);
+    MeasuredView one = measure_view(with, i, run);
     if (one.points == 0 && one.decoded.loose.empty()) {
       run.warn(why_empty(scan, i, one.decoded.phase.fate));
       continue;

@@ -70,7 +70,7 @@ double clear_platter(ViewStore& views,
 void bring_together(Round& round, const Rig& rig, const RegisterOptions& options, const Run& run) {
   MeasuredViews& all = round.measured;
   round.registration =
-      register_views(all.views, rig.camera.lens, *rig.turntable, all.stops, options, run);
+      register_views(all.views, rig.camera.lens, {*rig.turntable, all.stops}, options, run);
 }
 
 /// Everything that needs the views of one round alone. Returns the points that were numbered.

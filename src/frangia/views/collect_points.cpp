@@ -19,7 +19,7 @@ PointCloud collect_points(const ViewStore& views, const Lens& camera, const Run&
       const float depth = view.range.depth_mm.pixels()[pixel];
       if (std::isnan(depth)) continue;
       const Eigen::Vector3f seen = depth * rays.pixels()[pixel].homogeneous();
-      cloud.points_mm.push_back((object_from_rig * seen.cast<double>()).cast<float>());
+      cloud.points_mm.emplace_back((object_from_rig * seen.cast<double>()).cast<float>());
       cloud.sigma_mm.push_back(view.range.sigma_mm.pixels()[pixel]);
     }
   }

@@ -141,12 +141,10 @@ void warn_of_contradiction(const BundleSums& sums, const Run& run) {
                   100.0 * most));
 }
 
-TableState given_state(const Turntable& given,
-                       std::span<const RegisteredView> stops,
-                       const RegisterOptions& options) {
-  TableState state{given, {}, {}, {}};
-  const Eigen::Isometry3d rig_from_table = given.rig_from_object(0.0);
-  for (const RegisteredView& stop : stops) {
+TableState given_state(const TableStops& given, const RegisterOptions& options) {
+  TableState state{given.table, {}, {}, {}};
+  const Eigen::Isometry3d rig_from_table = given.table.rig_from_object(0.0);
+  for (const RegisteredView& stop : given.stops) {
     require(stop.round <= options.placings.size(),
             "register_views: each further round needs a placing to start from");
     state.angles_rad.push_back(stop.angle_rad);
@@ -217,23 +215,22 @@ void tell_fit(RegistrationReport& report, const BundleSums& sums) {
 
 RegistrationReport register_views(ViewStore& views,
                                   const Lens& camera,
-                                  const Turntable& given,
-                                  std::span<const RegisteredView> stops,
+                                  const TableStops& given,
                                   const RegisterOptions& options,
                                   const Run& run) {
   constexpr std::size_t kFew = 2500;
   constexpr std::size_t kMany = 20000;
-  require(stops.size() == views.size(), "register_views: each view needs its table angle");
+  require(given.stops.size() == views.size(), "register_views: each view needs its table angle");
   RegistrationReport report;
-  report.given = given;
-  const TableState start = given_state(given, stops, options);
+  report.given = given.table;
+  const TableState start = given_state(given, options);
   report.given_angles_rad = start.angles_rad;
   take_over(report, views, start);
   if (views.size() < 2) {
     run.warn("one view alone cannot be registered: the rig's turntable is taken as it is");
     return report;
   }
-  Work work{make_bundle(views, camera, start, options, run), {}, views, stops, options, run};
+  Work work{make_bundle(views, camera, start, options, run), {}, views, given.stops, options, run};
   Bundle& bundle = work.bundle;
   Spots& spots = work.spots;
   spots = pick_all(bundle.maps, kFew);

@@ -34,6 +34,12 @@ struct RegisteredView {
   std::size_t round = 0;   ///< the part was turned over or tilted between rounds
 };
 
+/// The turntable as the rig says it is, and its stops, one a view.
+struct TableStops {
+  const Turntable& table;
+  std::span<const RegisteredView> stops;
+};
+
 /// All views at once: the axis of the turntable, the angle of each view, and how the part stands in
 /// each round but the first, so that the surfaces that they saw agree. The first view's angle is
 /// held. Sets the poses of `views`: the object frame is that of the refined axis, in the first
@@ -42,13 +48,11 @@ struct RegisteredView {
 /// A view that fits no other, as when the part was moved, is named, warned of and emptied. One view
 /// alone, or views that do not overlap, keep the poses of the rig, with a warning.
 ///
-/// shape    `stops`: one a view
 /// errors   Error(Input) when there are not as many stops as views, or no placing for a round
 /// source   bundle of projective point-to-plane distances, by Gauss-Newton
 [[nodiscard]] RegistrationReport register_views(ViewStore& views,
                                                 const Lens& camera,
-                                                const Turntable& given,
-                                                std::span<const RegisteredView> stops,
+                                                const TableStops& given,
                                                 const RegisterOptions& options = {},
                                                 const Run& run = {});
 
