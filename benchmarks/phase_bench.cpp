@@ -64,9 +64,10 @@ void write_for_peers(const FrameStack& stack, const WrappedPhase& wrapped) {
   write_raw(path / "region.i32", unwrapped.region);
   Image<float> truth(side, side);
   for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x)
+    for (int x = 0; x < side; ++x) {
       truth(x, y) =
           static_cast<float>(testing::benchmark_phase((x + 0.5) / side, (y + 0.5) / side));
+    }
   }
   write_raw(path / "truth.f32", truth);
 }
@@ -100,10 +101,11 @@ FrameStack sequence_frames(int side, double fringes) {
   for (Frame& frame : band.frames) {
     const auto& rows = std::get<Image<std::uint8_t>>(frame).pixels();
     Image<std::uint8_t> whole(side, side, Unfilled{});
-    for (std::size_t i = 0; i < 10; ++i)
+    for (std::size_t i = 0; i < 10; ++i) {
       std::copy(rows.begin(),
                 rows.end(),
                 whole.pixels().begin() + static_cast<std::ptrdiff_t>(i) * std::ssize(rows));
+    }
     frame = std::move(whole);
   }
   return band;

@@ -68,13 +68,15 @@ nlohmann::ordered_json findings_json(const MeshFindings& found) {
   json["vertices"] = found.vertices;
   json["triangles"] = found.triangles;
   json["parts"] = nlohmann::ordered_json::array();
-  for (const MeshPart& part : found.parts)
+  for (const MeshPart& part : found.parts) {
     json["parts"].push_back(
         {{"triangles", part.triangles}, {"size_mm", part.size_mm}, {"area_mm2", part.area_mm2}});
+  }
   json["holes"] = nlohmann::ordered_json::array();
-  for (const BoundaryLoop& loop : found.holes)
+  for (const BoundaryLoop& loop : found.holes) {
     json["holes"].push_back(
         {{"edges", loop.edges.size()}, {"size_mm", loop.size_mm}, {"length_mm", loop.length_mm}});
+  }
   json["non_manifold_edges"] = found.non_manifold_edges;
   json["without_area"] = found.without_area;
   if (found.self_intersections) json["self_intersections"] = *found.self_intersections;

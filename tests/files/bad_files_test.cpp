@@ -158,9 +158,10 @@ TEST_F(BadFiles, ThatDeclareEntitiesAreRefused) {
 
 TEST_F(BadFiles, WithHundredsOfPartsAreReadWhole) {
   std::string model = kModel + "</resources><build>";
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < 100; ++i) {
     model +=
         "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 " + std::to_string(3 * i) + " 0 0\"/>";
+  }
   const Mesh mesh = read_mesh(put("parts.3mf", three_mf(model + "</build></model>")));
   EXPECT_EQ(mesh.triangles.size(), 100U);
   EXPECT_FLOAT_EQ(mesh.vertices_mm.back().x(), 297.0F * 25.4F);

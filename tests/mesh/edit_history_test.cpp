@@ -164,10 +164,11 @@ std::vector<Mesh> broken_meshes() {
   Mesh dot;
   dot.vertices_mm = {{0, 0, 0}};
   Mesh parts;
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < 100; ++i) {
     append_mesh(parts,
                 testing::box({2.0F * static_cast<float>(i), 0, 0},
                              {2.0F * static_cast<float>(i) + 1.0F, 1, 1}));
+  }
   return {Mesh(), dot, flat, book, parts};
 }
 
@@ -184,9 +185,10 @@ TEST(EditOperations, OfBrokenMeshesGiveWholeOnesOrSayWhatIsWrong) {
         continue;
       }
       const auto count = state.mesh.vertices_mm.size();
-      for (const auto& triangle : state.mesh.triangles)
+      for (const auto& triangle : state.mesh.triangles) {
         for (const std::uint32_t vertex : triangle)
           ASSERT_LT(vertex, count) << step.operation;
+      }
       for (const auto& vertex : state.mesh.vertices_mm)
         ASSERT_TRUE(vertex.allFinite()) << step.operation;
     }

@@ -74,9 +74,10 @@ TEST(RemoveSelfIntersections, UniteTwoBallsThatCross) {
   const double lens = 2.0 * kPi * h * h * (30.0 - h) / 3.0;
   EXPECT_NEAR(volume_mm3(united) / (8000.0 * kPi / 3.0 - lens), 1.0, 0.003);
   const auto after = places(united);
-  for (const auto& [x, y, z] : places(mesh))
+  for (const auto& [x, y, z] : places(mesh)) {
     EXPECT_TRUE((x > 4.0F && x < 8.0F) || after.contains({x, y, z}) ||
                 (x >= 8.0F ? std::hypot(x, y, z) : std::hypot(x - 12, y, z)) < 10.5F);
+  }
 }
 
 TEST(RemoveSelfIntersections, OfASpikeThroughASheetKeepTheRestOfBoth) {

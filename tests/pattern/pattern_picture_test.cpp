@@ -26,9 +26,10 @@ TEST(PatternPicture, HorizontalFringesRunAcrossTheRows) {
   const Pattern pattern{
       .name = "f", .direction = FringeDirection::Horizontal, .period_px = 8.0, .shifts_rad = {0.0}};
   const Image<float> picture = pattern_picture(pattern, 0, 5, 20);
-  for (int y = 0; y < 20; ++y)
+  for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 5; ++x)
       EXPECT_FLOAT_EQ(picture(x, y), picture(0, y % 8));
+  }
 }
 
 TEST(PatternPicture, GrayCodeTellsEveryColumnItsNumber) {
@@ -36,9 +37,10 @@ TEST(PatternPicture, GrayCodeTellsEveryColumnItsNumber) {
   std::vector<std::uint32_t> code(32, 0);
   for (int bit = 0; bit < 5; ++bit) {
     const Image<float> picture = pattern_picture(gray, bit, 32, 1);
-    for (int x = 0; x < 32; ++x)
+    for (int x = 0; x < 32; ++x) {
       code[static_cast<std::size_t>(x)] =
           2 * code[static_cast<std::size_t>(x)] + (picture(x, 0) > 0.5F);
+    }
   }
   for (std::uint32_t x = 0; x < 32; ++x)
     EXPECT_EQ(number_of_gray(code[x]), x);

@@ -116,9 +116,10 @@ TEST(HugeImages, Of100MegapixelsTakeNoMemoryBesidesFramesAndResult) {
   FrameStack stack{.pattern = pattern, .frames = {}, .white_level = 255};
   for (const double shift : pattern.shifts_rad) {
     std::vector<std::uint8_t> row(kSide);
-    for (int x = 0; x < kSide; ++x)
+    for (int x = 0; x < kSide; ++x) {
       row[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(
           std::lround(120.0 + 100.0 * std::cos(kTurn * x / kSide + shift)));
+    }
     Image<std::uint8_t> image(kSide, kSide, Unfilled{});
     for (int y = 0; y < kSide; ++y)
       std::copy(row.begin(), row.end(), &image(0, y));

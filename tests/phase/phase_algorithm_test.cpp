@@ -61,9 +61,10 @@ TEST(PhaseAlgorithm, AKnownGainErrorLeavesNoConstantInAnyOfThem) {
 
 TEST(PhaseAlgorithm, LeastSquaresFindsThePhaseOfUnequalShifts) {
   const std::vector<double> shifts = {0.0, 1.1, 1.9, 4.0, 5.2};
-  for (double phi = -3.0; phi < 3.0; phi += 0.37)
+  for (double phi = -3.0; phi < 3.0; phi += 0.37) {
     EXPECT_NEAR(
         wrap_rad(phase_of(least_squares(shifts), frames_of(phi, shifts)) - phi), 0.0, 1e-12);
+  }
 }
 
 TEST(PhaseAlgorithm, CarreFindsThePhaseInTheMiddleForAnyStep) {

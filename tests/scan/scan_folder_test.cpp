@@ -138,9 +138,10 @@ TEST(ReadScanFault, ATruncatedFrameIsNamed) {
 
 TEST(ReadScanFault, SixteenBitsAboveTheWhiteLevelAreNamed) {
   const SmallFolder folder;
-  for (const char* name : {"fringe-0", "fringe-1", "fringe-2", "fringe-3", "line-0"})
+  for (const char* name : {"fringe-0", "fringe-1", "fringe-2", "fringe-3", "line-0"}) {
     write_png(folder.view() / (std::string(name) + ".png"),
               Frame(Image<std::uint16_t>(12, 10, 3000)));
+  }
   expect_names(complaint(folder), "white_level");
 }
 

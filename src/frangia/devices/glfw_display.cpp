@@ -104,9 +104,10 @@ class GlfwDisplay final : public PatternDisplay {
                        info_.height_px));
     }
     const auto pixels = light.pixels();
-    for (std::size_t i = 0; i < pixels.size(); ++i)
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
       levels_[i] = table_[static_cast<std::size_t>(
           std::lround(std::clamp(pixels[i], 0.0F, 1.0F) * static_cast<float>(table_.size() - 1)))];
+    }
     swap(deadline);
   }
   void show_dark(const Deadline& deadline) override {

@@ -68,9 +68,10 @@ class GltfReader {
         visit(node, mm_from_scene);
     } else if (all.contains("nodes")) {
       std::set<std::uint64_t> children;
-      for (const auto& node : all.at("nodes"))
+      for (const auto& node : all.at("nodes")) {
         for (const auto& child : node.value("children", std::vector<std::uint64_t>()))
           children.insert(child);
+      }
       for (std::uint64_t node = 0; node < all.at("nodes").size(); ++node)
         if (!children.contains(node)) visit(node, mm_from_scene);
     }

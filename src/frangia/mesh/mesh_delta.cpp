@@ -111,9 +111,10 @@ void MeshDelta::redo(EditState& state) const {
 
 std::size_t MeshDelta::bytes() const {
   std::size_t sum = 0;
-  for (const ArrayDelta& array : arrays_)
+  for (const ArrayDelta& array : arrays_) {
     for (const Run& run : array.runs)
       sum += run.before.size() + run.after.size();
+  }
   return sum;
 }
 

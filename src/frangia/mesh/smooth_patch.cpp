@@ -109,10 +109,11 @@ HolePatch hole_patch_of(const PatchMesh& patch, const Rim& rim, std::size_t mesh
   const auto vertex_of = [&](std::uint32_t v) {
     return v < patch.rim() ? rim[v] : static_cast<std::uint32_t>(mesh_vertices + v - patch.rim());
   };
-  for (std::uint32_t edge = 0; edge < patch.half_edges(); edge += 3)
+  for (std::uint32_t edge = 0; edge < patch.half_edges(); edge += 3) {
     result.triangles.push_back({vertex_of(patch.from(edge)),
                                 vertex_of(patch.from(edge + 1)),
                                 vertex_of(patch.from(edge + 2))});
+  }
   return result;
 }
 

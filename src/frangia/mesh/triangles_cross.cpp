@@ -26,9 +26,10 @@ Kernel::Triangle_3 triangle_of(const CornerPlaces& t) {
 /// For each corner of a whether b has the same vertex.
 std::array<bool, 3> shared_of(const CornerPlaces& a, const CornerPlaces& b) {
   std::array<bool, 3> shared{};
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i) {
     shared.at(i) =
         std::find(b.vertices.begin(), b.vertices.end(), a.vertices.at(i)) != b.vertices.end();
+  }
   return shared;
 }
 

@@ -140,9 +140,10 @@ NoiseModel NoiseSamples::model() const {
   Eigen::Vector2d line(right(0) / normal(0, 0), 0.0);
   if (normal.determinant() > 1e-9 * normal(0, 0) * normal(1, 1)) line = normal.inverse() * right;
   if (line(1) < 0.0) line = {right(0) / normal(0, 0), 0.0};
-  if (line(0) < model.floor_counts2)
+  if (line(0) < model.floor_counts2) {
     line = {model.floor_counts2,
             std::max(0.0, (right(1) - model.floor_counts2 * normal(0, 1)) / normal(1, 1))};
+  }
   model.floor_counts2 = line(0);
   model.slope_counts = line(1);
   return model;

@@ -99,7 +99,7 @@ void read_direction(TomlReader& reader, const Rig& rig, Pattern& pattern) {
     reader.fail("direction", "is \"horizontal\", but an angular projector's fringes are vertical");
   if (direction != "vertical" && direction != "horizontal") {
     reader.fail("direction",
-                fmt::format("is \"{}\"; it must be \"vertical\" or \"horizontal\"", direction));
+                fmt::format(R"(is "{}"; it must be "vertical" or "horizontal")", direction));
   }
   if (direction == "horizontal") pattern.direction = FringeDirection::Horizontal;
 }
@@ -120,9 +120,8 @@ Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
   } else if (kind == "ramp") {
     read_ramp(reader, pattern);
   } else {
-    reader.fail(
-        "kind",
-        fmt::format("is \"{}\"; it must be \"fringe\", \"line\", \"gray\" or \"ramp\"", kind));
+    reader.fail("kind",
+                fmt::format(R"(is "{}"; it must be "fringe", "line", "gray" or "ramp")", kind));
   }
   read_exposures(reader, pattern);
   reader.warn_of_the_rest(run);
@@ -148,10 +147,11 @@ Eigen::Matrix3d rough_rotation(TomlReader& reader, std::string_view key) {
   for (int i = 0; i < 9; ++i)
     matrix(i / 3, i % 3) = rows[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
   if ((matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm() > kRough ||
-      matrix.determinant() < 0.0)
+      matrix.determinant() < 0.0) {
     reader.fail(
         key,
         "is not a rotation: its rows must be of unit length, at right angles, and right-handed");
+  }
   return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
 }
 

@@ -34,9 +34,10 @@ WindowFit small_fit(const Image<float>& q, int x, int y) {
   // Of the best paraboloid: the mean less what its curvature lifts the mean by.
   fit.middle = fit.mean;
   for (const int dy : {-1, 0, 1}) {
-    for (const int dx : {-1, 0, 1})
+    for (const int dx : {-1, 0, 1}) {
       fit.middle -=
           (static_cast<float>(dx * dx + dy * dy) - 4.0F / 3.0F) * q(x + dx, y + dy) / 3.0F;
+    }
   }
   return fit;
 }

@@ -136,9 +136,10 @@ class Joiner {
     }
     std::vector<ViewGroup> thinned;
     thinned.reserve(left.size());
-    for (const std::size_t i : left)
+    for (const std::size_t i : left) {
       thinned.push_back(
           {clusters_[i].members, thin_points(clusters_[i].points, options_.spacing_mm)});
+    }
     for (Candidate& found : all_candidates(thinned, views_, {options_.spacing_mm}, run)) {
       found.to = first_of(left[found.to]);
       found.from = first_of(left[found.from]);

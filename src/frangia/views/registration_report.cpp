@@ -33,9 +33,10 @@ std::string RegistrationReport::text() const {
                          std::abs(deg_from_rad(closure_after_rad)),
                          std::abs(deg_from_rad(closure_before_rad)));
   }
-  if (!placings.empty())
+  if (!placings.empty()) {
     words +=
         fmt::format("; the part's place in {} further rounds is found with them", placings.size());
+  }
   for (const std::string& unknown : open) {
     words += fmt::format("; the part does not determine {}, which stays as the rig says", unknown);
   }
