@@ -99,8 +99,8 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return frangia::run_program(argc, argv);
-  } catch (const std::exception& error) {  // while something else was being told
-    static_cast<void>(std::fputs(error.what(), stderr));
+  } catch (const std::exception& error) {  // before the parse, or while an answer was printed
+    static_cast<void>(std::fprintf(stderr, "frangia: %s\n", error.what()));  // NOLINT(*-vararg)
     return frangia::NumericFault;
   }
 }

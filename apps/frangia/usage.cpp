@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace frangia {
 namespace {
@@ -31,42 +32,62 @@ std::string hint(const std::string& word, const std::vector<std::string>& names)
       names.begin(), names.end(), [&](const std::string& one, const std::string& other) {
         return letters_between(word, one) < letters_between(word, other);
       });
-  const bool near = nearest != names.end() && letters_between(word, *nearest) * 3 <= word.size();
+  const bool near =
+      nearest != names.end() && 3 * letters_between(word, *nearest) <= word.size() + 1;
   return near ? fmt::format(", perhaps {} was meant", *nearest) : "";
 }
 
-std::vector<std::string> verbs_of(const CLI::App& program) {
+/// The program, the verb that was called, and its own verb where it has some.
+using Called = std::vector<const CLI::App*>;
+Called called(const CLI::App& program) {
+  Called path{&program};
+  while (!path.back()->get_subcommands().empty())
+    path.push_back(path.back()->get_subcommands().front());
+  return path;
+}
+
+/// "calibrate piezo", and nothing of the program alone.
+std::string name_of(const Called& path) {
+  std::string name;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    name += (i > 1 ? " " : "") + path[i]->get_name();
+  return name;
+}
+
+std::vector<std::string> verbs_of(const CLI::App& verb) {
+  const auto verbs = verb.get_subcommands(nullptr);
   std::vector<std::string> names;
-  for (const CLI::App* verb : program.get_subcommands(nullptr))
-    names.push_back(verb->get_name());
+  names.reserve(verbs.size());
+  for (const CLI::App* one : verbs)
+    names.push_back(one->get_name());
   return names;
 }
 
-std::vector<std::string> options_of(const CLI::App& verb) {
+std::vector<std::string> options_of(const Called& path) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : verb.get_options()) {
-    for (const std::string& name : option->get_lnames())
-      names.push_back("--" + name);
+  for (const CLI::App* verb : path) {
+    for (const CLI::Option* option : verb->get_options()) {
+      for (const std::string& name : option->get_lnames())
+        names.push_back("--" + name);
+    }
   }
   return names;
 }
 
-std::string without_verb(const CLI::App& program) {
-  for (const std::string& word : program.remaining()) {
-    if (word[0] != '-')
-      return fmt::format("there is no verb {}{}", word, hint(word, verbs_of(program)));
-  }
-  return "a verb is missing";
-}
-
-std::string told_too_much(const CLI::App& program, const CLI::App& verb) {
-  const std::vector<std::string> words = program.remaining(true);
-  const auto option = std::find_if(
-      words.begin(), words.end(), [](const std::string& word) { return word[0] == '-'; });
-  if (option == words.end())
-    return fmt::format("{} is one argument more than {} takes", words.front(), verb.get_name());
-  return fmt::format(
-      "{} has no option {}{}", verb.get_name(), *option, hint(*option, options_of(verb)));
+/// Of words that nothing takes, and of a verb that none of them is.
+std::string left_over(const Called& path) {
+  const std::vector<std::string> words = path.front()->remaining(true);
+  const auto is_option = [](const std::string& word) { return word[0] == '-'; };
+  const auto word = std::find_if_not(words.begin(), words.end(), is_option);
+  const auto option = std::find_if(words.begin(), words.end(), is_option);
+  const std::vector<std::string> verbs = verbs_of(*path.back());
+  const std::string name = path.size() > 1 ? name_of(path) : "the program";
+  if (!verbs.empty() && word != words.end())
+    return fmt::format("{} has no verb {}{}", name, *word, hint(*word, verbs));
+  if (option != words.end())
+    return fmt::format("{} has no option {}{}", name, *option, hint(*option, options_of(path)));
+  if (word != words.end()) return fmt::format("{} is one argument more than {} takes", *word, name);
+  return fmt::format("{} needs a verb: {}", name, fmt::join(verbs, ", "));
 }
 
 /// Of "Could not convert: --views = 2.5".
@@ -90,14 +111,15 @@ std::string miscounted(const std::string& what) {
 }  // namespace
 
 std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error) {
-  const auto parsed = program.get_subcommands();
-  if (parsed.empty()) return without_verb(program) + "; frangia --help lists them";
-  const CLI::App& verb = *parsed.front();
+  const Called path = called(program);
   std::string what = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) what = told_too_much(program, verb);
+  const bool lacks_verb =
+      dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !verbs_of(*path.back()).empty();
+  if (lacks_verb || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    what = left_over(path);
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) what = unfit(what);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) what = miscounted(what);
-  return fmt::format("{}; see frangia {} --help", what, verb.get_name());
+  return fmt::format("{}; see frangia {}{}--help", what, name_of(path), path.size() > 1 ? " " : "");
 }
 
 }  // namespace frangia

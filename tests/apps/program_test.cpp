@@ -103,11 +103,19 @@ void expect_usage_error(const std::string& arguments, const std::string& sentenc
 
 TEST_F(Program, SaysUsageErrorsWithTwoAndOneSentence) {
   EXPECT_EQ(run_program("").exit_code, 2);
-  expect_usage_error("fly", "there is no verb fly; frangia --help lists them");
+  expect_usage_error("fly", "the program has no verb fly; see frangia --help");
   expect_usage_error(
       "recnstruct x",
-      "there is no verb recnstruct, perhaps reconstruct was meant; frangia --help lists them");
-  expect_usage_error("--quiet", "a verb is missing; frangia --help lists them");
+      "the program has no verb recnstruct, perhaps reconstruct was meant; see frangia --help");
+  expect_usage_error("calibrate", "calibrate needs a verb: piezo; see frangia calibrate --help");
+  expect_usage_error(
+      "calibrate peizo x",
+      "calibrate has no verb peizo, perhaps piezo was meant; see frangia calibrate --help");
+  expect_usage_error("calibrate piezo x --stps 9",
+                     "calibrate piezo has no option --stps, perhaps --steps was meant; see "
+                     "frangia calibrate piezo --help");
+  expect_usage_error("demo --jsn",
+                     "demo has no option --jsn, perhaps --json was meant; see frangia demo --help");
   expect_usage_error("reconstruct", "SCAN is required; see frangia reconstruct --help");
   expect_usage_error("reconstruct x -o", "--output needs a value; see frangia reconstruct --help");
   expect_usage_error(

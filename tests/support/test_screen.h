@@ -86,7 +86,7 @@ class TestScreen {
     for (const std::string& word : command)
       words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
-    const int nowhere = ::open("/dev/null", O_WRONLY);  // NOLINT(*-vararg)
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);  // NOLINT(*-vararg)
     ::dup2(nowhere, STDOUT_FILENO);
     ::dup2(nowhere, STDERR_FILENO);
     ::execvp(words.front(), words.data());

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kSamples = 20'000;
 constexpr Eigen::Index kEnough = 100;
 constexpr int kIterations = 100;
-constexpr double kSettled = 1e-9;  // rad
+constexpr double kSettled_rad = 1e-9;
 
 /// The residual may exceed the noise by this factor: noise itself is known no better.
 constexpr double kMaxExcess = 1.5;
@@ -106,7 +106,7 @@ ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) 
   for (int i = 0; i < kIterations && !settled; ++i) {
     const std::vector<double> better = better_shifts(root, shifts, damping);
     const double change = largest_change(better, shifts);
-    settled = change < kSettled && (change > 0.0 || damping > 1e6);
+    settled = change < kSettled_rad && (change > 0.0 || damping > 1e6);
     shifts = better;
   }
   place(nominal, shifts);
