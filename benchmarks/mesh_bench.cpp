@@ -34,7 +34,7 @@ namespace {
 constexpr double kShare = 0.1;  // of the triangles that decimation leaves
 
 std::filesystem::path data_path(const char* name) {
-  const char* const folder = std::getenv("FRANGIA_BENCH_DATA");
+  const char* const folder = std::getenv("FRANGIA_BENCH_DATA");  // NOLINT(concurrency-mt-unsafe)
   return std::filesystem::path(folder == nullptr ? "out/bench/data" : folder) / name;
 }
 std::filesystem::path scan_path() {
@@ -214,9 +214,10 @@ Surface surface_of(const Mesh& mesh) {
 Mesh mesh_of(Surface& surface) {
   surface.collect_garbage();
   Mesh mesh;
+  mesh.vertices_mm.reserve(surface.number_of_vertices());
   for (const auto id : surface.vertices()) {
     const auto& p = surface.point(id);
-    mesh.vertices_mm.push_back(Eigen::Vector3d(p.x(), p.y(), p.z()).cast<float>());
+    mesh.vertices_mm.emplace_back(Eigen::Vector3d(p.x(), p.y(), p.z()).cast<float>());
   }
   for (const auto face : surface.faces()) {
     Mesh::Triangle triangle{};

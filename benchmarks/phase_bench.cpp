@@ -50,7 +50,7 @@ void write_raw(const std::filesystem::path& path, const Image<T>& image) {
 /// For tools/bench_peers.py: frames, wrapped, unwrapped and true phase as raw files in the folder
 /// that FRANGIA_BENCH_DATA names.
 void write_for_peers(const FrameStack& stack, const WrappedPhase& wrapped) {
-  const char* folder = std::getenv("FRANGIA_BENCH_DATA");
+  const char* folder = std::getenv("FRANGIA_BENCH_DATA");  // NOLINT(concurrency-mt-unsafe)
   if (folder == nullptr) return;
   const std::filesystem::path path(folder);
   const int side = wrapped.phase_rad.width();
@@ -121,12 +121,13 @@ void decode_maps(benchmark::State& state, const char* name) {
   for (const double fringes : fringe_sequence(name, 64.0))
     stacks.push_back(sequence_frames(side, fringes));
   std::vector<SequenceFrames> maps;
+  maps.reserve(stacks.size());
   for (const FrameStack& stack : stacks)
     maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
   AbsolutePhase phase = decode_sequence(maps, testing::kBenchmarkNoise, display);
   for (auto iteration : state) {
     static_cast<void>(iteration);
-    phase = decode_sequence(maps, testing::kBenchmarkNoise, display, {}, {}, std::move(phase));
+    phase = decode_sequence(maps, testing::kBenchmarkNoise, display, {}, std::move(phase));
   }
   state.counters["maps"] = static_cast<double>(maps.size());
   state.counters["measured"] =

@@ -28,8 +28,10 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   std::vector<FrameStack> fringes;
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     for (FrameStack& stack : read_frames(scan, i, run)) {
-      if (stack.pattern.kind == PatternKind::Ramp) ramps.push_back(std::move(stack));
-      if (tells_response(stack.pattern)) fringes.push_back(std::move(stack));
+      if (stack.pattern.kind == PatternKind::Ramp)
+        ramps.push_back(std::move(stack));
+      else if (tells_response(stack.pattern))
+        fringes.push_back(std::move(stack));
     }
   }
   const ResponseCurve left =

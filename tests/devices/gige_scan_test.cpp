@@ -62,7 +62,7 @@ class GigeScan : public ::testing::Test {
         << "[devices.turntable]\ndriver = \"simulated\"\n";
     return open_devices(file, plan_.rig, drivers, Deadline::in(10.0));
   }
-  [[nodiscard]] double p95_of(const std::filesystem::path& folder) const {
+  [[nodiscard]] static double p95_of(const std::filesystem::path& folder) {
     return surface_error(reconstruct(read_scan(folder)).mesh, RayScene(make_ball_bar())).p95_mm;
   }
 

@@ -20,7 +20,7 @@ class BadFiles : public testing::InAFolder {
  protected:
   [[nodiscard]] std::string error_reading(const std::string& name, const std::string& bytes) const {
     const auto path = put(name, bytes);
-    const std::string why = error_of([&] { return read_mesh(path); });
+    std::string why = error_of([&] { return read_mesh(path); });
     EXPECT_EQ(why.find(path.string()), 0U) << why;
     EXPECT_EQ(why.find('\n'), std::string::npos) << why;
     return why;
@@ -38,10 +38,10 @@ class BadFiles : public testing::InAFolder {
 };
 
 const std::string kModel =
-    "<model unit=\"inch\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">"
-    "<resources><object id=\"1\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
-    "<vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/></vertices>"
-    "<triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh></object>";
+    R"(<model unit="inch" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">)"
+    R"(<resources><object id="1"><mesh><vertices><vertex x="0" y="0" z="0"/>)"
+    R"(<vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices>)"
+    R"(<triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
 
 TEST_F(BadFiles, CutShortAnywhereAreReadInPartOrRefusedInASentence) {
   for (const char* name : {"a.dxf",
@@ -111,7 +111,7 @@ TEST_F(BadFiles, WithIndicesOutOfRangeAreRefused) {
   EXPECT_TRUE(says(error_reading("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), "'3'"));
   EXPECT_TRUE(says(error_reading("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"), "'-1'"));
   std::string model = kModel;
-  model.replace(model.find("v3=\"2\""), 6, "v3=\"7\"");
+  model.replace(model.find(R"(v3="2")"), 6, R"(v3="7")");
   EXPECT_TRUE(says(error_reading("a.3mf", three_mf(model)), "vertex 7"));
 }
 
@@ -121,14 +121,14 @@ TEST_F(BadFiles, WithNumbersThatAreNoneAreRefused) {
   EXPECT_TRUE(says(error_reading("a.xyz", "1 2\n"), "2 numbers"));
   EXPECT_TRUE(says(error_reading("a.off", "OFF\n3 1 0\n0 0 inf\n1 0 0\n0 1 0\n3 0 1 2\n"), "inf"));
   std::string model = kModel;
-  model.replace(model.find("x=\"1\""), 5, "x=\"?\"");
+  model.replace(model.find(R"(x="1")"), 5, R"(x="?")");
   EXPECT_TRUE(says(error_reading("a.3mf", three_mf(model)), "'?'"));
 }
 
 TEST_F(BadFiles, ThatContainThemselvesAreRefused) {
   const std::string close = "</resources><build><item objectid=\"2\"/></build></model>";
   const std::string loop =
-      "<object id=\"2\"><components><component objectid=\"2\"/></components></object>";
+      R"(<object id="2"><components><component objectid="2"/></components></object>)";
   EXPECT_TRUE(says(error_reading("a.3mf", three_mf(kModel + loop + close)), "part of itself"));
   EXPECT_TRUE(
       says(error_reading("a.gltf", R"({"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]})"),
@@ -160,7 +160,7 @@ TEST_F(BadFiles, WithHundredsOfPartsAreReadWhole) {
   std::string model = kModel + "</resources><build>";
   for (int i = 0; i < 100; ++i) {
     model +=
-        "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 " + std::to_string(3 * i) + " 0 0\"/>";
+        R"(<item objectid="1" transform="1 0 0 0 1 0 0 0 1 )" + std::to_string(3 * i) + " 0 0\"/>";
   }
   const Mesh mesh = read_mesh(put("parts.3mf", three_mf(model + "</build></model>")));
   EXPECT_EQ(mesh.triangles.size(), 100U);

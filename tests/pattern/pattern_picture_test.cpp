@@ -39,7 +39,7 @@ TEST(PatternPicture, GrayCodeTellsEveryColumnItsNumber) {
     const Image<float> picture = pattern_picture(gray, bit, 32, 1);
     for (int x = 0; x < 32; ++x) {
       code[static_cast<std::size_t>(x)] =
-          2 * code[static_cast<std::size_t>(x)] + (picture(x, 0) > 0.5F);
+          2 * code[static_cast<std::size_t>(x)] + (picture(x, 0) > 0.5F ? 1U : 0U);
     }
   }
   for (std::uint32_t x = 0; x < 32; ++x)

@@ -54,6 +54,7 @@ std::vector<FrameStack> frames_of(const std::string& sequence, int shifts) {
 
 std::vector<SequenceFrames> maps_of(const std::vector<FrameStack>& stacks) {
   std::vector<SequenceFrames> maps;
+  maps.reserve(stacks.size());
   for (const FrameStack& stack : stacks)
     maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
   return maps;
@@ -65,6 +66,7 @@ TEST(DecodeSequence, FindsWhatWrappingEachMapAndClimbingFind) {
       const auto stacks = frames_of(name, shifts);
       const AbsolutePhase once = decode_sequence(maps_of(stacks), kNoise, display());
       std::vector<WrappedPhase> wrapped;
+      wrapped.reserve(stacks.size());
       for (const FrameStack& stack : stacks)
         wrapped.push_back(wrap_phase(stack, least_squares(stack.pattern.shifts_rad), kNoise));
       const AbsolutePhase apart = unwrap_sequence(wrapped, display());
@@ -106,7 +108,7 @@ TEST(DecodeSequence, WritesOverTheMemoryThatItIsLent) {
   const AbsolutePhase kept = first;
   const float* memory = first.phase_rad.pixels().data();
   const AbsolutePhase again =
-      decode_sequence(maps_of(stacks), kNoise, display(), {}, {}, std::move(first));
+      decode_sequence(maps_of(stacks), kNoise, display(), {}, std::move(first));
   EXPECT_EQ(again.phase_rad.pixels().data(), memory);
   EXPECT_EQ(again.fate(200, 20), kept.fate(200, 20));
   EXPECT_EQ(again.phase_rad(200, 20), kept.phase_rad(200, 20));

@@ -1,5 +1,6 @@
 #include "frangia/phase/fill_enclosed.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -25,9 +26,12 @@ AbsolutePhase measured(int width, int height) {
   return phase;
 }
 
-void punch(AbsolutePhase& phase, int x0, int y0, int x1, int y1, PixelFate fate) {
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) {
+/// Pixels from a corner up to another, that one left out.
+using Corner = std::array<int, 2>;
+
+void punch(AbsolutePhase& phase, Corner from, Corner to, PixelFate fate) {
+  for (int y = from[1]; y < to[1]; ++y) {
+    for (int x = from[0]; x < to[0]; ++x) {
       phase.phase_rad(x, y) = kMissing;
       phase.sigma_rad(x, y) = kMissing;
       phase.fate(x, y) = fate;
@@ -37,7 +41,7 @@ void punch(AbsolutePhase& phase, int x0, int y0, int x1, int y1, PixelFate fate)
 
 TEST(FillEnclosed, InterpolatesASaturatedHighlightAndMarksIt) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, 10, 10, 17, 16, PixelFate::Saturated);
+  punch(phase, {10, 10}, {17, 16}, PixelFate::Saturated);
   EXPECT_EQ(fill_enclosed(phase), 42U);
   for (int y = 10; y < 16; ++y) {
     for (int x = 10; x < 17; ++x) {
@@ -50,19 +54,19 @@ TEST(FillEnclosed, InterpolatesASaturatedHighlightAndMarksIt) {
 
 TEST(FillEnclosed, LeavesATrueHoleOpen) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, 10, 10, 16, 16, PixelFate::Unmodulated);
+  punch(phase, {10, 10}, {16, 16}, PixelFate::Unmodulated);
   EXPECT_EQ(fill_enclosed(phase), 0U);
 }
 
 TEST(FillEnclosed, LeavesAHoleOpenThatReachesTheBorder) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, 0, 10, 5, 14, PixelFate::Saturated);
+  punch(phase, {0, 10}, {5, 14}, PixelFate::Saturated);
   EXPECT_EQ(fill_enclosed(phase), 0U);
 }
 
 TEST(FillEnclosed, DoesNotBridgeADepthStep) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, 18, 10, 22, 14, PixelFate::Residue);
+  punch(phase, {18, 10}, {22, 14}, PixelFate::Residue);
   for (int y = 0; y < 30; ++y) {
     for (int x = 20; x < 40; ++x)
       phase.phase_rad(x, y) += 6.0F;

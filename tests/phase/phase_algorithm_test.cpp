@@ -19,6 +19,7 @@ using testing::quarter_steps;
 /// Frames 3 + 2 cos(phi + shift) of one pixel.
 std::vector<double> frames_of(double phi, const std::vector<double>& shifts) {
   std::vector<double> counts;
+  counts.reserve(shifts.size());
   for (const double shift : shifts)
     counts.push_back(3.0 + 2.0 * std::cos(phi + shift));
   return counts;

@@ -38,7 +38,7 @@ axis = [0.008, -0.9999, 0.011]
 )";
 
 std::filesystem::path save(const TemporaryFolder& folder, const std::string& text) {
-  const auto path = folder.path() / "rig.toml";
+  auto path = folder.path() / "rig.toml";
   std::ofstream(path) << text;
   return path;
 }

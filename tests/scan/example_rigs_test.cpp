@@ -4,19 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/devices/hardware_drivers.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/simulate/simulated_drivers.h"
+
+#include "scan/all_drivers.h"
 
 namespace frangia {
 namespace {
-
-std::vector<Driver> all_drivers() {
-  std::vector<Driver> all = simulated_drivers();
-  for (const Driver& driver : hardware_drivers())
-    all.push_back(driver);
-  return all;
-}
 
 std::vector<std::filesystem::path> examples() {
   std::vector<std::filesystem::path> files;
@@ -31,7 +24,7 @@ std::vector<std::filesystem::path> examples() {
 std::vector<std::string> faults_of(const std::filesystem::path& file,
                                    const std::vector<std::string>& devices) {
   const Rig rig = read_rig(file);
-  const auto drivers = all_drivers();
+  const auto drivers = testing::all_drivers();
   std::vector<std::string> faults;
   std::vector<std::string> tables;
   for (DeviceSettings& settings : read_device_settings(file)) {

@@ -28,6 +28,7 @@ Eigen::Isometry3d turned(double angle_rad, const Eigen::Vector3d& axis, const Ei
 RangeScan scan_of(
     const RayScene& part, double turn_rad, unsigned seed, bool joined, double above_rad = 0.0) {
   constexpr int kSide = 160;
+  constexpr int kHalf = kSide / 2;
   constexpr double kStep_mm = 0.7;
   constexpr double kNoise_mm = 0.02;
   // The scanner's y is the part's z: it looks at the part from the side.
@@ -39,10 +40,10 @@ RangeScan scan_of(
   std::normal_distribution<double> noise(0.0, kNoise_mm);
   RangeScan scan;
   scan.world_from_scan = part_from_scan;
-  std::vector<std::int64_t> number(kSide * kSide, -1);
+  std::vector<std::int64_t> number(std::size_t{kSide} * kSide, -1);
   for (int i = 0; i < kSide * kSide; ++i) {
-    const Eigen::Vector3d from(
-        (i % kSide - kSide / 2) * kStep_mm, (i / kSide - kSide / 2) * kStep_mm, 300.0);
+    const int row = i / kSide;
+    const Eigen::Vector3d from((i % kSide - kHalf) * kStep_mm, (row - kHalf) * kStep_mm, 300.0);
     const auto hit =
         part.first_hit(part_from_scan * from, part_from_scan.linear() * -Eigen::Vector3d::UnitZ());
     if (!hit) continue;

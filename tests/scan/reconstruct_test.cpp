@@ -195,7 +195,7 @@ TEST(Reconstruct, MeasuresTheBallBarOfTheSharedScans) {
     for (const auto& vertex : result.mesh.vertices_mm) {
       const double from_centre = (vertex.cast<double>() - Eigen::Vector3d(0.0, y, 60.0)).norm();
       if (vertex.z() > 47.0F && std::abs(from_centre - 20.0) < 0.5)
-        near.push_back(vertex.cast<double>());
+        near.emplace_back(vertex.cast<double>());
     }
     const auto sphere = fit_sphere(near);
     EXPECT_NEAR(2.0 * sphere.radius_mm, 40.0, 0.02);

@@ -10,18 +10,13 @@
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 
+#include "support/temporary_folder.h"
+
 namespace frangia {
 namespace {
 
 class SimulateScan : public ::testing::Test {
  protected:
-  SimulateScan()
-      : folder_(std::filesystem::path(::testing::TempDir()) /
-                ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::remove_all(folder_);
-  }
-  ~SimulateScan() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] Scan plan() const {
     Scan scan;
     scan.folder = folder_;
@@ -32,7 +27,8 @@ class SimulateScan : public ::testing::Test {
     return scan;
   }
 
-  std::filesystem::path folder_;
+  testing::TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path() / "scan";
 };
 
 TEST_F(SimulateScan, WritesAScanThatReadsBackWithTheTruthBeside) {

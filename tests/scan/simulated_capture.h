@@ -9,11 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/devices/hardware_drivers.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/scan/capture_scan.h"
-#include "frangia/simulate/simulated_drivers.h"
 
+#include "scan/all_drivers.h"
 #include "scan/small_scan.h"
 #include "support/temporary_folder.h"
 
@@ -54,13 +53,6 @@ class SimulatedCapture : public ::testing::Test {
       plan_.views.push_back({kTurn * i / count, "views/00" + std::to_string(i)});
   }
 
-  [[nodiscard]] std::vector<Driver> drivers() const {
-    std::vector<Driver> all = simulated_drivers();
-    for (const Driver& driver : hardware_drivers())
-      all.push_back(driver);
-    return all;
-  }
-
   [[nodiscard]] RigDevices open() const {
     const auto file = folder_.path() / "rig.toml";
     write_rig(file, plan_.rig);
@@ -68,7 +60,7 @@ class SimulatedCapture : public ::testing::Test {
     for (const auto& [table, text] : devices_)
       out << "\n[devices." << table << "]\n" << text;
     out.close();
-    return open_devices(file, plan_.rig, drivers(), Deadline::in(10.0));
+    return open_devices(file, plan_.rig, all_drivers(), Deadline::in(10.0));
   }
 
   CaptureReport capture(const CaptureOptions& options = {}) {

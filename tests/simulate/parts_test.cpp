@@ -1,5 +1,8 @@
 #include "frangia/simulate/parts.h"
 
+#include <array>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
@@ -59,25 +62,25 @@ TEST(BallBar, HasItsBallsWhereTheyBelong) {
 }
 
 TEST(Shaft, HasTheVolumeOfItsConesLessTheKeyway) {
-  const double rings[][2] = {{17, 0},
-                             {18, 1},
-                             {18, 18},
-                             {22, 18},
-                             {22, 21},
-                             {25, 21},
-                             {26, 22},
-                             {26, 37},
-                             {25, 38},
-                             {18, 38},
-                             {18, 79},
-                             {17, 80},
-                             {13, 80},
-                             {13, 83},
-                             {14, 83},
-                             {14, 99},
-                             {13, 100}};
+  const std::vector<std::array<double, 2>> rings = {{17, 0},
+                                                    {18, 1},
+                                                    {18, 18},
+                                                    {22, 18},
+                                                    {22, 21},
+                                                    {25, 21},
+                                                    {26, 22},
+                                                    {26, 37},
+                                                    {25, 38},
+                                                    {18, 38},
+                                                    {18, 79},
+                                                    {17, 80},
+                                                    {13, 80},
+                                                    {13, 83},
+                                                    {14, 83},
+                                                    {14, 99},
+                                                    {13, 100}};
   double expected = 0.0;
-  for (std::size_t i = 1; i < std::size(rings); ++i) {
+  for (std::size_t i = 1; i < rings.size(); ++i) {
     const double a = rings[i - 1][0];
     const double b = rings[i][0];
     expected += kPi / 3.0 * (rings[i][1] - rings[i - 1][1]) * (a * a + a * b + b * b);

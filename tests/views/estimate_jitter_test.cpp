@@ -10,13 +10,14 @@ namespace {
 /// A ball's cap, each pixel of which looks `jitter_px` beside its centre, with noise.
 Image<float> cap(float jitter_px, float noise) {
   constexpr int kSide = 200;
+  constexpr int kHalf = kSide / 2;
   std::mt19937 random(3);
   std::normal_distribution<float> normal;
   Image<float> image(kSide, kSide);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      const float dx = static_cast<float>(x - kSide / 2) + jitter_px * normal(random);
-      const float dy = static_cast<float>(y - kSide / 2) + jitter_px * normal(random);
+      const float dx = static_cast<float>(x - kHalf) + jitter_px * normal(random);
+      const float dy = static_cast<float>(y - kHalf) + jitter_px * normal(random);
       image(x, y) = 300.0F - (dx * dx + dy * dy) / 300.0F + noise * normal(random);
     }
   }

@@ -15,13 +15,14 @@
 
 namespace frangia {
 
-DurableLog::DurableLog(std::filesystem::path path) : path_(std::move(path)) {
+DurableLog::DurableLog(std::filesystem::path path)
+    : path_(std::move(path)),
+      file_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)) {  // NOLINT(*-vararg)
+  if (file_ < 0) fail(errno);
   std::ifstream in(path_, std::ios::binary);
   text_.assign(std::istreambuf_iterator<char>(in), {});
   const std::size_t end = text_.rfind('\n');
   text_.resize(end == std::string::npos ? 0 : end + 1);
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);  // NOLINT(*-vararg)
-  if (file_ < 0) fail(errno);
   const auto size = static_cast<::off_t>(text_.size());
   if (::ftruncate(file_, size) != 0 || ::lseek(file_, size, SEEK_SET) != size) {
     const int error = errno;

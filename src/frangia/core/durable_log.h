@@ -27,7 +27,7 @@ class DurableLog {
 
   std::filesystem::path path_;
   std::string text_;
-  int file_ = -1;
+  int file_;
 };
 
 }  // namespace frangia

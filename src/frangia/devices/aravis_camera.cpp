@@ -44,6 +44,10 @@ class Fault {
   GError* error_ = nullptr;
 };
 
+std::string text_of(const char* text, const char* otherwise) {
+  return text != nullptr ? text : otherwise;
+}
+
 int white_level_of(const std::string& pixel_format) {
   return (1 << std::stoi(pixel_format.substr(std::strlen("Mono")))) - 1;
 }
@@ -83,7 +87,7 @@ class AravisCamera final : public CameraDevice {
     }
     const char* serial = arv_camera_get_device_serial_number(camera_.get(), fault.out());
     const char* model = arv_camera_get_model_name(camera_.get(), fault.out());
-    name_ = fmt::format("camera {} {}", model ? model : "", serial ? serial : "");
+    name_ = fmt::format("camera {} {}", text_of(model, ""), text_of(serial, ""));
     deadline.check();
     prepare(settings);
     g_signal_connect(arv_camera_get_device(camera_.get()),
@@ -321,8 +325,8 @@ std::vector<FoundDevice> find_aravis_cameras(const Deadline& /*deadline*/) {
     const char* id = arv_get_device_id(i);
     const char* model = arv_get_device_model(i);
     const char* address = arv_get_device_address(i);
-    found.push_back({fmt::format("{} at {}", model ? model : "camera", address ? address : "?"),
-                     fmt::format("driver = \"aravis\"\nid = \"{}\"\n", id ? id : "")});
+    found.push_back({fmt::format("{} at {}", text_of(model, "camera"), text_of(address, "?")),
+                     fmt::format("driver = \"aravis\"\nid = \"{}\"\n", text_of(id, ""))});
   }
   return found;
 }

@@ -89,7 +89,7 @@ std::vector<FoundDevice> find_ports(const std::string& driver) {
   return found;
 }
 
-Driver table_driver(const Firmware& firmware, std::shared_ptr<Boards> boards) {
+Driver table_driver(const Firmware& firmware, const std::shared_ptr<Boards>& boards) {
   Driver driver;
   driver.name = firmware.name;
   driver.kind = DeviceKind::Turntable;
@@ -107,7 +107,9 @@ Driver table_driver(const Firmware& firmware, std::shared_ptr<Boards> boards) {
   return driver;
 }
 
-Driver switch_driver(const Firmware& firmware, DeviceKind kind, std::shared_ptr<Boards> boards) {
+Driver switch_driver(const Firmware& firmware,
+                     DeviceKind kind,
+                     const std::shared_ptr<Boards>& boards) {
   Driver driver;
   driver.name = firmware.name;
   driver.kind = kind;

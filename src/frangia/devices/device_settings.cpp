@@ -57,7 +57,7 @@ std::string DeviceSettings::text_or(std::string_view key, std::string_view other
 
 std::string DeviceSettings::choice(std::string_view key,
                                    std::initializer_list<std::string_view> choices) {
-  const std::string value = text_or(key, *choices.begin());
+  std::string value = text_or(key, *choices.begin());
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
     fail(key, fmt::format("is \"{}\"; it must be one of {}", value, fmt::join(choices, ", ")));
   return value;

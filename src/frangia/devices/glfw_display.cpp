@@ -108,11 +108,11 @@ class GlfwDisplay final : public PatternDisplay {
       levels_[i] = table_[static_cast<std::size_t>(
           std::lround(std::clamp(pixels[i], 0.0F, 1.0F) * static_cast<float>(table_.size() - 1)))];
     }
-    swap(deadline);
+    show_levels(deadline);
   }
   void show_dark(const Deadline& deadline) override {
     std::fill(levels_.begin(), levels_.end(), std::uint8_t{0});
-    swap(deadline);
+    show_levels(deadline);
   }
 
  private:
@@ -165,7 +165,7 @@ class GlfwDisplay final : public PatternDisplay {
     }
   }
 
-  void swap(const Deadline& deadline) {
+  void show_levels(const Deadline& deadline) {
     deadline.check();
     glfwMakeContextCurrent(window_);
     glDisable(GL_DITHER);

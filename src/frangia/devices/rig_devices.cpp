@@ -1,5 +1,6 @@
 #include "frangia/devices/rig_devices.h"
 
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -72,22 +73,29 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
   }
 }
 
+/// Light first; null where the rig has none.
+std::array<Device*, 6> places_of(const RigDevices& rig) {
+  return {rig.light.get(),
+          rig.line.get(),
+          rig.display.get(),
+          rig.turntable.get(),
+          rig.shifter.get(),
+          rig.camera.get()};
+}
+
 }  // namespace
 
 std::vector<Device*> RigDevices::all() const {
   std::vector<Device*> devices;
-  for (Device* device : std::initializer_list<Device*>{
-           light.get(), line.get(), display.get(), turntable.get(), shifter.get(), camera.get()}) {
+  for (Device* device : places_of(*this))
     if (device != nullptr) devices.push_back(device);
-  }
   return devices;
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): the devices are part of it
 void RigDevices::make_safe() noexcept {
-  for (Device* device : std::initializer_list<Device*>{
-           light.get(), line.get(), display.get(), turntable.get(), shifter.get(), camera.get()}) {
+  for (Device* device : places_of(*this))
     if (device != nullptr) device->make_safe();
-  }
 }
 
 RigDevices open_devices(const std::filesystem::path& rig_file,

@@ -42,7 +42,7 @@ template <typename Source>
 std::int64_t last_of(Source& source, const PlyProperty& property) {
   std::int64_t last = kNothing;
   const double count = property.count_type ? source.value(*property.count_type) : 1.0;
-  for (double i = 0.0; i < count; i += 1.0)
+  for (std::uint64_t i = 0; static_cast<double>(i) < count; ++i)
     last = static_cast<std::int64_t>(source.value(property.type));
   return last;
 }

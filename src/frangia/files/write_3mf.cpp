@@ -16,14 +16,14 @@ namespace {
 template <typename Number>
 void write_number(ZipWriter& file, Number number) {
   std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
   file.text({digits.data(), static_cast<std::size_t>(end - digits.data())});
 }
 
 /// Decimals without a power of ten: readers differ on whether a coordinate may have one.
 void write_real(ZipWriter& file, float number) {
   std::array<char, 64> digits{};
-  const auto end =
+  const char* const end =
       std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed)
           .ptr;
   file.text({digits.data(), static_cast<std::size_t>(end - digits.data())});

@@ -34,7 +34,11 @@ struct XmlElements::Parser {
   static void end(void* self, const char* name) {
     of(self).guard([&] { of(self).on_end(name); });
   }
-  static void doctype(void* self, const char*, const char*, const char*, int) {
+  static void doctype(void* self,
+                      const char* /*name*/,
+                      const char* /*system*/,
+                      const char* /*open*/,
+                      int /*inside*/) {
     of(self).guard([] {
       throw Error(ErrorKind::Input, "its XML declares a document type, which is not allowed");
     });

@@ -83,7 +83,7 @@ Laplacian laplacian_of(const PatchMesh& patch, const Whole& whole, double least 
   Laplacian laplacian{Sparse(patch.count(), whole.count()), std::move(areas)};
   laplacian.weights.setFromTriplets(entries.begin(), entries.end());
   return laplacian;
-}
+}  // NOLINT(clang-analyzer-unix.Malloc): Eigen gives it back
 
 MatrixX3d matrix_of(const std::vector<Vector3d>& rows) {
   MatrixX3d matrix(static_cast<Eigen::Index>(rows.size()), 3);

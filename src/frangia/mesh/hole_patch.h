@@ -16,9 +16,9 @@ struct HolePatch {
   std::vector<Mesh::Triangle> triangles;  ///< none: there is no such patch
 };
 
-/// The triangulation of the rim's corners with the least area; of larger holes that of its shadow
-/// on the plane that fits it best, as long as the shadow does not cross itself.
-[[nodiscard]] HolePatch flat_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim);
+/// The triangulation of the boundary's corners with the least area; of larger holes that of its
+/// shadow on the plane that fits it best, as long as the shadow does not cross itself.
+[[nodiscard]] HolePatch flat_patch(const Mesh& mesh, const std::vector<std::uint32_t>& boundary);
 
 /// A fan about the mean of the rim's corners: always there.
 [[nodiscard]] HolePatch fan_patch(const Mesh& mesh, const std::vector<std::uint32_t>& rim);
@@ -28,14 +28,14 @@ struct SmoothPatchOptions {
   bool coarse = false;     ///< the shape alone, of few triangles: a fraction of the work
 };
 
-/// As dense as the surface around the rim and curved on as it is; patches of more than two million
-/// triangles get coarser inwards. None when the rim leaves no way.
+/// As dense as the surface around the boundary and curved on as it is; patches of more than two
+/// million triangles get coarser inwards. None when the boundary leaves no way.
 ///
 /// The shape is found on few triangles that grow inwards, then cut along curves between their
 /// corners until they are as small as those outside.
 [[nodiscard]] HolePatch smooth_patch(const Mesh& mesh,
                                      const HalfEdges& edges,
-                                     const std::vector<std::uint32_t>& rim,
+                                     const std::vector<std::uint32_t>& boundary,
                                      const SmoothPatchOptions& options = {});
 
 }  // namespace frangia

@@ -64,9 +64,10 @@ class NearPlaces {
   }
 
   [[nodiscard]] bool are_beside(std::uint32_t a, std::uint32_t b) const {
-    for (const std::uint32_t edge : edges_.leaving(a))
-      if (to_of(mesh_, edge) == b || across_of(mesh_, edge) == b) return true;
-    return false;
+    const auto around = edges_.leaving(a);
+    return std::any_of(around.begin(), around.end(), [&](std::uint32_t edge) {
+      return to_of(mesh_, edge) == b || across_of(mesh_, edge) == b;
+    });
   }
 
   const Mesh& mesh_;

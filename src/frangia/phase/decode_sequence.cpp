@@ -161,8 +161,7 @@ class TileDecoder {
 AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
                               const NoiseModel& noise,
                               const Projector& projector,
-                              const WrapOptions& wrap,
-                              const TimeUnwrapOptions& in_time,
+                              const SequenceOptions& options,
                               AbsolutePhase lent) {
   std::vector<Pattern> patterns;
   std::vector<TileNoise> noises;
@@ -176,14 +175,14 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
     patterns.push_back(map.stack->pattern);
     noises.push_back(tile_noise(*map.stack, map.algorithm, noise));
   }
-  const LadderClimb ladder(patterns, projector, in_time.max_wrong_order);
+  const LadderClimb ladder(patterns, projector, options.in_time.max_wrong_order);
   const Frame& first = coarse_to_fine.front().stack->frames.front();
   AbsolutePhase out = std::move(lent);
   out.pattern = patterns.back();
   make_room(width_of(first), height_of(first), out.phase_rad);
   make_room(width_of(first), height_of(first), out.sigma_rad);
   make_room(width_of(first), height_of(first), out.fate);
-  const float min_precision = 1.0F / (wrap.max_sigma_rad * wrap.max_sigma_rad);
+  const float min_precision = 1.0F / (options.wrap.max_sigma_rad * options.wrap.max_sigma_rad);
   parallel_chunks(out.fate.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
     TileDecoder decoder(coarse_to_fine, noises, ladder, min_precision);
     for (std::size_t at = begin; at < end; at += kTilePixels)

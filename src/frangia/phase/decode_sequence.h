@@ -18,6 +18,11 @@ struct SequenceFrames {
   PhaseAlgorithm algorithm;
 };
 
+struct SequenceOptions {
+  WrapOptions wrap;
+  TimeUnwrapOptions in_time;
+};
+
 /// `wrap_phase` of every map and `unwrap_sequence` in one pass over the frames: the maps between
 /// live in the cache only, which is what the time goes into.
 ///
@@ -28,8 +33,7 @@ struct SequenceFrames {
 [[nodiscard]] AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
                                             const NoiseModel& noise,
                                             const Projector& projector,
-                                            const WrapOptions& wrap = {},
-                                            const TimeUnwrapOptions& in_time = {},
+                                            const SequenceOptions& options = {},
                                             AbsolutePhase lent = {});
 
 }  // namespace frangia

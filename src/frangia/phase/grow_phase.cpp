@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "frangia/core/missing.h"
@@ -37,6 +38,16 @@ class Frontier {
   std::array<std::vector<std::uint32_t>, kLevels> buckets_;
   std::size_t best_ = 0;
 };
+
+/// An unwrapped phase is its wrapped one and whole turns: no rounding piles up along the path.
+void take_whole_turns(std::span<const float> wrapped, std::span<float> unwrapped) {
+  for (std::size_t i = 0; i < unwrapped.size(); ++i) {
+    if (std::isnan(unwrapped[i])) continue;
+    const double orders =
+        std::round((static_cast<double>(unwrapped[i]) - wrapped[i]) / 6.283185307179586);
+    unwrapped[i] = static_cast<float>(wrapped[i] + 6.283185307179586 * orders);
+  }
+}
 
 }  // namespace
 
@@ -89,13 +100,7 @@ RelativePhase grow_phase(const WrappedPhase& phase, const Regions& regions, bool
       if (y + 1 < static_cast<std::size_t>(height) && below[i] != 0) reach(i, i + row);
     } while (frontier.pop(pixel));
   }
-  // An unwrapped phase is its wrapped one and whole turns: no rounding piles up along the path.
-  for (std::size_t i = 0; i < unwrapped.size(); ++i) {
-    if (std::isnan(unwrapped[i])) continue;
-    const double orders =
-        std::round((static_cast<double>(unwrapped[i]) - wrapped[i]) / 6.283185307179586);
-    unwrapped[i] = static_cast<float>(wrapped[i] + 6.283185307179586 * orders);
-  }
+  take_whole_turns(wrapped, unwrapped);
   return out;
 }
 

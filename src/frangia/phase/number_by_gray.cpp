@@ -98,7 +98,8 @@ class Reader {
       double threshold = 0.0;
       double variance = noise_.variance(counts);
       if (code_.inverted) {
-        threshold = counts_at(stack.frames[static_cast<std::size_t>(i + code_.bits)], x, y);
+        threshold = counts_at(
+            stack.frames[static_cast<std::size_t>(i) + static_cast<std::size_t>(code_.bits)], x, y);
         variance += noise_.variance(threshold);
       } else {
         threshold = stack.gain() * static_cast<double>(fringes_.mean_counts(x, y));

@@ -30,8 +30,8 @@ struct TimeUnwrapOptions {
 /// The same from an absolute phase that is already there, such as one that the plane of light
 /// fixed.
 ///
-/// shape    `coarse` and every level w x h; the levels finer than `coarse` and each other
-[[nodiscard]] AbsolutePhase lift_in_time(AbsolutePhase coarse,
+/// shape    `absolute` and every level w x h, coarse to fine
+[[nodiscard]] AbsolutePhase lift_in_time(AbsolutePhase absolute,
                                          std::span<const WrappedPhase> finer,
                                          const TimeUnwrapOptions& options = {});
 

@@ -66,16 +66,16 @@ AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
         precision[m] = precisions[m].data();
         phase[m] = coarse_to_fine[m].phase_rad.pixels().data() + at;
       }
-      float* rad = out.phase_rad.pixels().data() + at;
+      float* absolute = out.phase_rad.pixels().data() + at;
       float* sigma = out.sigma_rad.pixels().data() + at;
       for (std::size_t i = 0; i < n; ++i)
         lost[i] = static_cast<std::int32_t>(fate_of(coarse_to_fine, at + i));
-      ladder.climb({phase, precision, lost.data()}, n, rad, sigma, doubtful.data());
+      ladder.climb({phase, precision, lost.data()}, n, absolute, sigma, doubtful.data());
       for (std::size_t i = 0; i < n; ++i) {
         auto fate = static_cast<PixelFate>(lost[i]);
         if (fate == PixelFate::Measured && doubtful[i] != 0) fate = PixelFate::Doubtful;
         out.fate.pixels()[at + i] = fate;
-        if (fate != PixelFate::Measured) rad[i] = sigma[i] = kMissing;
+        if (fate != PixelFate::Measured) absolute[i] = sigma[i] = kMissing;
       }
     }
   });

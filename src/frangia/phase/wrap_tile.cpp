@@ -199,7 +199,7 @@ void sum_all(const FrameStack& stack,
 void check_frames(const FrameStack& stack, const PhaseAlgorithm& algorithm) {
   if (stack.frames.size() != algorithm.sine.size()) {
     throw Error(ErrorKind::Input,
-                fmt::format("pattern \"{}\" has {} frames, but the algorithm \"{}\" takes {}",
+                fmt::format(R"(pattern "{}" has {} frames, but the algorithm "{}" takes {})",
                             stack.pattern.name,
                             stack.frames.size(),
                             algorithm.name,

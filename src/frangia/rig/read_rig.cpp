@@ -103,7 +103,7 @@ Projector read_projector(TomlReader reader, const Run& run) {
   } else if (model == "pinhole") {
     projector.model = read_lens(reader);
   } else {
-    reader.fail("model", fmt::format("is \"{}\"; it must be \"angular\" or \"pinhole\"", model));
+    reader.fail("model", fmt::format(R"(is "{}"; it must be "angular" or "pinhole")", model));
   }
   if (reader.has("response")) {
     TomlReader response = reader.table("response");

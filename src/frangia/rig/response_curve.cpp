@@ -26,11 +26,9 @@ void make_rising(std::vector<double>& values) {
     }
     pools.push_back(last);
   }
-  std::size_t i = 0;
-  for (const Pool& pool : pools) {
-    for (double k = 0.0; k < pool.count; k += 1.0)
-      values[i++] = pool.sum / pool.count;
-  }
+  auto next = values.begin();
+  for (const Pool& pool : pools)
+    next = std::fill_n(next, static_cast<std::ptrdiff_t>(pool.count), pool.sum / pool.count);
 }
 
 /// Slopes of the cubic through the points that stays as monotone as they are (Fritsch and Carlson

@@ -153,7 +153,7 @@ void decode_at_once(std::span<const FrameStack* const> fringes,
     out.verdicts.push_back(judge_frames(some, fitted, map, out.noise));
     maps.push_back({stack, fitted.algorithm});
   }
-  out.phase = decode_sequence(maps, out.noise, rig.projector, options.wrap, options.in_time);
+  out.phase = decode_sequence(maps, out.noise, rig.projector, {options.wrap, options.in_time});
 }
 
 bool are_plain_frames(std::span<const FrameStack* const> fringes, const DecodeOptions& options) {

@@ -178,42 +178,46 @@ View view_of(const RangeScan& scan, const Stand& stand, const Lens& lens, std::s
   return view;
 }
 
+/// The scans, and what our own camera sees of each.
+struct ScanViews {
+  const std::vector<RangeScan>& scans;
+  Lens lens;
+  ViewStore views;
+};
+
 /// Whether the scans' own poses cannot be meant.
-bool poses_unknown(const std::vector<RangeScan>& scans,
-                   const ViewStore& views,
+bool poses_unknown(const ScanViews& all,
                    const std::vector<PlaneMap>& maps,
-                   const Lens& lens,
                    const PasteScansOptions& options) {
   if (options.poses != ScanPoses::Auto) return options.poses == ScanPoses::Shape;
-  const bool posed =
-      std::any_of(scans.begin(), scans.end(), [](const RangeScan& scan) { return scan.posed; });
-  return !posed && !poses_can_be(views, maps, lens, options.registration.reach_mm);
+  const bool posed = std::any_of(
+      all.scans.begin(), all.scans.end(), [](const RangeScan& scan) { return scan.posed; });
+  return !posed && !poses_can_be(all.views, maps, all.lens, options.registration.reach_mm);
 }
 
 /// Poses found and refined, as the options say.
 void bring_together(PastedScans& out,
-                    ViewStore& views,
-                    const std::vector<RangeScan>& scans,
-                    const Lens& lens,
+                    ScanViews& all,
                     const PasteScansOptions& options,
                     const Run& run) {
-  if (scans.size() < 2) {
+  if (all.scans.size() < 2) {
     run.note("one scan alone has nothing to be registered with");
     return;
   }
   if (!options.register_poses && options.poses != ScanPoses::Shape) return;
-  auto maps = map_views(views, lens);
+  auto maps = map_views(all.views, all.lens);
   RegisterPosesOptions registration = options.registration;
-  if (poses_unknown(scans, views, maps, lens, options)) {
+  if (poses_unknown(all, maps, options)) {
     std::vector<std::string> names;
-    for (const RangeScan& scan : scans)
+    names.reserve(all.scans.size());
+    for (const RangeScan& scan : all.scans)
       names.push_back(scan.path.string());
-    out.placed = place_views(views, maps, lens, names, run);
+    out.placed = place_views(all.views, maps, all.lens, names, run);
     run.note(out.placed->text());
     registration.reach_mm = out.placed->near_mm;
   }
   if (!options.register_poses) return;
-  out.registration = register_poses(views, std::move(maps), lens, registration, run);
+  out.registration = register_poses(all.views, std::move(maps), all.lens, registration, run);
   if (out.registration->iterations > 0) run.note(out.registration->text());
 }
 
@@ -229,18 +233,17 @@ PastedScans paste_scans(const std::vector<RangeScan>& scans,
     stands.push_back(stand_of(scan));
     loose = loose || scan.mesh.triangles.empty();
   }
-  const Lens lens = lens_for(stands, loose);
+  ScanViews all{scans, lens_for(stands, loose), {}};
   PastedScans out;
-  ViewStore views;
   run.stage("range");
   for (std::size_t i = 0; i < scans.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scans.size()));
-    views.add(view_of(scans[i], stands[i], lens, out.points));
+    all.views.add(view_of(scans[i], stands[i], all.lens, out.points));
   }
   run.stage("views");
-  bring_together(out, views, scans, lens, options, run);
+  bring_together(out, all, options, run);
   run.stage("surface");
-  out.mesh = finish_mesh(paste_views(views, lens, options.paste, run), options.finish, run);
+  out.mesh = finish_mesh(paste_views(all.views, all.lens, options.paste, run), options.finish, run);
   return out;
 }
 

@@ -15,12 +15,12 @@
 namespace frangia {
 namespace {
 
-/// What one view cannot tell of its fringes the others can. Returns the points that this adds.
-std::size_t number_by_views(MeasuredViews& all,
-                            const Rig& rig,
-                            const Image<Eigen::Vector2f>& rays,
-                            const ReconstructOptions& options,
-                            const Run& run) {
+/// What one view cannot tell of its fringes the others can. Adds the points that are numbered.
+void number_by_views(MeasuredViews& all,
+                     const Rig& rig,
+                     const Image<Eigen::Vector2f>& rays,
+                     const ReconstructOptions& options,
+                     const Run& run) {
   const FringeOptics optics{all.coarsest, rig, rays};
   const auto anchored = anchor_by_views(all.views, all.loose, optics, options.anchor_by_views, run);
   if (anchored.dropped_points > 0) {
@@ -29,12 +29,12 @@ std::size_t number_by_views(MeasuredViews& all,
                     "another view tells, and are dropped",
                     anchored.dropped_points));
   }
-  if (!all.unwrapped_in_space) return anchored.anchored_points;
+  all.points += anchored.anchored_points;
+  if (!all.unwrapped_in_space) return;
   const std::size_t moved = reconcile_views(all.views, optics, options.reconcile, run);
   if (moved > 0) {
     run.note(fmt::format("{} points moved by whole fringes to where the other views agree", moved));
   }
-  return anchored.anchored_points;
 }
 
 /// Leaves out what the user says is not the part.
@@ -73,24 +73,19 @@ void bring_together(Round& round, const Rig& rig, const RegisterOptions& options
       register_views(all.views, rig.camera.lens, {*rig.turntable, all.stops}, options, run);
 }
 
-/// Everything that needs the views of one round alone. Returns the points that were numbered.
-std::size_t prepare(Round& round,
-                    const Scan& scan,
-                    const Image<Eigen::Vector2f>& rays,
-                    const ReconstructOptions& options,
-                    double& platter_height_mm,
-                    const Run& run) {
+/// Leaves out what is not the part from the views of one round, and brings them together.
+void prepare(Round& round,
+             const Rig& rig,
+             const ReconstructOptions& options,
+             double& platter_height_mm,
+             const Run& run) {
   MeasuredViews& all = round.measured;
-  const Lens& camera = scan.rig.camera.lens;
-  const std::size_t numbered = number_by_views(all, scan.rig, rays, options, run);
-  all.points += numbered;
-  if (all.points == 0) return 0;
-  clip(all.views, camera, options, run);
-  if (!options.keep_platter && scan.rig.turntable)
-    platter_height_mm = clear_platter(all.views, camera, options.platter, run);
-  if (options.register_views && scan.rig.turntable)
-    bring_together(round, scan.rig, options.registration, run);
-  return numbered;
+  if (all.points == 0) return;
+  clip(all.views, rig.camera.lens, options, run);
+  if (!options.keep_platter && rig.turntable)
+    platter_height_mm = clear_platter(all.views, rig.camera.lens, options.platter, run);
+  if (options.register_views && rig.turntable)
+    bring_together(round, rig, options.registration, run);
 }
 
 /// Clips again, on the refined table: each view as it stands on it, whatever its round.
@@ -127,11 +122,13 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   run.stage("views");
   Reconstruction out;
   out.views = all.views.size();
-  out.points = all.points;
   const std::vector<int> numbers = all.rounds;
   std::vector<Round> rounds = split_rounds(std::move(all), numbers);
-  for (Round& round : rounds)
-    out.points += prepare(round, scan, rays, options, out.platter_height_mm, run);
+  for (Round& round : rounds) {
+    number_by_views(round.measured, scan.rig, rays, options, run);
+    prepare(round, scan.rig, options, out.platter_height_mm, run);
+    out.points += round.measured.points;
+  }
   if (out.points == 0) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: no view has a lit pixel; check light, exposure and white_level",

@@ -89,7 +89,7 @@ void read_exposures(TomlReader& reader, Pattern& pattern) {
   if (pattern.exposures_ms.empty() || !positive)
     reader.fail("exposures_ms", "must be one exposure or more, each above 0");
   if (pattern.kind != PatternKind::Fringe && pattern.kind != PatternKind::Gray)
-    reader.fail("exposures_ms", "is for patterns of kind \"fringe\" and \"gray\" only");
+    reader.fail("exposures_ms", R"(is for patterns of kind "fringe" and "gray" only)");
 }
 
 void read_direction(TomlReader& reader, const Rig& rig, Pattern& pattern) {

@@ -13,8 +13,8 @@
 namespace frangia {
 namespace {
 
-constexpr std::uint64_t kSpeckleStream = 11;
-constexpr std::uint64_t kFrameStream = 12;
+constexpr std::uint64_t kSpecklePlace = 11;
+constexpr std::uint64_t kFramePlace = 12;
 
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t value = 0;
@@ -88,7 +88,7 @@ std::uint64_t noise_stream(std::uint64_t seed,
                            std::size_t view,
                            const std::string& pattern,
                            std::size_t frame) {
-  return hash(hash(hash(hash(seed, kFrameStream), view), frame), hash_of(pattern));
+  return hash(hash(hash(hash(seed, kFramePlace), view), frame), hash_of(pattern));
 }
 
 ViewRenderer::ViewRenderer(const SimulatedScene& scene,
@@ -96,14 +96,14 @@ ViewRenderer::ViewRenderer(const SimulatedScene& scene,
                            std::size_t view)
     : scene_(scene),
       options_(scene.options),
-      pose_(rig_from_object),
+      pose_(rig_from_object),  // NOLINT(modernize-pass-by-value): to move it is to copy it
       across_(static_cast<int>(std::ceil(std::sqrt(options_.samples_per_px)))),
       samples_per_px_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_)) {
   if (options_.speckle > 0.0) {
     speckle_ =
         speckle_of(scene.rays.width(),
                    scene.rays.height(),
-                   hash(hash(options_.seed, kSpeckleStream), view),
+                   hash(hash(options_.seed, kSpecklePlace), view),
                    {options_.speckle, options_.speckle_grain_px, options_.speckle_correlation});
   }
 }

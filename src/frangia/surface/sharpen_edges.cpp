@@ -191,9 +191,8 @@ bool hold_folds(Plan& plan) {
   parallel_chunks(folded.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto fan = plan.fans.of(spots.vertices[i]);
-      folded[i] = std::any_of(fan.begin(), fan.end(), [&](std::uint32_t t) {
-        return folds(plan, plan.mesh.triangles[t]);
-      });
+      const auto folds_now = [&](std::uint32_t t) { return folds(plan, plan.mesh.triangles[t]); };
+      folded[i] = std::any_of(fan.begin(), fan.end(), folds_now) ? 1 : 0;
     }
   });
   bool any = false;

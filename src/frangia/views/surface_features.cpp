@@ -87,7 +87,7 @@ void count_pair(const SurfacePoints& points,
 }
 
 void take_roots_of_shares(Eigen::Ref<Eigen::VectorXf> column) {
-  for (int angle = 0; angle < 3; ++angle) {
+  for (Eigen::Index angle = 0; angle < 3; ++angle) {
     auto part = column.segment<kBins>(angle * kBins);
     const float sum = part.sum();
     if (sum > 0.0F) part = (part / sum).cwiseSqrt().eval();
