@@ -147,12 +147,14 @@ void fill_50_small_holes(benchmark::State& state) {
 const Mesh& with_large_hole(const Mesh& scan) {
   static const Mesh kHoled = [&] {
     Mesh best;
-    for (double radius = 10.0; radius < 40.0; radius *= 1.1) {
+    double radius = 10.0;
+    while (radius < 40.0) {
       best = with_holes(scan, 1, radius);
       std::size_t longest = 0;
       for (const BoundaryLoop& loop : boundary_loops(best))
         longest = std::max(longest, loop.edges.size());
       if (longest > 2500) break;
+      radius *= 1.1;
     }
     return best;
   }();

@@ -28,10 +28,11 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   std::vector<FrameStack> fringes;
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     for (FrameStack& stack : read_frames(scan, i, run)) {
-      if (stack.pattern.kind == PatternKind::Ramp)
+      if (stack.pattern.kind == PatternKind::Ramp) {
         ramps.push_back(std::move(stack));
-      else if (tells_response(stack.pattern))
+      } else if (tells_response(stack.pattern)) {
         fringes.push_back(std::move(stack));
+      }
     }
   }
   const ResponseCurve left =

@@ -5,13 +5,15 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 
+#include "support/evenly.h"
+
 namespace frangia {
 namespace {
 
 TEST(PhaseCurve, GivesTheCommandWhosePhaseItIs) {
   const PhaseCurve rising{{0.0, 2.0, 10.0}, {0.1, 3.0, 8.0}};
   const PhaseCurve falling{{0.0, 2.0, 10.0}, {0.1, -3.0, -8.0}};
-  for (double command = 0.0; command <= 10.0; command += 0.5) {
+  for (const double command : testing::evenly(21, 0.0, 10.0)) {
     // A phase comes back a whole number of turns off where the curve spans more than a turn.
     for (const PhaseCurve& curve : {rising, falling}) {
       const double phase = curve.phase_at(command);

@@ -8,6 +8,7 @@
 #include "frangia/core/error.h"
 #include "frangia/phase/published_algorithms.h"
 
+#include "support/evenly.h"
 #include "support/synthetic_fringes.h"
 
 namespace frangia {
@@ -37,7 +38,7 @@ TEST(PhaseAlgorithm, EveryOneFindsThePhaseAtShiftZeroForRisingFallingAndLateStar
       for (const double direction : {1.0, -1.0}) {
         const auto shifts = scaled(example_shifts(published), direction, first);
         const PhaseAlgorithm algorithm = make_algorithm(published.name, shifts);
-        for (double phi = -3.0; phi < 3.0; phi += 0.37) {
+        for (const double phi : testing::evenly(17, -3.0, 2.9)) {
           EXPECT_NEAR(wrap_rad(phase_of(algorithm, frames_of(phi, shifts)) - phi), 0.0, 1e-9)
               << published.name << " from " << first;
         }
@@ -62,7 +63,7 @@ TEST(PhaseAlgorithm, AKnownGainErrorLeavesNoConstantInAnyOfThem) {
 
 TEST(PhaseAlgorithm, LeastSquaresFindsThePhaseOfUnequalShifts) {
   const std::vector<double> shifts = {0.0, 1.1, 1.9, 4.0, 5.2};
-  for (double phi = -3.0; phi < 3.0; phi += 0.37) {
+  for (const double phi : testing::evenly(17, -3.0, 2.9)) {
     EXPECT_NEAR(
         wrap_rad(phase_of(least_squares(shifts), frames_of(phi, shifts)) - phi), 0.0, 1e-12);
   }
@@ -72,7 +73,7 @@ TEST(PhaseAlgorithm, CarreFindsThePhaseInTheMiddleForAnyStep) {
   const auto shifts = equal_shifts(4, 0.5 * kPi);
   for (const double error : {-0.2, 0.1, 0.3}) {
     const PhaseAlgorithm algorithm = make_algorithm("carre", shifts, error);
-    for (double phi = -3.0; phi < 3.0; phi += 0.37) {
+    for (const double phi : testing::evenly(17, -3.0, 2.9)) {
       const auto counts = frames_of(phi, scaled(shifts, 1.0 + error));
       EXPECT_NEAR(wrap_rad(phase_of(algorithm, counts) - phi), 0.0, 1e-9);
     }

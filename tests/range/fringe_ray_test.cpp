@@ -6,6 +6,8 @@
 
 #include "frangia/core/angles.h"
 
+#include "support/evenly.h"
+
 namespace frangia {
 namespace {
 
@@ -47,9 +49,9 @@ class FringeRay : public ::testing::TestWithParam<std::pair<Pattern, Projector>>
 
 TEST_P(FringeRay, FindsThePointWhoseLightItIs) {
   const auto& [pattern, projector] = GetParam();
-  for (double x = -60.0; x <= 60.0; x += 13.0) {
-    for (double y = -50.0; y <= 50.0; y += 17.0) {
-      for (double z = 430.0; z <= 560.0; z += 31.0) {
+  for (const double x : testing::evenly(10, -60.0, 57.0)) {
+    for (const double y : testing::evenly(6, -50.0, 35.0)) {
+      for (const double z : testing::evenly(5, 430.0, 554.0)) {
         const Eigen::Vector3d point(x, y, z);
         const double phase = phase_at(point, pattern, projector);
         const RayDepth found = intersect({x / z, y / z}, phase, pattern, projector);

@@ -8,6 +8,8 @@
 #include "frangia/core/error.h"
 #include "frangia/range/fringe_ray.h"
 
+#include "support/evenly.h"
+
 namespace frangia {
 namespace {
 
@@ -36,7 +38,7 @@ TEST(PaperRig, TriangulatesAsEquationsTwoToEight) {
   const Pattern pattern{.name = "fringe", .fringes_per_degree = pitch, .shifts_rad = {}};
   const int middle_row = geometry.rows / 2;
   for (int column = 0; column < geometry.columns; column += 37) {
-    for (double phase_deg = -2400.0; phase_deg <= 2400.0; phase_deg += 171.0) {
+    for (const double phase_deg : testing::evenly(29, -2400.0, 2388.0)) {
       const PaperPoint expected = paper_point(geometry, column, phase_deg, pitch);
       if (expected.x_mm <= 0.0) continue;
       const Eigen::Vector2d ray = rig.camera.lens.ray(Eigen::Vector2d(column, middle_row));

@@ -7,6 +7,8 @@
 
 #include "frangia/core/error.h"
 
+#include "support/evenly.h"
+
 namespace frangia {
 namespace {
 
@@ -23,7 +25,7 @@ ResponseCurve gamma_curve(int levels) {
 
 TEST(ResponseCurve, OfAGammaIsThatGammaAndBackFromLightToLevel) {
   const ResponseCurve curve = gamma_curve(17);
-  for (double level = 0.1; level <= 1.0; level += 0.01) {
+  for (const double level : testing::evenly(91, 0.1, 1.0)) {
     EXPECT_NEAR(curve.light_of(level), std::pow(level, 2.2), 2e-3) << level;
     EXPECT_NEAR(curve.level_of(curve.light_of(level)), level, 1e-9);
   }
@@ -41,7 +43,7 @@ TEST(ResponseCurve, SeenThroughItsOwnLookUpTableIsAStraightLine) {
   const ResponseCurve curve = gamma_curve(17);
   const ResponseCurve line{{0.0, 1.0}};
   const ResponseCurve same = compose(curve, line);
-  for (double level = 0.0; level <= 1.0; level += 0.05)
+  for (const double level : testing::evenly(21, 0.0, 1.0))
     EXPECT_NEAR(same.light_of(level), curve.light_of(level), 1e-3);
 }
 

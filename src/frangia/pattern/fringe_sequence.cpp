@@ -26,8 +26,11 @@ std::vector<double> fringe_sequence(const std::string& name, double fringes) {
     while (all.back() > 1.0)
       all.push_back(std::max(1.0, 0.5 * all.back()));
   } else if (name == "negative-exponential") {
-    for (double less = 1.0; less <= 0.5 * fringes; less *= 2.0)
+    double less = 1.0;
+    while (less <= 0.5 * fringes) {
       all.push_back(fringes - less);
+      less *= 2.0;
+    }
   } else if (name == "heterodyne") {
     // Beats of one fringe, and of as many as lie halfway to the finest.
     all.push_back(std::max(1.0, fringes - 1.0));
