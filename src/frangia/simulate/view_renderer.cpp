@@ -91,12 +91,13 @@ std::uint64_t noise_stream(std::uint64_t seed,
   return hash(hash(hash(hash(seed, kFramePlace), view), frame), hash_of(pattern));
 }
 
+// A pose is as dear to move as to copy.
 ViewRenderer::ViewRenderer(const SimulatedScene& scene,
-                           const Eigen::Isometry3d& rig_from_object,
+                           const Eigen::Isometry3d& rig_from_object,  // NOLINT(*-pass-by-value)
                            std::size_t view)
     : scene_(scene),
       options_(scene.options),
-      pose_(rig_from_object),  // NOLINT(modernize-pass-by-value): to move it is to copy it
+      pose_(rig_from_object),
       across_(static_cast<int>(std::ceil(std::sqrt(options_.samples_per_px)))),
       samples_per_px_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_)) {
   if (options_.speckle > 0.0) {
