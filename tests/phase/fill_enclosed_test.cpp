@@ -26,9 +26,9 @@ AbsolutePhase measured(int width, int height) {
   return phase;
 }
 
-/// Pixels from a corner up to another, that one left out.
-using Corner = std::array<int, 2>;
+using Corner = std::array<int, 2>;  ///< x and y, in pixels
 
+/// Loses the pixels from one corner up to the other, that one left out.
 void punch(AbsolutePhase& phase, Corner from, Corner to, PixelFate fate) {
   for (int y = from[1]; y < to[1]; ++y) {
     for (int x = from[0]; x < to[0]; ++x) {
