@@ -16,19 +16,19 @@ namespace {
 
 constexpr std::uint32_t kSide = 708;  // a million triangles
 
-std::filesystem::path scratch(const std::string& ending) {
-  const std::string name = "frangia-bench-" + std::to_string(::getpid()) + ending;
+std::filesystem::path scratch(const std::string& extension) {
+  const std::string name = "frangia-bench-" + std::to_string(::getpid()) + extension;
   return std::filesystem::temp_directory_path() / name;
 }
 
 /// A million triangles to the disk; the rate is triangles per second.
 /// `wanted_s` is what it may take, or 0.
 void write_million(benchmark::State& state,
-                   const std::string& ending,
+                   const std::string& extension,
                    DxfVariant variant,
                    double wanted_s) {
   const Mesh mesh = testing::measured_sheet(kSide);
-  const auto path = scratch(ending);
+  const auto path = scratch(extension);
   double best_s = 1e9;
   for (auto iteration : state) {
     static_cast<void>(iteration);
@@ -38,9 +38,9 @@ void write_million(benchmark::State& state,
   }
   state.SetItemsProcessed(state.iterations() * std::ssize(mesh.triangles));
   if (wanted_s > 0.0) {
-    Wanted wanted;
-    wanted.at_most("time", best_s, wanted_s, "s");
-    wanted.say(state);
+    PerformanceTarget target;
+    target.at_most("time", best_s, wanted_s, "s");
+    target.label(state);
   }
   state.counters["bytes"] = static_cast<double>(std::filesystem::file_size(path));
   std::filesystem::remove(path);
@@ -57,9 +57,9 @@ BENCHMARK_CAPTURE(write_million, obj, ".obj", DxfVariant::Faces, 0.0)
     ->Unit(benchmark::kMillisecond);
 
 /// A million triangles from the disk.
-void read_million(benchmark::State& state, const std::string& ending) {
+void read_million(benchmark::State& state, const std::string& extension) {
   const Mesh mesh = testing::measured_sheet(kSide);
-  const auto path = scratch(ending);
+  const auto path = scratch(extension);
   write_mesh(path, mesh);
   for (auto iteration : state) {
     static_cast<void>(iteration);

@@ -13,18 +13,18 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <benchmark/benchmark.h>
 
+#include "frangia/editor/edit_history.h"
+#include "frangia/editor/internal/select_by_geometry.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
-#include "frangia/mesh/boundary_loops.h"
-#include "frangia/mesh/change_selection.h"
-#include "frangia/mesh/connected_parts.h"
+#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/change_selection.h"
+#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/mesh/decimate.h"
-#include "frangia/mesh/edit_history.h"
 #include "frangia/mesh/fill_holes.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/mesh_findings.h"
-#include "frangia/mesh/select_by_place.h"
-#include "frangia/mesh/surface_gap.h"
 
 #include "wanted.h"
 
@@ -89,10 +89,10 @@ double with_scan(benchmark::State& state, const Mesh& mesh, double wanted_s, con
     seconds = watch.seconds();
     const double meshes = (peak_bytes(false) - before) / bytes_of(mesh);
     state.counters["memory_meshes"] = meshes;
-    Wanted wanted;
-    if (wanted_s > 0.0) wanted.at_most("time", seconds, wanted_s, "s");
-    wanted.at_most("memory", meshes, kMeshes, "meshes");
-    wanted.say(state);
+    PerformanceTarget target;
+    if (wanted_s > 0.0) target.at_most("time", seconds, wanted_s, "s");
+    target.at_most("memory", meshes, kMeshes, "meshes");
+    target.label(state);
     state.ResumeTiming();
   }
   return seconds;
@@ -104,9 +104,9 @@ void load_ply(benchmark::State& state) {
     static_cast<void>(iteration);
     const Stopwatch watch;
     benchmark::DoNotOptimize(read_mesh(scan_path()));
-    Wanted wanted;
-    wanted.at_most("time", watch.seconds(), 1.0, "s");
-    wanted.say(state);
+    PerformanceTarget target;
+    target.at_most("time", watch.seconds(), 1.0, "s");
+    target.label(state);
   }
 }
 
@@ -132,7 +132,7 @@ Mesh with_holes(const Mesh& mesh, std::size_t count, double radius_mm) {
     for (std::size_t k = 0; k < gone.size(); ++k)
       gone[k] |= ball[k];
   }
-  return keep_largest_parts(make_manifold(delete_selected(mesh, gone)));
+  return keep_largest_components(make_manifold(delete_selected(mesh, gone)));
 }
 
 void fill_50_small_holes(benchmark::State& state) {
@@ -186,7 +186,7 @@ struct Decimated {
 /// What is wrong with a decimated mesh: edges that are not manifold, and how far it lies from the
 /// scan.
 Decimated judge(benchmark::State& state, const Mesh& scan, const Mesh& few, double seconds) {
-  const double gap_mm = surface_gap_mm(RayScene(scan), RayScene(few), 0.1);
+  const double gap_mm = hausdorff_distance_mm(RayScene(scan), RayScene(few), 0.1);
   state.counters["left"] = static_cast<double>(few.triangles.size());
   state.counters["non_manifold"] = static_cast<double>(count_non_manifold_edges(few));
   state.counters["hausdorff_mm"] = gap_mm;
@@ -270,14 +270,14 @@ void decimate_to_tenth(benchmark::State& state) {
   if (few.empty()) return;
   const Decimated own = judge(state, mesh, few, seconds);
   write_mesh(data_path("tenth.ply"), few);
-  Wanted wanted;
-  wanted.at_most("memory", state.counters["memory_meshes"], kMeshes, "meshes");
-  wanted.at_most("non-manifold", state.counters["non_manifold"], 0.0, "edges");
+  PerformanceTarget target;
+  target.at_most("memory", state.counters["memory_meshes"], kMeshes, "meshes");
+  target.at_most("non-manifold", state.counters["non_manifold"], 0.0, "edges");
   if (cgal().seconds > 0.0) {
-    wanted.at_most("time", own.seconds / cgal().seconds, 0.25, "of CGAL's");
-    wanted.at_most("Hausdorff", own.gap_mm, cgal().gap_mm, "mm, CGAL's");
+    target.at_most("time", own.seconds / cgal().seconds, 0.25, "of CGAL's");
+    target.at_most("Hausdorff", own.gap_mm, cgal().gap_mm, "mm, CGAL's");
   }
-  wanted.say(state);
+  target.label(state);
 }
 
 /// Undo and redo of a step that changes everything, both at once.
@@ -290,10 +290,10 @@ void undo_and_redo(benchmark::State& state, const EditStep& step) {
     history.undo();
     const double undo_s = watch.seconds();
     history.redo();
-    Wanted wanted;
-    wanted.at_most("undo", undo_s, 0.3, "s");
-    wanted.at_most("redo", watch.seconds() - undo_s, 0.3, "s");
-    wanted.say(state);
+    PerformanceTarget target;
+    target.at_most("undo", undo_s, 0.3, "s");
+    target.at_most("redo", watch.seconds() - undo_s, 0.3, "s");
+    target.label(state);
   }
   state.counters["delta_meshes"] = static_cast<double>(history.bytes()) / bytes_of(scan(state));
 }

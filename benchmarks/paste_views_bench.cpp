@@ -11,7 +11,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/files/ply.h"
-#include "frangia/surface/paste_views.h"
+#include "frangia/fusion/fuse_views.h"
 
 #include "support/analytic_views.h"
 #include "wanted.h"
@@ -28,7 +28,9 @@ struct Sphere {
   int views = 12;
   double radius_mm = 50.0;
 
-  [[nodiscard]] Lens lens() const { return testing::small_lens(size_px, 5.0 * size_px); }
+  [[nodiscard]] CameraModel model() const {
+    return testing::small_camera_model(size_px, 5.0 * size_px);
+  }
   /// Voxels are two pixels wide.
   [[nodiscard]] double voxel_mm() const { return 240.0 / size_px; }
 };
@@ -44,18 +46,19 @@ const ViewStore& views_of(const Sphere& sphere) {
       const double bumps = std::sin(0.25 * p.x()) * std::sin(0.25 * p.y()) * std::sin(0.25 * p.z());
       return 0.6 * (away - 1.5 * bumps);  // less than the distance, so as not to step over
     };
-    found = made.emplace(key,
-                         testing::snapshots(
-                             shape, sphere.lens(), testing::all_around(sphere.views, kDistance_mm)))
-                .first;
+    found =
+        made.emplace(key,
+                     testing::snapshots(
+                         shape, sphere.model(), testing::all_around(sphere.views, kDistance_mm)))
+            .first;
   }
   return found->second;
 }
 
 /// The points of a view and triangles between neighbours, as programs for range maps want them.
-Mesh range_map(const View& view, const Lens& lens) {
+Mesh range_map(const View& view, const CameraModel& model) {
   constexpr float kLongest_mm = 1.0F;
-  const Image<Eigen::Vector2f> rays = rays_of(lens);
+  const Image<Eigen::Vector2f> rays = rays_of(model);
   const Eigen::Isometry3f object_from_rig = view.rig_from_object.inverse().cast<float>();
   const Image<float>& depth = view.range.depth_mm;
   Mesh mesh;
@@ -91,20 +94,20 @@ void keep_range_maps(const Sphere& sphere) {
   const ViewStore& views = views_of(sphere);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto path = std::filesystem::path(folder) / fmt::format("range-{:02}.ply", i);
-    if (!std::filesystem::exists(path)) write_ply(path, range_map(views.load(i), sphere.lens()));
+    if (!std::filesystem::exists(path)) write_ply(path, range_map(views.load(i), sphere.model()));
   }
 }
 
-/// The whole of pasting; the rate is pixels a second.
-void paste(benchmark::State& state, const Sphere& sphere) {
+/// The whole of fusion; the rate is pixels a second.
+void fuse(benchmark::State& state, const Sphere& sphere) {
   const ViewStore& views = views_of(sphere);
-  const Lens lens = sphere.lens();
+  const CameraModel model = sphere.model();
   std::size_t triangles = 0;
   std::vector<double> times_s;
   for (auto iteration : state) {
     static_cast<void>(iteration);
     const Stopwatch watch;
-    triangles = paste_views(views, lens, {.voxel_mm = sphere.voxel_mm()}).triangles.size();
+    triangles = fuse_views(views, model, {.voxel_mm = sphere.voxel_mm()}).triangles.size();
     times_s.push_back(watch.seconds());
   }
   const double least_s = *std::min_element(times_s.begin(), times_s.end());
@@ -113,17 +116,17 @@ void paste(benchmark::State& state, const Sphere& sphere) {
   state.counters["least_s"] = least_s;
   state.SetItemsProcessed(state.iterations() * sphere.views * sphere.size_px * sphere.size_px);
   if (sphere.size_px != 1200) return;
-  Wanted wanted;
-  wanted.at_most("a mesh at 0.2 mm, the least of all", least_s, 2.7, "s");
-  wanted.say(state);
+  PerformanceTarget target;
+  target.at_most("a mesh at 0.2 mm, the least of all", least_s, 2.7, "s");
+  target.label(state);
 }
 
-void paste_views_of_twelve(benchmark::State& state) {
+void fuse_twelve_views(benchmark::State& state) {
   const Sphere sphere{static_cast<int>(state.range(0))};
-  paste(state, sphere);
+  fuse(state, sphere);
   if (sphere.size_px == 1200) keep_range_maps(sphere);
 }
-BENCHMARK(paste_views_of_twelve)
+BENCHMARK(fuse_twelve_views)
     ->Arg(300)
     ->Arg(600)
     ->Arg(1200)
@@ -131,10 +134,10 @@ BENCHMARK(paste_views_of_twelve)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-void paste_by_views(benchmark::State& state) {
-  paste(state, {600, static_cast<int>(state.range(0))});
+void fuse_by_views(benchmark::State& state) {
+  fuse(state, {600, static_cast<int>(state.range(0))});
 }
-BENCHMARK(paste_by_views)
+BENCHMARK(fuse_by_views)
     ->Arg(6)
     ->Arg(12)
     ->Arg(24)
@@ -145,10 +148,10 @@ BENCHMARK(paste_by_views)
     ->UseRealTime();
 
 /// By radius; the surface grows with its square.
-void paste_by_radius(benchmark::State& state) {
-  paste(state, {600, 12, static_cast<double>(state.range(0))});
+void fuse_by_radius(benchmark::State& state) {
+  fuse(state, {600, 12, static_cast<double>(state.range(0))});
 }
-BENCHMARK(paste_by_radius)
+BENCHMARK(fuse_by_radius)
     ->Arg(15)
     ->Arg(25)
     ->Arg(35)

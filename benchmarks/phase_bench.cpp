@@ -15,7 +15,7 @@
 #include "frangia/pattern/fringe_sequence.h"
 #include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/published_algorithms.h"
-#include "frangia/phase/unwrap_in_space.h"
+#include "frangia/phase/unwrap_spatially.h"
 #include "frangia/phase/wrap_phase.h"
 
 #include "support/benchmark_scene.h"
@@ -59,7 +59,7 @@ void write_for_peers(const FrameStack& stack, const WrappedPhase& wrapped) {
               std::get<Image<std::uint8_t>>(stack.frames[k]));
   }
   write_raw(path / "wrapped.f32", wrapped.phase_rad);
-  const RelativePhase unwrapped = unwrap_in_space(wrapped);
+  const RelativePhase unwrapped = unwrap_spatially(wrapped);
   write_raw(path / "unwrapped.f32", unwrapped.phase_rad);
   write_raw(path / "region.i32", unwrapped.region);
   Image<float> truth(side, side);
@@ -95,12 +95,12 @@ BENCHMARK_CAPTURE(decode, carre, "carre")->Arg(20)->Unit(benchmark::kMillisecond
 /// Frames of a map of `fringes` over a display as wide as the image; the same rows again and again.
 FrameStack sequence_frames(int side, double fringes) {
   FrameStack band = testing::benchmark_frames(
-      side, side / 10, [&](double u, double /*v*/) { return kTurn * fringes * u; });
+      side, side / 10, [&](double u, double /*v*/) { return kTwoPi * fringes * u; });
   band.pattern = {
       .name = "map", .period_px = side / fringes, .shifts_rad = band.pattern.shifts_rad};
   for (Frame& frame : band.frames) {
     const auto& rows = std::get<Image<std::uint8_t>>(frame).pixels();
-    Image<std::uint8_t> whole(side, side, Unfilled{});
+    Image<std::uint8_t> whole(side, side, Uninitialized{});
     for (std::size_t i = 0; i < 10; ++i) {
       std::copy(rows.begin(),
                 rows.end(),
@@ -131,9 +131,9 @@ void decode_maps(benchmark::State& state, const char* name) {
   }
   state.counters["maps"] = static_cast<double>(maps.size());
   state.counters["measured"] =
-      static_cast<double>(
-          std::count(phase.fate.pixels().begin(), phase.fate.pixels().end(), PixelFate::Measured)) /
-      static_cast<double>(phase.fate.pixels().size());
+      static_cast<double>(std::count(
+          phase.status.pixels().begin(), phase.status.pixels().end(), PixelStatus::Measured)) /
+      static_cast<double>(phase.status.pixels().size());
   per_pixel(state, static_cast<double>(side) * side);
 }
 BENCHMARK_CAPTURE(decode_maps, doubling, "doubling")
@@ -157,7 +157,7 @@ void unwrap_space(benchmark::State& state) {
     state.PauseTiming();
     WrappedPhase copy = wrapped;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(unwrap_in_space(std::move(copy)));
+    benchmark::DoNotOptimize(unwrap_spatially(std::move(copy)));
   }
   per_pixel(state, static_cast<double>(side) * side);
 }

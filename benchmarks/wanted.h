@@ -9,7 +9,7 @@
 namespace frangia {
 
 /// Says beside a benchmark what was wanted of it and whether it is met.
-class Wanted {
+class PerformanceTarget {
  public:
   /// A figure that should be at most so much.
   void at_most(const std::string& what, double figure, double most, const std::string& unit) {
@@ -17,7 +17,7 @@ class Wanted {
     text_ += fmt::format(
         "{} {:.3g} of {:.3g} {}: {}", what, figure, most, unit, figure <= most ? "met" : "MISSED");
   }
-  void say(benchmark::State& state) const { state.SetLabel(text_); }
+  void label(benchmark::State& state) const { state.SetLabel(text_); }
 
  private:
   std::string text_;

@@ -1,14 +1,19 @@
 # frangia_module(<name> [USES <module>...] [LIBS <target>...] [PRIVATE_LIBS <target>...])
-# Static library frangia::<name> from src/frangia/<name>/*.cpp; header-only when it has none.
+#
+# Static library frangia::<name> from src/frangia/<name>/{,internal/}*.cpp; header-only when there is none.
+# USES names exactly the modules whose headers the module includes: tools/check_layers.py reads the same statement.
+# Headers directly in the folder are public and installed; those in internal/ are for the module and its tests.
 # PRIVATE_LIBS are included by sources only, so that their headers stay out of ours.
-# What nearly every source includes is parsed once, with the first module.
+
+# What nearly every source includes is precompiled once, with the first module.
 set(FRANGIA_COMMON_HEADERS
   <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory> <string> <vector>
   <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
+
 function(frangia_module name)
   cmake_parse_arguments(ARG "" "" "USES;LIBS;PRIVATE_LIBS" ${ARGN})
   set(dir ${PROJECT_SOURCE_DIR}/src/frangia/${name})
-  file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/internal/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${dir}/*.h)
   list(TRANSFORM ARG_USES PREPEND "frangia::")
   if(sources)
@@ -19,15 +24,36 @@ function(frangia_module name)
     else()
       target_precompile_headers(frangia_${name} REUSE_FROM frangia_core)
     endif()
-    target_link_libraries(frangia_${name} PRIVATE frangia::build_flags ${ARG_PRIVATE_LIBS})
+    target_link_libraries(frangia_${name} PRIVATE $<BUILD_INTERFACE:frangia::build_flags> ${ARG_PRIVATE_LIBS})
   else()
     add_library(frangia_${name} INTERFACE)
     set(scope INTERFACE)
   endif()
   add_library(frangia::${name} ALIAS frangia_${name})
+  set_target_properties(frangia_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(frangia_${name} ${scope} cxx_std_20)
   target_sources(frangia_${name} ${scope} FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${headers})
   target_link_libraries(frangia_${name} ${scope} ${ARG_USES} ${ARG_LIBS})
+  set_property(GLOBAL APPEND PROPERTY FRANGIA_MODULES frangia_${name})
+endfunction()
+# frangia_cgal_sources(<module> <source without extension>...): compiles these sources of a module with CGAL.
+function(frangia_cgal_sources module)
+  list(TRANSFORM ARGN REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/frangia/${module}/\\1.cpp" OUTPUT_VARIABLE paths)
+  get_target_property(others frangia_${module} SOURCES)
+  list(REMOVE_ITEM others ${paths})
+  set_property(TARGET frangia_${module} PROPERTY SOURCES ${others})
+  set(objects frangia_${module}_cgal)
+  add_library(${objects} OBJECT ${paths})
+  target_compile_definitions(${objects} PRIVATE FRANGIA_WITH_CGAL)
+  target_compile_options(${objects} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(FRANGIA_SANITIZE)  # GCC then reports uninitialized values in CGAL's headers that are none
+    target_compile_options(${objects} PRIVATE -Wno-maybe-uninitialized)
+  endif()
+  target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(${objects} PRIVATE cxx_std_20)
+  target_link_libraries(${objects} PRIVATE frangia::build_flags frangia::core CGAL::CGAL)
+  target_sources(frangia_${module} PRIVATE $<TARGET_OBJECTS:${objects}>)
+  target_link_libraries(frangia_${module} PRIVATE $<LINK_ONLY:CGAL::CGAL>)
 endfunction()
 
 add_library(frangia_build_flags INTERFACE)

@@ -12,19 +12,19 @@
 #include <unistd.h>
 
 #include "frangia/core/error.h"
-#include "frangia/files/check_mesh.h"
+#include "frangia/editor/edit_script.h"
+#include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/mesh_formats.h"
-#include "frangia/mesh/edit_script.h"
 
 namespace {
 
-std::string ending() {
+std::string extension() {
   const char* const named = std::getenv("FRANGIA_FUZZ_ENDING");
   return named == nullptr ? ".ply" : named;
 }
 
 void read(const std::filesystem::path& path) {
-  static const std::string kEnding = ending();
+  static const std::string kEnding = extension();
   if (kEnding == ".json") {
     static_cast<void>(frangia::read_edit_script(path));
     return;

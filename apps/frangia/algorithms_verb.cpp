@@ -12,13 +12,13 @@ namespace frangia {
 namespace {
 
 /// Ripple at step errors of -10 to 10 %, for plots.
-std::vector<double> ripples(const PublishedAlgorithm& published, bool finds_step) {
+std::vector<double> ripples(const PublishedAlgorithm& published, bool step_known) {
   const auto shifts = example_shifts(published);
   std::vector<double> values;
   for (int percent = -10; percent <= 10; ++percent) {
     const double error = 0.01 * percent;
     values.push_back(
-        ripple(make_algorithm(published.name, shifts, finds_step ? error : 0.0), shifts, error));
+        ripple(make_algorithm(published.name, shifts, step_known ? error : 0.0), shifts, error));
   }
   return values;
 }
@@ -37,15 +37,15 @@ void print_algorithms(const Terminal& terminal) {
   }
   for (const PublishedAlgorithm& published : published_algorithms()) {
     const auto shifts = example_shifts(published);
-    const bool finds_step =
+    const bool step_known =
         published.rule == ShiftRule::ManyEqual || published.rule == ShiftRule::ManyUneven;
     const AlgorithmErrors errors =
-        algorithm_errors(make_algorithm(published.name, shifts), shifts, finds_step);
+        algorithm_errors(make_algorithm(published.name, shifts), shifts, step_known);
     if (terminal.json) {
       json.push_back({{"name", published.name},
-                      {"frames", frames_in_words(published)},
+                      {"frames", describe_frames(published)},
                       {"ripple_rad", errors.ripple_rad},
-                      {"ripple_by_percent", ripples(published, finds_step)},
+                      {"ripple_by_percent", ripples(published, step_known)},
                       {"noise_gain", errors.noise_gain},
                       {"second_harmonic", errors.second_harmonic},
                       {"third_harmonic", errors.third_harmonic},
@@ -54,7 +54,7 @@ void print_algorithms(const Terminal& terminal) {
     }
     fmt::print("{:<14}{:<36}{:>11.6f}{:>8.3f}{:>7.2f}{:>7.2f}  {}\n",
                published.name,
-               frames_in_words(published),
+               describe_frames(published),
                errors.ripple_rad,
                errors.noise_gain,
                errors.second_harmonic,

@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/acquisition/sweep_piezo.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/scan/sweep_piezo.h"
 
 #include "drivers.h"
 #include "option_values.h"
@@ -76,7 +76,7 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
   if (terminal.json) {
     const nlohmann::ordered_json result{{"curve_commands", sweep.curve.commands},
                                         {"curve_phases_deg", degrees(sweep.curve.phases_rad)},
-                                        {"excess", sweep.excess}};
+                                        {"residual_ratio", sweep.residual_ratio}};
     fmt::print("{}\n", result.dump(2));
   } else {
     fmt::print("# for [devices.fringes], instead of command_per_turn\n{}", lines_of(sweep.curve));

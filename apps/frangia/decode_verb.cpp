@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/range/drop_mixed_edges.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/decode_view.h"
+#include "frangia/pipeline/stage_pictures.h"
+#include "frangia/pipeline/write_stages.h"
+#include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/range/triangulate.h"
-#include "frangia/scan/decode_view.h"
-#include "frangia/scan/scan_folder.h"
-#include "frangia/scan/stage_pictures.h"
-#include "frangia/scan/write_stages.h"
 
 #include "option_values.h"
 #include "reconstruct_options.h"
@@ -31,22 +31,22 @@ void print_result(const DecodedView& decoded,
                   const std::vector<StageFile>& files,
                   const DecodeArguments& arguments,
                   Terminal& terminal) {
-  const auto fate = decoded.phase.fate.pixels();
+  const auto status = decoded.phase.status.pixels();
   nlohmann::ordered_json json;
   terminal.finish();
-  for (const FateLegend& entry : fate_legend()) {
-    const auto count = std::count(fate.begin(), fate.end(), entry.fate);
+  for (const StatusLegend& entry : status_legend()) {
+    const auto count = std::count(status.begin(), status.end(), entry.status);
     json["pixels"][entry.meaning] = count;
     if (count == 0 || terminal.json || terminal.quiet) continue;
     fmt::print("{:>10} pixels {} ({} in mask.png)\n", count, entry.meaning, entry.color_name);
   }
-  for (const FrameVerdict& verdict : decoded.verdicts) {
-    json["verdicts"].push_back(in_words(verdict));
-    if (!terminal.json && !terminal.quiet) fmt::print("{}\n", in_words(verdict));
+  for (const FrameAssessment& assessment : decoded.assessments) {
+    json["assessments"].push_back(describe(assessment));
+    if (!terminal.json && !terminal.quiet) fmt::print("{}\n", describe(assessment));
   }
   for (const StageFile& file : files) {
     json["files"].push_back(file.name);
-    json["shows"][file.name] = file.caption;
+    json["captions"][file.name] = file.caption;
     const bool picture = std::filesystem::path(file.name).extension() == ".png";
     if (picture && !terminal.json && !terminal.quiet)
       fmt::print("{:<24} {}\n", file.name, file.caption);
@@ -69,13 +69,13 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
                             arguments.scan.string(),
                             scan.views.size() - 1));
   }
-  const auto rays = rays_of(scan.rig.camera.lens);
+  const auto rays = rays_of(scan.rig.camera.model);
   DecodeOptions options = arguments.options;
   options.survey = survey_scan(scan, run);
   const auto frames = read_frames(scan, arguments.view, run);
   DecodedView decoded = decode_view(frames, scan.rig, rays, options, run);
   RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
-  drop_mixed_edges(range, rays, decoded.phase.fate);
+  remove_mixed_pixels(range, rays, decoded.phase.status);
   const auto files = write_stages(decoded, range, arguments.folder, run);
   print_result(decoded, files, arguments, terminal);
 }
@@ -93,7 +93,7 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
       ->capture_default_str();
   verb->add_option("-o,--output", arguments->folder, "the folder to write into")->required();
   add_decode_options(*verb, arguments->options);
-  arguments->options.in_space.keep_order = true;
+  arguments->options.spatial.keep_growth_order = true;
   verb->callback([arguments, &terminal] { decode_verb(*arguments, terminal); });
 }
 

@@ -12,14 +12,14 @@
 #include "frangia/files/write_mesh.h"
 #include "frangia/frames/map_picture.h"
 #include "frangia/inspect/contact_sheet.h"
-#include "frangia/inspect/shade_mesh.h"
-#include "frangia/inspect/surface_coverage.h"
+#include "frangia/inspect/render_mesh.h"
+#include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
-#include "frangia/scan/reconstruct.h"
-#include "frangia/scan/simulate_scan.h"
+#include "frangia/pipeline/reconstruct.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
+#include "frangia/simulate/simulate_scan.h"
 
 #include "verbs.h"
 
@@ -32,12 +32,12 @@ struct DemoArguments {
 };
 
 /// One part on one rig, from its scan to what is known of the result.
-struct Act {
+struct DemoCase {
   std::string part;
   std::string rig;
   Reconstruction result;
   SurfaceError error;
-  SurfaceCoverage coverage;
+  SurfaceCompleteness completeness;
   std::vector<Image<Rgb>> pictures;  ///< its fringes, its phase, its mesh, its error
 };
 
@@ -45,14 +45,14 @@ constexpr int kViews = 8;
 constexpr double kWithinMm = 0.2;
 constexpr float kErrorScaleMm = 0.1F;
 
-Scan plan_of(const Act& act, const std::filesystem::path& folder) {
+Scan plan_of(const DemoCase& demo_case, const std::filesystem::path& folder) {
   Scan plan;
-  plan.folder = folder / (act.part + "-scan");
-  plan.name = act.part;
-  plan.rig = rig_preset(act.rig);
+  plan.folder = folder / (demo_case.part + "-scan");
+  plan.name = demo_case.part;
+  plan.rig = rig_preset(demo_case.rig);
   plan.patterns = default_patterns(plan.rig);
   for (int i = 0; i < kViews; ++i)
-    plan.views.push_back({kTurn * i / kViews, fmt::format("views/{:03}", i)});
+    plan.views.push_back({kTwoPi * i / kViews, fmt::format("views/{:03}", i)});
   return plan;
 }
 
@@ -62,76 +62,77 @@ Image<Rgb> grey_picture(const Frame& frame, int white_level) {
     for (int x = 0; x < picture.width(); ++x) {
       const float share =
           static_cast<float>(counts_at(frame, x, y)) / static_cast<float>(white_level);
-      picture(x, y) = pixel_of(ColorMap::Grey, share);
+      picture(x, y) = pixel_of(ColorMap::Gray, share);
     }
   }
   return picture;
 }
 
 /// The view's first fringe frame and its phase modulo 2 pi, as in the paper's Fig. 3 and 4.
-void picture_phase(const Scan& scan, Act& act, const Run& run) {
+void picture_phase(const Scan& scan, DemoCase& demo_case, const Run& run) {
   const auto stacks = read_frames(scan, 0, run);
-  const DecodedView decoded = decode_view(stacks, scan.rig, rays_of(scan.rig.camera.lens), {}, run);
+  const DecodedView decoded =
+      decode_view(stacks, scan.rig, rays_of(scan.rig.camera.model), {}, run);
   const WrappedPhase& finest = decoded.wrapped.back();
   for (const FrameStack& stack : stacks) {
     if (stack.pattern.name != finest.pattern.name) continue;
-    act.pictures.push_back(
-        cropped_to_light(grey_picture(stack.frames.front(), stack.white_level), 24));
+    demo_case.pictures.push_back(
+        crop_to_content(grey_picture(stack.frames.front(), stack.white_level), 24));
   }
   constexpr float kHalfTurn = 3.14159265F;
   Image<float> phase = finest.phase_rad;
-  Image<Rgb> picture = map_picture(phase, {-kHalfTurn, kHalfTurn}, ColorMap::Grey);
+  Image<Rgb> picture = map_picture(phase, {-kHalfTurn, kHalfTurn}, ColorMap::Gray);
   for (std::size_t i = 0; i < phase.pixels().size(); ++i) {
     if (std::isnan(phase.pixels()[i])) picture.pixels()[i] = {0, 0, 0};
   }
-  act.pictures.push_back(cropped_to_light(picture, 24));
+  demo_case.pictures.push_back(crop_to_content(picture, 24));
 }
 
-void measure(const Scan& scan, const Mesh& truth, Act& act, const Run& run) {
+void measure(const Scan& scan, const Mesh& truth, DemoCase& demo_case, const Run& run) {
   const RayScene truth_scene(truth);
-  const RayScene mesh_scene(act.result.mesh);
+  const RayScene mesh_scene(demo_case.result.mesh);
   std::vector<Eigen::Isometry3d> poses;
   for (const ScanView& view : scan.views)
     poses.push_back(scan.rig.rig_from_object(view.angle_rad));
-  act.error = surface_error(act.result.mesh, truth_scene, {}, run);
-  act.coverage = surface_coverage(
-      truth_scene, mesh_scene, SeenFrom{scan.rig, poses}, {.within_mm = kWithinMm}, run);
-  ShadeOptions shade{.width_px = 720, .height_px = 720, .samples_across = 3};
-  act.pictures.push_back(shade_mesh(act.result.mesh, shade, run));
-  shade.values = vertex_errors_mm(act.result.mesh, truth_scene, run);
+  demo_case.error = surface_error(demo_case.result.mesh, truth_scene, {}, run);
+  demo_case.completeness = surface_completeness(
+      truth_scene, mesh_scene, MeasurementViews{scan.rig, poses}, {.within_mm = kWithinMm}, run);
+  RenderOptions shade{.width_px = 720, .height_px = 720, .samples_across = 3};
+  demo_case.pictures.push_back(render_mesh(demo_case.result.mesh, shade, run));
+  shade.values = vertex_errors_mm(demo_case.result.mesh, truth_scene, run);
   shade.value_min = -kErrorScaleMm;
   shade.value_max = kErrorScaleMm;
   shade.color_map = ColorMap::Diverging;
-  act.pictures.push_back(shade_mesh(act.result.mesh, shade, run));
+  demo_case.pictures.push_back(render_mesh(demo_case.result.mesh, shade, run));
 }
 
-void perform(Act& act, const std::filesystem::path& folder, const Run& run) {
+void run_case(DemoCase& demo_case, const std::filesystem::path& folder, const Run& run) {
   run.stage("simulate");
-  const Scan plan = plan_of(act, folder);
+  const Scan plan = plan_of(demo_case, folder);
   std::filesystem::remove_all(plan.folder);  // of an earlier demo
-  const Mesh truth = make_part(act.part);
+  const Mesh truth = make_part(demo_case.part);
   const Scan scan = simulate_scan(truth, plan, {.samples_per_px = 4}, run);
-  act.result = reconstruct(scan, {}, run);
+  demo_case.result = reconstruct(scan, {}, run);
   run.stage("files");
   for (const char* ending : {"dxf", "ply", "stl"})
-    write_mesh(folder / fmt::format("{}.{}", act.part, ending), act.result.mesh);
+    write_mesh(folder / fmt::format("{}.{}", demo_case.part, ending), demo_case.result.mesh);
   run.stage("pictures");
-  picture_phase(scan, act, run);
-  measure(scan, truth, act, run);
-  write_png(folder / (act.part + ".png"), act.pictures[2]);
+  picture_phase(scan, demo_case, run);
+  measure(scan, truth, demo_case, run);
+  write_png(folder / (demo_case.part + ".png"), demo_case.pictures[2]);
 }
 
-void print_json(const std::vector<Act>& acts, Terminal& terminal) {
+void print_json(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
   nlohmann::ordered_json json;
-  for (const Act& act : acts) {
-    json["parts"].push_back({{"part", act.part},
-                             {"rig", act.rig},
-                             {"points", act.result.points},
-                             {"triangles", act.result.mesh.triangles.size()},
-                             {"rms_mm", act.error.rms_mm},
-                             {"p99_mm", act.error.p99_mm},
-                             {"max_mm", act.error.max_mm},
-                             {"covered", act.coverage.share}});
+  for (const DemoCase& demo_case : demo_cases) {
+    json["parts"].push_back({{"part", demo_case.part},
+                             {"rig", demo_case.rig},
+                             {"points", demo_case.result.points},
+                             {"triangles", demo_case.result.mesh.triangles.size()},
+                             {"rms_mm", demo_case.error.rms_mm},
+                             {"p99_mm", demo_case.error.p99_mm},
+                             {"max_mm", demo_case.error.max_mm},
+                             {"completeness", demo_case.completeness.share}});
   }
   for (const auto& stage : terminal.stage_seconds())
     json["seconds"][stage.first] = stage.second;
@@ -139,7 +140,7 @@ void print_json(const std::vector<Act>& acts, Terminal& terminal) {
   fmt::print("{}\n", json.dump(2));
 }
 
-void print_table(const std::vector<Act>& acts, Terminal& terminal) {
+void print_table(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
   fmt::print("{:<8}{:<10}{:>9}{:>11}{:>17}{:>11}{:>10}\n",
              "part",
              "rig",
@@ -148,15 +149,15 @@ void print_table(const std::vector<Act>& acts, Terminal& terminal) {
              "error RMS, mm",
              "99 %, mm",
              "covered");
-  for (const Act& act : acts) {
+  for (const DemoCase& demo_case : demo_cases) {
     fmt::print("{:<8}{:<10}{:>9}{:>11}{:>17.4f}{:>11.4f}{:>8.1f} %\n",
-               act.part,
-               act.rig,
-               act.result.points,
-               act.result.mesh.triangles.size(),
-               act.error.rms_mm,
-               act.error.p99_mm,
-               100.0 * act.coverage.share);
+               demo_case.part,
+               demo_case.rig,
+               demo_case.result.points,
+               demo_case.result.mesh.triangles.size(),
+               demo_case.error.rms_mm,
+               demo_case.error.p99_mm,
+               100.0 * demo_case.completeness.share);
   }
   fmt::print("(covered: of what a view could measure, has mesh within {} mm)\n\n", kWithinMm);
   for (const auto& [stage, seconds] : terminal.stage_seconds())
@@ -171,24 +172,24 @@ void demo(const DemoArguments& arguments, Terminal& terminal) {
     throw Error(ErrorKind::File,
                 fmt::format("{}: cannot be made: {}", arguments.folder.string(), error.message()));
   }
-  std::vector<Act> acts(2);
-  acts[0].part = "bust";
-  acts[0].rig = "digital";
-  acts[1].part = "shaft";
-  acts[1].rig = "angular";
+  std::vector<DemoCase> demo_cases(2);
+  demo_cases[0].part = "bust";
+  demo_cases[0].rig = "digital";
+  demo_cases[1].part = "shaft";
+  demo_cases[1].rig = "angular";
   std::vector<std::vector<Image<Rgb>>> rows;
-  for (Act& act : acts) {
-    run.note(fmt::format("{} on the {} rig, {} views", act.part, act.rig, kViews));
-    perform(act, arguments.folder, run);
-    rows.push_back(act.pictures);
+  for (DemoCase& demo_case : demo_cases) {
+    run.note(fmt::format("{} on the {} rig, {} views", demo_case.part, demo_case.rig, kViews));
+    run_case(demo_case, arguments.folder, run);
+    rows.push_back(demo_case.pictures);
   }
   const auto sheet = arguments.folder / "demo.png";
   write_png(sheet, contact_sheet(rows, 420));
   terminal.finish();
   if (terminal.json) {
-    print_json(acts, terminal);
+    print_json(demo_cases, terminal);
   } else {
-    print_table(acts, terminal);
+    print_table(demo_cases, terminal);
     fmt::print(
         "\nmeshes and pictures are in {}; look at {}\n", arguments.folder.string(), sheet.string());
   }

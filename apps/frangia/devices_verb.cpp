@@ -17,13 +17,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kPatience_s = 10.0;
+constexpr double kTimeout_s = 10.0;
 
 Json list_drivers(const std::vector<Driver>& drivers) {
   Json all = Json::array();
   for (const Driver& driver : drivers) {
-    all.push_back(
-        {{"table", table_of(driver.kind)}, {"driver", driver.name}, {"what", driver.what}});
+    all.push_back({{"table", table_name(driver.kind)},
+                   {"driver", driver.name},
+                   {"description", driver.description}});
   }
   return all;
 }
@@ -34,8 +35,8 @@ Json find_devices(const std::vector<Driver>& drivers, const Run& run) {
   for (const Driver& driver : drivers) {
     if (!driver.find) continue;
     try {
-      for (const FoundDevice& found : driver.find(Deadline::in(kPatience_s, run.stop))) {
-        all.push_back({{"table", table_of(driver.kind)},
+      for (const FoundDevice& found : driver.find(Deadline::in(kTimeout_s, run.stop))) {
+        all.push_back({{"table", table_name(driver.kind)},
                        {"driver", driver.name},
                        {"name", found.name},
                        {"settings", found.settings}});
@@ -60,10 +61,10 @@ Json test_devices(const std::filesystem::path& rig_file,
     try {
       const Driver& driver = driver_for(settings, drivers);
       entry["driver"] = driver.name;
-      opened.push_back(driver.open(settings, rig, Deadline::in(kPatience_s, run.stop)));
-      settings.warn_of_the_rest(run);
+      opened.push_back(driver.open(settings, rig, Deadline::in(kTimeout_s, run.stop)));
+      settings.warn_of_unused_keys(run);
       entry["name"] = opened.back()->name();
-      entry["answer"] = opened.back()->test(Deadline::in(kPatience_s, run.stop));
+      entry["answer"] = opened.back()->test(Deadline::in(kTimeout_s, run.stop));
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::Cancelled) throw;
       entry["fault"] = error.what();
@@ -83,7 +84,7 @@ void print(const Json& drivers, const Json& found, const Json& tested) {
                "",
                10 - driver["table"].get<std::string>().size(),
                "\"" + driver["driver"].get<std::string>() + "\"",
-               driver["what"].get<std::string>());
+               driver["description"].get<std::string>());
   }
   fmt::print("\nConnected{}\n", found.empty() ? ": nothing that can be found by itself" : "");
   for (const Json& device : found) {

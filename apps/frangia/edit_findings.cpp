@@ -23,23 +23,23 @@ std::vector<std::size_t> by_size(const std::vector<Item>& items) {
   return order;
 }
 
-void print_rest(std::size_t count) {
+void print_remainder(std::size_t count) {
   if (count > kShown) fmt::print("  ... and {} smaller ones (--json shows all)\n", count - kShown);
 }
 
-void print_parts(const std::vector<MeshPart>& parts) {
+void print_components(const std::vector<MeshComponent>& parts) {
   if (parts.size() < 2) return;
   fmt::print("\n  part  size mm     area mm2  triangles\n");
   const auto order = by_size(parts);
   for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
-    const MeshPart& part = parts[order[i]];
+    const MeshComponent& part = parts[order[i]];
     fmt::print("  {:>4} {:>8.2f} {:>12.2f} {:>10}\n",
                order[i],
                part.size_mm,
                part.area_mm2,
                part.triangles);
   }
-  print_rest(parts.size());
+  print_remainder(parts.size());
 }
 
 void print_holes(const std::vector<BoundaryLoop>& holes) {
@@ -54,7 +54,7 @@ void print_holes(const std::vector<BoundaryLoop>& holes) {
                hole.length_mm,
                hole.edges.size());
   }
-  print_rest(holes.size());
+  print_remainder(holes.size());
 }
 
 void print_line(const char* what, const std::string& value) {
@@ -68,7 +68,7 @@ nlohmann::ordered_json findings_json(const MeshFindings& found) {
   json["vertices"] = found.vertices;
   json["triangles"] = found.triangles;
   json["parts"] = nlohmann::ordered_json::array();
-  for (const MeshPart& part : found.parts) {
+  for (const MeshComponent& part : found.components) {
     json["parts"].push_back(
         {{"triangles", part.triangles}, {"size_mm", part.size_mm}, {"area_mm2", part.area_mm2}});
   }
@@ -78,47 +78,49 @@ nlohmann::ordered_json findings_json(const MeshFindings& found) {
         {{"edges", loop.edges.size()}, {"size_mm", loop.size_mm}, {"length_mm", loop.length_mm}});
   }
   json["non_manifold_edges"] = found.non_manifold_edges;
-  json["without_area"] = found.without_area;
+  json["degenerate_triangles"] = found.degenerate_triangles;
   if (found.self_intersections) json["self_intersections"] = *found.self_intersections;
   json["closed"] = found.closed;
   json["measured"] = found.marks[0];
-  json["moved"] = found.marks[1];
-  json["invented"] = found.marks[2];
+  json["displaced"] = found.marks[1];
+  json["synthesized"] = found.marks[2];
   json["area_mm2"] = found.area_mm2;
   json["volume_mm3"] = found.volume_mm3;
   if (!found.box_mm.isEmpty()) {
     const Eigen::Vector3d& low = found.box_mm.min();
     const Eigen::Vector3d& high = found.box_mm.max();
-    json["low_mm"] = {low.x(), low.y(), low.z()};
-    json["high_mm"] = {high.x(), high.y(), high.z()};
+    json["min_mm"] = {low.x(), low.y(), low.z()};
+    json["max_mm"] = {high.x(), high.y(), high.z()};
   }
   return json;
 }
 
 void print_findings(const MeshFindings& found) {
-  const auto place = [](const Eigen::Vector3d& p) {
+  const auto point_text = [](const Eigen::Vector3d& p) {
     return fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z());
   };
   print_line("triangles", fmt::format("{}", found.triangles));
   print_line("vertices", fmt::format("{}", found.vertices));
-  print_line(
-      "marks",
-      fmt::format(
-          "{} measured, {} moved, {} invented", found.marks[0], found.marks[1], found.marks[2]));
+  print_line("marks",
+             fmt::format("{} measured, {} displaced, {} synthesized",
+                         found.marks[0],
+                         found.marks[1],
+                         found.marks[2]));
   if (!found.box_mm.isEmpty()) {
-    print_line("bounds mm", place(found.box_mm.min()) + "  to  " + place(found.box_mm.max()));
+    print_line("bounds mm",
+               point_text(found.box_mm.min()) + "  to  " + point_text(found.box_mm.max()));
   }
   print_line("area mm2", fmt::format("{:.3f}", found.area_mm2));
   print_line("volume mm3",
              found.closed ? fmt::format("{:.3f}", found.volume_mm3) : "none: it is not closed");
   print_line("non-manifold edges", fmt::format("{}", found.non_manifold_edges));
-  print_line("without area", fmt::format("{}", found.without_area));
+  print_line("without area", fmt::format("{}", found.degenerate_triangles));
   print_line("crossing pairs",
              found.self_intersections ? fmt::format("{}", *found.self_intersections)
                                       : "unknown to a build without CGAL");
-  print_line("parts", fmt::format("{}", found.parts.size()));
+  print_line("parts", fmt::format("{}", found.components.size()));
   print_line("holes", fmt::format("{}", found.holes.size()));
-  print_parts(found.parts);
+  print_components(found.components);
   print_holes(found.holes);
 }
 

@@ -10,14 +10,14 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/error.h"
+#include "frangia/editor/edit_history.h"
+#include "frangia/editor/edit_preview.h"
+#include "frangia/editor/edit_script.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/edit_picture.h"
-#include "frangia/mesh/edit_history.h"
-#include "frangia/mesh/edit_preview.h"
-#include "frangia/mesh/edit_script.h"
 
 #include "edit_findings.h"
 #include "picture_file.h"
@@ -62,7 +62,7 @@ class Session {
       steps_.push_back(step);
     }
   }
-  void move(const EditStep& step, const Run& run) {
+  void step_history(const EditStep& step, const Run& run) {
     const auto count = std::stoul(step.value);
     for (std::size_t i = 0; i < count; ++i) {
       const bool moved = step.operation == kUndo ? history_->undo() : history_->redo();
@@ -71,7 +71,7 @@ class Session {
       return;
     }
   }
-  void play(const EditScript& script, const Run& run) {
+  void run_script(const EditScript& script, const Run& run) {
     // Steps that were undone are done and undone, so that they can be done again.
     const std::size_t count = history_ != nullptr ? script.steps.size() : script.done;
     for (std::size_t i = 0; i < count; ++i)
@@ -104,7 +104,7 @@ bool asks_for_history(const EditArguments& arguments) {
 /// What can be found wrong before the work is found before it.
 std::vector<EditScript> checked(const EditArguments& arguments) {
   for (const auto& path : arguments.outputs)
-    check_mesh_ending(path);
+    check_mesh_extension(path);
   if (!arguments.preview.empty()) check_picture_ending(arguments.preview);
   std::vector<EditScript> scripts;
   for (const EditStep& step : arguments.steps) {
@@ -119,8 +119,8 @@ std::vector<EditScript> checked(const EditArguments& arguments) {
 
 /// How many triangles an edit takes or moves, and how many it makes.
 struct Change {
-  std::size_t going = 0;
-  std::size_t coming = 0;
+  std::size_t removed = 0;
+  std::size_t added = 0;
 };
 
 /// Draws what the steps would do.
@@ -133,12 +133,12 @@ Change draw_preview(const Mesh& before,
   }
   run.stage("preview");
   const EditPreview preview = edit_preview(before, after.mesh, run);
-  ShadeOptions options;
+  RenderOptions options;
   options.width_px = 640;
   options.height_px = 640;
   options.samples_across = 2;
   write_png(path, edit_picture(before, after, preview, options, run));
-  return {count_of(preview.going), count_of(preview.coming)};
+  return {count_selected(preview.removed), count_selected(preview.added)};
 }
 
 void report(const Mesh& mesh,
@@ -148,7 +148,7 @@ void report(const Mesh& mesh,
             const Run& run) {
   if (terminal.json) {
     nlohmann::ordered_json json = findings_json(mesh_findings(mesh, run));
-    if (change) json["preview"] = {{"going", change->going}, {"coming", change->coming}};
+    if (change) json["preview"] = {{"removed", change->removed}, {"added", change->added}};
     for (const auto& stage : terminal.stage_seconds())
       json["seconds"][stage.first] = stage.second;
     fmt::print("{}\n", json.dump(2));
@@ -162,8 +162,8 @@ void report(const Mesh& mesh,
   }
   if (change && !terminal.json && !terminal.quiet) {
     fmt::print("preview: {} triangles would go or move, {} would come: {}\n",
-               change->going,
-               change->coming,
+               change->removed,
+               change->added,
                arguments.preview.string());
   }
 }
@@ -178,9 +178,9 @@ void edit(const EditArguments& arguments, Terminal& terminal) {
   auto script = scripts.begin();
   for (const EditStep& step : arguments.steps) {
     if (step.operation == kScript) {
-      session.play(*script++, run);
+      session.run_script(*script++, run);
     } else if (step.operation == kUndo || step.operation == kRedo) {
-      session.move(step, run);
+      session.step_history(step, run);
     } else {
       session.apply(step, run);
     }
@@ -257,7 +257,7 @@ void add_edit_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia edit bust.ply --remove-islands 2mm --fill-holes 10mm --decimate 0.01mm "
       "-o bust.dxf\n  frangia edit bust.ply --select-box 0,0,0,20,20,20 --within --select-normal "
       "0,0,1,30deg --delete -o cut.ply");
-  verb->add_option("MESH", arguments->mesh, fmt::format("the mesh: {}", mesh_endings()))
+  verb->add_option("MESH", arguments->mesh, fmt::format("the mesh: {}", mesh_extensions()))
       ->required();
   verb->add_option("-o,--output", arguments->outputs, output_help())->allow_extra_args(false);
   add_write_options(*verb, arguments->write);
@@ -265,7 +265,7 @@ void add_edit_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--preview",
                    arguments->preview,
                    "draw what the steps would do: before, what goes or moves in violet, and after, "
-                   "what is moved yellow, invented blue, selected violet")
+                   "what is moved yellow, synthesized blue, selected violet")
       ->type_name("FILE.png");
   add_operations(*verb, *arguments);
   add_history(*verb, *arguments);

@@ -11,13 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/frames/png.h"
-#include "frangia/inspect/shade_mesh.h"
-#include "frangia/inspect/surface_coverage.h"
+#include "frangia/inspect/render_mesh.h"
+#include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
-#include "frangia/inspect/surface_soundness.h"
-#include "frangia/scan/scan_folder.h"
+#include "frangia/inspect/surface_validity.h"
 
 #include "option_values.h"
 #include "verbs.h"
@@ -37,18 +37,18 @@ struct InspectArguments {
   double max_angle_deg = 75.0;
 };
 
-SurfaceCoverage coverage_of(const InspectArguments& arguments,
-                            const RayScene& reference,
-                            const RayScene& mesh,
-                            const Run& run) {
-  const CoverageOptions options{.within_mm = arguments.within_mm,
-                                .max_angle_rad = rad_from_deg(arguments.max_angle_deg)};
-  if (arguments.scan.empty()) return surface_coverage(reference, mesh, options, run);
+SurfaceCompleteness completeness_of(const InspectArguments& arguments,
+                                    const RayScene& reference,
+                                    const RayScene& mesh,
+                                    const Run& run) {
+  const CompletenessOptions options{.within_mm = arguments.within_mm,
+                                    .max_angle_rad = rad_from_deg(arguments.max_angle_deg)};
+  if (arguments.scan.empty()) return surface_completeness(reference, mesh, options, run);
   const Scan scan = read_scan(arguments.scan, run);
   std::vector<Eigen::Isometry3d> poses;
   for (const ScanView& view : scan.views)
     poses.push_back(scan.rig.rig_from_object(view.angle_rad));
-  return surface_coverage(reference, mesh, SeenFrom{scan.rig, poses}, options, run);
+  return surface_completeness(reference, mesh, MeasurementViews{scan.rig, poses}, options, run);
 }
 
 /// What the picture shows of each vertex.
@@ -78,7 +78,7 @@ void draw(const InspectArguments& arguments,
           const Mesh& mesh,
           const std::optional<RayScene>& reference,
           const Run& run) {
-  ShadeOptions shade;
+  RenderOptions shade;
   shade.azimuth_rad = rad_from_deg(arguments.from_deg[0]);
   shade.elevation_rad = rad_from_deg(arguments.from_deg[1]);
   const auto scale_mm = static_cast<float>(arguments.scale_mm);
@@ -95,12 +95,12 @@ void draw(const InspectArguments& arguments,
   if (arguments.show == "views")
     shade.value_max = *std::max_element(shade.values.begin(), shade.values.end());
   if (arguments.show == "marks") shade.value_min = -2.0F;
-  write_png(arguments.picture, shade_mesh(mesh, shade, run));
+  write_png(arguments.picture, render_mesh(mesh, shade, run));
 }
 
 void print_result(const SurfaceError& error,
-                  const SurfaceCoverage& coverage,
-                  const SurfaceSoundness& soundness,
+                  const SurfaceCompleteness& completeness,
+                  const SurfaceValidity& validity,
                   const InspectArguments& arguments,
                   Terminal& terminal) {
   terminal.finish();
@@ -114,12 +114,12 @@ void print_result(const SurfaceError& error,
         {"p99_mm", error.p99_mm},
         {"max_mm", error.max_mm},
         {"sigma_ratio",
-         std::isnan(soundness.sigma_ratio) ? nlohmann::ordered_json()
-                                           : nlohmann::ordered_json(soundness.sigma_ratio)},
-        {"non_manifold_edges", soundness.non_manifold_edges},
-        {"inward_triangles", soundness.inward_triangles},
-        {"covered", coverage.share},
-        {"covered_within_mm", arguments.within_mm}};
+         std::isnan(validity.sigma_ratio) ? nlohmann::ordered_json()
+                                          : nlohmann::ordered_json(validity.sigma_ratio)},
+        {"non_manifold_edges", validity.non_manifold_edges},
+        {"inward_triangles", validity.inward_triangles},
+        {"completeness", completeness.share},
+        {"completeness_within_mm", arguments.within_mm}};
     fmt::print("{}\n", json.dump(2));
     return;
   }
@@ -133,7 +133,7 @@ void print_result(const SurfaceError& error,
       error.p99_mm,
       error.max_mm);
   fmt::print("{:.1f} % of the {} has mesh within {} mm\n",
-             100.0 * coverage.share,
+             100.0 * completeness.share,
              arguments.scan.empty() ? "reference" : "reference that the scan's views could measure",
              arguments.within_mm);
 }
@@ -149,8 +149,8 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
   if (!reference) return;
   const RayScene mesh_scene(mesh);
   const SurfaceError error = surface_error(mesh, *reference, {}, run);
-  const SurfaceCoverage coverage = coverage_of(arguments, *reference, mesh_scene, run);
-  print_result(error, coverage, surface_soundness(mesh, *reference, run), arguments, terminal);
+  const SurfaceCompleteness completeness = completeness_of(arguments, *reference, mesh_scene, run);
+  print_result(error, completeness, surface_validity(mesh, *reference, run), arguments, terminal);
 }
 
 }  // namespace
@@ -178,7 +178,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--show",
                    arguments->show,
                    "what its colors are: deviation, sigma, views (how many saw it), marks (red was "
-                   "invented), or shape for none")
+                   "synthesized), or shape for none")
       ->check(one_of({"deviation", "sigma", "views", "marks", "shape"}))
       ->capture_default_str();
   verb->add_option("--from", arguments->from_deg, "where the viewer is: azimuth,elevation, degrees")

@@ -8,8 +8,8 @@
 
 #include "frangia/core/error.h"
 
+#include "merge_verb.h"
 #include "option_values.h"
-#include "paste_verb.h"
 #include "usage.h"
 #include "verbs.h"
 
@@ -33,7 +33,7 @@ int exit_code_of(ErrorKind kind) {
   return NumericFault;
 }
 
-int complain(Terminal& terminal, const std::string& sentence, int code) {
+int print_error(Terminal& terminal, const std::string& sentence, int code) {
   terminal.finish();
   fmt::print(stderr, "frangia: {}\n", sentence);
   return code;
@@ -71,7 +71,7 @@ int run_program(int argc, char** argv) {
   add_scan_verb(program, terminal);
   add_devices_verb(program, terminal);
   add_calibrate_verb(program, terminal);
-  add_paste_verb(program, terminal);
+  add_merge_verb(program, terminal);
   if (argc == 1) {
     fmt::print(stderr, "{}", program.help());
     return Usage;
@@ -80,14 +80,14 @@ int run_program(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help and --version
-    return complain(terminal, usage_sentence(program, error), Usage);
+    return print_error(terminal, usage_sentence(program, error), Usage);
   } catch (const Error& error) {
-    return complain(terminal, error.what(), exit_code_of(error.kind()));
+    return print_error(terminal, error.what(), exit_code_of(error.kind()));
   } catch (const std::bad_alloc&) {
-    return complain(
+    return print_error(
         terminal, "the machine's memory does not hold this; try a larger voxel", NumericFault);
   } catch (const std::exception& error) {
-    return complain(terminal, error.what(), NumericFault);
+    return print_error(terminal, error.what(), NumericFault);
   }
   terminal.finish();
   return 0;

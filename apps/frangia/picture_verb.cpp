@@ -11,7 +11,7 @@
 #include "frangia/files/read_mesh.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/contact_sheet.h"
-#include "frangia/inspect/shade_mesh.h"
+#include "frangia/inspect/render_mesh.h"
 
 #include "option_values.h"
 #include "picture_file.h"
@@ -25,7 +25,7 @@ struct PictureArguments {
   std::filesystem::path output;
   double azimuth_deg = 35.0;
   double elevation_deg = 20.0;
-  ShadeOptions shade;
+  RenderOptions shade;
 };
 
 void draw(PictureArguments arguments, Terminal& terminal) {
@@ -36,7 +36,7 @@ void draw(PictureArguments arguments, Terminal& terminal) {
   std::vector<Image<Rgb>> pictures;
   for (const auto& path : arguments.meshes) {
     run.stage(path.filename().string());
-    pictures.push_back(shade_mesh(read_mesh(path, run), arguments.shade, run));
+    pictures.push_back(render_mesh(read_mesh(path, run), arguments.shade, run));
   }
   if (pictures.size() == 1) {
     write_png(arguments.output, pictures.front());
@@ -51,7 +51,7 @@ void add_picture_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<PictureArguments>();
   CLI::App* verb = program.add_subcommand("picture", "draw meshes, side by side");
   verb->footer("example:\n  frangia picture bust.ply mended.ply --marks -o both.png");
-  verb->add_option("MESH", arguments->meshes, fmt::format("the meshes: {}", mesh_endings()))
+  verb->add_option("MESH", arguments->meshes, fmt::format("the meshes: {}", mesh_extensions()))
       ->required();
   verb->add_option("-o,--output", arguments->output, "the picture, a .png")->required();
   const auto size = [&](const char* name, int& value, const char* help) {
@@ -67,8 +67,9 @@ void add_picture_verb(CLI::App& program, Terminal& terminal) {
       ->check(from_to(-90.0, 90.0))
       ->capture_default_str();
   verb->add_flag("--edges", arguments->shade.show_edges, "draw the edges of the triangles");
-  verb->add_flag(
-      "--marks", arguments->shade.show_marks, "show what was moved yellow, what was invented blue");
+  verb->add_flag("--marks",
+                 arguments->shade.show_marks,
+                 "show what was moved yellow, what was synthesized blue");
   verb->add_flag("!--no-ground", arguments->shade.ground, "leave out the shadow on the ground");
   verb->callback([arguments, &terminal] { draw(*arguments, terminal); });
 }

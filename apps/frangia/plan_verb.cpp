@@ -30,17 +30,17 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
                       : rig_preset(arguments.rig);
   const SequencePlan found =
       plan_sequence(arguments.fringes, arguments.sigma_rad, arguments.max_wrong_order);
-  const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+  const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<double> values;
   for (const double fringes : found.fringes) {
-    if (lens != nullptr) {
-      values.push_back(lens->width_px / fringes);
+    if (pinhole != nullptr) {
+      values.push_back(pinhole->width_px / fringes);
     } else {
       const auto& field = std::get<AngularModel>(rig.projector.model);
       values.push_back(fringes / deg_from_rad(field.field_max_rad - field.field_min_rad));
     }
   }
-  const std::string key = lens != nullptr ? "period_px" : "fringes_per_degree";
+  const std::string key = pinhole != nullptr ? "period_px" : "fringes_per_degree";
   if (terminal.json) {
     const nlohmann::ordered_json json{
         {"fringes", found.fringes}, {key, values}, {"wrong_order", found.wrong_order}};

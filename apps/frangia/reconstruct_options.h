@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "frangia/core/error.h"
+#include "frangia/pipeline/reconstruct.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/scan/reconstruct.h"
 
 #include "option_values.h"
 
@@ -19,12 +19,12 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
                   options.algorithm,
                   "phase-shift algorithm: auto, or one of `frangia algorithms`")
       ->capture_default_str();
-  static const std::map<std::string, SpaceMethod> kMethods = {
-      {"default", SpaceMethod::Runs},
-      {"takeda-abe", SpaceMethod::TakedaAbe},
-      {"herraez", SpaceMethod::Herraez}};
+  static const std::map<std::string, SpatialMethod> kMethods = {
+      {"default", SpatialMethod::RunMerging},
+      {"takeda-abe", SpatialMethod::QualityGuided},
+      {"herraez", SpatialMethod::ReliabilitySorted}};
   verb.add_option("--unwrap",
-                  options.in_space.method,
+                  options.spatial.method,
                   "how a phase is unwrapped in space: default, takeda-abe (the paper's growth) or "
                   "herraez (sorted by reliability)")
       ->transform(named(kMethods));

@@ -10,11 +10,11 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
-#include "frangia/files/ending_of.h"
+#include "frangia/files/lowercase_extension.h"
 #include "frangia/files/ply.h"
-#include "frangia/scan/reconstruct.h"
+#include "frangia/pipeline/reconstruct.h"
 
-#include "mesh_answer.h"
+#include "mesh_result.h"
 #include "option_values.h"
 #include "reconstruct_options.h"
 #include "verbs.h"
@@ -46,21 +46,21 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
   json["axis"] = {report.table.axis.x(), report.table.axis.y(), report.table.axis.z()};
   json["point_mm"] = {
       report.table.point_mm.x(), report.table.point_mm.y(), report.table.point_mm.z()};
-  json["axis_known_mm"] = report.axis_known_mm;
+  json["axis_sigma_mm"] = report.axis_sigma_mm;
   json["axis_moved_mm"] = report.axis_moved_mm();
   json["axis_turned_deg"] = deg_from_rad(report.axis_turned_rad());
   json["angles_deg"] = nlohmann::ordered_json::array();
   for (const double angle : report.angles_rad)
     json["angles_deg"].push_back(deg_from_rad(angle));
-  json["placings"] = nlohmann::ordered_json::array();
-  for (const Eigen::Isometry3d& placing : report.placings) {
+  json["part_poses"] = nlohmann::ordered_json::array();
+  for (const Eigen::Isometry3d& part_pose : report.part_poses) {
     nlohmann::ordered_json rows;
     for (int row = 0; row < 3; ++row)
-      rows.push_back({placing(row, 0), placing(row, 1), placing(row, 2), placing(row, 3)});
-    json["placings"].push_back(rows);
+      rows.push_back({part_pose(row, 0), part_pose(row, 1), part_pose(row, 2), part_pose(row, 3)});
+    json["part_poses"].push_back(rows);
   }
   json["kept_rig"] = report.kept_rig;
-  json["not_determined"] = report.open;
+  json["not_determined"] = report.undetermined;
   json["left_out"] = report.outliers;
   return json;
 }
@@ -76,8 +76,9 @@ void print_result(const Reconstruction& result,
     json["triangles"] = result.mesh.triangles.size();
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
     if (result.registration) json["registration"] = json_of(*result.registration);
-    if (!std::isnan(result.platter_height_mm)) json["platter_height_mm"] = result.platter_height_mm;
-    print_mesh_answer(std::move(json), terminal, arguments.outputs.paths);
+    if (!std::isnan(result.turntable_top_height_mm))
+      json["turntable_top_height_mm"] = result.turntable_top_height_mm;
+    print_mesh_result(std::move(json), terminal, arguments.outputs.paths);
     return;
   }
   if (terminal.quiet) return;
@@ -104,7 +105,7 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   arguments.outputs.check();
   arguments.options.keep_raw = !arguments.raw.empty();
   if (arguments.options.keep_raw) {
-    require(ending_of(arguments.raw) == ".ply",
+    require(lowercase_extension(arguments.raw) == ".ply",
             "--keep-raw: points with their sigma are written as .ply; name such a file");
     const AtomicFile probe(arguments.raw);
   }
@@ -125,8 +126,8 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
                   arguments.options.clip_radius_mm,
                   "leave out what lies farther from the turntable's axis, in mm")
       ->check(above_zero());
-  verb.add_flag("--keep-platter",
-                arguments.options.keep_platter,
+  verb.add_flag("--keep-turntable-top",
+                arguments.options.keep_turntable_top,
                 "do not look for the top of the turntable and leave it out");
   verb.add_flag("--no-register",
                 arguments.no_register,
@@ -135,12 +136,12 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
 
 void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
   verb.add_option("--voxel",
-                  arguments.options.paste.voxel_mm,
+                  arguments.options.fusion.voxel_mm,
                   "sampling of the surface in mm; chosen from the data when not given")
       ->check(above_zero());
   verb.add_flag("--watertight",
                 arguments.options.finish.watertight,
-                "close what was not seen; each such triangle is marked as invented (mark 2 in a "
+                "close what was not seen; each such triangle is marked as synthesized (mark 2 in a "
                 "PLY, its own layer in a DXF)");
   verb.add_option("--tolerance",
                   arguments.options.finish.tolerance_mm,

@@ -6,10 +6,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/phase/measure_fringe_response.h"
 #include "frangia/phase/measure_response.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/scan/scan_folder.h"
 
 #include "verbs.h"
 
@@ -30,7 +30,7 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
     for (FrameStack& stack : read_frames(scan, i, run)) {
       if (stack.pattern.kind == PatternKind::Ramp) {
         ramps.push_back(std::move(stack));
-      } else if (tells_response(stack.pattern)) {
+      } else if (determines_response(stack.pattern)) {
         fringes.push_back(std::move(stack));
       }
     }

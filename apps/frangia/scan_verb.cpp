@@ -6,9 +6,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/acquisition/capture_scan.h"
 #include "frangia/core/angles.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/scan/capture_scan.h"
 #include "frangia/simulate/default_patterns.h"
 
 #include "drivers.h"
@@ -34,7 +34,7 @@ void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
   verb.add_option("rig,--rig", arguments.rig, "the rig.toml, with its [devices.*]")->required();
   verb.add_option("-o,--output", arguments.output, "the scan folder; one begun is gone on with")
       ->required();
-  verb.add_option("--views", arguments.views, "stops of the turntable, evenly over a turn")
+  verb.add_option("--views", arguments.views, "stations of the turntable, evenly over a turn")
       ->check(from_to(1, 3600))
       ->capture_default_str();
   verb.add_option("--shifts", patterns.shifts, "frames of each fringe pattern")
@@ -88,27 +88,30 @@ void add_light_options(CLI::App& verb, ScanArguments& arguments) {
       ->group("Light");
 }
 
-void add_care_options(CLI::App& verb, ScanArguments& arguments) {
+void add_reliability_options(CLI::App& verb, ScanArguments& arguments) {
   CaptureOptions& options = arguments.options;
   const auto add = [&](const char* name, auto& value, const char* help) {
-    verb.add_option(name, value, help)->check(zero_or_more())->capture_default_str()->group("Care");
+    verb.add_option(name, value, help)
+        ->check(zero_or_more())
+        ->capture_default_str()
+        ->group("Reliability");
   };
   add("--settle", options.settle_s, "wait after a move of the table, s");
-  add("--patience", options.patience_s, "of each call to a device, s");
+  add("--patience", options.timeout_s, "of each call to a device, s");
   add("--frame-attempts", options.frame_attempts, "for a frame that arrives incomplete");
   add("--set-attempts", options.set_attempts, "for a set of frames that shows motion");
   add("--view-attempts", options.view_attempts, "for a view with a device's fault");
   verb.add_flag("--no-step-control",
                 arguments.no_step_control,
                 "do not correct the phase shifter by the steps that the frames show")
-      ->group("Care");
+      ->group("Reliability");
 }
 
 void print(const ScanArguments& arguments, const CaptureReport& report, Terminal& terminal) {
   terminal.finish();
   if (terminal.json) {
     nlohmann::ordered_json result{{"scan", arguments.output.string()},
-                                  {"taken", report.taken},
+                                  {"captured", report.captured},
                                   {"resumed", report.resumed},
                                   {"frame_retries", report.frame_retries},
                                   {"set_retakes", report.set_retakes},
@@ -124,12 +127,12 @@ void print(const ScanArguments& arguments, const CaptureReport& report, Terminal
   terminal.run().note(fmt::format(
       "{}: {} frames taken, {} already there, {} taken again, {} sets retaken, {} views skipped",
       arguments.output.string(),
-      report.taken,
+      report.captured,
       report.resumed,
       report.frame_retries,
       report.set_retakes,
       report.skipped.size()));
-  if (report.taken > 0) {
+  if (report.captured > 0) {
     terminal.run().note(
         fmt::format("devices {:.1f} s, disk {:.1f} s, and {:.1f} ms a frame of the program's own",
                     report.device_s,
@@ -145,7 +148,7 @@ Scan plan_of(const ScanArguments& arguments, const Run& run) {
   plan.rig = read_rig(arguments.rig, run);
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
   for (int i = 0; i < arguments.views; ++i)
-    plan.views.push_back({kTurn * i / arguments.views, fmt::format("views/{:03}", i)});
+    plan.views.push_back({kTwoPi * i / arguments.views, fmt::format("views/{:03}", i)});
   return plan;
 }
 
@@ -186,7 +189,7 @@ void add_scan_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<ScanArguments>();
   add_plan_options(*verb, *arguments);
   add_light_options(*verb, *arguments);
-  add_care_options(*verb, *arguments);
+  add_reliability_options(*verb, *arguments);
   verb->callback([arguments, &terminal] { scan(*arguments, terminal); });
 }
 

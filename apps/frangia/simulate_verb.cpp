@@ -12,10 +12,10 @@
 #include "frangia/core/random.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/scan/simulate_scan.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
+#include "frangia/simulate/simulate_scan.h"
 
 #include "option_values.h"
 #include "verbs.h"
@@ -29,7 +29,7 @@ struct SimulateArguments {
   std::string rig = "digital";
   std::filesystem::path output;
   int views = 8;
-  std::vector<double> rounds_deg;
+  std::vector<double> setup_tilts_deg;
   PatternPlan patterns;
   SimulateOptions options;
   bool no_noise = false;
@@ -50,12 +50,12 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                   arguments.rig,
                   fmt::format("{}; or a rig.toml", fmt::join(rig_preset_names(), ", ")))
       ->capture_default_str();
-  verb.add_option("--views", arguments.views, "stops of the turntable, evenly over a turn")
+  verb.add_option("--views", arguments.views, "stations of the turntable, evenly over a turn")
       ->check(from_to(1, 3600))
       ->capture_default_str();
-  verb.add_option("--rounds",
-                  arguments.rounds_deg,
-                  "further rounds of as many views, in each of which the part is tilted by so many "
+  verb.add_option("--setups",
+                  arguments.setup_tilts_deg,
+                  "further setups of as many views, in each of which the part is tilted by so many "
                   "degrees and set down anyhow, such as 180 or 90,180")
       ->delimiter(',')
       ->check(from_to(-360.0, 360.0));
@@ -116,7 +116,7 @@ void add_projector_faults(CLI::App& verb, SimulateArguments& arguments) {
   add("--step-error", options.step_error, "all shifts too large by this share");
   add("--step-jitter", arguments.step_jitter_deg, "degrees rms, for each frame");
   add("--display-gamma", options.display_gamma, "of a digital projector");
-  add("--line-width", options.line_sigma_mm, "sigma of the plane of light, mm");
+  add("--line-width", options.line_sigma_mm, "sigma of the laser sheet, mm");
 }
 
 void add_part_faults(CLI::App& verb, SimulateArguments& arguments) {
@@ -141,7 +141,9 @@ void add_turntable_faults(CLI::App& verb, SimulateArguments& arguments) {
   add("--angle-error", arguments.angle_error_deg, "degrees rms, for each view");
   add("--axis-offset", arguments.options.axis_offset_mm, "mm from where rig.toml says");
   add("--axis-tilt", arguments.axis_tilt_deg, "degrees from where rig.toml says");
-  add("--platter", arguments.options.platter_radius_mm, "radius of a disc below the part, mm");
+  add("--turntable-top",
+      arguments.options.turntable_top_radius_mm,
+      "radius of a disc below the part, mm");
 }
 
 Mesh part_of(const std::string& name) {
@@ -160,18 +162,19 @@ Rig rig_of(const std::string& name, const Run& run) {
   return std::filesystem::path(name).has_extension() ? read_rig(name, run) : rig_preset(name);
 }
 
-/// The stops of every round, and how the part stands in the further ones.
-void add_rounds(Scan& plan, const Mesh& part, const SimulateArguments& arguments) {
-  const int rounds = 1 + static_cast<int>(arguments.rounds_deg.size());
-  for (int i = 0; i < rounds * arguments.views; ++i) {
-    plan.views.push_back({kTurn * (i % arguments.views) / arguments.views,
+/// The stations of every setup, and how the part stands in the further ones.
+void add_setups(Scan& plan, const Mesh& part, const SimulateArguments& arguments) {
+  const int setups = 1 + static_cast<int>(arguments.setup_tilts_deg.size());
+  for (int i = 0; i < setups * arguments.views; ++i) {
+    plan.views.push_back({kTwoPi * (i % arguments.views) / arguments.views,
                           fmt::format("views/{:03}", i),
                           i / arguments.views});
   }
-  for (int round = 1; round < rounds; ++round) {
-    const double tilt_deg = arguments.rounds_deg[static_cast<std::size_t>(round) - 1];
-    const auto stream = hash(arguments.options.seed, static_cast<std::uint64_t>(round));
-    plan.placings[round] = set_down(part, rad_from_deg(tilt_deg), kTurn * uniform_from(stream));
+  for (int setup = 1; setup < setups; ++setup) {
+    const double tilt_deg = arguments.setup_tilts_deg[static_cast<std::size_t>(setup) - 1];
+    const auto stream = hash(arguments.options.seed, static_cast<std::uint64_t>(setup));
+    plan.part_poses[setup] =
+        pose_on_table(part, rad_from_deg(tilt_deg), kTwoPi * uniform_from(stream));
   }
 }
 
@@ -190,7 +193,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   plan.rig = rig_of(arguments.rig, run);
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
   const Mesh part = part_of(arguments.part);
-  add_rounds(plan, part, arguments);
+  add_setups(plan, part, arguments);
   run.stage("render");
   const Scan scan = simulate_scan(part, plan, options, run);
   const auto seconds = terminal.stage_seconds();
@@ -220,7 +223,7 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
   verb->footer(
       "Example:\n"
       "  frangia simulate bust --rig carducci -o bust-scan\n"
-      "  frangia simulate bracket --rounds 90 -o bracket-stood-and-laid\n"
+      "  frangia simulate bracket --setups 90 -o bracket-stood-and-laid\n"
       "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5 -o bracket-scan");
   auto arguments = std::make_shared<SimulateArguments>();
   add_scan_options(*verb, *arguments);

@@ -40,14 +40,14 @@ Run Terminal::run() {
   run.on_stage = [this](const std::string& name) { begin_stage(name); };
   run.on_warning = [this](const std::string& sentence) {
     warnings_.push_back(sentence);
-    say("warning: " + sentence);
+    print_line("warning: " + sentence);
   };
   run.on_note = [this](const std::string& sentence) {
     // What holds for every view alike is said once.
     const bool known = std::find(notes_.begin(), notes_.end(), sentence) != notes_.end();
     if (known || quiet || json) return;
     notes_.push_back(sentence);
-    say(sentence);
+    print_line(sentence);
   };
   return run;
 }
@@ -99,15 +99,15 @@ std::string Terminal::time_left(double done) {
     first_drawn_ = now;
   }
   const double spent_s = std::chrono::duration<double>(now - first_drawn_).count();
-  const double way = done - first_done_;
+  const double advance = done - first_done_;
   constexpr double kEnough_s = 2.0;
-  if (spent_s < kEnough_s || way <= 0.0 || done >= 1.0) return {};
-  const auto left_s = static_cast<int>(std::ceil(spent_s * (1.0 - done) / way));
+  if (spent_s < kEnough_s || advance <= 0.0 || done >= 1.0) return {};
+  const auto left_s = static_cast<int>(std::ceil(spent_s * (1.0 - done) / advance));
   if (left_s < 60) return fmt::format(", {} s left", left_s);
   return fmt::format(", {}:{:02} min left", left_s / 60, left_s % 60);
 }
 
-void Terminal::say(const std::string& text) {
+void Terminal::print_line(const std::string& text) {
   finish();
   fmt::print(stderr, "{}\n", text);
 }

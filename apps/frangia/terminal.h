@@ -32,7 +32,7 @@ class Terminal {
   void begin_stage(const std::string& name);
   void draw(double done);
   [[nodiscard]] std::string time_left(double done);
-  void say(const std::string& text);
+  void print_line(const std::string& text);
 
   std::vector<std::pair<std::string, double>> seconds_;
   std::vector<std::string> warnings_;

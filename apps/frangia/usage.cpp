@@ -12,7 +12,7 @@ namespace frangia {
 namespace {
 
 /// How many letters make one word of the other: Levenshtein 1966.
-std::size_t letters_between(const std::string& word, const std::string& name) {
+std::size_t edit_distance(const std::string& word, const std::string& name) {
   std::vector<std::size_t> row(name.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (const char letter : word) {
@@ -27,27 +27,26 @@ std::size_t letters_between(const std::string& word, const std::string& name) {
 }
 
 /// ", perhaps ... was meant" when one of the names is nearly the word.
-std::string hint(const std::string& word, const std::vector<std::string>& names) {
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const auto nearest = std::min_element(
       names.begin(), names.end(), [&](const std::string& one, const std::string& other) {
-        return letters_between(word, one) < letters_between(word, other);
+        return edit_distance(word, one) < edit_distance(word, other);
       });
-  const bool near =
-      nearest != names.end() && 3 * letters_between(word, *nearest) <= word.size() + 1;
+  const bool near = nearest != names.end() && 3 * edit_distance(word, *nearest) <= word.size() + 1;
   return near ? fmt::format(", perhaps {} was meant", *nearest) : "";
 }
 
 /// The program, the verb that was called, and its own verb where it has some.
-using Called = std::vector<const CLI::App*>;
-Called called(const CLI::App& program) {
-  Called path{&program};
+using VerbPath = std::vector<const CLI::App*>;
+VerbPath verb_path(const CLI::App& program) {
+  VerbPath path{&program};
   while (!path.back()->get_subcommands().empty())
     path.push_back(path.back()->get_subcommands().front());
   return path;
 }
 
 /// "calibrate piezo", and nothing of the program alone.
-std::string name_of(const Called& path) {
+std::string name_of(const VerbPath& path) {
   std::string name;
   for (std::size_t i = 1; i < path.size(); ++i)
     name += (i > 1 ? " " : "") + path[i]->get_name();
@@ -63,7 +62,7 @@ std::vector<std::string> verbs_of(const CLI::App& verb) {
   return names;
 }
 
-std::vector<std::string> options_of(const Called& path) {
+std::vector<std::string> options_of(const VerbPath& path) {
   std::vector<std::string> names;
   for (const CLI::App* verb : path) {
     for (const CLI::Option* option : verb->get_options()) {
@@ -75,7 +74,7 @@ std::vector<std::string> options_of(const Called& path) {
 }
 
 /// Of words that nothing takes, and of a verb that none of them is.
-std::string left_over(const Called& path) {
+std::string unexpected_argument(const VerbPath& path) {
   const std::vector<std::string> words = path.front()->remaining(true);
   const auto is_option = [](const std::string& word) { return word[0] == '-'; };
   const auto word = std::find_if_not(words.begin(), words.end(), is_option);
@@ -83,15 +82,16 @@ std::string left_over(const Called& path) {
   const std::vector<std::string> verbs = verbs_of(*path.back());
   const std::string name = path.size() > 1 ? name_of(path) : "the program";
   if (!verbs.empty() && word != words.end())
-    return fmt::format("{} has no verb {}{}", name, *word, hint(*word, verbs));
+    return fmt::format("{} has no verb {}{}", name, *word, suggestion(*word, verbs));
   if (option != words.end())
-    return fmt::format("{} has no option {}{}", name, *option, hint(*option, options_of(path)));
+    return fmt::format(
+        "{} has no option {}{}", name, *option, suggestion(*option, options_of(path)));
   if (word != words.end()) return fmt::format("{} is one argument more than {} takes", *word, name);
   return fmt::format("{} needs a verb: {}", name, fmt::join(verbs, ", "));
 }
 
 /// Of "Could not convert: --views = 2.5".
-std::string unfit(const std::string& what) {
+std::string conversion_failure(const std::string& what) {
   const std::size_t name = what.find(": ");
   const std::size_t value = what.rfind(" = ");
   if (name == std::string::npos || value == std::string::npos) return what;
@@ -100,7 +100,7 @@ std::string unfit(const std::string& what) {
 }
 
 /// Of "--voxel: 1 required FLOAT missing" and "--voxel: At Most 1 required but received 2".
-std::string miscounted(const std::string& what) {
+std::string count_mismatch(const std::string& what) {
   const std::string name = what.substr(0, what.find(": "));
   const auto has = [&](const char* words) { return what.find(words) != std::string::npos; };
   if (has(": 1 required") && has("missing")) return name + " needs a value";
@@ -111,14 +111,14 @@ std::string miscounted(const std::string& what) {
 }  // namespace
 
 std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error) {
-  const Called path = called(program);
+  const VerbPath path = verb_path(program);
   std::string what = error.what();
   const bool lacks_verb =
       dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !verbs_of(*path.back()).empty();
   if (lacks_verb || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-    what = left_over(path);
-  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) what = unfit(what);
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) what = miscounted(what);
+    what = unexpected_argument(path);
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) what = conversion_failure(what);
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) what = count_mismatch(what);
   return fmt::format("{}; see frangia {}{}--help", what, name_of(path), path.size() > 1 ? " " : "");
 }
 

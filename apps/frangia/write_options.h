@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/files/ending_of.h"
+#include "frangia/files/lowercase_extension.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/write_mesh.h"
-#include "frangia/scan/finish_mesh.h"
+#include "frangia/pipeline/finish_mesh.h"
 
 #include "option_values.h"
 
@@ -21,7 +21,7 @@ namespace frangia {
 
 /// What an -o says of the files it takes.
 [[nodiscard]] inline std::string output_help() {
-  return fmt::format("where to write the mesh: {}; may be given more than once", mesh_endings());
+  return fmt::format("where to write the mesh: {}; may be given more than once", mesh_extensions());
 }
 
 /// The variants of formats that have some. `options` must outlive the verb.
@@ -44,15 +44,15 @@ struct MeshOutputs {
   /// Tells before the work what could not be written after it.
   void check() const {
     for (const auto& path : paths) {
-      check_mesh_ending(path);
+      check_mesh_extension(path);
       const AtomicFile probe(path);
     }
   }
   /// Writes every file; a DXF gets fewer triangles, and a note of `run` says how far off they are.
   void write_all(const Mesh& mesh, const Run& run) const {
     for (const auto& path : paths) {
-      const bool dxf = ending_of(path) == ".dxf";
-      write_mesh(path, dxf ? at_most(mesh, dxf_faces, run) : mesh, write);
+      const bool dxf = lowercase_extension(path) == ".dxf";
+      write_mesh(path, dxf ? limit_triangles(mesh, dxf_faces, run) : mesh, write);
     }
   }
 };

@@ -11,8 +11,8 @@
 
 #include "frangia/files/ply.h"
 
-#include "scan/small_scan.h"
 #include "support/run_program.h"
+#include "support/small_scan.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -22,7 +22,7 @@ using testing::Answer;
 using testing::run_program;
 using testing::TemporaryFolder;
 
-class Together : public ::testing::Test {
+class RegistrationProgram : public ::testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const {
     return "'" + (folder_.path() / name).string() + "'";
@@ -86,34 +86,34 @@ double dome(double x, double y) {
   return std::sqrt(std::max(0.0, 900.0 - x * x - y * y));
 }
 
-TEST_F(Together, OneScanAloneIsPastedAsItIs) {
+TEST_F(RegistrationProgram, OneScanAloneIsMergedAsItIs) {
   write_relief("one.ply", dome);
   expect_told(
-      run_program("paste " + path("one.ply") + " -o " + path("a.ply")), 0, "one scan alone");
+      run_program("merge " + path("one.ply") + " -o " + path("a.ply")), 0, "one scan alone");
 }
 
-TEST_F(Together, ScansThatNothingPlacesAreRefusedInOneSentence) {
+TEST_F(RegistrationProgram, ScansThatNothingPlacesAreRefusedInOneSentence) {
   write_relief("one.ply", dome);  // a ball turns on a ball
   write_relief("two.ply", dome);
-  expect_refused("paste " + path("one.ply") + " " + path("two.ply") + " --poses shape",
+  expect_refused("merge " + path("one.ply") + " " + path("two.ply") + " --poses shape",
                  3,
                  "look alike from several sides");
 }
 
-TEST_F(Together, PasteWritesEveryFileKindAndCapsADxf) {
+TEST_F(RegistrationProgram, MergeWritesEveryFileKindAndCapsADxf) {
   write_relief("one.ply", dome);
   const Answer answer =
-      run_program("paste " + path("one.ply") + " --dxf mesh --dxf-faces 500 --stl-text -o " +
+      run_program("merge " + path("one.ply") + " --dxf mesh --dxf-faces 500 --stl-text -o " +
                   path("a.dxf") + " -o " + path("a.stl") + " -o " + path("a.glb"));
   expect_told(answer, 0, "are kept, which lie nowhere farther than");
 }
 
-TEST_F(Together, AVoxelThatNeedsTooMuchMemoryIsRefusedWithOneThatFits) {
+TEST_F(RegistrationProgram, AVoxelThatNeedsTooMuchMemoryIsRefusedWithOneThatFits) {
   write_relief("one.ply", dome);
-  expect_refused("paste " + path("one.ply") + " --voxel 0.0001", 3, "mm fit");
+  expect_refused("merge " + path("one.ply") + " --voxel 0.0001", 3, "mm fit");
 }
 
-TEST_F(Together, AViewAloneKeepsTheRigAndSaysSo) {
+TEST_F(RegistrationProgram, AViewAloneKeepsTheRigAndSaysSo) {
   write_scan_of("blade", 1);
   expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
               0,
@@ -121,7 +121,7 @@ TEST_F(Together, AViewAloneKeepsTheRigAndSaysSo) {
   expect_refused("reconstruct " + path("scan") + " --voxel 0.0001", 3, "mm fit");
 }
 
-TEST_F(Together, AClipThatTakesAllIsRefused) {
+TEST_F(RegistrationProgram, AClipThatTakesAllIsRefused) {
   write_scan_of("blade", 1);
   expect_refused(
       "reconstruct " + path("scan") + " --clip-below 1000", 3, "nothing is left of the object");
@@ -129,30 +129,30 @@ TEST_F(Together, AClipThatTakesAllIsRefused) {
       "reconstruct " + path("scan") + " --clip-radius 0.001", 3, "nothing is left of the object");
 }
 
-TEST_F(Together, AViewOfAPartThatWasPushedIsNamedAndLeftOut) {
+TEST_F(RegistrationProgram, AViewOfAPartThatWasPushedIsNamedAndLeftOut) {
   write_pushed_scan(1);
   const Answer answer = run_program("--quiet reconstruct " + path("scan") + " -o " + path("a.ply"));
   expect_told(answer, 0, "view views/1 contradicts the others");
   EXPECT_EQ(answer.output.find("contradict each other"), std::string::npos) << answer.output;
 }
 
-TEST_F(Together, OppositeViewsWithLittleInCommonSayHowWellTheyFit) {
+TEST_F(RegistrationProgram, OppositeViewsWithLittleInCommonSayHowWellTheyFit) {
   write_scan_of("blade", 2);
   expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
               0,
               "tell where the axis is to no better than");
 }
 
-TEST_F(Together, ViewsWithNothingInCommonKeepTheRigAndSaySo) {
+TEST_F(RegistrationProgram, ViewsWithNothingInCommonKeepTheRigAndSaySo) {
   write_scan_of("plate", 2);
   expect_told(
       run_program("reconstruct " + path("scan") + " -o " + path("a.ply")), 0, "do not overlap");
 }
 
-TEST_F(Together, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSaysSo) {
+TEST_F(RegistrationProgram, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSaysSo) {
   write_relief("one.ply", dome);
   write_relief("two.ply", [](double x, double y) { return 500.0 + dome(x, y); });
-  expect_told(run_program("paste " + path("one.ply") + " " + path("two.ply") +
+  expect_told(run_program("merge " + path("one.ply") + " " + path("two.ply") +
                           " --poses given -o " + path("a.ply")),
               0,
               "the scans do not overlap where they are said to be");

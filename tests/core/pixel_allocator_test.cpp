@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/spare_pixels.h"
+#include "frangia/core/release_cached_pixels.h"
 
 namespace frangia {
 namespace {
@@ -15,7 +15,7 @@ TEST(PixelAllocator, GivesMemoryOfEverySizeThatCanBeWrittenAndGivenBack) {
     std::memset(memory, 0x5a, bytes);
     free_pixels(memory, bytes);
   }
-  release_spare_pixels();
+  release_cached_pixels();
 }
 
 TEST(PixelAllocator, NeverGivesOneBlockTwice) {
@@ -27,7 +27,7 @@ TEST(PixelAllocator, NeverGivesOneBlockTwice) {
   EXPECT_NE(second, third);
   free_pixels(second, kBytes);
   free_pixels(third, kBytes);
-  release_spare_pixels();
+  release_cached_pixels();
 }
 
 }  // namespace

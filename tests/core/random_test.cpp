@@ -21,7 +21,7 @@ TEST(Random, NormalNumbersHaveMeanZeroAndVarianceOne) {
   EXPECT_NEAR(sum4 / kCount, 3.0, 0.15);
 }
 
-TEST(Random, NeighbouringPlacesAreNotCorrelated) {
+TEST(Random, NeighboringIndicesAreNotCorrelated) {
   constexpr std::uint64_t kCount = 200000;
   double sum = 0.0;
   for (std::uint64_t i = 0; i < kCount; ++i)

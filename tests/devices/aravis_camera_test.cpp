@@ -1,4 +1,4 @@
-#include "frangia/devices/aravis_camera.h"
+#include "frangia/devices/internal/aravis_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ TEST_F(AravisCameraTest, AFrameHasTheSettingsThatWereAskedFor) {
     const CameraSettings set = camera->configure({exposure_ms, 0.0, 7.0}, soon());
     EXPECT_DOUBLE_EQ(set.exposure_ms, exposure_ms);
     EXPECT_DOUBLE_EQ(set.black_level_counts, 7.0);
-    const CapturedFrame captured = camera->take({}, soon());
+    const CapturedFrame captured = camera->capture({}, soon());
     ASSERT_TRUE(captured.complete) << captured.incomplete_cause;
     expect_ramp(captured, camera->info());
   }
@@ -81,7 +81,7 @@ TEST_F(AravisCameraTest, SixteenBitsArriveAsSixteen) {
   const auto camera = open_aravis_camera(settings, soon());
   EXPECT_EQ(camera->info().white_level, 65535);
   static_cast<void>(camera->configure({5.0, 0.0, 0.0}, soon()));
-  const CapturedFrame captured = camera->take({}, soon());
+  const CapturedFrame captured = camera->capture({}, soon());
   ASSERT_TRUE(captured.complete) << captured.incomplete_cause;
   expect_ramp(captured, camera->info());
 }
@@ -89,11 +89,11 @@ TEST_F(AravisCameraTest, SixteenBitsArriveAsSixteen) {
 TEST_F(AravisCameraTest, LostPacketsMakeIncompleteFramesAndTheOthersAreWhole) {
   const auto camera = open_aravis_camera(region(320, 240), soon());
   static_cast<void>(camera->configure({1.0, 0.0, 0.0}, soon()));
-  fake_.lose(0.005);
+  fake_.set_packet_loss(0.005);
   int complete = 0;
   constexpr int kFrames = 20;
   for (int i = 0; i < kFrames; ++i) {
-    const CapturedFrame captured = camera->take({}, soon());
+    const CapturedFrame captured = camera->capture({}, soon());
     if (captured.complete) {
       ++complete;
       expect_ramp(captured, camera->info());
@@ -124,7 +124,7 @@ TEST_F(AravisCameraTest, ACameraThatIsGoneIsReported) {
   static_cast<void>(camera->configure({1.0, 0.0, 0.0}, soon()));
   fake_.stop();
   const auto begun = Deadline::Clock::now();
-  EXPECT_THROW(static_cast<void>(camera->take({}, Deadline::in(3.0))), Error);
+  EXPECT_THROW(static_cast<void>(camera->capture({}, Deadline::in(3.0))), Error);
   EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(8));
 }
 

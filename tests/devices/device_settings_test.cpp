@@ -62,7 +62,7 @@ TEST(DeviceSettings, WarnOfKeysThatNoDriverAsksFor) {
   std::vector<std::string> warnings;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  all.front().warn_of_the_rest(run);
+  all.front().warn_of_unused_keys(run);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings.front().find("devices.light.prot is not known"), std::string::npos);
 }

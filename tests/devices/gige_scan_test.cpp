@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
-#include "frangia/devices/aravis_driver.h"
+#include "frangia/acquisition/capture_scan.h"
+#include "frangia/devices/internal/aravis_driver.h"
 #include "frangia/inspect/surface_error.h"
+#include "frangia/pipeline/reconstruct.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/scan/capture_scan.h"
-#include "frangia/scan/reconstruct.h"
-#include "frangia/simulate/simulated_devices.h"
+#include "frangia/simulate/internal/simulated_devices.h"
 #include "frangia/simulate/simulated_drivers.h"
 
-#include "scan/small_scan.h"
 #include "support/fake_gige_camera.h"
+#include "support/small_scan.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -35,7 +35,7 @@ class GigeScan : public ::testing::Test {
     plan_.name = "gige";
     plan_.folder = folder_.path() / "scan";
     for (int i = 0; i < 6; ++i)
-      plan_.views.push_back({kTurn * i / 6, "views/" + std::to_string(i)});
+      plan_.views.push_back({kTwoPi * i / 6, "views/" + std::to_string(i)});
     DeviceSettings part("rig.toml", "camera", {{"part", std::string("ball-bar")}});
     static_cast<void>(open_simulated_camera(part, plan_.rig, bench_));
   }
@@ -43,7 +43,7 @@ class GigeScan : public ::testing::Test {
   /// What the simulated rig looks like now, with noise of its own in each exposure.
   void paint(const FakeExposure& exposure, std::uint8_t* pixels) {
     bench_->camera.exposure_ms = 1e-3 * exposure.exposure_us;
-    const Frame frame = camera_.take(*bench_, {0, "gige", ++exposures_, 0, 0});
+    const Frame frame = camera_.capture(*bench_, {0, "gige", ++exposures_, 0, 0});
     const auto& image = std::get<Image<std::uint8_t>>(frame);
     ASSERT_EQ(image.width(), exposure.width_px);
     std::memcpy(pixels, image.pixels().data(), image.pixels().size());
@@ -75,10 +75,10 @@ class GigeScan : public ::testing::Test {
 };
 
 TEST_F(GigeScan, WithLostPacketsIsCompleteAndAsAccurateAsARenderedScan) {
-  fake_.lose(0.005);
+  fake_.set_packet_loss(0.005);
   RigDevices devices = open();
   const CaptureReport report = capture_scan(plan_, devices);
-  EXPECT_EQ(report.taken, 30U);
+  EXPECT_EQ(report.captured, 30U);
   EXPECT_TRUE(report.skipped.empty());
   EXPECT_GT(report.frame_retries, 0U);
   Scan rendered = plan_;
@@ -91,7 +91,7 @@ TEST_F(GigeScan, WithLostPacketsIsCompleteAndAsAccurateAsARenderedScan) {
       "FIGURE {{\"retries\": {}, \"frames\": {}, \"captured_mm\": {:.4f}, \"rendered_mm\": "
       "{:.4f}}}\n",
       report.frame_retries,
-      report.taken,
+      report.captured,
       captured_mm,
       rendered_mm);
 }

@@ -1,4 +1,4 @@
-#include "frangia/devices/glfw_display.h"
+#include "frangia/devices/internal/glfw_display.h"
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ TEST_F(HardwareDrivers, ATableAndALaserShareTheirBoard) {
   devices.turntable->enable(true, deadline);
   devices.turntable->home(deadline);
   devices.turntable->move_to(0.5, deadline);
-  devices.line->set(true, deadline);
+  devices.laser_sheet->set(true, deadline);
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_TRUE(grbl.spindle && grbl.coolant); });
   devices.light->set(false, deadline);
   EXPECT_NEAR(devices.turntable->angle_rad().value(), 0.5, 1e-12);

@@ -1,4 +1,4 @@
-#include "frangia/devices/open_transport.h"
+#include "frangia/devices/internal/open_transport.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 
-#include "support/evenly.h"
+#include "support/linspace.h"
 
 namespace frangia {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 TEST(PhaseCurve, GivesTheCommandWhosePhaseItIs) {
   const PhaseCurve rising{{0.0, 2.0, 10.0}, {0.1, 3.0, 8.0}};
   const PhaseCurve falling{{0.0, 2.0, 10.0}, {0.1, -3.0, -8.0}};
-  for (const double command : testing::evenly(21, 0.0, 10.0)) {
+  for (const double command : testing::linspace(21, 0.0, 10.0)) {
     // A phase comes back a whole number of turns off where the curve spans more than a turn.
     for (const PhaseCurve& curve : {rising, falling}) {
       const double phase = curve.phase_at(command);
@@ -24,14 +24,14 @@ TEST(PhaseCurve, GivesTheCommandWhosePhaseItIs) {
 }
 
 TEST(PhaseCurve, BringsAPhaseBeyondItsEndsIntoThemByWholeTurns) {
-  const PhaseCurve curve{{0.0, 10.0}, {0.0, 1.2 * kTurn}};
-  EXPECT_NEAR(curve.command_for(2.5 * kTurn), 10.0 * 0.5 / 1.2, 1e-9);
-  EXPECT_NEAR(curve.command_for(-0.25 * kTurn), 10.0 * 0.75 / 1.2, 1e-9);
+  const PhaseCurve curve{{0.0, 10.0}, {0.0, 1.2 * kTwoPi}};
+  EXPECT_NEAR(curve.command_for(2.5 * kTwoPi), 10.0 * 0.5 / 1.2, 1e-9);
+  EXPECT_NEAR(curve.command_for(-0.25 * kTwoPi), 10.0 * 0.75 / 1.2, 1e-9);
 }
 
 TEST(PhaseCurve, RefusesAShiftThatItsRangeDoesNotHold) {
-  const PhaseCurve half{{0.0, 5.0}, {0.0, 0.5 * kTurn}};
-  EXPECT_THROW(static_cast<void>(half.command_for(0.75 * kTurn)), Error);
+  const PhaseCurve half{{0.0, 5.0}, {0.0, 0.5 * kTwoPi}};
+  EXPECT_THROW(static_cast<void>(half.command_for(0.75 * kTwoPi)), Error);
 }
 
 TEST(PhaseCurve, MustRiseInItsCommandsAndNotTurnBackInItsPhases) {

@@ -1,4 +1,4 @@
-#include "frangia/devices/v4l2_camera.h"
+#include "frangia/devices/internal/v4l2_camera.h"
 
 #include <array>
 #include <cerrno>
@@ -166,7 +166,7 @@ TEST(V4l2Camera, AFrameIsExposedAfterItIsAskedForAndByHand) {
   EXPECT_EQ(webcam->exposure, 200);
   static_cast<void>(webcam->wait_readable(7, 0));
   const int before = webcam->frame;
-  const CapturedFrame captured = camera->take({}, at_once());
+  const CapturedFrame captured = camera->capture({}, at_once());
   ASSERT_TRUE(captured.complete);
   EXPECT_GE(static_cast<int>(captured.id), before + 2) << "one is skipped";
 }
@@ -176,7 +176,7 @@ TEST(V4l2Camera, BrightnessIsReadFromGreyAndFromYuyv) {
     const auto webcam = std::make_shared<FakeWebcam>();
     webcam->formats = {format};
     const auto camera = open_v4l2_camera(settings(), webcam);
-    const CapturedFrame captured = camera->take({}, at_once());
+    const CapturedFrame captured = camera->capture({}, at_once());
     ASSERT_TRUE(captured.complete);
     for (int x = 0; x < FakeWebcam::kWidth; ++x)
       EXPECT_EQ(counts_at(captured.frame, x, 5), x + 40 * (static_cast<int>(captured.id) % 4));
@@ -187,7 +187,7 @@ TEST(V4l2Camera, AShortFrameIsIncomplete) {
   const auto webcam = std::make_shared<FakeWebcam>();
   const auto camera = open_v4l2_camera(settings(), webcam);
   webcam->broken = true;
-  const CapturedFrame captured = camera->take({}, at_once());
+  const CapturedFrame captured = camera->capture({}, at_once());
   EXPECT_FALSE(captured.complete);
   EXPECT_EQ(captured.incomplete_cause, "10 of 512 bytes came");
 }
@@ -196,7 +196,7 @@ TEST(V4l2Camera, FaultsAreOneSentenceAndTheCameraIsGivenBack) {
   const auto webcam = std::make_shared<FakeWebcam>();
   {
     const auto camera = open_v4l2_camera(settings(), webcam);
-    const auto take = [&] { static_cast<void>(camera->take({}, at_once())); };
+    const auto take = [&] { static_cast<void>(camera->capture({}, at_once())); };
     EXPECT_NE(error_of([&] {
                 static_cast<void>(camera->configure({9e9, 0, 0}, at_once()));
               }).find("outside its range, 0.1 to 500"),

@@ -3,20 +3,20 @@
 #include <string>
 #include <vector>
 
+#include "frangia/files/internal/zip_file.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
-#include "frangia/files/zip_file.h"
 
-#include "files/in_a_folder.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
 
 using testing::error_of;
 
-class BadFiles : public testing::InAFolder {
+class BadFiles : public testing::FolderFixture {
  protected:
   [[nodiscard]] std::string error_reading(const std::string& name, const std::string& bytes) const {
     const auto path = put(name, bytes);

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "files/in_a_folder.h"
-#include "files/judges.h"
+#include "files/external_readers.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
 
 namespace frangia {
@@ -19,7 +19,7 @@ using testing::error_of;
 
 constexpr std::array kVariants{DxfVariant::Faces, DxfVariant::Polyface};
 
-class WriteDxf : public testing::InAFolder {
+class WriteDxf : public testing::FolderFixture {
  protected:
   std::filesystem::path write(const Mesh& mesh, DxfVariant variant) const {
     write_dxf(at("part.dxf"), mesh, {variant});
@@ -33,13 +33,13 @@ class WriteDxf : public testing::InAFolder {
 /// Triangle 1 was moved, triangle 2 invented.
 void mark_some(Mesh& mesh) {
   mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
-  mesh.triangle_marks[1] = Mark::Moved;
-  mesh.triangle_marks[2] = Mark::Invented;
+  mesh.triangle_marks[1] = Mark::Displaced;
+  mesh.triangle_marks[2] = Mark::Synthesized;
 }
 
 /// A judge answers with the number of faces and then corners of the box around them, low and high.
 void expect_verdict(const Answer& answer, const Mesh& mesh) {
-  ASSERT_TRUE(answer.content) << answer.text;
+  ASSERT_TRUE(answer.succeeded) << answer.text;
   std::istringstream words(answer.text);
   std::size_t faces = 0;
   words >> faces;
@@ -67,7 +67,7 @@ TEST_F(WriteDxf, PassesTheAuditOfEzdxfWithAllFacesAndExactExtents) {
 }
 
 TEST_F(WriteDxf, IsReadByLibdimeWithAllFacesAlsoBeyondSixteenBits) {
-  if (std::string(FRANGIA_JUDGE_LIBDIME).empty()) {
+  if (std::string(FRANGIA_CHECK_LIBDIME).empty()) {
     GTEST_SKIP() << "libdime-dev is missing; ./run setup installs it, then configure again";
   }
   const Mesh mesh = testing::sheet(200);  // 40 000 vertices, 79 202 triangles
@@ -168,7 +168,7 @@ TEST_F(ReadDxf, ReadsWhatEzdxfWritesAndNamesWhatItLeavesOut) {
   const auto path = at("other.dxf");
   const Answer made =
       testing::ask("/usr/bin/python3 " + at("make.py").string() + " " + path.string());
-  ASSERT_TRUE(made.content) << made.text;
+  ASSERT_TRUE(made.succeeded) << made.text;
   frangia::Run run;
   std::string warning;
   run.on_warning = [&](const std::string& sentence) { warning = sentence; };

@@ -6,12 +6,12 @@
 
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
-#include "frangia/mesh/vertex_data.h"
+#include "frangia/geometry/vertex_data.h"
 
-#include "files/in_a_folder.h"
-#include "files/judges.h"
+#include "files/external_readers.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
@@ -25,12 +25,12 @@ Mesh marked_box() {
     mesh.views.push_back(static_cast<std::uint16_t>(i));
   }
   ensure_marks(mesh);
-  mesh.triangle_marks[3] = Mark::Moved;
-  mesh.triangle_marks[7] = Mark::Invented;
+  mesh.triangle_marks[3] = Mark::Displaced;
+  mesh.triangle_marks[7] = Mark::Synthesized;
   return mesh;
 }
 
-class EveryFormat : public testing::InAFolder {
+class EveryFormat : public testing::FolderFixture {
  protected:
   [[nodiscard]] Mesh there_and_back(const std::string& name, const Mesh& mesh) const {
     write_mesh(at(name), mesh);
@@ -103,10 +103,10 @@ TEST_F(EveryFormat, ThreeMfIsValidToTheConsortiumsOwnReader) {
   if (!testing::have_3mf()) GTEST_SKIP() << "lib3mf is missing; ./run setup installs it";
   write_mesh(at("solid.3mf"), marked_box());
   const testing::Answer solid = testing::ask_3mf(at("solid.3mf"));
-  EXPECT_TRUE(solid.content && solid.text == "12 1\n") << solid.text;
+  EXPECT_TRUE(solid.succeeded && solid.text == "12 1\n") << solid.text;
   write_mesh(at("sheet.3mf"), testing::sheet(30));
   const testing::Answer sheet = testing::ask_3mf(at("sheet.3mf"));
-  EXPECT_TRUE(sheet.content && sheet.text == "1682 0\n") << sheet.text;
+  EXPECT_TRUE(sheet.succeeded && sheet.text == "1682 0\n") << sheet.text;
 }
 
 TEST_F(EveryFormat, ReadsWhatAssimpWrites) {
@@ -115,7 +115,7 @@ TEST_F(EveryFormat, ReadsWhatAssimpWrites) {
   for (const char* name : {"b.stl", "b.obj", "b.glb", "b.gltf", "b.ply"}) {
     const testing::Answer answer =
         testing::ask("assimp export " + at("a.ply").string() + " " + at(name).string());
-    ASSERT_TRUE(answer.content) << answer.text;
+    ASSERT_TRUE(answer.succeeded) << answer.text;
     EXPECT_EQ(read_mesh(at(name)).triangles.size(), 2U * 19 * 19) << name;
   }
 }
@@ -167,10 +167,11 @@ TEST_F(EveryFormat, ReadsOffWithColoursPolygonsAndComments) {
 }
 
 TEST_F(EveryFormat, GivesTheSameBytesAgain) {
-  for (const char* ending : {".dxf", ".stl", ".ply", ".obj", ".glb", ".gltf", ".3mf", ".off"}) {
-    write_mesh(at(std::string("a") + ending), marked_box());
-    write_mesh(at(std::string("b") + ending), marked_box());
-    EXPECT_EQ(bytes_in(std::string("a") + ending), bytes_in(std::string("b") + ending)) << ending;
+  for (const char* extension : {".dxf", ".stl", ".ply", ".obj", ".glb", ".gltf", ".3mf", ".off"}) {
+    write_mesh(at(std::string("a") + extension), marked_box());
+    write_mesh(at(std::string("b") + extension), marked_box());
+    EXPECT_EQ(bytes_in(std::string("a") + extension), bytes_in(std::string("b") + extension))
+        << extension;
   }
 }
 

@@ -1,8 +1,8 @@
-#include "frangia/files/obj.h"
+#include "frangia/files/internal/obj.h"
 
 #include <string>
 
-#include "files/in_a_folder.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
 
 namespace frangia {
@@ -11,7 +11,7 @@ namespace {
 using testing::error_of;
 using testing::expect_same_surface;
 
-class ReadObj : public testing::InAFolder {
+class ReadObj : public testing::FolderFixture {
  protected:
   [[nodiscard]] std::string error_reading(const std::string& text) const {
     const auto path = put("part.obj", text);

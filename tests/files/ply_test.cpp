@@ -8,7 +8,7 @@
 
 #include "frangia/core/missing.h"
 
-#include "files/in_a_folder.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
 
 namespace frangia {
@@ -17,7 +17,7 @@ namespace {
 using testing::error_of;
 using testing::expect_same_surface;
 
-class ReadPly : public testing::InAFolder {
+class ReadPly : public testing::FolderFixture {
  protected:
   [[nodiscard]] std::string error_reading(const std::string& bytes) const {
     const auto path = put("part.ply", bytes);

@@ -57,7 +57,7 @@ TEST(RangeScan, TurnsByTheConjugateOfAConfsQuaternion) {
   write(folder.path() / "grid.ply", small_grid(3));
   write(folder.path() / "all.conf",
         "camera 0 0 0 0 0 0 1\nbmesh grid.ply 1 2 3 0 0 0.70710678 0.70710678\n");
-  const auto scans = read_scan_poses(folder.path() / "all.conf");
+  const auto scans = read_posed_scans(folder.path() / "all.conf");
   ASSERT_EQ(scans.size(), 1U);
   const Eigen::Vector3d turned = scans[0].world_from_scan * Eigen::Vector3d::UnitX();
   EXPECT_TRUE(turned.isApprox(Eigen::Vector3d(1.0, 1.0, 3.0), 1e-6)) << turned.transpose();
@@ -67,7 +67,7 @@ TEST(RangeScan, NamesTheLineOfAConfThatItCannotRead) {
   const TemporaryFolder folder;
   write(folder.path() / "all.conf", "\nbmesh grid.ply 1 2\n");
   try {
-    static_cast<void>(read_scan_poses(folder.path() / "all.conf"));
+    static_cast<void>(read_posed_scans(folder.path() / "all.conf"));
     FAIL();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("line 2"), std::string::npos) << error.what();

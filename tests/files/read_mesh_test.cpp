@@ -3,10 +3,10 @@
 #include <random>
 #include <string>
 
-#include "frangia/files/check_mesh.h"
+#include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/write_mesh.h"
 
-#include "files/in_a_folder.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
 
 namespace frangia {
@@ -14,7 +14,7 @@ namespace {
 
 using testing::error_of;
 
-class ReadMesh : public testing::InAFolder {
+class ReadMesh : public testing::FolderFixture {
  protected:
   [[nodiscard]] std::string error_reading(const std::string& name) const {
     return error_of([&] { return read_mesh(at(name)); });

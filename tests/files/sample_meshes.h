@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia::testing {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "files/in_a_folder.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
 
 namespace frangia {
@@ -14,7 +14,7 @@ namespace {
 
 using testing::error_of;
 
-class ReadStl : public testing::InAFolder {
+class ReadStl : public testing::FolderFixture {
  protected:
   [[nodiscard]] std::string error_reading(const std::string& bytes) const {
     const auto path = put("part.stl", bytes);

@@ -1,4 +1,4 @@
-#include "frangia/files/text_reader.h"
+#include "frangia/files/internal/text_reader.h"
 
 #include <array>
 #include <bit>
@@ -14,12 +14,12 @@ namespace frangia {
 namespace {
 
 TEST(TextReader, ReadsNumbersAsPeopleAndProgramsWriteThem) {
-  EXPECT_EQ(real_of("+1.5e+01"), 15.0F);
-  EXPECT_EQ(real_of("-.5"), -0.5F);
-  EXPECT_EQ(real_of("1e-60"), 0.0F);
-  EXPECT_TRUE(std::isinf(real_of("1e60").value()));
-  EXPECT_TRUE(std::isnan(real_of("nan").value()));
-  EXPECT_EQ(integer_of("+7"), 7);
+  EXPECT_EQ(parse_float("+1.5e+01"), 15.0F);
+  EXPECT_EQ(parse_float("-.5"), -0.5F);
+  EXPECT_EQ(parse_float("1e-60"), 0.0F);
+  EXPECT_TRUE(std::isinf(parse_float("1e60").value()));
+  EXPECT_TRUE(std::isnan(parse_float("nan").value()));
+  EXPECT_EQ(parse_integer("+7"), 7);
 }
 
 TEST(TextReader, ReadsEveryFloatBackFromItsShortestDigits) {
@@ -28,16 +28,16 @@ TEST(TextReader, ReadsEveryFloatBackFromItsShortestDigits) {
     std::array<char, 32> text{};
     const auto* end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
     const std::optional<float> back =
-        real_of({text.data(), static_cast<std::size_t>(end - text.data())});
+        parse_float({text.data(), static_cast<std::size_t>(end - text.data())});
     RC_ASSERT(back && (*back == number || std::isnan(number)));
   }));
 }
 
 TEST(TextReader, RefusesWordsThatOnlyBeginAsNumbers) {
   for (const char* word : {"", "+", "+-1", "1,5", "1.5mm", "0x10", "one"})
-    EXPECT_FALSE(real_of(word)) << word;
+    EXPECT_FALSE(parse_float(word)) << word;
   for (const char* word : {"", "1.0", "99999999999999999999"})
-    EXPECT_FALSE(integer_of(word)) << word;
+    EXPECT_FALSE(parse_integer(word)) << word;
 }
 
 TEST(TextReader, EndsALineOnlyWhereItEnds) {

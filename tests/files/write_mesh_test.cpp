@@ -3,8 +3,8 @@
 #include <limits>
 #include <string>
 
-#include "files/in_a_folder.h"
-#include "files/judges.h"
+#include "files/external_readers.h"
+#include "files/folder_fixture.h"
 #include "files/sample_meshes.h"
 
 namespace frangia {
@@ -12,7 +12,7 @@ namespace {
 
 using testing::error_of;
 
-class WriteMesh : public testing::InAFolder {
+class WriteMesh : public testing::FolderFixture {
  protected:
   static constexpr std::array kNames{"part.dxf",
                                      "part.stl",
@@ -49,9 +49,9 @@ TEST_F(WriteMesh, TakesTheEndingInEitherCase) {
 TEST_F(WriteMesh, ListsTheEndingsThatItKnows) {
   for (const char* name : {"part.step", "part", ".ply", "part.zip"}) {
     EXPECT_NE(error_writing(name, testing::sheet(3)).find(".off, .xyz or .pcd"), std::string::npos);
-    EXPECT_THROW(check_mesh_ending(name), Error);
+    EXPECT_THROW(check_mesh_extension(name), Error);
   }
-  EXPECT_NO_THROW(check_mesh_ending("part.Dxf"));
+  EXPECT_NO_THROW(check_mesh_extension("part.Dxf"));
   EXPECT_TRUE(folder_is_empty());
 }
 

@@ -4,17 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/mesh/change_selection.h"
+#include "frangia/editor/internal/select_by_geometry.h"
+#include "frangia/geometry/change_selection.h"
 #include "frangia/mesh/fill_holes.h"
-#include "frangia/mesh/select_by_place.h"
 
-#include "support/mesh_truths.h"
 #include "support/small_picture.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
 
-ShadeOptions square() {
+RenderOptions square() {
   return testing::small_picture(80, 80);
 }
 
@@ -36,7 +36,7 @@ int count_in(const Image<Rgb>& picture, bool right, const Is& is) {
   return count;
 }
 
-TEST(EditPicture, ShowsWhatGoesInVioletEvenAtTheBack) {
+TEST(EditPicture, ShowsRemovedTrianglesInVioletEvenAtTheBack) {
   const Mesh before = testing::sphere(Eigen::Vector3d::Zero(), 20.0, 30);
   for (const Eigen::Vector3d& place : {Eigen::Vector3d(20, 0, 0), Eigen::Vector3d(-20, 0, 0)}) {
     EditState after;
@@ -48,7 +48,7 @@ TEST(EditPicture, ShowsWhatGoesInVioletEvenAtTheBack) {
   }
 }
 
-TEST(EditPicture, ShowsWhatIsInventedInBlueAndWhatIsSelectedInViolet) {
+TEST(EditPicture, ShowsSynthesizedInBlueAndSelectedInViolet) {
   const Mesh whole = testing::sphere(Eigen::Vector3d::Zero(), 20.0, 30);
   const Mesh before = delete_selected(whole, select_by_ball(whole, {0, 20, 0}, 9.0));
   EditState after;

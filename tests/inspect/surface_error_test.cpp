@@ -4,7 +4,7 @@
 
 #include "frangia/core/random.h"
 
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {

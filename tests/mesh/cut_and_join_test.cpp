@@ -5,21 +5,21 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
-#include "frangia/mesh/boundary_loops.h"
+#include "frangia/editor/internal/select_by_geometry.h"
+#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/change_selection.h"
+#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/hausdorff_distance.h"
+#include "frangia/geometry/transform_mesh.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/bridge_loops.h"
-#include "frangia/mesh/change_selection.h"
-#include "frangia/mesh/connected_parts.h"
 #include "frangia/mesh/cut_by_plane.h"
 #include "frangia/mesh/mesh_findings.h"
 #include "frangia/mesh/orient.h"
 #include "frangia/mesh/remesh_isotropic.h"
-#include "frangia/mesh/select_by_place.h"
 #include "frangia/mesh/self_intersections.h"
-#include "frangia/mesh/surface_gap.h"
-#include "frangia/mesh/transform_mesh.h"
-#include "frangia/mesh/vertex_data.h"
 
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
@@ -45,7 +45,7 @@ TEST(CutByPlane, CappedLeavesTheVolumeOfASegmentOfASphere) {
   EXPECT_NEAR(volume_mm3(cut) / (kPi * height * height * (20.0 - height / 3.0)), 1.0, 0.01);
 }
 
-TEST(CutByPlane, OpenLeavesOneRimInThePlaneAndInventsNothing) {
+TEST(CutByPlane, OpenLeavesOneLoopInThePlaneAndSynthesizesNothing) {
   const Mesh cut = cut_by_plane(fine_ball(), plane({0, 0, 1}, 5.3));
   const auto loops = boundary_loops(cut);
   ASSERT_EQ(loops.size(), 1U);
@@ -56,7 +56,7 @@ TEST(CutByPlane, OpenLeavesOneRimInThePlaneAndInventsNothing) {
 
 TEST(CutByPlane, CapsATubeWithItsHole) {
   Mesh tube = box({0, 0, 0}, {30, 30, 40});
-  append_mesh(tube, turn_inside_out(box({10, 10, -5}, {20, 20, 45})));
+  append_mesh(tube, reverse_orientation(box({10, 10, -5}, {20, 20, 45})));
   const Mesh cut = cut_by_plane(tube, plane({0, 0, -1}, -25.0), {.capped = true});
   const Mesh both = cut_by_plane(cut, plane({0, 0, 1}, 10.0), {.capped = true});
   EXPECT_EQ(open_edges(both), 0U);
@@ -66,7 +66,7 @@ TEST(CutByPlane, CapsATubeWithItsHole) {
 TEST(CutByPlane, ThroughVerticesAndEdgesMakesNoSlivers) {
   const Mesh cut = cut_by_plane(fine_ball(), plane({0, 0, 1}, 0.0), {.capped = true});
   EXPECT_EQ(open_edges(cut), 0U);
-  EXPECT_EQ(mesh_findings(cut).without_area, 0U);
+  EXPECT_EQ(mesh_findings(cut).degenerate_triangles, 0U);
   EXPECT_TRUE(cut_by_plane(fine_ball(), plane({0, 0, 1}, 30.0)).empty());
   EXPECT_EQ(cut_by_plane(fine_ball(), plane({0, 0, 1}, -30.0)).triangles, fine_ball().triangles);
 }
@@ -77,7 +77,7 @@ TEST(BridgeLoops, JoinsTwoHalvesToOneClosedPart) {
   ASSERT_EQ(boundary_loops(halves).size(), 2U);
   const Mesh whole = bridge_loops(halves, 0, 1);
   EXPECT_EQ(open_edges(whole), 0U);
-  EXPECT_EQ(connected_parts(whole).parts.size(), 1U);
+  EXPECT_EQ(connected_components(whole).components.size(), 1U);
   // Between the halves now stands a cylinder.
   const double low = testing::volume_mm3(fine_ball());
   EXPECT_NEAR(volume_mm3(whole) / low, 1.0, 0.03);
@@ -89,10 +89,10 @@ TEST(BridgeLoops, JoinsTwoHalvesToOneClosedPart) {
 TEST(RemeshIsotropic, GivesEdgesOfOneLengthOnTheSameSurface) {
   Mesh mesh = fine_ball();
   mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.05F);
-  const Mesh even = remesh_isotropic(mesh, {.edge_mm = 2.0, .rounds = 5});
+  const Mesh even = remesh_isotropic(mesh, {.edge_mm = 2.0, .iterations = 5});
   EXPECT_EQ(open_edges(even), 0U);
-  EXPECT_NEAR(mean_edge_mm(even), 2.0, 0.3);
-  EXPECT_LT(surface_gap_mm(RayScene(mesh), RayScene(even), 0.5), 0.1);
+  EXPECT_NEAR(mean_edge_length_mm(even), 2.0, 0.3);
+  EXPECT_LT(hausdorff_distance_mm(RayScene(mesh), RayScene(even), 0.5), 0.1);
   EXPECT_EQ(even.sigma_mm.size(), even.vertices_mm.size());
   EXPECT_NEAR(even.sigma_mm[7], 0.05F, 1e-4F);
 }
@@ -114,7 +114,7 @@ TEST(SelfIntersections, AreFoundWhereTwoBallsCrossAndNowhereElse) {
   Mesh mesh = fine_ball(10.0);
   append_mesh(mesh, fine_ball(10.0, {12.0, 0.3, 0.2}));
   const Selection crossing = select_self_intersections(mesh);
-  EXPECT_GT(count_of(crossing), 100U);
+  EXPECT_GT(count_selected(crossing), 100U);
   for (std::size_t i = 0; i < crossing.size(); ++i) {
     const auto& t = mesh.triangles[i];
     const Eigen::Vector3f middle =

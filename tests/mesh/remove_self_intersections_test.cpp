@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/mesh/boundary_loops.h"
-#include "frangia/mesh/connected_parts.h"
+#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/self_intersections.h"
-#include "frangia/mesh/vertex_data.h"
 
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
@@ -59,7 +59,7 @@ TEST(RemoveSelfIntersections, OfADentThroughTheOtherSideLeaveAClosedMesh) {
   const Mesh mended = remove_self_intersections(mesh);
   EXPECT_TRUE(self_intersections(mended).empty());
   EXPECT_EQ(open_edges(mended), 0U);
-  EXPECT_EQ(connected_parts(mended).parts.size(), 1U);
+  EXPECT_EQ(connected_components(mended).components.size(), 1U);
 }
 
 TEST(RemoveSelfIntersections, UniteTwoBallsThatCross) {
@@ -68,7 +68,7 @@ TEST(RemoveSelfIntersections, UniteTwoBallsThatCross) {
   const Mesh united = remove_self_intersections(mesh);
   EXPECT_TRUE(self_intersections(united).empty());
   EXPECT_EQ(open_edges(united), 0U);
-  EXPECT_EQ(connected_parts(united).parts.size(), 1U);
+  EXPECT_EQ(connected_components(united).components.size(), 1U);
   // Two balls without the lens that they have in common.
   const double h = 10.0 - 0.5 * std::hypot(12.0, 0.3, 0.2);
   const double lens = 2.0 * kPi * h * h * (30.0 - h) / 3.0;
@@ -108,7 +108,7 @@ TEST(RemoveSelfIntersections, BetweenOpenSheetsLeaveTheirBoundariesOpen) {
   EXPECT_TRUE(self_intersections(mended).empty());
   EXPECT_TRUE(std::none_of(mended.triangle_marks.begin(),
                            mended.triangle_marks.end(),
-                           [](Mark mark) { return mark == Mark::Invented; }));
+                           [](Mark mark) { return mark == Mark::Synthesized; }));
   EXPECT_GT(boundary_loops(mended).size(), 2U);
 }
 

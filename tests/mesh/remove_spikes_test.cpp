@@ -5,22 +5,22 @@
 #include <gtest/gtest.h>
 
 #include "files/sample_meshes.h"
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
 
 TEST(RemoveSpikes, SetsATipDownAndLeavesTheRest) {
-  constexpr float kRadius = 20.0F;
-  Mesh mesh = testing::sphere(Eigen::Vector3d::Zero(), kRadius, 40);
+  constexpr float kBallRadius = 20.0F;
+  Mesh mesh = testing::sphere(Eigen::Vector3d::Zero(), kBallRadius, 40);
   mesh.vertices_mm[1000] *= 2.0F;
   const Mesh flat = remove_spikes(mesh);
   for (const auto& vertex : flat.vertices_mm)
-    ASSERT_NEAR(vertex.norm(), kRadius, 0.2F);
-  EXPECT_EQ(flat.vertex_marks[1000], Mark::Moved);
+    ASSERT_NEAR(vertex.norm(), kBallRadius, 0.2F);
+  EXPECT_EQ(flat.vertex_marks[1000], Mark::Displaced);
 }
 
-TEST(RemoveSpikes, LeavesTheCornersOfABoxAndTheRimOfASheet) {
+TEST(RemoveSpikes, LeavesTheCornersOfABoxAndTheBoundaryOfASheet) {
   for (const Mesh& mesh :
        {testing::box(Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones()), testing::sheet(21)}) {
     const Mesh same = remove_spikes(mesh);
@@ -29,7 +29,7 @@ TEST(RemoveSpikes, LeavesTheCornersOfABoxAndTheRimOfASheet) {
   }
 }
 
-TEST(RemoveSpikes, CutsNeedlesAtTheRimOff) {
+TEST(RemoveSpikes, CutsNeedlesAtTheBoundaryOff) {
   const Mesh sheet = testing::sheet(21);
   Mesh mesh = sheet;
   mesh.vertices_mm[10].y() -= 8.0F;        // in the sheet, away from it

@@ -24,11 +24,12 @@ TEST(FringeSequence, RefusesAnUnknownNameAndNoFringes) {
   EXPECT_THROW(static_cast<void>(fringe_sequence("doubling", std::nan(""))), Error);
 }
 
-TEST(WrongOrderChance, IsThatOfSimulatedNoise) {
+TEST(WrongOrderProbability, IsThatOfSimulatedNoise) {
   // The published limits of sigma for a chance of 1e-6, and rates that can be counted.
   for (const auto& [ratio, sigma] :
        {std::pair{2.0, 0.287}, {4.0, 0.156}, {8.0, 0.080}, {16.0, 0.040}})
-    EXPECT_NEAR(std::log10(wrong_order_chance(sigma * std::hypot(1.0, ratio))), -6.0, 0.2) << ratio;
+    EXPECT_NEAR(std::log10(wrong_order_probability(sigma * std::hypot(1.0, ratio))), -6.0, 0.2)
+        << ratio;
   for (const double ratio : {2.0, 4.0, 8.0}) {
     const double sigma = 1.4 / std::hypot(1.0, ratio);
     constexpr int kTrials = 1'000'000;
@@ -38,7 +39,7 @@ TEST(WrongOrderChance, IsThatOfSimulatedNoise) {
       const double fine = sigma * normal_from(hash(2 * i + 2));
       wrong += std::abs(ratio * coarse - fine) > kPi ? 1 : 0;
     }
-    const double expected = kTrials * wrong_order_chance(1.4);
+    const double expected = kTrials * wrong_order_probability(1.4);
     EXPECT_NEAR(wrong, expected, 4.0 * std::sqrt(expected)) << ratio;
   }
 }
@@ -49,7 +50,7 @@ TEST(PlanSequence, IsTheShortestThatKeepsTheChanceBelowTheLimit) {
   EXPECT_NEAR(plan.fringes[1], 4.0, 1e-9);
   EXPECT_LT(plan.wrong_order, 1e-6);
   // One map less would not do: ratio 8 in two steps.
-  EXPECT_GT(2.0 * wrong_order_chance(0.1 * std::sqrt(65.0)), 1e-6);
+  EXPECT_GT(2.0 * wrong_order_probability(0.1 * std::sqrt(65.0)), 1e-6);
   EXPECT_EQ(plan_sequence(1.0, 0.1).fringes, Numbers{1.0});
 }
 

@@ -12,11 +12,11 @@ namespace frangia {
 namespace {
 
 TEST(PatternPicture, FringesHaveTheirPhaseInTheMiddleOfTheColumn) {
-  const Pattern pattern{.name = "f", .period_px = 16.0, .shifts_rad = {0.0, kTurn / 4.0}};
+  const Pattern pattern{.name = "f", .period_px = 16.0, .shifts_rad = {0.0, kTwoPi / 4.0}};
   for (int frame = 0; frame < 2; ++frame) {
     const Image<float> picture = pattern_picture(pattern, frame, 40, 3);
     for (int x = 0; x < 40; ++x) {
-      const double phase = kTurn * x / 16.0 + pattern.shifts_rad[static_cast<std::size_t>(frame)];
+      const double phase = kTwoPi * x / 16.0 + pattern.shifts_rad[static_cast<std::size_t>(frame)];
       EXPECT_NEAR(picture(x, 2), 0.5 + 0.5 * std::cos(phase), 1e-6);
     }
   }
@@ -43,7 +43,7 @@ TEST(PatternPicture, GrayCodeTellsEveryColumnItsNumber) {
     }
   }
   for (std::uint32_t x = 0; x < 32; ++x)
-    EXPECT_EQ(number_of_gray(code[x]), x);
+    EXPECT_EQ(gray_to_binary(code[x]), x);
 }
 
 TEST(PatternPicture, WhatNoProjectorShowsIsRefused) {

@@ -36,7 +36,7 @@ std::string in_digits_of(const std::string& printed, double value) {
 
 TEST(AlgorithmErrors, AreThePublishedOnesToTheLastDigit) {
   const double quarter = 0.5 * kPi;
-  const std::vector<Row> table = {{"3-step-120", 3, kTurn / 3.0, "0.12", "0.816", "1", "0"},
+  const std::vector<Row> table = {{"3-step-120", 3, kTwoPi / 3.0, "0.12", "0.816", "1", "0"},
                                   {"3-step-90", 3, quarter, "0.079", "1.00", "2", "1"},
                                   {"4-step", 4, quarter, "0.0786", "0.707", "0", "1"},
                                   {"schwider", 4, quarter, "0.0031", "0.866", "1.1", "1"},
@@ -44,8 +44,8 @@ TEST(AlgorithmErrors, AreThePublishedOnesToTheLastDigit) {
                                   {"hariharan", 5, quarter, "0.0031", "0.661", "0", "1"},
                                   {"schmit-creath", 6, quarter, "0.00012", "0.637", "0", "1"},
                                   {"de-groot", 7, quarter, "0.00000", "0.619", "0", "1"},
-                                  {"larkin-oreb", 7, kTurn / 6.0, "0.0018", "0.56", "0", "0"},
-                                  {"least-squares", 6, kTurn / 6.0, "0.06", "0.577", "0", "0"}};
+                                  {"larkin-oreb", 7, kTwoPi / 6.0, "0.0018", "0.56", "0", "0"},
+                                  {"least-squares", 6, kTwoPi / 6.0, "0.06", "0.577", "0", "0"}};
   for (const Row& row : table) {
     const auto shifts = equal_shifts(row.frames, row.step_rad);
     const AlgorithmErrors errors = algorithm_errors(make_algorithm(row.name, shifts), shifts);
@@ -58,7 +58,7 @@ TEST(AlgorithmErrors, AreThePublishedOnesToTheLastDigit) {
 
 TEST(AlgorithmErrors, LeastSquaresOfAnyNumberOfFramesIsAtTheNoiseLimitAndRipplesAsPublished) {
   for (int frames = 5; frames <= 16; ++frames) {
-    const auto shifts = equal_shifts(frames, kTurn / frames);
+    const auto shifts = equal_shifts(frames, kTwoPi / frames);
     const AlgorithmErrors errors =
         algorithm_errors(make_algorithm("least-squares", shifts), shifts);
     EXPECT_NEAR(errors.noise_gain, std::sqrt(2.0 / frames), 1e-6);

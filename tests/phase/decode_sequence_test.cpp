@@ -19,7 +19,7 @@
 namespace frangia {
 namespace {
 
-using testing::photograph;
+using testing::render_frames;
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 40;
@@ -28,7 +28,7 @@ const NoiseModel kNoise{.floor_counts2 = kNoise_counts * kNoise_counts};
 
 Projector display() {
   Projector projector;
-  projector.model = Lens{.width_px = kWidth, .height_px = 4, .focal_px = {800.0, 800.0}};
+  projector.model = CameraModel{.width_px = kWidth, .height_px = 4, .focal_px = {800.0, 800.0}};
   return projector;
 }
 
@@ -37,13 +37,13 @@ std::vector<FrameStack> frames_of(const std::string& sequence, int shifts) {
   for (const double fringes : fringe_sequence(sequence, 64.0)) {
     const Pattern pattern{.name = "p",
                           .period_px = kWidth / fringes,
-                          .shifts_rad = testing::equal_shifts(shifts, kTurn / shifts)};
+                          .shifts_rad = testing::equal_shifts(shifts, kTwoPi / shifts)};
     const testing::Scene scene{.width = kWidth,
                                .height = kHeight,
                                .noise_counts = kNoise_counts,
                                .seed = static_cast<std::uint32_t>(stacks.size() + 1)};
     stacks.push_back(
-        photograph(scene, pattern, [&](int x, int) { return kTurn * fringes * x / kWidth; }));
+        render_frames(scene, pattern, [&](int x, int) { return kTwoPi * fringes * x / kWidth; }));
   }
   // A highlight in one frame, and a shadow in all of one map.
   std::get<Image<std::uint16_t>>(stacks[2].frames[1])(300, 7) = 65535;
@@ -60,7 +60,7 @@ std::vector<SequenceFrames> maps_of(const std::vector<FrameStack>& stacks) {
   return maps;
 }
 
-TEST(DecodeSequence, FindsWhatWrappingEachMapAndClimbingFind) {
+TEST(DecodeSequence, FindsWhatWrappingEachMapAndUnwrappingFind) {
   for (const char* name : {"doubling", "negative-exponential", "heterodyne"}) {
     for (const int shifts : {3, 4, 5, 6}) {
       const auto stacks = frames_of(name, shifts);
@@ -72,8 +72,8 @@ TEST(DecodeSequence, FindsWhatWrappingEachMapAndClimbingFind) {
       const AbsolutePhase apart = unwrap_sequence(wrapped, display());
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
-          ASSERT_EQ(once.fate(x, y), apart.fate(x, y)) << name << ' ' << x << ' ' << y;
-          if (once.fate(x, y) != PixelFate::Measured) continue;
+          ASSERT_EQ(once.status(x, y), apart.status(x, y)) << name << ' ' << x << ' ' << y;
+          if (once.status(x, y) != PixelStatus::Measured) continue;
           ASSERT_NEAR(once.phase_rad(x, y), apart.phase_rad(x, y), 1e-4);
           ASSERT_NEAR(once.sigma_rad(x, y) / apart.sigma_rad(x, y), 1.0, 1e-4);
         }
@@ -89,20 +89,20 @@ TEST(DecodeSequence, IsTrueToItsSigmaAndSaysWhyPixelsWent) {
   double count = 0.0;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 100; x < kWidth - 100; ++x) {
-      if (phase.fate(x, y) != PixelFate::Measured) continue;
-      const double error = phase.phase_rad(x, y) - kTurn * 64.0 * x / kWidth;
+      if (phase.status(x, y) != PixelStatus::Measured) continue;
+      const double error = phase.phase_rad(x, y) - kTwoPi * 64.0 * x / kWidth;
       chi_square += std::pow(error / static_cast<double>(phase.sigma_rad(x, y)), 2);
       count += 1.0;
     }
   }
   EXPECT_GT(count, 0.99 * (kWidth - 200) * kHeight);
   EXPECT_NEAR(chi_square / count, 1.0, 0.05);
-  EXPECT_EQ(phase.fate(300, 7), PixelFate::Saturated);
-  EXPECT_EQ(phase.fate(301, 8), PixelFate::Unmodulated);
+  EXPECT_EQ(phase.status(300, 7), PixelStatus::Saturated);
+  EXPECT_EQ(phase.status(301, 8), PixelStatus::Unmodulated);
   EXPECT_TRUE(std::isnan(phase.phase_rad(300, 7)));
 }
 
-TEST(DecodeSequence, WritesOverTheMemoryThatItIsLent) {
+TEST(DecodeSequence, ReusesTheMemoryOfARecycledPhase) {
   const auto stacks = frames_of("doubling", 4);
   AbsolutePhase first = decode_sequence(maps_of(stacks), kNoise, display());
   const AbsolutePhase kept = first;
@@ -110,7 +110,7 @@ TEST(DecodeSequence, WritesOverTheMemoryThatItIsLent) {
   const AbsolutePhase again =
       decode_sequence(maps_of(stacks), kNoise, display(), {}, std::move(first));
   EXPECT_EQ(again.phase_rad.pixels().data(), memory);
-  EXPECT_EQ(again.fate(200, 20), kept.fate(200, 20));
+  EXPECT_EQ(again.status(200, 20), kept.status(200, 20));
   EXPECT_EQ(again.phase_rad(200, 20), kept.phase_rad(200, 20));
 }
 

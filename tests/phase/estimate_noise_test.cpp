@@ -13,8 +13,8 @@ namespace frangia {
 namespace {
 
 using testing::equal_shifts;
-using testing::photograph;
 using testing::quarter_steps;
+using testing::render_frames;
 using testing::Scene;
 
 /// Frames of a scene that darkens to one side, with shot and read noise of an 8-bit camera.
@@ -62,14 +62,14 @@ TEST(EstimateNoise, IsNotFooledByAStepError) {
 
 TEST(EstimateNoise, FindsItFromThreeFramesToo) {
   Pattern pattern = quarter_steps();
-  pattern.shifts_rad = equal_shifts(3, kTurn / 3.0);
+  pattern.shifts_rad = equal_shifts(3, kTwoPi / 3.0);
   const std::vector<FrameStack> stacks = {shot_noise_frames(pattern)};
   EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.15);
 }
 
 TEST(EstimateNoise, KeepsTheNoiseOfQuantisationForPerfectFrames) {
   const std::vector<FrameStack> stacks = {
-      photograph({.height = 200}, quarter_steps(), [](int x, int) { return 0.05 * x; })};
+      render_frames({.height = 200}, quarter_steps(), [](int x, int) { return 0.05 * x; })};
   EXPECT_GE(estimate_noise(stacks).variance(30000.0), 1.0 / 12.0);
 }
 

@@ -12,11 +12,11 @@
 namespace frangia {
 namespace {
 
-using testing::aslant;
 using testing::equal_shifts;
-using testing::photograph;
 using testing::quarter_steps;
+using testing::render_frames;
 using testing::Scene;
+using testing::tilted_plane;
 
 const Scene kScene{.height = 100, .modulation_counts = 9000.0, .noise_counts = 200.0};
 const NoiseModel kStrongNoise{.floor_counts2 = 200.0 * 200.0};
@@ -24,7 +24,7 @@ const NoiseModel kStrongNoise{.floor_counts2 = 200.0 * 200.0};
 TEST(EstimateShifts, FindsUnequalShiftsBetweenTheFrames) {
   Pattern made = quarter_steps();
   made.shifts_rad = {0.0, 1.1, 2.0, 3.4, 4.1, 5.6, 5.9};
-  FrameStack stack = photograph(kScene, made, aslant);
+  FrameStack stack = render_frames(kScene, made, tilted_plane);
   stack.pattern.shifts_rad = equal_shifts(7, 1.0);
   const ShiftEstimate found = estimate_shifts(stack, kStrongNoise);
   ASSERT_TRUE(found.found) << found.residual_counts2 << " of " << found.expected_counts2;
@@ -37,7 +37,8 @@ TEST(EstimateShifts, PlacesShiftsOfAWrongGainWithoutAConstant) {
   pattern.shifts_rad = equal_shifts(8, 0.25 * kPi);
   Scene scene = kScene;
   scene.step_error = 0.05;
-  const ShiftEstimate found = estimate_shifts(photograph(scene, pattern, aslant), kStrongNoise);
+  const ShiftEstimate found =
+      estimate_shifts(render_frames(scene, pattern, tilted_plane), kStrongNoise);
   ASSERT_TRUE(found.found);
   for (std::size_t k = 0; k < 8; ++k)
     EXPECT_NEAR(found.shifts_rad[k], 1.05 * pattern.shifts_rad[k], 2e-3) << k;
@@ -46,10 +47,10 @@ TEST(EstimateShifts, PlacesShiftsOfAWrongGainWithoutAConstant) {
 TEST(EstimateShifts, IsNotTrustedWhenTheFramesDoNotFitAnyShifts) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = equal_shifts(8, 0.25 * kPi);
-  FrameStack stack = photograph(kScene, pattern, aslant);
+  FrameStack stack = render_frames(kScene, pattern, tilted_plane);
   // In one frame half the image has moved on.
-  const FrameStack moved = photograph(
-      kScene, pattern, [](int x, int y) { return aslant(x, y) + (x > 300 ? 0.5 : 0.0); });
+  const FrameStack moved = render_frames(
+      kScene, pattern, [](int x, int y) { return tilted_plane(x, y) + (x > 300 ? 0.5 : 0.0); });
   stack.frames[3] = moved.frames[3];
   const ShiftEstimate found = estimate_shifts(stack, kStrongNoise);
   EXPECT_FALSE(found.found);
@@ -58,9 +59,9 @@ TEST(EstimateShifts, IsNotTrustedWhenTheFramesDoNotFitAnyShifts) {
 }
 
 TEST(EstimateShifts, AsksForSixFrames) {
-  EXPECT_THROW(
-      static_cast<void>(estimate_shifts(photograph({}, quarter_steps(), aslant), kStrongNoise)),
-      Error);
+  EXPECT_THROW(static_cast<void>(
+                   estimate_shifts(render_frames({}, quarter_steps(), tilted_plane), kStrongNoise)),
+               Error);
 }
 
 }  // namespace

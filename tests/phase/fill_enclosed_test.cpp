@@ -18,7 +18,7 @@ AbsolutePhase measured(int width, int height) {
   AbsolutePhase phase{.pattern = {},
                       .phase_rad = Image<float>(width, height),
                       .sigma_rad = Image<float>(width, height, 0.02F),
-                      .fate = Image<PixelFate>(width, height, PixelFate::Measured)};
+                      .status = Image<PixelStatus>(width, height, PixelStatus::Measured)};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x)
       phase.phase_rad(x, y) = static_cast<float>(bowl(x, y));
@@ -29,44 +29,44 @@ AbsolutePhase measured(int width, int height) {
 using Corner = std::array<int, 2>;  ///< x and y, in pixels
 
 /// Loses the pixels from one corner up to the other, that one left out.
-void punch(AbsolutePhase& phase, Corner from, Corner to, PixelFate fate) {
+void punch(AbsolutePhase& phase, Corner from, Corner to, PixelStatus status) {
   for (int y = from[1]; y < to[1]; ++y) {
     for (int x = from[0]; x < to[0]; ++x) {
       phase.phase_rad(x, y) = kMissing;
       phase.sigma_rad(x, y) = kMissing;
-      phase.fate(x, y) = fate;
+      phase.status(x, y) = status;
     }
   }
 }
 
 TEST(FillEnclosed, InterpolatesASaturatedHighlightAndMarksIt) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, {10, 10}, {17, 16}, PixelFate::Saturated);
+  punch(phase, {10, 10}, {17, 16}, PixelStatus::Saturated);
   EXPECT_EQ(fill_enclosed(phase), 42U);
   for (int y = 10; y < 16; ++y) {
     for (int x = 10; x < 17; ++x) {
       EXPECT_NEAR(phase.phase_rad(x, y), bowl(x, y), 0.01);
       EXPECT_GE(phase.sigma_rad(x, y), 0.02F);
-      EXPECT_EQ(phase.fate(x, y), PixelFate::Filled);
+      EXPECT_EQ(phase.status(x, y), PixelStatus::Filled);
     }
   }
 }
 
 TEST(FillEnclosed, LeavesATrueHoleOpen) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, {10, 10}, {16, 16}, PixelFate::Unmodulated);
+  punch(phase, {10, 10}, {16, 16}, PixelStatus::Unmodulated);
   EXPECT_EQ(fill_enclosed(phase), 0U);
 }
 
 TEST(FillEnclosed, LeavesAHoleOpenThatReachesTheBorder) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, {0, 10}, {5, 14}, PixelFate::Saturated);
+  punch(phase, {0, 10}, {5, 14}, PixelStatus::Saturated);
   EXPECT_EQ(fill_enclosed(phase), 0U);
 }
 
 TEST(FillEnclosed, DoesNotBridgeADepthStep) {
   AbsolutePhase phase = measured(40, 30);
-  punch(phase, {18, 10}, {22, 14}, PixelFate::Residue);
+  punch(phase, {18, 10}, {22, 14}, PixelStatus::Residue);
   for (int y = 0; y < 30; ++y) {
     for (int x = 20; x < 40; ++x)
       phase.phase_rad(x, y) += 6.0F;

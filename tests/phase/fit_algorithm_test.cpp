@@ -14,10 +14,10 @@
 namespace frangia {
 namespace {
 
-using testing::aslant;
-using testing::photograph;
 using testing::quarter_steps;
+using testing::render_frames;
 using testing::Scene;
+using testing::tilted_plane;
 
 /// Error of every pixel of a map: its mean, and its spread about it.
 struct Offset {
@@ -29,7 +29,7 @@ Offset offset_of(const WrappedPhase& map) {
   double square = 0.0;
   for (int y = 0; y < map.phase_rad.height(); ++y) {
     for (int x = 0; x < map.phase_rad.width(); ++x) {
-      const double error = wrap_rad(map.phase_rad(x, y) - aslant(x, y));
+      const double error = wrap_rad(map.phase_rad(x, y) - tilted_plane(x, y));
       sum += error;
       square += error * error;
     }
@@ -45,7 +45,7 @@ TEST(FitAlgorithm, SwappingAlgorithmsLeavesNoConstantWhenTheShiftersGainIsOff) {
     // Three frames do not show their step: those of a true shifter.
     const double error = pattern.shifts_rad.size() > 3 ? 0.05 : 0.0;
     const Scene scene{.height = 300, .noise_counts = 100.0, .step_error = error};
-    const FrameStack stack = photograph(scene, pattern, aslant);
+    const FrameStack stack = render_frames(scene, pattern, tilted_plane);
     const NoiseModel noise{.floor_counts2 = 1e4};
     const FittedAlgorithm fitted = fit_algorithm(published.name, stack, noise);
     const Offset offset = offset_of(wrap_phase(stack, fitted.algorithm, noise));
@@ -58,7 +58,7 @@ TEST(FitAlgorithm, TellsWhatItChose) {
   std::string told;
   frangia::Run run;
   run.on_note = [&](const std::string& sentence) { told = sentence; };
-  const FrameStack stack = photograph({}, quarter_steps(), aslant);
+  const FrameStack stack = render_frames({}, quarter_steps(), tilted_plane);
   EXPECT_EQ(fit_algorithm("auto", stack, {}, run).algorithm.name, "schwider");
   EXPECT_EQ(told, "pattern \"fringe\": algorithm schwider, for 4 frames of an interferometer");
 }
@@ -66,7 +66,8 @@ TEST(FitAlgorithm, TellsWhatItChose) {
 TEST(FitAlgorithm, WarnsWhenIteratedShiftsDoNotExplainTheFrames) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = testing::equal_shifts(8, 0.25 * kPi);
-  const FrameStack stack = photograph({.height = 50, .noise_counts = 2000.0}, pattern, aslant);
+  const FrameStack stack =
+      render_frames({.height = 50, .noise_counts = 2000.0}, pattern, tilted_plane);
   std::string told;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { told = sentence; };

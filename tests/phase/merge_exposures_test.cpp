@@ -16,7 +16,7 @@
 namespace frangia {
 namespace {
 
-using testing::aslant;
+using testing::tilted_plane;
 
 constexpr int kSide = 200;
 const NoiseModel kCamera = NoiseModel::from_camera(40.0, 30.0);
@@ -32,8 +32,8 @@ std::vector<FrameStack> taken(double light, const std::vector<double>& exposures
       Image<std::uint8_t> image(kSide, kSide);
       for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
-          const double counts =
-              stack.gain() * light * (1.0 + 0.8 * std::cos(aslant(x, y) + pattern.shifts_rad[k]));
+          const double counts = stack.gain() * light *
+                                (1.0 + 0.8 * std::cos(tilted_plane(x, y) + pattern.shifts_rad[k]));
           const auto place =
               hash(hash(10 * e + k, static_cast<std::uint64_t>(y)), static_cast<std::uint64_t>(x));
           const double sigma = std::sqrt(kCamera.variance(counts) - 1.0 / 12.0);
@@ -59,9 +59,9 @@ Quality quality_of(const WrappedPhase& map) {
   double count = 0.0;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      if (map.fate(x, y) != PixelFate::Measured) continue;
+      if (map.status(x, y) != PixelStatus::Measured) continue;
       count += 1.0;
-      out.rms_rad += std::pow(wrap_rad(map.phase_rad(x, y) - aslant(x, y)), 2);
+      out.rms_rad += std::pow(wrap_rad(map.phase_rad(x, y) - tilted_plane(x, y)), 2);
       out.sigma_rad += std::pow(static_cast<double>(map.sigma_rad(x, y)), 2);
     }
   }
@@ -116,7 +116,7 @@ TEST(MergeExposures, TakesTheUnsaturatedSamplesOfAPixelThatSaturatesInSomeFrames
 TEST(MergeExposures, IsSaturatedWhereNoExposureIsShortEnough) {
   const auto stacks = taken(9000.0, {1.0, 2.0});
   const WrappedPhase map = merge_exposures(stacks, stacks[0].pattern.shifts_rad, kCamera);
-  EXPECT_EQ(map.fate(50, 50), PixelFate::Saturated);
+  EXPECT_EQ(map.status(50, 50), PixelStatus::Saturated);
   EXPECT_TRUE(std::isnan(map.phase_rad(50, 50)));
 }
 

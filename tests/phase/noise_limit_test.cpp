@@ -7,9 +7,9 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
+#include "frangia/phase/assess_frames.h"
 #include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/fit_algorithm.h"
-#include "frangia/phase/judge_frames.h"
 #include "frangia/phase/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
@@ -17,8 +17,8 @@
 namespace frangia {
 namespace {
 
-using testing::aslant;
 using testing::quarter_steps;
+using testing::tilted_plane;
 
 constexpr int kColumnsSeen = 640;
 constexpr int kRowsSeen = 300;
@@ -33,7 +33,7 @@ FrameStack noisy_frames(double exposure, double step_error, double flicker_rad =
       for (int x = 0; x < kColumnsSeen; ++x) {
         const double shift = stack.pattern.shifts_rad[k] * (1.0 + step_error) +
                              (k == 2 ? flicker_rad * std::sin(0.05 * y) : 0.0);
-        const double light = 120.0 * exposure * (1.0 + 0.8 * std::cos(aslant(x, y) + shift));
+        const double light = 120.0 * exposure * (1.0 + 0.8 * std::cos(tilted_plane(x, y) + shift));
         const std::uint64_t place =
             hash(hash(k + 5, static_cast<std::uint64_t>(y)), static_cast<std::uint64_t>(x));
         const double sigma = std::sqrt(kShotNoise.variance(light) - 1.0 / 12.0);
@@ -59,7 +59,7 @@ Decoded decode(const std::string& name, double exposure, double step_error, Nois
   Decoded out;
   for (int y = 0; y < kRowsSeen; ++y) {
     for (int x = 0; x < kColumnsSeen; ++x) {
-      const double error = wrap_rad(map.phase_rad(x, y) - aslant(x, y));
+      const double error = wrap_rad(map.phase_rad(x, y) - tilted_plane(x, y));
       out.rms_rad += error * error / (kColumnsSeen * kRowsSeen);
       out.chi_square += std::pow(error / map.sigma_rad(x, y), 2) / (kColumnsSeen * kRowsSeen);
     }
@@ -99,31 +99,31 @@ TEST(NoiseLimit, SigmaIsTrueWhenTheNoiseIsEstimatedFromTheFrames) {
   }
 }
 
-FrameVerdict verdict_of(const FrameStack& stack) {
+FrameAssessment assessment_of(const FrameStack& stack) {
   const FittedAlgorithm fitted = fit_algorithm("auto", stack, kShotNoise);
   const WrappedPhase map = wrap_phase(stack, fitted.algorithm, kShotNoise);
-  return judge_frames(stack, fitted, map, kShotNoise);
+  return assess_frames(stack, fitted, map, kShotNoise);
 }
 
-TEST(JudgeFrames, FindsStepAndContrastAndNothingWrongInGoodFrames) {
-  const FrameVerdict verdict = verdict_of(noisy_frames(0.9, 0.03));
-  EXPECT_NEAR(verdict.step_deg, 92.7, 5.0 * verdict.step_sigma_deg);
-  EXPECT_NEAR(verdict.contrast, 0.8, 0.02);
-  EXPECT_NEAR(verdict.residual_ratio, 1.0, 0.1);
-  EXPECT_FALSE(verdict.vibration_suspected);
-  EXPECT_NE(in_words(verdict).find("frames consistent"), std::string::npos);
+TEST(AssessFrames, FindsStepAndContrastAndNothingWrongInGoodFrames) {
+  const FrameAssessment assessment = assessment_of(noisy_frames(0.9, 0.03));
+  EXPECT_NEAR(assessment.step_deg, 92.7, 5.0 * assessment.step_sigma_deg);
+  EXPECT_NEAR(assessment.contrast, 0.8, 0.02);
+  EXPECT_NEAR(assessment.residual_ratio, 1.0, 0.1);
+  EXPECT_FALSE(assessment.vibration_suspected);
+  EXPECT_NE(describe(assessment).find("frames consistent"), std::string::npos);
 }
 
-TEST(JudgeFrames, SuspectsVibrationWhenAFrameMoved) {
-  const FrameVerdict verdict = verdict_of(noisy_frames(0.9, 0.0, 0.2));
-  EXPECT_TRUE(verdict.vibration_suspected);
-  EXPECT_GT(verdict.residual_ratio, 2.0);
+TEST(AssessFrames, SuspectsVibrationWhenAFrameMoved) {
+  const FrameAssessment assessment = assessment_of(noisy_frames(0.9, 0.0, 0.2));
+  EXPECT_TRUE(assessment.vibration_suspected);
+  EXPECT_GT(assessment.residual_ratio, 2.0);
 }
 
-TEST(JudgeFrames, OfSaturatedFramesIsThatNothingWasMeasured) {
-  const FrameVerdict verdict = verdict_of(noisy_frames(30.0, 0.0));
-  EXPECT_GT(verdict.saturated_share, 0.9);
-  EXPECT_LT(verdict.measured_share, 0.05);
+TEST(AssessFrames, OfSaturatedFramesIsThatNothingWasMeasured) {
+  const FrameAssessment assessment = assessment_of(noisy_frames(30.0, 0.0));
+  EXPECT_GT(assessment.saturated_fraction, 0.9);
+  EXPECT_LT(assessment.measured_fraction, 0.05);
 }
 
 }  // namespace

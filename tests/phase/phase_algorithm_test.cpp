@@ -8,7 +8,7 @@
 #include "frangia/core/error.h"
 #include "frangia/phase/published_algorithms.h"
 
-#include "support/evenly.h"
+#include "support/linspace.h"
 #include "support/synthetic_fringes.h"
 
 namespace frangia {
@@ -38,7 +38,7 @@ TEST(PhaseAlgorithm, EveryOneFindsThePhaseAtShiftZeroForRisingFallingAndLateStar
       for (const double direction : {1.0, -1.0}) {
         const auto shifts = scaled(example_shifts(published), direction, first);
         const PhaseAlgorithm algorithm = make_algorithm(published.name, shifts);
-        for (const double phi : testing::evenly(17, -3.0, 2.9)) {
+        for (const double phi : testing::linspace(17, -3.0, 2.9)) {
           EXPECT_NEAR(wrap_rad(phase_of(algorithm, frames_of(phi, shifts)) - phi), 0.0, 1e-9)
               << published.name << " from " << first;
         }
@@ -63,7 +63,7 @@ TEST(PhaseAlgorithm, AKnownGainErrorLeavesNoConstantInAnyOfThem) {
 
 TEST(PhaseAlgorithm, LeastSquaresFindsThePhaseOfUnequalShifts) {
   const std::vector<double> shifts = {0.0, 1.1, 1.9, 4.0, 5.2};
-  for (const double phi : testing::evenly(17, -3.0, 2.9)) {
+  for (const double phi : testing::linspace(17, -3.0, 2.9)) {
     EXPECT_NEAR(
         wrap_rad(phase_of(least_squares(shifts), frames_of(phi, shifts)) - phi), 0.0, 1e-12);
   }
@@ -73,7 +73,7 @@ TEST(PhaseAlgorithm, CarreFindsThePhaseInTheMiddleForAnyStep) {
   const auto shifts = equal_shifts(4, 0.5 * kPi);
   for (const double error : {-0.2, 0.1, 0.3}) {
     const PhaseAlgorithm algorithm = make_algorithm("carre", shifts, error);
-    for (const double phi : testing::evenly(17, -3.0, 2.9)) {
+    for (const double phi : testing::linspace(17, -3.0, 2.9)) {
       const auto counts = frames_of(phi, scaled(shifts, 1.0 + error));
       EXPECT_NEAR(wrap_rad(phase_of(algorithm, counts) - phi), 0.0, 1e-9);
     }
@@ -90,9 +90,9 @@ TEST(PhaseAlgorithm, DefaultCompensatesStepsForAnInterferometerAndHarmonicsForAD
   EXPECT_EQ(chosen(5, 0.5 * kPi, true), "hariharan");
   EXPECT_EQ(chosen(6, 0.5 * kPi, true), "schmit-creath");
   EXPECT_EQ(chosen(7, 0.5 * kPi, true), "de-groot");
-  EXPECT_EQ(chosen(7, kTurn / 6.0, true), "larkin-oreb");
-  EXPECT_EQ(chosen(6, kTurn / 6.0, true), "global-carre");
-  EXPECT_EQ(chosen(3, kTurn / 3.0, true), "least-squares");
+  EXPECT_EQ(chosen(7, kTwoPi / 6.0, true), "larkin-oreb");
+  EXPECT_EQ(chosen(6, kTwoPi / 6.0, true), "global-carre");
+  EXPECT_EQ(chosen(3, kTwoPi / 3.0, true), "least-squares");
   for (const int frames : {3, 4, 5, 6, 7})
     EXPECT_EQ(chosen(frames, 0.5 * kPi, false), "least-squares");
 }
@@ -110,11 +110,11 @@ TEST(PhaseAlgorithm, AWrongNumberOfFramesNamesTheAlgorithmsThatFit) {
 
 TEST(PhaseAlgorithm, RefusesShiftsThatDoNotDetermineThePhase) {
   EXPECT_THROW(static_cast<void>(least_squares({0.0, 1.0})), Error);
-  EXPECT_THROW(static_cast<void>(least_squares({0.0, kTurn, 2.0 * kTurn})), Error);
+  EXPECT_THROW(static_cast<void>(least_squares({0.0, kTwoPi, 2.0 * kTwoPi})), Error);
   EXPECT_THROW(static_cast<void>(least_squares({0.0, kPi, 0.0, kPi})), Error);
   EXPECT_THROW(static_cast<void>(make_algorithm("schwider", {0.0, 1.0, 2.0, 3.0})), Error);
   EXPECT_THROW(static_cast<void>(make_algorithm("magic", equal_shifts(4, 0.5 * kPi))), Error);
-  EXPECT_THROW(static_cast<void>(make_algorithm("carre", {0.0, kPi, kTurn, 3.0 * kPi})), Error);
+  EXPECT_THROW(static_cast<void>(make_algorithm("carre", {0.0, kPi, kTwoPi, 3.0 * kPi})), Error);
   EXPECT_THROW(static_cast<void>(least_squares({0.0, 1.0, std::nan("")})), Error);
 }
 

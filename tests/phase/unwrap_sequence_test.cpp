@@ -19,7 +19,7 @@ constexpr int kMargin = 110;  ///< at the ends of the field noise slips over to 
 
 Projector wide_display() {
   Projector projector;
-  projector.model = Lens{.width_px = kMapWidth, .height_px = 4, .focal_px = {800.0, 800.0}};
+  projector.model = CameraModel{.width_px = kMapWidth, .height_px = 4, .focal_px = {800.0, 800.0}};
   return projector;
 }
 
@@ -28,12 +28,12 @@ WrappedPhase map_of(double fringes, double sigma, std::uint64_t seed) {
   WrappedPhase map{.pattern = {.name = "p", .period_px = kMapWidth / fringes},
                    .phase_rad = Image<float>(kMapWidth, kMapHeight),
                    .sigma_rad = Image<float>(kMapWidth, kMapHeight, static_cast<float>(sigma)),
-                   .fate = Image<PixelFate>(kMapWidth, kMapHeight, PixelFate::Measured)};
+                   .status = Image<PixelStatus>(kMapWidth, kMapHeight, PixelStatus::Measured)};
   for (int y = 0; y < kMapHeight; ++y) {
     for (int x = 0; x < kMapWidth; ++x) {
       const auto place = static_cast<std::uint64_t>(y) * kMapWidth + static_cast<std::uint64_t>(x);
       const double noise = sigma * normal_from(hash(seed, place));
-      map.phase_rad(x, y) = static_cast<float>(wrap_rad(kTurn * fringes * x / kMapWidth + noise));
+      map.phase_rad(x, y) = static_cast<float>(wrap_rad(kTwoPi * fringes * x / kMapWidth + noise));
     }
   }
   return map;
@@ -59,8 +59,8 @@ Errors errors_of(const AbsolutePhase& phase, double fringes) {
   double wrong = 0.0;
   for (int y = 0; y < kMapHeight; ++y) {
     for (int x = kMargin; x < kMapWidth - kMargin; ++x) {
-      if (phase.fate(x, y) != PixelFate::Measured) continue;
-      const double error = phase.phase_rad(x, y) - kTurn * fringes * x / kMapWidth;
+      if (phase.status(x, y) != PixelStatus::Measured) continue;
+      const double error = phase.phase_rad(x, y) - kTwoPi * fringes * x / kMapWidth;
       (std::abs(error) > kPi ? wrong : right) += 1.0;
       if (std::abs(error) <= kPi) square += error * error;
     }
@@ -101,14 +101,14 @@ TEST(UnwrapSequence, WrongOrdersComeAsOftenAsPredictedAndAreDroppedOverTheLimit)
   // Two maps of ratio 8: sigma 0.15 rad is wrong in erfc(pi / (0.15 sqrt 2 sqrt 65)) of all pixels.
   const double sigma = 0.15;
   const auto maps = maps_of({1.0, 8.0}, sigma);
-  const double expected = wrong_order_chance(sigma * std::sqrt(65.0));
+  const double expected = wrong_order_probability(sigma * std::sqrt(65.0));
   const Errors all =
       errors_of(unwrap_sequence(maps, wide_display(), {.max_wrong_order = 1.0}), 8.0);
   const double deviation = std::sqrt(expected / ((kMapWidth - 2.0 * kMargin) * kMapHeight));
   EXPECT_NEAR(all.wrong_share, expected, 4.0 * deviation);
   const AbsolutePhase strict =
       unwrap_sequence(maps, wide_display(), {.max_wrong_order = 0.5 * expected});
-  EXPECT_EQ(strict.fate(300, 5), PixelFate::Doubtful);
+  EXPECT_EQ(strict.status(300, 5), PixelStatus::UncertainOrder);
 }
 
 TEST(UnwrapSequence, RefusesMapsWithoutACommonMeaning) {

@@ -13,8 +13,8 @@
 namespace frangia {
 namespace {
 
-using testing::photograph;
 using testing::quarter_steps;
+using testing::render_frames;
 using testing::Scene;
 
 constexpr double kRadPerPixel = 0.05;
@@ -30,14 +30,14 @@ WrappedPhase decode(const FrameStack& stack, double noise_counts = 1.0) {
 
 TEST(WrapPhase, RecoversPhaseModulationAndMeanOfCleanFringes) {
   const Scene scene{.width = 3001};  // not a whole number of tiles
-  const WrappedPhase phase = decode(photograph(scene, quarter_steps(), gentle_ramp));
+  const WrappedPhase phase = decode(render_frames(scene, quarter_steps(), gentle_ramp));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
       EXPECT_NEAR(
           wrap_rad(phase.phase_rad(x, y) - gentle_ramp(x, y)), 0.0, 6e-5);  // rounding to counts
       EXPECT_NEAR(phase.modulation_counts(x, y), scene.modulation_counts, 1.0);
       EXPECT_NEAR(phase.mean_counts(x, y), scene.mean_counts, 1.0);
-      EXPECT_EQ(phase.fate(x, y), PixelFate::Measured);
+      EXPECT_EQ(phase.status(x, y), PixelStatus::Measured);
     }
   }
 }
@@ -65,7 +65,7 @@ TEST(WrapPhase, AgreesWithTheStandardLibrarysArcTangent) {
   const WrappedPhase phase = decode(stack);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      if (phase.fate(x, y) != PixelFate::Measured) continue;
+      if (phase.status(x, y) != PixelStatus::Measured) continue;
       const double exact = std::atan2((y - 128) * 119.0, (x - 128) * 117.0);
       EXPECT_NEAR(wrap_rad(phase.phase_rad(x, y) - exact), 0.0, 1e-6) << x << ' ' << y;
     }
@@ -77,7 +77,8 @@ TEST(WrapPhase, PredictsItsOwnNoise) {
     Pattern pattern = quarter_steps(fringes_per_degree);
     pattern.period_px = fringes_per_degree > 0.0 ? 0.0 : 20.0;
     const Scene scene{.height = 200, .modulation_counts = 8000.0, .noise_counts = 200.0, .seed = 7};
-    const WrappedPhase phase = decode(photograph(scene, pattern, gentle_ramp), scene.noise_counts);
+    const WrappedPhase phase =
+        decode(render_frames(scene, pattern, gentle_ramp), scene.noise_counts);
     double chi_square = 0.0;
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
@@ -90,25 +91,25 @@ TEST(WrapPhase, PredictsItsOwnNoise) {
 }
 
 TEST(WrapPhase, MarksPixelsSaturatedInAnyFrame) {
-  FrameStack stack = photograph({}, quarter_steps(), gentle_ramp);
+  FrameStack stack = render_frames({}, quarter_steps(), gentle_ramp);
   std::get<Image<std::uint16_t>>(stack.frames[2])(5, 1) = 65535;
   const WrappedPhase phase = decode(stack);
-  EXPECT_EQ(phase.fate(5, 1), PixelFate::Saturated);
+  EXPECT_EQ(phase.status(5, 1), PixelStatus::Saturated);
   EXPECT_TRUE(std::isnan(phase.phase_rad(5, 1)));
-  EXPECT_EQ(phase.fate(6, 1), PixelFate::Measured);
+  EXPECT_EQ(phase.status(6, 1), PixelStatus::Measured);
 }
 
 TEST(WrapPhase, TakesNoNoiseForFringes) {
   const Scene dark{
       .height = 500, .mean_counts = 1000.0, .modulation_counts = 0.0, .noise_counts = 20.0};
   const WrappedPhase phase =
-      decode(photograph(dark, quarter_steps(), gentle_ramp), dark.noise_counts);
-  for (const PixelFate fate : phase.fate.pixels())
-    EXPECT_EQ(fate, PixelFate::Unmodulated);
+      decode(render_frames(dark, quarter_steps(), gentle_ramp), dark.noise_counts);
+  for (const PixelStatus status : phase.status.pixels())
+    EXPECT_EQ(status, PixelStatus::Unmodulated);
 }
 
 TEST(WrapPhase, RefusesFramesThatDoNotFitThePattern) {
-  FrameStack stack = photograph({}, quarter_steps(), gentle_ramp);
+  FrameStack stack = render_frames({}, quarter_steps(), gentle_ramp);
   stack.frames.pop_back();
   EXPECT_THROW(static_cast<void>(decode(stack)), Error);
   stack.frames.emplace_back(Image<std::uint16_t>(3, 3));

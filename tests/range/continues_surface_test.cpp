@@ -1,24 +1,24 @@
-#include "frangia/range/continues_surface.h"
+#include "frangia/range/internal/continues_surface.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
-#include "frangia/rig/lens.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 namespace {
 
 constexpr float kSigma_mm = 0.02F;
 
-/// A cylinder of 10 mm radius; columns from 30 on are no sound pixels.
+/// A cylinder of 10 mm radius; columns from 30 on are no reliable pixels.
 struct HalfCylinder {
-  Lens lens{.width_px = 40,
-            .height_px = 20,
-            .focal_px = {1000.0, 1000.0},
-            .principal_point_px = {19.5, 9.5}};
-  Image<Eigen::Vector2f> rays = rays_of(lens);
+  CameraModel model{.width_px = 40,
+                    .height_px = 20,
+                    .focal_px = {1000.0, 1000.0},
+                    .principal_point_px = {19.5, 9.5}};
+  Image<Eigen::Vector2f> rays = rays_of(model);
   RangeGrid all{Image<float>(40, 20), Image<float>(40, 20, kSigma_mm)};
 
   HalfCylinder() {
@@ -30,12 +30,12 @@ struct HalfCylinder {
     }
   }
   [[nodiscard]] bool continues(int x) const {
-    RangeGrid sound = all;
+    RangeGrid reliable = all;
     for (int y = 0; y < 20; ++y) {
       for (int u = 30; u < 40; ++u)
-        sound.depth_mm(u, y) = kMissing;
+        reliable.depth_mm(u, y) = kMissing;
     }
-    return continues_surface({sound, rays, 7.0F},
+    return continues_surface({reliable, rays, 7.0F},
                              {x, 10, all.depth_mm(x, 10), all.sigma_mm(x, 10)});
   }
 };
@@ -45,7 +45,7 @@ TEST(ContinuesSurface, FollowsARoundSurface) {
   EXPECT_TRUE(scene.continues(30));
 }
 
-TEST(ContinuesSurface, TellsAPixelOffTheSurfaceByMoreThanNoise) {
+TEST(ContinuesSurface, RejectsAPixelOffTheSurfaceByMoreThanNoise) {
   for (const float off_mm : {-0.5F, 0.5F}) {
     HalfCylinder scene;
     scene.all.depth_mm(30, 10) += off_mm;
@@ -55,7 +55,7 @@ TEST(ContinuesSurface, TellsAPixelOffTheSurfaceByMoreThanNoise) {
   }
 }
 
-TEST(ContinuesSurface, TellsAPixelThatIsDarkerThanItsNeighboursLead) {
+TEST(ContinuesSurface, RejectsAPixelDarkerThanExpected) {
   HalfCylinder scene;
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 40; ++x)  // light that falls by 3 % a column
@@ -66,7 +66,7 @@ TEST(ContinuesSurface, TellsAPixelThatIsDarkerThanItsNeighboursLead) {
   EXPECT_FALSE(scene.continues(30));
 }
 
-TEST(ContinuesSurface, NeedsSoundPixelsBeside) {
+TEST(ContinuesSurface, NeedsReliableNeighbors) {
   HalfCylinder scene;
   EXPECT_FALSE(scene.continues(31));  // there is one between
   for (int y = 0; y < 20; ++y)

@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 
-#include "support/evenly.h"
+#include "support/linspace.h"
 
 namespace frangia {
 namespace {
@@ -23,11 +23,11 @@ Projector angular() {
 
 Projector pinhole() {
   Projector projector;
-  projector.model = Lens{.width_px = 1280,
-                         .height_px = 800,
-                         .focal_px = {1900.0, 1895.0},
-                         .principal_point_px = {650.0, 380.0},
-                         .distortion = {-0.08, 0.03, 3e-4, -2e-4, 0.01}};
+  projector.model = CameraModel{.width_px = 1280,
+                                .height_px = 800,
+                                .focal_px = {1900.0, 1895.0},
+                                .principal_point_px = {650.0, 380.0},
+                                .distortion = {-0.08, 0.03, 3e-4, -2e-4, 0.01}};
   projector.position_mm = {-180.0, -20.0, 30.0};
   projector.rotation = (Eigen::AngleAxisd(rad_from_deg(-21.0), Eigen::Vector3d::UnitY()) *
                         Eigen::AngleAxisd(rad_from_deg(2.0), Eigen::Vector3d::UnitX()))
@@ -47,14 +47,14 @@ Pattern degrees() {
 
 class FringeRay : public ::testing::TestWithParam<std::pair<Pattern, Projector>> {};
 
-TEST_P(FringeRay, FindsThePointWhoseLightItIs) {
+TEST_P(FringeRay, FindsThePointLitWithThePhase) {
   const auto& [pattern, projector] = GetParam();
-  for (const double x : testing::evenly(10, -60.0, 57.0)) {
-    for (const double y : testing::evenly(6, -50.0, 35.0)) {
-      for (const double z : testing::evenly(5, 430.0, 554.0)) {
+  for (const double x : testing::linspace(10, -60.0, 57.0)) {
+    for (const double y : testing::linspace(6, -50.0, 35.0)) {
+      for (const double z : testing::linspace(5, 430.0, 554.0)) {
         const Eigen::Vector3d point(x, y, z);
         const double phase = phase_at(point, pattern, projector);
-        const RayDepth found = intersect({x / z, y / z}, phase, pattern, projector);
+        const RayDepth found = intersect_fringe({x / z, y / z}, phase, pattern, projector);
         ASSERT_NEAR(found.depth_mm, z, 1e-6) << point.transpose();
       }
     }
@@ -66,10 +66,10 @@ TEST_P(FringeRay, KnowsHowFastTheDepthMovesWithThePhase) {
   const Eigen::Vector2d ray(0.05, -0.03);
   const double phase = phase_at(500.0 * Eigen::Vector3d(0.05, -0.03, 1.0), pattern, projector);
   const double h = 1e-4;
-  const double numeric = (intersect(ray, phase + h, pattern, projector).depth_mm -
-                          intersect(ray, phase - h, pattern, projector).depth_mm) /
+  const double numeric = (intersect_fringe(ray, phase + h, pattern, projector).depth_mm -
+                          intersect_fringe(ray, phase - h, pattern, projector).depth_mm) /
                          (2.0 * h);
-  const RayDepth found = intersect(ray, phase, pattern, projector);
+  const RayDepth found = intersect_fringe(ray, phase, pattern, projector);
   EXPECT_NEAR(found.mm_per_rad / numeric, 1.0, 1e-5);
 }
 
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Projectors,
 TEST(FringeRayAtInfinity, HasNoPointWhereRayAndLightDoNotMeetInFront) {
   const Projector projector = angular();
   // Light that leaves to the other side of the camera's axis never comes back to it.
-  const RayDepth found = intersect({0.0, 0.0}, 2.0 * kPi * 1.5 * 60.0, degrees(), projector);
+  const RayDepth found = intersect_fringe({0.0, 0.0}, 2.0 * kPi * 1.5 * 60.0, degrees(), projector);
   EXPECT_TRUE(std::isnan(found.depth_mm));
 }
 

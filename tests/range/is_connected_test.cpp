@@ -1,4 +1,4 @@
-#include "frangia/range/is_connected.h"
+#include "frangia/range/internal/is_connected.h"
 
 #include <gtest/gtest.h>
 

@@ -17,14 +17,15 @@ const Pattern kFringe{.name = "fringe", .fringes_per_degree = 1.0};
 
 struct Wall {
   Rig rig = make_paper_rig({.columns = 64, .rows = 48});
-  Image<Eigen::Vector2f> rays = rays_of(rig.camera.lens);
+  Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
 
   /// The phase of a plane across the view at `z_mm`.
   [[nodiscard]] AbsolutePhase phase(double z_mm, float sigma_rad) const {
-    AbsolutePhase out{.pattern = kFringe,
-                      .phase_rad = Image<float>(rays.width(), rays.height()),
-                      .sigma_rad = Image<float>(rays.width(), rays.height(), sigma_rad),
-                      .fate = Image<PixelFate>(rays.width(), rays.height(), PixelFate::Measured)};
+    AbsolutePhase out{
+        .pattern = kFringe,
+        .phase_rad = Image<float>(rays.width(), rays.height()),
+        .sigma_rad = Image<float>(rays.width(), rays.height(), sigma_rad),
+        .status = Image<PixelStatus>(rays.width(), rays.height(), PixelStatus::Measured)};
     for (std::size_t i = 0; i < rays.pixels().size(); ++i) {
       const Eigen::Vector2d ray = rays.pixels()[i].cast<double>();
       out.phase_rad.pixels()[i] = static_cast<float>(
@@ -67,7 +68,7 @@ TEST(Triangulate, LeavesOutPhasesThatTheProjectorDoesNotShow) {
   phase.phase_rad(5, 4) = kMissing;
   const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
   EXPECT_TRUE(std::isnan(range.depth_mm(3, 4)));
-  EXPECT_EQ(phase.fate(3, 4), PixelFate::OutOfField);
+  EXPECT_EQ(phase.status(3, 4), PixelStatus::OutOfField);
   EXPECT_TRUE(std::isnan(range.depth_mm(5, 4)));
 }
 

@@ -8,7 +8,7 @@
 #include "frangia/core/error.h"
 #include "frangia/range/fringe_ray.h"
 
-#include "support/evenly.h"
+#include "support/linspace.h"
 
 namespace frangia {
 namespace {
@@ -38,11 +38,11 @@ TEST(PaperRig, TriangulatesAsEquationsTwoToEight) {
   const Pattern pattern{.name = "fringe", .fringes_per_degree = pitch, .shifts_rad = {}};
   const int middle_row = geometry.rows / 2;
   for (int column = 0; column < geometry.columns; column += 37) {
-    for (const double phase_deg : testing::evenly(29, -2400.0, 2388.0)) {
+    for (const double phase_deg : testing::linspace(29, -2400.0, 2388.0)) {
       const PaperPoint expected = paper_point(geometry, column, phase_deg, pitch);
       if (expected.x_mm <= 0.0) continue;
-      const Eigen::Vector2d ray = rig.camera.lens.ray(Eigen::Vector2d(column, middle_row));
-      const RayDepth found = intersect(ray, rad_from_deg(phase_deg), pattern, rig.projector);
+      const Eigen::Vector2d ray = rig.camera.model.ray(Eigen::Vector2d(column, middle_row));
+      const RayDepth found = intersect_fringe(ray, rad_from_deg(phase_deg), pattern, rig.projector);
       EXPECT_NEAR(found.depth_mm, expected.x_mm, 1e-9 * std::abs(expected.x_mm));
       EXPECT_NEAR(-found.depth_mm * ray.x(), expected.y_mm, 1e-9 * std::abs(expected.x_mm));
     }
@@ -63,7 +63,7 @@ TEST(PaperRig, LightsOWithTheFringeThroughTheAxis) {
   const Pattern pattern{.name = "fringe", .fringes_per_degree = 1.0, .shifts_rad = {}};
   const Eigen::Vector3d o(0.0, 0.0, geometry.x0_mm);
   EXPECT_NEAR(phase_at(o, pattern, rig.projector), 0.0, 1e-12);
-  EXPECT_NEAR(rig.line->normal.dot(o), rig.line->offset_mm, 1e-9);
+  EXPECT_NEAR(rig.laser_sheet->normal.dot(o), rig.laser_sheet->offset_mm, 1e-9);
 }
 
 TEST(PaperRig, RefusesAProjectorWithoutAnAngle) {

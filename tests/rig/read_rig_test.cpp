@@ -56,10 +56,10 @@ TEST(ReadRig, ReadsEveryTable) {
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const Rig rig = read_rig(save(folder, kRig), run);
-  EXPECT_EQ(rig.camera.lens.width_px, 1280);
+  EXPECT_EQ(rig.camera.model.width_px, 1280);
   EXPECT_EQ(rig.camera.white_level, 4095);
   EXPECT_TRUE(rig.projector.is_angular());
-  EXPECT_DOUBLE_EQ(rig.line->offset_mm, 162.9);
+  EXPECT_DOUBLE_EQ(rig.laser_sheet->offset_mm, 162.9);
   EXPECT_NEAR(rig.turntable->axis.norm(), 1.0, 1e-15);
   EXPECT_TRUE(warnings.empty());
 }
@@ -73,9 +73,9 @@ TEST(ReadRig, ReadsBackWhatWriteRigWrote) {
   const Rig back = read_rig(folder.path() / "rig.toml");
   EXPECT_TRUE(back.projector.rotation.isApprox(rig.projector.rotation, 1e-12));
   EXPECT_TRUE(back.projector.position_mm.isApprox(rig.projector.position_mm, 1e-15));
-  EXPECT_TRUE(back.line->normal.isApprox(rig.line->normal, 1e-15));
+  EXPECT_TRUE(back.laser_sheet->normal.isApprox(rig.laser_sheet->normal, 1e-15));
   EXPECT_NEAR(back.camera.noise->variance(100.0), rig.camera.noise->variance(100.0), 1e-9);
-  EXPECT_EQ(back.camera.lens.distortion, rig.camera.lens.distortion);
+  EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
 }
 
 TEST(ReadRig, WarnsOfKeysThatItDoesNotKnowByName) {

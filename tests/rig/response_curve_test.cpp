@@ -7,7 +7,7 @@
 
 #include "frangia/core/error.h"
 
-#include "support/evenly.h"
+#include "support/linspace.h"
 
 namespace frangia {
 namespace {
@@ -25,7 +25,7 @@ ResponseCurve gamma_curve(int levels) {
 
 TEST(ResponseCurve, OfAGammaIsThatGammaAndBackFromLightToLevel) {
   const ResponseCurve curve = gamma_curve(17);
-  for (const double level : testing::evenly(91, 0.1, 1.0)) {
+  for (const double level : testing::linspace(91, 0.1, 1.0)) {
     EXPECT_NEAR(curve.light_of(level), std::pow(level, 2.2), 2e-3) << level;
     EXPECT_NEAR(curve.level_of(curve.light_of(level)), level, 1e-9);
   }
@@ -43,7 +43,7 @@ TEST(ResponseCurve, SeenThroughItsOwnLookUpTableIsAStraightLine) {
   const ResponseCurve curve = gamma_curve(17);
   const ResponseCurve line{{0.0, 1.0}};
   const ResponseCurve same = compose(curve, line);
-  for (const double level : testing::evenly(21, 0.0, 1.0))
+  for (const double level : testing::linspace(21, 0.0, 1.0))
     EXPECT_NEAR(same.light_of(level), curve.light_of(level), 1e-3);
 }
 

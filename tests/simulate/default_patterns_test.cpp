@@ -20,7 +20,7 @@ TEST(DefaultPatterns, OfARigWithALineAreOneFringePatternAndTheLine) {
 
 TEST(DefaultPatterns, WithoutALineDoubleFromAtMostOneFringeOverTheField) {
   Rig rig = rig_preset("carducci");
-  rig.line.reset();
+  rig.laser_sheet.reset();
   const auto patterns = default_patterns(rig);
   EXPECT_LE(patterns.front().fringes_per_degree * 24.0, 1.0);
   EXPECT_GT(patterns.front().fringes_per_degree * 24.0, 0.5);

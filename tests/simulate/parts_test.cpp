@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
-#include "frangia/mesh/ray_scene.h"
+#include "frangia/geometry/ray_scene.h"
 
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {

@@ -1,10 +1,10 @@
-#include "frangia/simulate/polygonize_field.h"
+#include "frangia/simulate/internal/polygonize_field.h"
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
 
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {

@@ -1,4 +1,4 @@
-#include "frangia/simulate/render_view.h"
+#include "frangia/simulate/internal/render_view.h"
 
 #include <cmath>
 #include <complex>
@@ -13,7 +13,7 @@
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
@@ -48,7 +48,7 @@ Decoded decode(const FrameStack& stack, int x, int y) {
 /// Where the pixel's ray meets the plate's front, x = 3 of the object frame.
 std::optional<Eigen::Vector3d> point_on_plate(const Rig& rig, double angle_rad, int x, int y) {
   const Eigen::Isometry3d pose = rig.rig_from_object(angle_rad);
-  const Eigen::Vector3d ray = rig.camera.lens.ray(Eigen::Vector2d(x, y)).homogeneous();
+  const Eigen::Vector3d ray = rig.camera.model.ray(Eigen::Vector2d(x, y)).homogeneous();
   const Eigen::Vector3d normal = pose.linear() * Eigen::Vector3d::UnitX();
   const double depth = normal.dot(pose * Eigen::Vector3d(3.0, 0.0, 0.0)) / normal.dot(ray);
   const Eigen::Vector3d p = pose.inverse() * Eigen::Vector3d(depth * ray);
@@ -59,10 +59,10 @@ std::optional<Eigen::Vector3d> point_on_plate(const Rig& rig, double angle_rad, 
 double phase_of(const Rig& rig, const Pattern& pattern, const Eigen::Vector3d& point) {
   const Eigen::Vector3d p = rig.projector.from_rig(point);
   if (rig.projector.is_angular()) {
-    return kTurn * pattern.fringes_per_degree * deg_from_rad(std::atan2(p.x(), p.z()));
+    return kTwoPi * pattern.fringes_per_degree * deg_from_rad(std::atan2(p.x(), p.z()));
   }
   const Eigen::Vector2d pixel = std::get<PinholeModel>(rig.projector.model).project(p);
-  return kTurn * (pattern.direction == FringeDirection::Vertical ? pixel.x() : pixel.y()) /
+  return kTwoPi * (pattern.direction == FringeDirection::Vertical ? pixel.x() : pixel.y()) /
          pattern.period_px;
 }
 
@@ -80,8 +80,8 @@ TEST(RenderView, HoldsThePhaseOfTheScanFormat) {
     int checked = 0;
     for (const FrameStack& stack : stacks) {
       if (stack.pattern.kind == PatternKind::Line) continue;
-      for (int y = 0; y < rig.camera.lens.height_px; y += 5) {
-        for (int x = 0; x < rig.camera.lens.width_px; x += 5) {
+      for (int y = 0; y < rig.camera.model.height_px; y += 5) {
+        for (int x = 0; x < rig.camera.model.width_px; x += 5) {
           const auto point = point_on_plate(rig, kFront.angle_rad, x, y);
           if (!point) continue;
           const Decoded pixel = decode(stack, x, y);
@@ -111,7 +111,7 @@ TEST(RenderView, IsBrightestAtFourFifthsOfWhite) {
   EXPECT_EQ(stacks[0].white_level, 65535);
 }
 
-TEST(RenderView, PutsTheLineWhereThePlaneOfLightCutsThePart) {
+TEST(RenderView, PutsTheLineWhereTheLaserSheetCutsThePart) {
   const Rig rig = rig_preset("angular");
   const auto patterns = default_patterns(rig);
   const auto scene = make_simulated_scene(make_plate(), rig, std::span(&kFront, 1), clean());
@@ -127,7 +127,8 @@ TEST(RenderView, PutsTheLineWhereThePlaneOfLightCutsThePart) {
     if (sum == 0.0) continue;
     const auto point = point_on_plate(rig, kFront.angle_rad, static_cast<int>(sum_x / sum), y);
     ASSERT_TRUE(point);
-    EXPECT_NEAR(rig.line->normal.dot(*point), rig.line->offset_mm, 0.5) << "one pixel is 0.5 mm";
+    EXPECT_NEAR(rig.laser_sheet->normal.dot(*point), rig.laser_sheet->offset_mm, 0.5)
+        << "one pixel is 0.5 mm";
   }
 }
 
@@ -280,7 +281,7 @@ TEST(RenderView, TheStepErrorStretchesEveryShift) {
 TEST(RenderView, RefusesPatternsThatTheRigCannotShow) {
   Rig rig = rig_preset("carducci");
   const auto patterns = default_patterns(rig);
-  rig.line.reset();
+  rig.laser_sheet.reset();
   const auto scene = make_simulated_scene(make_plate(), rig, std::span(&kFront, 1));
   EXPECT_THROW(static_cast<void>(render_view(scene, patterns, kFront)), Error);
   const auto pinhole = default_patterns(rig_preset("digital"));

@@ -15,15 +15,15 @@ TEST(RigPresets, SeeAndLightTheWholeOfAPartOfAHundredMillimetres) {
       for (const double y : {-30.0, 30.0}) {
         for (const double z : {0.0, 100.0}) {
           const Eigen::Vector3d seen = rig.rig_from_object(0.7) * Eigen::Vector3d(x, y, z);
-          const Eigen::Vector2d pixel = rig.camera.lens.project(seen);
+          const Eigen::Vector2d pixel = rig.camera.model.project(seen);
           EXPECT_GT(pixel.minCoeff(), 0.0) << name;
-          EXPECT_LT(pixel.x(), rig.camera.lens.width_px) << name;
-          EXPECT_LT(pixel.y(), rig.camera.lens.height_px) << name;
+          EXPECT_LT(pixel.x(), rig.camera.model.width_px) << name;
+          EXPECT_LT(pixel.y(), rig.camera.model.height_px) << name;
           const Eigen::Vector3d lit = rig.projector.from_rig(seen);
-          if (const auto* lens = std::get_if<PinholeModel>(&rig.projector.model)) {
-            EXPECT_GT(lens->project(lit).minCoeff(), 0.0) << name;
-            EXPECT_LT(lens->project(lit).x(), lens->width_px) << name;
-            EXPECT_LT(lens->project(lit).y(), lens->height_px) << name;
+          if (const auto* model = std::get_if<PinholeModel>(&rig.projector.model)) {
+            EXPECT_GT(model->project(lit).minCoeff(), 0.0) << name;
+            EXPECT_LT(model->project(lit).x(), model->width_px) << name;
+            EXPECT_LT(model->project(lit).y(), model->height_px) << name;
           } else {
             EXPECT_LT(std::abs(std::atan2(lit.x(), lit.z())), rad_from_deg(12.0)) << name;
           }
@@ -43,13 +43,14 @@ TEST(RigPresets, HaveRotationsAndUnitAxes) {
   }
 }
 
-TEST(RigPresets, CarduccisPlaneOfLightHoldsTheAxisAndTheProjector) {
+TEST(RigPresets, CarduccisLaserSheetHoldsTheAxisAndTheProjector) {
   const Rig rig = rig_preset("carducci");
   for (const double up : {0.0, 100.0}) {
     const Eigen::Vector3d on_axis = rig.turntable->point_mm + up * rig.turntable->axis;
-    EXPECT_NEAR(rig.line->normal.dot(on_axis), rig.line->offset_mm, 1e-9);
+    EXPECT_NEAR(rig.laser_sheet->normal.dot(on_axis), rig.laser_sheet->offset_mm, 1e-9);
   }
-  EXPECT_NEAR(rig.line->normal.dot(rig.projector.position_mm), rig.line->offset_mm, 1e-9);
+  EXPECT_NEAR(
+      rig.laser_sheet->normal.dot(rig.projector.position_mm), rig.laser_sheet->offset_mm, 1e-9);
   // 20 degrees between the two axes, which cross 490 mm before the camera.
   EXPECT_NEAR(std::acos(rig.projector.rotation(2, 2)), rad_from_deg(20.0), 1e-12);
   EXPECT_NEAR(

@@ -22,11 +22,11 @@ using testing::error_of;
 
 Rig tiny_rig(const char* preset) {
   Rig rig = rig_preset(preset);
-  Lens& lens = rig.camera.lens;
-  lens.focal_px *= 96.0 / lens.width_px;
-  lens.principal_point_px *= 96.0 / lens.width_px;
-  lens.height_px = lens.height_px * 96 / lens.width_px;
-  lens.width_px = 96;
+  CameraModel& model = rig.camera.model;
+  model.focal_px *= 96.0 / model.width_px;
+  model.principal_point_px *= 96.0 / model.width_px;
+  model.height_px = model.height_px * 96 / model.width_px;
+  model.width_px = 96;
   return rig;
 }
 
@@ -61,7 +61,7 @@ double mean_of(const Frame& frame) {
 }
 
 double picture(const RigDevices& devices, const FrameLabel& label = label_of(0, 0)) {
-  return mean_of(devices.camera->take(label, soon()).frame);
+  return mean_of(devices.camera->capture(label, soon()).frame);
 }
 
 TEST(SimulatedDrivers, ExposureGainAndBlackLevelActOnTheImage) {
@@ -81,7 +81,7 @@ TEST(SimulatedDrivers, FrameDependsOnItsLabelNotOnWhatWasTakenBefore) {
   const RigDevices devices = open("angular", {{"camera", kCamera}, {"fringes", kPiezo}});
   devices.shifter->drive(2.5, soon());
   const auto bytes = [&](int frame) {
-    const CapturedFrame taken = devices.camera->take(label_of(0, frame), soon());
+    const CapturedFrame taken = devices.camera->capture(label_of(0, frame), soon());
     const auto pixels = std::get<Image<std::uint8_t>>(taken.frame).pixels();
     return std::vector<std::uint8_t>(pixels.begin(), pixels.end());
   };
@@ -149,7 +149,7 @@ TEST(SimulatedDrivers, CameraFaultsHappenWhereTheScriptSays) {
              kCamera + "faults = [\"lost 1 fringe 2\", \"incomplete 1 fringe 3\", "
                        "\"saturated 2\", \"unplugged 3\"]\n"}});
   const auto take = [&](int view, int frame) {
-    return devices.camera->take(label_of(view, frame), soon());
+    return devices.camera->capture(label_of(view, frame), soon());
   };
   EXPECT_NE(error_of([&] { static_cast<void>(take(1, 2)); }).find("no frame came"),
             std::string::npos);

@@ -1,4 +1,4 @@
-#include "frangia/simulate/simulated_scene.h"
+#include "frangia/simulate/internal/simulated_scene.h"
 
 #include <functional>
 
@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/simulate/light_sample.h"
+#include "frangia/simulate/internal/light_sample.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 
@@ -59,9 +59,9 @@ TEST(SimulatedScene, TellsTheNoiseOfItsCamera) {
   EXPECT_FALSE(plate_scene(options).known_rig.camera.noise);
 }
 
-TEST(SimulatedScene, StandsThePartOnAPlatter) {
+TEST(SimulatedScene, StandsThePartOnATurntableTop) {
   SimulateOptions options;
-  options.platter_radius_mm = 80.0;
+  options.turntable_top_radius_mm = 80.0;
   const RayScene& surface = plate_scene(options).surface;
   const auto hit = surface.first_hit({60, 0, 50}, {0, 0, -1});
   ASSERT_TRUE(hit);

@@ -1,4 +1,4 @@
-#include "frangia/simulate/speckle.h"
+#include "frangia/simulate/internal/speckle.h"
 
 #include <cmath>
 

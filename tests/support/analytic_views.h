@@ -12,7 +12,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/rig/lens.h"
+#include "frangia/rig/camera_model.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia::testing {
@@ -58,14 +58,14 @@ inline double lumpy(const Eigen::Vector3d& p) {
   return nearest;
 }
 
-inline Lens small_lens(int size_px = 300, double focal_px = 1500.0) {
-  Lens lens;
-  lens.width_px = size_px;
-  lens.height_px = size_px;
-  lens.focal_px = {focal_px, focal_px};
-  lens.principal_point_px = {0.5 * size_px + 1.3, 0.5 * size_px - 2.1};
-  lens.distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0};
-  return lens;
+inline CameraModel small_camera_model(int size_px = 300, double focal_px = 1500.0) {
+  CameraModel model;
+  model.width_px = size_px;
+  model.height_px = size_px;
+  model.focal_px = {focal_px, focal_px};
+  model.principal_point_px = {0.5 * size_px + 1.3, 0.5 * size_px - 2.1};
+  model.distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0};
+  return model;
 }
 
 /// A camera at `distance_mm` that looks at the object's origin, from a longitude and a latitude.
@@ -99,7 +99,7 @@ inline std::vector<Eigen::Isometry3d> around_table(int count,
   std::vector<Eigen::Isometry3d> poses;
   poses.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    poses.push_back(look_from(kTurn * i / count, latitude_rad, distance_mm));
+    poses.push_back(look_from(kTwoPi * i / count, latitude_rad, distance_mm));
   }
   return poses;
 }
@@ -129,19 +129,19 @@ inline double trace(const Shape& shape,
 /// What the camera sees of the shape, with noise of its own at each pixel. The same seed gives the
 /// same.
 inline View snapshot(const Shape& shape,
-                     const Lens& lens,
+                     const CameraModel& model,
                      const Eigen::Isometry3d& rig_from_object,
                      const Snapshot& how = {}) {
-  View view{{Image<float>(lens.width_px, lens.height_px, kMissing),
-             Image<float>(lens.width_px, lens.height_px, kMissing)},
+  View view{{Image<float>(model.width_px, model.height_px, kMissing),
+             Image<float>(model.width_px, model.height_px, kMissing)},
             rig_from_object};
   const Eigen::Isometry3d object_from_rig = rig_from_object.inverse();
   const Eigen::Vector3d eye = object_from_rig.translation();
-  const auto rays = rays_of(lens);
-  parallel_rows(lens.height_px, [&](int y) {
+  const auto rays = rays_of(model);
+  parallel_rows(model.height_px, [&](int y) {
     std::mt19937 generator(how.seed * 7919U + static_cast<std::uint32_t>(y));
     std::normal_distribution<double> noise(0.0, 1.0);
-    for (int x = 0; x < lens.width_px; ++x) {
+    for (int x = 0; x < model.width_px; ++x) {
       const Eigen::Vector3d ray = rays(x, y).cast<double>().homogeneous().normalized();
       const Eigen::Vector3d along = object_from_rig.linear() * ray;
       const double t = trace(shape, eye, along, how.far_mm);
@@ -164,12 +164,12 @@ inline View snapshot(const Shape& shape,
 
 /// A snapshot from each pose, each with a noise of its own.
 inline ViewStore snapshots(const Shape& shape,
-                           const Lens& lens,
+                           const CameraModel& model,
                            const std::vector<Eigen::Isometry3d>& poses,
                            Snapshot how = {}) {
   ViewStore store;
   for (const auto& pose : poses) {
-    store.add(snapshot(shape, lens, pose, how));
+    store.add(snapshot(shape, model, pose, how));
     ++how.seed;
   }
   return store;

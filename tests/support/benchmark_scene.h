@@ -13,7 +13,7 @@ namespace frangia::testing {
 
 /// Phase of a waved surface over a few tens of fringes.
 inline double benchmark_phase(double u, double v) {
-  return kTurn * (40.0 * u + 3.0 * std::sin(5.0 * u + 2.0 * v) + 2.0 * std::cos(7.0 * v));
+  return kTwoPi * (40.0 * u + 3.0 * std::sin(5.0 * u + 2.0 * v) + 2.0 * std::cos(7.0 * v));
 }
 
 /// Share of full light: falling to the corners, with round holes and the shadow of a bar.

@@ -17,7 +17,7 @@ inline double number_after(const std::string& line, char letter) {
 }
 
 /// Marlin: numbered lines with checksums, "busy" while it moves, Resend for what came broken.
-class EmulatedMarlin : public EmulatedLines {
+class EmulatedMarlin : public EmulatedLineDevice {
  public:
   int lines_to_break = 0;  ///< so many of the next lines arrive broken
   bool kill_in_next_move = false;
@@ -47,11 +47,11 @@ class EmulatedMarlin : public EmulatedLines {
              "\nResend: " + std::to_string(expected_) + "\nok\n";
     }
     ++expected_;
-    return take(line.substr(line.find(' ') + 1, star - line.find(' ') - 1));
+    return execute(line.substr(line.find(' ') + 1, star - line.find(' ') - 1));
   }
 
  private:
-  std::string take(const std::string& command) {
+  std::string execute(const std::string& command) {
     commands.push_back(command);
     if (command.rfind("G1 ", 0) == 0) position = number_after(command, 'X');
     if (command == "M400") {
@@ -67,7 +67,7 @@ class EmulatedMarlin : public EmulatedLines {
 };
 
 /// The Ciclop's board with Horus 0.2.
-class EmulatedHorus : public EmulatedLines {
+class EmulatedHorus : public EmulatedLineDevice {
  public:
   std::string version = "Horus 0.2 ['$' for help]";
   double position = 0.0;
@@ -80,7 +80,7 @@ class EmulatedHorus : public EmulatedLines {
       lasers[0] = lasers[1] = motor = false;
       return greet();
     }
-    return EmulatedLines::receive(bytes);
+    return EmulatedLineDevice::receive(bytes);
   }
   std::string answer(const std::string& line) override {
     if (line.rfind("G1X", 0) == 0) position = number_after(line, 'X');
@@ -92,7 +92,7 @@ class EmulatedHorus : public EmulatedLines {
 };
 
 /// A function generator: offset within ± 5 V, an error queue, *OPC? once the output stands.
-class EmulatedScpi : public EmulatedLines {
+class EmulatedScpi : public EmulatedLineDevice {
  public:
   double volts = 0.0;
   bool output = false;
@@ -126,7 +126,7 @@ class EmulatedScpi : public EmulatedLines {
 };
 
 /// A PI controller of one axis: servo, range 0 to 100 µm, on target after a while.
-class EmulatedGcs2 : public EmulatedLines {
+class EmulatedGcs2 : public EmulatedLineDevice {
  public:
   double target = 0.0;
   bool servo = false;
@@ -180,7 +180,7 @@ class EmulatedPrologix : public EmulatedDevice {
       } else if (c == '\x1b') {
         escaped_ = true;
       } else if (c == '\n') {
-        said += take(std::exchange(line_, {}));
+        said += execute(std::exchange(line_, {}));
       } else {
         line_ += c;
       }
@@ -189,18 +189,18 @@ class EmulatedPrologix : public EmulatedDevice {
   }
 
  private:
-  std::string take(const std::string& line) {
+  std::string execute(const std::string& line) {
     if (line == "++ver") return "Prologix GPIB-ETHERNET Controller version 01.06.06.00\r\n";
-    if (line.rfind("++addr ", 0) == 0) at_ = std::stoi(line.substr(7));
-    if (line == "++read eoi" && at_ == address_) return std::exchange(waiting_, {});
-    if (line.rfind("++", 0) == 0 || at_ != address_) return {};
+    if (line.rfind("++addr ", 0) == 0) selected_address_ = std::stoi(line.substr(7));
+    if (line == "++read eoi" && selected_address_ == address_) return std::exchange(waiting_, {});
+    if (line.rfind("++", 0) == 0 || selected_address_ != address_) return {};
     waiting_ += instrument_->receive(line + "\n");
     return {};
   }
 
   std::unique_ptr<EmulatedDevice> instrument_;
   int address_ = 0;
-  int at_ = 0;
+  int selected_address_ = 0;
   bool escaped_ = false;
   std::string line_;
   std::string waiting_;

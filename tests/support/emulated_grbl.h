@@ -163,11 +163,11 @@ class EmulatedGrbl : public EmulatedDevice {
       alarm = true;
       return "ALARM:2\r\n[MSG:Reset to continue]\r\n";
     }
-    const double way_s = std::abs(target - last_target()) / (number_after(line, 'F') / 60.0);
+    const double travel_s = std::abs(target - last_target()) / (number_after(line, 'F') / 60.0);
     targets.push_back(target);
     enqueue({target,
              std::chrono::duration_cast<Clock::duration>(
-                 std::chrono::duration<double>(way_s / speed_factor + 0.004))});
+                 std::chrono::duration<double>(travel_s / speed_factor + 0.004))});
     return "ok\r\n";
   }
   static double number_after(const std::string& line, char letter) {

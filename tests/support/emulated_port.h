@@ -37,7 +37,7 @@ class EmulatedDevice {
 };
 
 /// An emulated device whose lines end with LF; carriage returns are dropped.
-class EmulatedLines : public EmulatedDevice {
+class EmulatedLineDevice : public EmulatedDevice {
  public:
   std::string receive(std::string_view bytes) override {
     std::string answers;
@@ -107,7 +107,7 @@ class EmulatedPort {
     ::cfmakeraw(&raw);
     ::tcsetattr(other_end_, TCSANOW, &raw);
     path_ = name.data();
-    say(device_->greet());
+    transmit(device_->greet());
   }
   void open_socket() {
     listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -129,17 +129,17 @@ class EmulatedPort {
       const std::scoped_lock lock(mutex_);
       if (ready && fd_ < 0) {
         fd_ = ::accept(listener_, nullptr, nullptr);
-        say(device_->greet());
+        transmit(device_->greet());
       } else if (ready) {
         std::array<char, 256> bytes{};
         const ssize_t count = ::read(fd_, bytes.data(), bytes.size());
         if (count <= 0) return;
-        say(device_->receive({bytes.data(), static_cast<std::size_t>(count)}));
+        transmit(device_->receive({bytes.data(), static_cast<std::size_t>(count)}));
       }
-      say(device_->tick());
+      transmit(device_->tick());
     }
   }
-  void say(const std::string& text) const {
+  void transmit(const std::string& text) const {
     if (fd_ < 0 || text.empty()) return;
     if (::write(fd_, text.data(), text.size()) < 0) return;
   }

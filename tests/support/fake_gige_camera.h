@@ -47,7 +47,7 @@ class FakeGigeCamera {
     if (camera_ != nullptr) g_object_unref(std::exchange(camera_, nullptr));
   }
   /// Of its packets, from now on.
-  void lose(double share) { g_object_set(camera_, "gvsp-lost-ratio", share, nullptr); }
+  void set_packet_loss(double share) { g_object_set(camera_, "gvsp-lost-ratio", share, nullptr); }
 
  private:
   static constexpr std::uint32_t kBlackLevelRegister = 0x400;

@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 #include "support/analytic_views.h"
-#include "support/mesh_truths.h"
+#include "support/test_meshes.h"
 
 namespace frangia::testing {
 

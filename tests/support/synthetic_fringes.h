@@ -27,7 +27,7 @@ struct Scene {
 using PhaseOf = std::function<double(int x, int y)>;
 
 /// 16-bit frames of `phase`, one for each shift of the pattern.
-inline FrameStack photograph(const Scene& scene, const Pattern& pattern, const PhaseOf& phase) {
+inline FrameStack render_frames(const Scene& scene, const Pattern& pattern, const PhaseOf& phase) {
   std::mt19937 generator(scene.seed);
   std::normal_distribution<double> noise(0.0, 1.0);
   FrameStack stack{.pattern = pattern, .frames = {}, .white_level = scene.white_level};
@@ -48,7 +48,7 @@ inline FrameStack photograph(const Scene& scene, const Pattern& pattern, const P
 }
 
 /// The phase of fringes that run aslant over the picture.
-inline double aslant(int x, int y) {
+inline double tilted_plane(int x, int y) {
   return 0.09 * x + 0.11 * y;
 }
 

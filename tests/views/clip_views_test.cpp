@@ -12,17 +12,17 @@
 namespace frangia {
 namespace {
 
-using testing::small_lens;
+using testing::small_camera_model;
 
 ViewStore sphere_views() {
   return testing::snapshots(
-      testing::sphere(40.0), small_lens(120, 600.0), testing::around_table(3, 0.3, 650.0));
+      testing::sphere(40.0), small_camera_model(120, 600.0), testing::around_table(3, 0.3, 650.0));
 }
 
 /// Calls `look` with every point of every view, in the object frame.
 template <typename Look>
 void for_each_point(const ViewStore& views, const Look& look) {
-  const auto rays = rays_of(small_lens(120, 600.0));
+  const auto rays = rays_of(small_camera_model(120, 600.0));
   for (std::size_t i = 0; i < views.size(); ++i) {
     const View view = views.load(i);
     for (int y = 0; y < rays.height(); ++y) {
@@ -38,9 +38,9 @@ void for_each_point(const ViewStore& views, const Look& look) {
 
 TEST(ClipViews, KeepsWhatIsAboveTheFloor) {
   ViewStore views = sphere_views();
-  const auto dropped =
-      clip_views(views, small_lens(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -5.0}});
-  EXPECT_GT(dropped, 1000U);
+  const auto removed = clip_views(
+      views, small_camera_model(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -5.0}});
+  EXPECT_GT(removed, 1000U);
   std::size_t left = 0;
   for_each_point(views, [&](const Eigen::Vector3d& point) {
     EXPECT_GT(point.z(), 5.0);
@@ -51,33 +51,35 @@ TEST(ClipViews, KeepsWhatIsAboveTheFloor) {
 
 TEST(ClipViews, KeepsWhatIsNearTheAxis) {
   ViewStore views = sphere_views();
-  static_cast<void>(clip_views(views, small_lens(120, 600.0), {.max_radius_mm = 30.0}));
+  static_cast<void>(clip_views(views, small_camera_model(120, 600.0), {.max_radius_mm = 30.0}));
   for_each_point(views,
                  [](const Eigen::Vector3d& point) { EXPECT_LT(point.head<2>().norm(), 30.0); });
 }
 
-TEST(ClipViews, TakesThePixelsOfARimAwayAsTheOthers) {
+TEST(ClipViews, RemovesEdgePixelsLikeTheOthers) {
   ViewStore views = sphere_views();
   View view = views.load(0);
   const float depth_mm = view.range.depth_mm(60, 60);
   ASSERT_GT(depth_mm, 0.0F);
-  view.rim = {{60, 60, depth_mm, 0.1F}, {60, 60, depth_mm + 300.0F, 0.1F}};  // before and behind
+  view.edge_pixels = {{60, 60, depth_mm, 0.1F},
+                      {60, 60, depth_mm + 300.0F, 0.1F}};  // before and behind
   ViewStore one;
   one.add(view);
-  static_cast<void>(clip_views(one, small_lens(120, 600.0), {.max_radius_mm = 100.0}));
-  ASSERT_EQ(one.load(0).rim.size(), 1U);
-  EXPECT_EQ(one.load(0).rim[0].depth_mm, depth_mm);
+  static_cast<void>(clip_views(one, small_camera_model(120, 600.0), {.max_radius_mm = 100.0}));
+  ASSERT_EQ(one.load(0).edge_pixels.size(), 1U);
+  EXPECT_EQ(one.load(0).edge_pixels[0].depth_mm, depth_mm);
 }
 
 TEST(ClipViews, KeepsAllWithoutALimit) {
   ViewStore views = sphere_views();
-  EXPECT_EQ(clip_views(views, small_lens(120, 600.0), {}), 0U);
+  EXPECT_EQ(clip_views(views, small_camera_model(120, 600.0), {}), 0U);
 }
 
-TEST(ClipViews, RefusesToDropEverything) {
+TEST(ClipViews, RefusesToRemoveEverything) {
   ViewStore views = sphere_views();
   EXPECT_THROW(
-      clip_views(views, small_lens(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -100.0}}),
+      clip_views(
+          views, small_camera_model(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -100.0}}),
       Error);
 }
 

@@ -10,7 +10,7 @@ namespace frangia {
 namespace {
 
 TEST(CollectPoints, GathersEveryPointWithItsSigmaInTheObjectFrame) {
-  const auto camera = testing::small_lens(120, 600.0);
+  const auto camera = testing::small_camera_model(120, 600.0);
   const ViewStore views =
       testing::snapshots(testing::sphere(40.0), camera, testing::around_table(3, 0.3, 650.0));
   std::size_t measured = 0;

@@ -19,7 +19,7 @@ View view_of(float value, int width = 30, int height = 20) {
   return view;
 }
 
-TEST(ViewStore, GivesBackWhatWasAdded) {
+TEST(ViewStore, ReturnsWhatWasAdded) {
   ViewStore store;
   store.add(view_of(1.0F));
   store.add(view_of(2.0F, 11, 7));
@@ -42,21 +42,21 @@ TEST(ViewStore, ReplacesOneViewAndLeavesTheOthers) {
   EXPECT_THROW(store.replace(1, view_of(1.0F, 5, 5)), Error);
 }
 
-TEST(ViewStore, KeepsTheRimApartFromWhatWasSeen) {
+TEST(ViewStore, KeepsEdgePixelsApartFromTheGrid) {
   ViewStore store;
   View view = view_of(1.0F);
-  view.rim = {{3, 4, 5.0F, 0.5F}};
+  view.edge_pixels = {{3, 4, 5.0F, 0.5F}};
   store.add(view);
   const View loaded = store.load(0);
   EXPECT_TRUE(std::isnan(loaded.range.depth_mm(3, 4)));
-  ASSERT_EQ(loaded.rim.size(), 1U);
-  EXPECT_EQ(loaded.rim[0].depth_mm, 5.0F);
-  EXPECT_EQ(loaded.rim[0].x, 3);
+  ASSERT_EQ(loaded.edge_pixels.size(), 1U);
+  EXPECT_EQ(loaded.edge_pixels[0].depth_mm, 5.0F);
+  EXPECT_EQ(loaded.edge_pixels[0].x, 3);
   store.add(view_of(2.0F));
   store.clear(0);
-  EXPECT_TRUE(store.load(0).rim.empty());
+  EXPECT_TRUE(store.load(0).edge_pixels.empty());
   EXPECT_EQ(store.load(1).range.depth_mm(0, 0), 2.0F);
-  EXPECT_THROW(store.replace(1, view), Error);  // there is no room for its rim
+  EXPECT_THROW(store.replace(1, view), Error);  // there is no room for its edge pixels
 }
 
 TEST(ViewStore, KeepsItsViewsWhenMoved) {

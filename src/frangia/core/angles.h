@@ -6,7 +6,7 @@
 namespace frangia {
 
 inline constexpr double kPi = std::numbers::pi;
-inline constexpr double kTurn = 2.0 * std::numbers::pi;
+inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 [[nodiscard]] constexpr double rad_from_deg(double deg) {
   return deg * (kPi / 180.0);
@@ -17,7 +17,7 @@ inline constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// The same angle in (-pi, pi].
 [[nodiscard]] inline double wrap_rad(double angle_rad) {
-  return angle_rad - kTurn * std::ceil((angle_rad - kPi) / kTurn);
+  return angle_rad - kTwoPi * std::ceil((angle_rad - kPi) / kTwoPi);
 }
 
 }  // namespace frangia

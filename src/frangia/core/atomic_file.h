@@ -7,8 +7,8 @@ namespace frangia {
 
 /// Whether a file must outlive a power cut from the moment it has its name.
 enum class Durability {
-  Whole,  ///< the system writes it when it likes
-  Synced  ///< it and its folder's entry are on the disk: tens of milliseconds
+  Buffered,  ///< the system writes it when it likes
+  Synced     ///< it and its folder's entry are on the disk: tens of milliseconds
 };
 
 /// A file that appears under its name only when it is whole.
@@ -18,7 +18,7 @@ enum class Durability {
 /// errors   Error(File) when the folder cannot be written or the disk is full
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path, Durability durability = Durability::Whole);
+  explicit AtomicFile(std::filesystem::path path, Durability durability = Durability::Buffered);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   AtomicFile(AtomicFile&&) = delete;

@@ -6,7 +6,7 @@
 #include <new>
 #include <vector>
 
-#include "frangia/core/spare_pixels.h"
+#include "frangia/core/release_cached_pixels.h"
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -32,7 +32,7 @@ std::size_t rounded(std::size_t bytes) {
 /// Large blocks that were given back, for the next image of that size: the images of one view are
 /// those of the view before. Part of the allocator, as malloc's own lists are: no result depends
 /// on it.
-class Shelf {
+class BlockCache {
  public:
   void* take(std::size_t whole) {
     const std::scoped_lock lock(mutex_);
@@ -40,68 +40,68 @@ class Shelf {
         blocks_.rbegin(), blocks_.rend(), [&](const Block& block) { return block.bytes == whole; });
     if (found == blocks_.rend()) return nullptr;
     void* memory = found->memory;
-    kept_ -= whole;
+    cached_bytes_ -= whole;
     blocks_.erase(std::next(found).base());
     return memory;
   }
 
   /// False where the block should be freed.
   bool put(void* memory, std::size_t whole) noexcept {
-    if (whole > kMost) return false;
+    if (whole > kMaxCachedBytes) return false;
     const std::scoped_lock lock(mutex_);
-    if (blocks_.size() == blocks_.capacity()) drop_oldest();
-    while (kept_ + whole > kMost)
-      drop_oldest();
+    if (blocks_.size() == blocks_.capacity()) free_oldest();
+    while (cached_bytes_ + whole > kMaxCachedBytes)
+      free_oldest();
     blocks_.push_back({memory, whole});
-    kept_ += whole;
+    cached_bytes_ += whole;
     return true;
   }
 
   void clear() noexcept {
     const std::scoped_lock lock(mutex_);
     while (!blocks_.empty())
-      drop_oldest();
+      free_oldest();
   }
 
-  Shelf() { blocks_.reserve(64); }
+  BlockCache() { blocks_.reserve(64); }
 
  private:
-  static constexpr std::size_t kMost = std::size_t{768} << 20U;
+  static constexpr std::size_t kMaxCachedBytes = std::size_t{768} << 20U;
   struct Block {
     void* memory;
     std::size_t bytes;
   };
 
-  void drop_oldest() noexcept {
+  void free_oldest() noexcept {
     // NOLINTNEXTLINE(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory)
     std::free(blocks_.front().memory);
-    kept_ -= blocks_.front().bytes;
+    cached_bytes_ -= blocks_.front().bytes;
     blocks_.erase(blocks_.begin());
   }
 
   std::mutex mutex_;
-  std::vector<Block> blocks_;  ///< the last given back comes last
-  std::size_t kept_ = 0;       ///< bytes
+  std::vector<Block> blocks_;     ///< the last given back comes last
+  std::size_t cached_bytes_ = 0;  ///< bytes
 };
 
-Shelf& shelf() {
+BlockCache& block_cache() {
   // Never destroyed: an image of static duration may outlive it.
-  static Shelf* const shelf = new Shelf;  // NOLINT(cppcoreguidelines-owning-memory)
-  return *shelf;
+  static BlockCache* const block_cache = new BlockCache;  // NOLINT(cppcoreguidelines-owning-memory)
+  return *block_cache;
 }
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr bool kShelves = false;  // so that a use after free shows
+constexpr bool kCacheBlocks = false;  // so that a use after free shows
 #else
-constexpr bool kShelves = true;
+constexpr bool kCacheBlocks = true;
 #endif
 
 }  // namespace
 
 void* allocate_pixels(std::size_t bytes) {
   const std::size_t whole = rounded(bytes);
-  if (kShelves && is_large(bytes)) {
-    if (void* memory = shelf().take(whole)) return memory;
+  if (kCacheBlocks && is_large(bytes)) {
+    if (void* memory = block_cache().take(whole)) return memory;
   }
   // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): free_pixels gives it back
   void* memory = std::aligned_alloc(is_large(bytes) ? kHugePage : kCacheLine, whole);
@@ -116,13 +116,13 @@ void* allocate_pixels(std::size_t bytes) {
 void free_pixels(void* memory, std::size_t bytes) noexcept {
   if (memory == nullptr) return;
   // cppcheck-suppress throwInNoexceptFunction  ; it has not thrown at allocation
-  if (kShelves && is_large(bytes) && shelf().put(memory, rounded(bytes))) return;
+  if (kCacheBlocks && is_large(bytes) && block_cache().put(memory, rounded(bytes))) return;
   // NOLINTNEXTLINE(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory): of aligned_alloc
   std::free(memory);
 }
 
-void release_spare_pixels() noexcept {
-  shelf().clear();
+void release_cached_pixels() noexcept {
+  block_cache().clear();
 }
 
 }  // namespace frangia

@@ -30,12 +30,12 @@ struct PixelAllocator {
   void deallocate(T* memory, std::size_t count) noexcept { free_pixels(memory, count * sizeof(T)); }
 
   template <typename U>
-  void construct(U* place) {
-    ::new (static_cast<void*>(place)) U;
+  void construct(U* address) {
+    ::new (static_cast<void*>(address)) U;
   }
   template <typename U, typename... Arguments>
-  void construct(U* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  void construct(U* address, Arguments&&... arguments) {
+    ::new (static_cast<void*>(address)) U(std::forward<Arguments>(arguments)...);
   }
   friend bool operator==(const PixelAllocator& /*one*/, const PixelAllocator& /*other*/) {
     return true;

@@ -7,7 +7,7 @@
 
 namespace frangia {
 
-/// Numbers that depend on their place only, not on the order in which they are asked for: the same
+/// Numbers that depend on their index only, not on the order in which they are asked for: the same
 /// for any number of threads.
 ///
 /// source   splitmix64 (Steele, Lea & Flood 2014)
@@ -18,9 +18,9 @@ namespace frangia {
   return value ^ (value >> 31U);
 }
 
-/// A stream of its own for each place below another: hash(hash(seed, view), pattern) ...
-[[nodiscard]] constexpr std::uint64_t hash(std::uint64_t stream, std::uint64_t place) {
-  return hash(stream ^ hash(place));
+/// A stream of its own for each index below another: hash(hash(seed, view), pattern) ...
+[[nodiscard]] constexpr std::uint64_t hash(std::uint64_t stream, std::uint64_t index) {
+  return hash(stream ^ hash(index));
 }
 
 /// Even in [0, 1).
@@ -31,7 +31,7 @@ namespace frangia {
 /// Normal with mean 0 and variance 1 (Box & Muller 1958).
 [[nodiscard]] inline double normal_from(std::uint64_t bits) {
   const double u = uniform_from(bits) + 0x1.0p-54;
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(kTurn * uniform_from(hash(bits)));
+  return std::sqrt(-2.0 * std::log(u)) * std::cos(kTwoPi * uniform_from(hash(bits)));
 }
 
 }  // namespace frangia

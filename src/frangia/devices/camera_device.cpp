@@ -6,11 +6,11 @@ namespace frangia {
 
 void CameraDevice::check_exposure(double exposure_ms) const {
   if (exposure_ms >= info().min_exposure_ms && exposure_ms <= info().max_exposure_ms) return;
-  device_fault(*this,
-               fmt::format("an exposure of {} ms is outside its range, {} to {}",
-                           exposure_ms,
-                           info().min_exposure_ms,
-                           info().max_exposure_ms));
+  fail_device(*this,
+              fmt::format("an exposure of {} ms is outside its range, {} to {}",
+                          exposure_ms,
+                          info().min_exposure_ms,
+                          info().max_exposure_ms));
 }
 
 }  // namespace frangia

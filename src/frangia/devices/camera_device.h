@@ -60,7 +60,8 @@ class CameraDevice : public Device {
   ///
   /// An incomplete frame is returned as such, for the caller to count and to take again.
   /// errors   Error(Device) when no frame has come by the deadline, or the camera is gone
-  [[nodiscard]] virtual CapturedFrame take(const FrameLabel& label, const Deadline& deadline) = 0;
+  [[nodiscard]] virtual CapturedFrame capture(const FrameLabel& label,
+                                              const Deadline& deadline) = 0;
 
  protected:
   /// errors   Error(Device) when the exposure is out of the camera's range

@@ -15,8 +15,8 @@ namespace frangia {
 struct Deadline {
   using Clock = std::chrono::steady_clock;
 
-  Clock::time_point at;
-  double given_s = 0.0;  ///< as it was at the start, for the sentence that tells of it
+  Clock::time_point time;
+  double timeout_s = 0.0;  ///< as it was at the start, for the sentence that tells of it
   std::stop_token stop;
 
   [[nodiscard]] static Deadline in(double seconds, std::stop_token stop = {}) {
@@ -27,9 +27,9 @@ struct Deadline {
   /// The earlier of this one and `seconds` from now.
   [[nodiscard]] Deadline at_most(double seconds) const {
     Deadline sooner = in(seconds, stop);
-    return sooner.at < at ? sooner : *this;
+    return sooner.time < time ? sooner : *this;
   }
-  [[nodiscard]] bool passed() const { return Clock::now() >= at; }
+  [[nodiscard]] bool passed() const { return Clock::now() >= time; }
   /// Throws Error(Cancelled) once a stop was asked for.
   void check() const {
     if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "stopped by the user");
@@ -40,7 +40,7 @@ struct Deadline {
     while (!until.passed()) {
       check();
       const auto piece = Clock::duration(std::chrono::milliseconds(10));
-      std::this_thread::sleep_for(std::min(piece, until.at - Clock::now()));
+      std::this_thread::sleep_for(std::min(piece, until.time - Clock::now()));
     }
   }
 };

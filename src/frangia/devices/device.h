@@ -34,7 +34,7 @@ class Device {
 };
 
 /// Throws Error(Device), "NAME: WHAT". `what` says what happened and what to do.
-[[noreturn]] inline void device_fault(const Device& device, std::string_view what) {
+[[noreturn]] inline void fail_device(const Device& device, std::string_view what) {
   throw Error(ErrorKind::Device, device.name() + ": " + std::string(what));
 }
 

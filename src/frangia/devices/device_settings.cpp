@@ -112,7 +112,7 @@ std::vector<std::string> DeviceSettings::texts_or(std::string_view key,
   return *values;
 }
 
-void DeviceSettings::warn_of_the_rest(const Run& run) const {
+void DeviceSettings::warn_of_unused_keys(const Run& run) const {
   for (const auto& value : values_) {
     if (used_.contains(value.first)) continue;
     run.warn(fmt::format(

@@ -54,7 +54,7 @@ class DeviceSettings {
   /// "rig.toml: devices.camera.KEY WHAT"
   [[noreturn]] void fail(std::string_view key, std::string_view what) const;
   /// Warns of each key that no getter has asked for.
-  void warn_of_the_rest(const Run& run) const;
+  void warn_of_unused_keys(const Run& run) const;
 
  private:
   [[nodiscard]] const SettingValue* find(std::string_view key);

@@ -5,14 +5,14 @@
 
 namespace frangia {
 
-std::string table_of(DeviceKind kind) {
+std::string table_name(DeviceKind kind) {
   switch (kind) {
     case DeviceKind::Camera:
       return "camera";
     case DeviceKind::PhaseShifter:
     case DeviceKind::PatternDisplay:
       return "fringes";
-    case DeviceKind::Line:
+    case DeviceKind::LaserSheet:
       return "line";
     case DeviceKind::Light:
       return "light";
@@ -26,7 +26,7 @@ const Driver& driver_for(DeviceSettings& settings, const std::vector<Driver>& dr
   const std::string wanted = settings.driver();
   std::vector<std::string> names;
   for (const Driver& driver : drivers) {
-    if (table_of(driver.kind) != settings.device()) continue;
+    if (table_name(driver.kind) != settings.device()) continue;
     if (driver.name == wanted) return driver;
     names.push_back(driver.name);
   }

@@ -16,13 +16,13 @@ enum class DeviceKind {
   Camera,          ///< [devices.camera]: a CameraDevice
   PhaseShifter,    ///< [devices.fringes]: a PhaseShifter
   PatternDisplay,  ///< [devices.fringes]: a PatternDisplay
-  Line,            ///< [devices.line]: a LineSource
+  LaserSheet,      ///< [devices.line]: a LaserSheetSource
   Light,           ///< [devices.light]: a SwitchDevice, the fringes' laser or lamp
   Turntable        ///< [devices.turntable]: a TurntableDevice
 };
 
 /// The table's name: "camera", "fringes", "line", "light", "turntable".
-[[nodiscard]] std::string table_of(DeviceKind kind);
+[[nodiscard]] std::string table_name(DeviceKind kind);
 
 /// A device that a driver found on this machine.
 struct FoundDevice {
@@ -34,7 +34,7 @@ struct FoundDevice {
 struct Driver {
   std::string name;  ///< `driver = "..."`; one driver a name and table
   DeviceKind kind = DeviceKind::Camera;
-  std::string what;  ///< one line: "GigE Vision and USB3 Vision cameras, by Aravis"
+  std::string description;  ///< one line: "GigE Vision and USB3 Vision cameras, by Aravis"
   /// Opens the device that the settings describe, disabled and dark. It must be of the class that
   /// `kind` promises.
   /// errors   Error(Input) naming file and key; Error(Device) when it does not answer

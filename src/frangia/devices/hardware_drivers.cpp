@@ -3,12 +3,12 @@
 #include <iterator>
 #include <utility>
 
-#include "frangia/devices/aravis_driver.h"
-#include "frangia/devices/board_drivers.h"
-#include "frangia/devices/folder_camera.h"
-#include "frangia/devices/glfw_display.h"
-#include "frangia/devices/line_drivers.h"
-#include "frangia/devices/v4l2_camera.h"
+#include "frangia/devices/internal/aravis_driver.h"
+#include "frangia/devices/internal/board_drivers.h"
+#include "frangia/devices/internal/folder_camera.h"
+#include "frangia/devices/internal/glfw_display.h"
+#include "frangia/devices/internal/instrument_drivers.h"
+#include "frangia/devices/internal/v4l2_camera.h"
 
 namespace frangia {
 
@@ -18,7 +18,7 @@ std::vector<Driver> hardware_drivers() {
   drivers.push_back(v4l2_driver());
   drivers.push_back(folder_camera_driver());
   drivers.push_back(glfw_driver());
-  for (auto more : {board_drivers(), line_drivers()})
+  for (auto more : {board_drivers(), instrument_drivers()})
     std::move(more.begin(), more.end(), std::back_inserter(drivers));
   return drivers;
 }

@@ -8,7 +8,7 @@ namespace frangia {
 struct DisplayInfo {
   int width_px = 0;
   int height_px = 0;
-  double period_ms = 0.0;  ///< of its refresh; exposures are whole numbers of it; 0: none
+  double refresh_period_ms = 0.0;  ///< of its refresh; exposures are whole numbers of it; 0: none
 };
 
 /// A digital projector that shows a picture pixel by pixel.

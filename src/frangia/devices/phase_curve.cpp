@@ -14,14 +14,16 @@ namespace frangia {
 namespace {
 
 /// The place of x on the broken line through (xs, ys); xs rise.
-double along(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+double interpolate_linearly(const std::vector<double>& xs,
+                            const std::vector<double>& ys,
+                            double x) {
   const auto above = std::upper_bound(xs.begin() + 1, xs.end() - 1, x);
   const auto i = static_cast<std::size_t>(above - xs.begin());
   const double share = std::clamp((x - xs[i - 1]) / (xs[i] - xs[i - 1]), 0.0, 1.0);
   return ys[i - 1] + share * (ys[i] - ys[i - 1]);
 }
 
-bool rises(const std::vector<double>& values) {
+bool strictly_increasing(const std::vector<double>& values) {
   return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
 }
 
@@ -29,8 +31,9 @@ bool rises(const std::vector<double>& values) {
 
 void PhaseCurve::check(const std::string& whose) const {
   const std::vector<double> back(phases_rad.rbegin(), phases_rad.rend());
-  if (commands.size() >= 2 && commands.size() == phases_rad.size() && rises(commands) &&
-      (rises(phases_rad) || rises(back))) {
+  if (commands.size() >= 2 && commands.size() == phases_rad.size() &&
+      strictly_increasing(commands) &&
+      (strictly_increasing(phases_rad) || strictly_increasing(back))) {
     return;
   }
   throw Error(ErrorKind::Input,
@@ -40,7 +43,7 @@ void PhaseCurve::check(const std::string& whose) const {
 }
 
 double PhaseCurve::phase_at(double command) const {
-  return along(commands, phases_rad, command);
+  return interpolate_linearly(commands, phases_rad, command);
 }
 
 double PhaseCurve::command_for(double phase_rad) const {
@@ -48,8 +51,8 @@ double PhaseCurve::command_for(double phase_rad) const {
   const double low = std::min(phases_rad.front(), phases_rad.back());
   const double high = std::max(phases_rad.front(), phases_rad.back());
   double phase = phase_rad;
-  if (phase < low) phase += kTurn * std::ceil((low - phase) / kTurn);
-  if (phase > high) phase -= kTurn * std::ceil((phase - high) / kTurn);
+  if (phase < low) phase += kTwoPi * std::ceil((low - phase) / kTwoPi);
+  if (phase > high) phase -= kTwoPi * std::ceil((phase - high) / kTwoPi);
   if (phase < low) {
     throw Error(ErrorKind::Input,
                 fmt::format("the phase curve spans {:.1f} degrees, which do not hold a shift of "
@@ -57,10 +60,10 @@ double PhaseCurve::command_for(double phase_rad) const {
                             deg_from_rad(high - low),
                             deg_from_rad(phase_rad)));
   }
-  if (rising) return along(phases_rad, commands, phase);
+  if (rising) return interpolate_linearly(phases_rad, commands, phase);
   const std::vector<double> phases(phases_rad.rbegin(), phases_rad.rend());
   const std::vector<double> reversed(commands.rbegin(), commands.rend());
-  return along(phases, reversed, phase);
+  return interpolate_linearly(phases, reversed, phase);
 }
 
 PhaseCurve read_phase_curve(DeviceSettings& settings, double min_command, double max_command) {
@@ -74,7 +77,7 @@ PhaseCurve read_phase_curve(DeviceSettings& settings, double min_command, double
     if (per_turn == 0.0)
       settings.fail("command_per_turn", "is 0; it must be the command of a turn");
     curve.commands = {min_command, max_command};
-    curve.phases_rad = {0.0, kTurn * (max_command - min_command) / per_turn};
+    curve.phases_rad = {0.0, kTwoPi * (max_command - min_command) / per_turn};
   }
   curve.check(fmt::format("{}: devices.{}", settings.file().string(), settings.device()));
   return curve;

@@ -19,7 +19,7 @@ struct ShifterInfo {
 /// Moves one mirror of the interferometer, and with it the fringes: a piezo and its amplifier.
 ///
 /// Phase to command, the approach from the same side and the correction of steps are the session's
-/// work (see `ShiftDriver`): a driver only brings its command to the device.
+/// work (see `PhaseShiftController`): a driver only brings its command to the device.
 class PhaseShifter : public Device {
  public:
   [[nodiscard]] virtual const ShifterInfo& info() const = 0;
@@ -30,7 +30,7 @@ class PhaseShifter : public Device {
 
   /// Sets the pitch of the fringes, for interferometers that can; others accept only their own.
   /// errors   Error(Device) when it is another than `info().fringes_per_degree`
-  virtual void set_pitch(double fringes_per_degree, const Deadline& deadline);
+  virtual void set_fringe_frequency(double fringes_per_degree, const Deadline& deadline);
 
  protected:
   /// errors   Error(Device) when the command is outside of the range

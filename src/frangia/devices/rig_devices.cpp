@@ -10,27 +10,27 @@ namespace {
 
 /// The device as the class that its kind promises.
 template <typename T>
-void take_as(std::unique_ptr<Device> device, std::unique_ptr<T>& place) {
+void assign_as(std::unique_ptr<Device> device, std::unique_ptr<T>& place) {
   auto* as = dynamic_cast<T*>(device.get());
-  if (as == nullptr) device_fault(*device, "its driver opened a device of another kind");
+  if (as == nullptr) fail_device(*device, "its driver opened a device of another kind");
   static_cast<void>(device.release());
   place.reset(as);
 }
 
-void put(std::unique_ptr<Device> device, DeviceKind kind, RigDevices& devices) {
+void assign(std::unique_ptr<Device> device, DeviceKind kind, RigDevices& devices) {
   switch (kind) {
     case DeviceKind::Camera:
-      return take_as(std::move(device), devices.camera);
+      return assign_as(std::move(device), devices.camera);
     case DeviceKind::PhaseShifter:
-      return take_as(std::move(device), devices.shifter);
+      return assign_as(std::move(device), devices.shifter);
     case DeviceKind::PatternDisplay:
-      return take_as(std::move(device), devices.display);
-    case DeviceKind::Line:
-      return take_as(std::move(device), devices.line);
+      return assign_as(std::move(device), devices.display);
+    case DeviceKind::LaserSheet:
+      return assign_as(std::move(device), devices.laser_sheet);
     case DeviceKind::Light:
-      return take_as(std::move(device), devices.light);
+      return assign_as(std::move(device), devices.light);
     case DeviceKind::Turntable:
-      return take_as(std::move(device), devices.turntable);
+      return assign_as(std::move(device), devices.turntable);
   }
 }
 
@@ -47,8 +47,8 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
   };
   if (devices.camera) {
     const CameraInfo& info = devices.camera->info();
-    const Lens& lens = rig.camera.lens;
-    if (info.width_px != lens.width_px || info.height_px != lens.height_px)
+    const CameraModel& model = rig.camera.model;
+    if (info.width_px != model.width_px || info.height_px != model.height_px)
       refuse(*devices.camera, info.width_px, info.height_px, "camera.size_px");
     if (info.white_level != rig.camera.white_level) {
       throw Error(ErrorKind::Input,
@@ -61,8 +61,8 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
   }
   if (devices.display) {
     const DisplayInfo& info = devices.display->info();
-    const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
-    if (lens == nullptr || info.width_px != lens->width_px || info.height_px != lens->height_px)
+    const auto* model = std::get_if<PinholeModel>(&rig.projector.model);
+    if (model == nullptr || info.width_px != model->width_px || info.height_px != model->height_px)
       refuse(*devices.display, info.width_px, info.height_px, "projector.size_px");
   }
   if (devices.shifter && !rig.projector.is_angular()) {
@@ -74,9 +74,9 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
 }
 
 /// Light first; null where the rig has none.
-std::array<Device*, 6> places_of(const RigDevices& rig) {
+std::array<Device*, 6> devices_of(const RigDevices& rig) {
   return {rig.light.get(),
-          rig.line.get(),
+          rig.laser_sheet.get(),
           rig.display.get(),
           rig.turntable.get(),
           rig.shifter.get(),
@@ -87,14 +87,14 @@ std::array<Device*, 6> places_of(const RigDevices& rig) {
 
 std::vector<Device*> RigDevices::all() const {
   std::vector<Device*> devices;
-  for (Device* device : places_of(*this))
+  for (Device* device : devices_of(*this))
     if (device != nullptr) devices.push_back(device);
   return devices;
 }
 
 // NOLINTNEXTLINE(readability-make-member-function-const): the devices are part of it
 void RigDevices::make_safe() noexcept {
-  for (Device* device : places_of(*this))
+  for (Device* device : devices_of(*this))
     if (device != nullptr) device->make_safe();
 }
 
@@ -107,8 +107,8 @@ RigDevices open_devices(const std::filesystem::path& rig_file,
   for (DeviceSettings& settings : read_device_settings(rig_file)) {
     const Driver& driver = driver_for(settings, drivers);
     std::unique_ptr<Device> device = driver.open(settings, rig, deadline);
-    settings.warn_of_the_rest(run);
-    put(std::move(device), driver.kind, devices);
+    settings.warn_of_unused_keys(run);
+    assign(std::move(device), driver.kind, devices);
   }
   check_sizes(rig_file, rig, devices);
   return devices;

@@ -27,7 +27,7 @@ struct RigDevices {
   std::unique_ptr<CameraDevice> camera;
   std::unique_ptr<PhaseShifter> shifter;    ///< the fringes of an interferometer ...
   std::unique_ptr<PatternDisplay> display;  ///< ... or those of a digital projector
-  std::unique_ptr<LineSource> line;
+  std::unique_ptr<LaserSheetSource> laser_sheet;
   std::unique_ptr<SwitchDevice> light;
   std::unique_ptr<TurntableDevice> turntable;
 

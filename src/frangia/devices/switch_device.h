@@ -14,6 +14,6 @@ class SwitchDevice : public Device {
 };
 
 /// The source of the single plane of light.
-using LineSource = SwitchDevice;
+using LaserSheetSource = SwitchDevice;
 
 }  // namespace frangia

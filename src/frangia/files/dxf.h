@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "frangia/core/run.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

@@ -3,15 +3,15 @@
 #include <vector>
 
 #include "frangia/files/dxf.h"
-#include "frangia/files/ending_of.h"
-#include "frangia/files/gltf.h"
-#include "frangia/files/obj.h"
-#include "frangia/files/off.h"
-#include "frangia/files/pcd.h"
+#include "frangia/files/internal/gltf.h"
+#include "frangia/files/internal/obj.h"
+#include "frangia/files/internal/off.h"
+#include "frangia/files/internal/pcd.h"
+#include "frangia/files/internal/three_mf.h"
+#include "frangia/files/internal/xyz.h"
+#include "frangia/files/lowercase_extension.h"
 #include "frangia/files/ply.h"
 #include "frangia/files/stl.h"
-#include "frangia/files/three_mf.h"
-#include "frangia/files/xyz.h"
 
 namespace frangia {
 namespace {
@@ -20,15 +20,15 @@ using Path = std::filesystem::path;
 
 /// Formats whose reader has nothing to tell, and whose writer takes no options.
 template <Mesh (*Read)(const Path&), void (*Write)(const Path&, const Mesh&)>
-MeshFormat plain(const char* ending) {
-  return {ending,
+MeshFormat silent_format(const char* extension) {
+  return {extension,
           [](const Path& path, const Run&) { return Read(path); },
           [](const Path& path, const Mesh& mesh, const WriteOptions&) { Write(path, mesh); }};
 }
 
 template <Mesh (*Read)(const Path&, const Run&), void (*Write)(const Path&, const Mesh&)>
-MeshFormat telling(const char* ending) {
-  return {ending, Read, [](const Path& path, const Mesh& mesh, const WriteOptions&) {
+MeshFormat warning_format(const char* extension) {
+  return {extension, Read, [](const Path& path, const Mesh& mesh, const WriteOptions&) {
             Write(path, mesh);
           }};
 }
@@ -45,14 +45,14 @@ const std::vector<MeshFormat>& formats() {
        [](const Path& path, const Mesh& mesh, const WriteOptions& options) {
          write_stl(path, mesh, options.stl);
        }},
-      plain<read_ply, write_ply>(".ply"),
-      plain<read_obj, write_obj>(".obj"),
-      telling<read_gltf, write_gltf>(".glb"),
-      telling<read_gltf, write_gltf>(".gltf"),
-      telling<read_3mf, write_3mf>(".3mf"),
-      plain<read_off, write_off>(".off"),
-      plain<read_xyz, write_xyz>(".xyz"),
-      telling<read_pcd, write_pcd>(".pcd"),
+      silent_format<read_ply, write_ply>(".ply"),
+      silent_format<read_obj, write_obj>(".obj"),
+      warning_format<read_gltf, write_gltf>(".glb"),
+      warning_format<read_gltf, write_gltf>(".gltf"),
+      warning_format<read_3mf, write_3mf>(".3mf"),
+      silent_format<read_off, write_off>(".off"),
+      silent_format<read_xyz, write_xyz>(".xyz"),
+      warning_format<read_pcd, write_pcd>(".pcd"),
   };
   return kAll;
 }
@@ -60,17 +60,17 @@ const std::vector<MeshFormat>& formats() {
 }  // namespace
 
 const MeshFormat* find_mesh_format(const Path& path) {
-  const std::string ending = ending_of(path);
+  const std::string extension = lowercase_extension(path);
   for (const MeshFormat& format : formats())
-    if (format.ending == ending) return &format;
+    if (format.extension == extension) return &format;
   return nullptr;
 }
 
-std::string mesh_endings() {
+std::string mesh_extensions() {
   std::string all;
   for (std::size_t i = 0; i < formats().size(); ++i) {
     const bool last = i + 1 == formats().size();
-    all += (i == 0 ? "" : last ? " or " : ", ") + formats()[i].ending;
+    all += (i == 0 ? "" : last ? " or " : ", ") + formats()[i].extension;
   }
   return all;
 }

@@ -11,24 +11,24 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/files/internal/ply_source.h"
+#include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/ply.h"
-#include "frangia/files/ply_source.h"
-#include "frangia/files/read_bytes.h"
 
 namespace frangia {
 namespace {
 
-constexpr std::int64_t kNothing = -1;
+constexpr std::int64_t kNoPoint = -1;
 
 /// Which point is where.
 struct Grid {
   std::size_t columns = 0;
   std::size_t rows = 0;
-  std::vector<std::int64_t> points;  ///< row by row; kNothing where there is none
+  std::vector<std::int64_t> points;  ///< row by row; kNoPoint where there is none
 };
 
 /// The number after "obj_info KEY" in the header; 0 when there is none.
-std::size_t info_of(std::string_view header, const std::string& key) {
+std::size_t read_obj_info(std::string_view header, const std::string& key) {
   const auto found = header.find("obj_info " + key + " ");
   if (found == std::string_view::npos) return 0;
   std::istringstream rest(std::string(header.substr(found + key.size() + 10, 20)));
@@ -37,10 +37,10 @@ std::size_t info_of(std::string_view header, const std::string& key) {
   return number;
 }
 
-/// Reads over a property; the last value of a list, or kNothing when it is empty.
+/// Reads over a property; the last value of a list, or kNoPoint when it is empty.
 template <typename Source>
 std::int64_t last_of(Source& source, const PlyProperty& property) {
-  std::int64_t last = kNothing;
+  std::int64_t last = kNoPoint;
   const double count = property.count_type ? source.value(*property.count_type) : 1.0;
   for (std::uint64_t i = 0; static_cast<double>(i) < count; ++i)
     last = static_cast<std::int64_t>(source.value(property.type));
@@ -53,7 +53,7 @@ std::vector<std::int64_t> read_grid(Source source, const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
     const bool grid = element.name == "range_grid";
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::int64_t point = kNothing;
+      std::int64_t point = kNoPoint;
       for (const PlyProperty& property : element.properties)
         point = last_of(source, property);
       if (grid) points.push_back(point);
@@ -63,7 +63,7 @@ std::vector<std::int64_t> read_grid(Source source, const PlyHeader& header) {
   return points;
 }
 
-Grid grid_of(const std::filesystem::path& path) {
+Grid read_range_grid(const std::filesystem::path& path) {
   const std::string bytes = read_bytes(path);
   const PlyHeader header = parse_ply_header(path, bytes);
   const bool has_grid =
@@ -73,8 +73,8 @@ Grid grid_of(const std::filesystem::path& path) {
   if (!has_grid) return {};
   const std::string_view all(bytes);
   Grid grid;
-  grid.columns = info_of(all.substr(0, header.body), "num_cols");
-  grid.rows = info_of(all.substr(0, header.body), "num_rows");
+  grid.columns = read_obj_info(all.substr(0, header.body), "num_cols");
+  grid.rows = read_obj_info(all.substr(0, header.body), "num_rows");
   grid.points =
       header.format == PlyFormat::Ascii
           ? read_grid(AsciiPlySource(path, bytes, header.body), header)
@@ -105,7 +105,7 @@ double median_spacing(const Mesh& mesh, const Grid& grid) {
   return *middle;
 }
 
-void join_neighbours(Mesh& mesh, const Grid& grid, const std::filesystem::path& path) {
+void triangulate_grid(Mesh& mesh, const Grid& grid, const std::filesystem::path& path) {
   constexpr double kLongest = 6.0;  // spacings
   for (const std::int64_t point : grid.points) {
     if (point >= static_cast<std::int64_t>(mesh.vertices_mm.size())) {
@@ -153,12 +153,12 @@ RangeScan read_range_scan(const std::filesystem::path& path) {
   RangeScan scan;
   scan.path = path;
   scan.mesh = read_ply(path);
-  const Grid grid = grid_of(path);
-  if (!grid.points.empty()) join_neighbours(scan.mesh, grid, path);
+  const Grid grid = read_range_grid(path);
+  if (!grid.points.empty()) triangulate_grid(scan.mesh, grid, path);
   return scan;
 }
 
-std::vector<RangeScan> read_scan_poses(const std::filesystem::path& path) {
+std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path) {
   std::istringstream lines(read_bytes(path));
   std::vector<RangeScan> scans;
   std::string line;

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
@@ -30,6 +30,6 @@ struct RangeScan {
 /// quaternions are the conjugate of the scan's rotation.
 ///
 /// errors   Error(Input) that names the line
-[[nodiscard]] std::vector<RangeScan> read_scan_poses(const std::filesystem::path& path);
+[[nodiscard]] std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path);
 
 }  // namespace frangia

@@ -12,7 +12,8 @@ Mesh read_mesh(const std::filesystem::path& path, const Run& run) {
   if (format == nullptr) {
     throw Error(
         ErrorKind::Input,
-        fmt::format("{}: a mesh is read from {}; name such a file", path.string(), mesh_endings()));
+        fmt::format(
+            "{}: a mesh is read from {}; name such a file", path.string(), mesh_extensions()));
   }
   return format->read(path, run);
 }

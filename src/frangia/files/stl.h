@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

@@ -8,15 +8,16 @@
 namespace frangia {
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const WriteOptions& options) {
-  check_mesh_ending(path);
+  check_mesh_extension(path);
   find_mesh_format(path)->write(path, mesh, options);
 }
 
-void check_mesh_ending(const std::filesystem::path& path) {
+void check_mesh_extension(const std::filesystem::path& path) {
   if (find_mesh_format(path) != nullptr) return;
   throw Error(
       ErrorKind::Input,
-      fmt::format("{}: a mesh is written as {}; name such a file", path.string(), mesh_endings()));
+      fmt::format(
+          "{}: a mesh is written as {}; name such a file", path.string(), mesh_extensions()));
 }
 
 }  // namespace frangia

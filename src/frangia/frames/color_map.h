@@ -5,7 +5,7 @@
 namespace frangia {
 
 enum class ColorMap {
-  Grey,      ///< black to white: the saw-tooth of a wrapped phase reads best so
+  Gray,      ///< black to white: the saw-tooth of a wrapped phase reads best so
   Viridis,   ///< from dark blue to yellow: sizes
   Diverging  ///< from blue over white to red: deviations about zero
 };

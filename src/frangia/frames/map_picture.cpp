@@ -21,16 +21,16 @@ Rgb pixel_of(ColorMap map, float value) {
           static_cast<std::uint8_t>(std::lround(color.z()))};
 }
 
-ValueRange usual_range(const Image<float>& values) {
+ValueRange percentile_range(const Image<float>& values) {
   std::vector<float> known;
   for (const float value : values.pixels()) {
     if (!std::isnan(value)) known.push_back(value);
   }
   if (known.empty()) return {};
   const auto at = [&](double share) {
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(known.size() - 1));
-    std::nth_element(known.begin(), known.begin() + place, known.end());
-    return known[static_cast<std::size_t>(place)];
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(known.size() - 1));
+    std::nth_element(known.begin(), known.begin() + rank, known.end());
+    return known[static_cast<std::size_t>(rank)];
   };
   return {at(0.01), at(0.99)};
 }

@@ -16,7 +16,7 @@ struct ValueRange {
 
 /// From the 1st to the 99th percentile of what is not missing, so that a few strays do not take the
 /// whole scale.
-[[nodiscard]] ValueRange usual_range(const Image<float>& values);
+[[nodiscard]] ValueRange percentile_range(const Image<float>& values);
 
 /// A map as a picture. Missing values are a dark blue-grey that no color map holds.
 [[nodiscard]] Image<Rgb> map_picture(const Image<float>& values, ValueRange range, ColorMap map);

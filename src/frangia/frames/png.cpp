@@ -74,7 +74,7 @@ std::vector<char> encode(const spng_ihdr& header, const void* pixels, std::size_
   return {bytes, bytes + length};
 }
 
-void write_whole(const std::filesystem::path& path, const std::vector<char>& bytes) {
+void write_atomically(const std::filesystem::path& path, const std::vector<char>& bytes) {
   AtomicFile file(path);
   file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.commit();
@@ -125,14 +125,14 @@ std::vector<char> encode_png(const Frame& frame) {
 }
 
 void write_png(const std::filesystem::path& path, const Frame& frame) {
-  write_whole(path, encode_png(frame));
+  write_atomically(path, encode_png(frame));
 }
 
 void write_png(const std::filesystem::path& path, const Image<Rgb>& picture) {
-  write_whole(path,
-              encode(header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
-                     picture.pixels().data(),
-                     picture.pixels().size_bytes()));
+  write_atomically(path,
+                   encode(header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
+                          picture.pixels().data(),
+                          picture.pixels().size_bytes()));
 }
 
 }  // namespace frangia

@@ -32,7 +32,7 @@ int scaled_width(const Image<Rgb>& picture, int height_px) {
   return std::max(1, picture.width() * height_px / picture.height());
 }
 
-void paste(const Image<Rgb>& picture, int left, int top, int height_px, Image<Rgb>& sheet) {
+void draw_scaled(const Image<Rgb>& picture, int left, int top, int height_px, Image<Rgb>& sheet) {
   const int width_px = scaled_width(picture, height_px);
   const double across = static_cast<double>(picture.width()) / width_px;
   const double down = static_cast<double>(picture.height()) / height_px;
@@ -65,7 +65,7 @@ Image<Rgb> contact_sheet(const std::vector<std::vector<Image<Rgb>>>& rows,
   for (const auto& row : rows) {
     int left = gap_px;
     for (const auto& picture : row) {
-      paste(picture, left, top, row_height_px, sheet);
+      draw_scaled(picture, left, top, row_height_px, sheet);
       left += scaled_width(picture, row_height_px) + gap_px;
     }
     top += row_height_px + gap_px;
@@ -73,7 +73,7 @@ Image<Rgb> contact_sheet(const std::vector<std::vector<Image<Rgb>>>& rows,
   return sheet;
 }
 
-Image<Rgb> cropped_to_light(const Image<Rgb>& picture, int margin_px) {
+Image<Rgb> crop_to_content(const Image<Rgb>& picture, int margin_px) {
   constexpr int kDark = 12;
   int left = picture.width();
   int right = -1;

@@ -16,6 +16,6 @@ namespace frangia {
                                        int gap_px = 12);
 
 /// The part of a picture within a margin around what is not black.
-[[nodiscard]] Image<Rgb> cropped_to_light(const Image<Rgb>& picture, int margin_px);
+[[nodiscard]] Image<Rgb> crop_to_content(const Image<Rgb>& picture, int margin_px);
 
 }  // namespace frangia

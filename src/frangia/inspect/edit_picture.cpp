@@ -23,7 +23,7 @@ struct Direction {
 };
 
 /// Where viewers may stand: the usual place first.
-std::vector<Direction> directions(const ShadeOptions& options) {
+std::vector<Direction> directions(const RenderOptions& options) {
   constexpr int kAround = 12;
   std::vector<Direction> all{{options.azimuth_rad, options.elevation_rad}};
   for (const double elevation_deg : {20.0, 50.0, -30.0}) {
@@ -36,10 +36,10 @@ std::vector<Direction> directions(const ShadeOptions& options) {
 }
 
 /// The areas of selected triangles, as each viewer sees them.
-void add_seen(const Mesh& mesh,
-              const Selection& selection,
-              const std::vector<Vector3d>& viewers,
-              std::vector<double>& seen) {
+void add_visible_areas(const Mesh& mesh,
+                       const Selection& selection,
+                       const std::vector<Vector3d>& viewers,
+                       std::vector<double>& seen) {
   for (std::size_t t = 0; t < selection.size(); ++t) {
     if (selection[t] == 0) continue;
     const auto& [a, b, c] = mesh.triangles[t];
@@ -52,23 +52,23 @@ void add_seen(const Mesh& mesh,
   }
 }
 
-ShadeOptions facing(const Mesh& before,
-                    const EditState& after,
-                    const EditPreview& preview,
-                    ShadeOptions options) {
+RenderOptions choose_view_direction(const Mesh& before,
+                                    const EditState& after,
+                                    const EditPreview& preview,
+                                    RenderOptions options) {
   const std::vector<Direction> all = directions(options);
   std::vector<Vector3d> viewers;
   viewers.reserve(all.size());
   for (const Direction& direction : all)
     viewers.push_back(direction.unit());
   std::vector<double> seen(all.size());
-  add_seen(before, preview.going, viewers, seen);
-  add_seen(after.mesh, preview.coming, viewers, seen);
-  add_seen(after.mesh, after.selection, viewers, seen);
-  constexpr double kWorthTurning = 1.05;
+  add_visible_areas(before, preview.removed, viewers, seen);
+  add_visible_areas(after.mesh, preview.added, viewers, seen);
+  add_visible_areas(after.mesh, after.selection, viewers, seen);
+  constexpr double kMinGain = 1.05;
   std::size_t best = 0;
   for (std::size_t i = 1; i < all.size(); ++i)
-    if (seen[i] > kWorthTurning * seen[best]) best = i;
+    if (seen[i] > kMinGain * seen[best]) best = i;
   options.azimuth_rad = all[best].azimuth_rad;
   options.elevation_rad = all[best].elevation_rad;
   return options;
@@ -79,17 +79,17 @@ ShadeOptions facing(const Mesh& before,
 Image<Rgb> edit_picture(const Mesh& before,
                         const EditState& after,
                         const EditPreview& preview,
-                        ShadeOptions options,
+                        RenderOptions options,
                         const Run& run) {
-  options = facing(before, after, preview, std::move(options));
+  options = choose_view_direction(before, after, preview, std::move(options));
   options.show_marks = true;
   options.fit_to_mm = before.vertices_mm;
   options.fit_to_mm.insert(
       options.fit_to_mm.end(), after.mesh.vertices_mm.begin(), after.mesh.vertices_mm.end());
-  options.highlighted = preview.going;
-  std::vector<Image<Rgb>> pictures{shade_mesh(before, options, run)};
+  options.highlighted = preview.removed;
+  std::vector<Image<Rgb>> pictures{render_mesh(before, options, run)};
   options.highlighted = after.selection;
-  if (!after.mesh.empty()) pictures.push_back(shade_mesh(after.mesh, options, run));
+  if (!after.mesh.empty()) pictures.push_back(render_mesh(after.mesh, options, run));
   return contact_sheet({pictures}, options.height_px);
 }
 

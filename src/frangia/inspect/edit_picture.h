@@ -1,9 +1,9 @@
 #pragma once
 
 #include "frangia/core/run.h"
-#include "frangia/inspect/shade_mesh.h"
-#include "frangia/mesh/edit_operation.h"
-#include "frangia/mesh/edit_preview.h"
+#include "frangia/editor/edit_operation.h"
+#include "frangia/editor/edit_preview.h"
+#include "frangia/inspect/render_mesh.h"
 
 namespace frangia {
 
@@ -12,11 +12,11 @@ namespace frangia {
 /// from where most of what changes, or is selected, faces.
 ///
 /// missing  an empty mesh after the edit is left out
-/// errors   Error(Input) as shade_mesh for the mesh before
+/// errors   Error(Input) as render_mesh for the mesh before
 [[nodiscard]] Image<Rgb> edit_picture(const Mesh& before,
                                       const EditState& after,
                                       const EditPreview& preview,
-                                      ShadeOptions options = {},
+                                      RenderOptions options = {},
                                       const Run& run = {});
 
 }  // namespace frangia

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "frangia/core/parallel.h"
-#include "frangia/mesh/sample_surface.h"
+#include "frangia/geometry/sample_surface.h"
 
 namespace frangia {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "frangia/core/run.h"
-#include "frangia/mesh/ray_scene.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/geometry/ray_scene.h"
 
 namespace frangia {
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/mesh/boundary_loops.h"
-#include "frangia/mesh/triangulate_polygon.h"
-#include "frangia/mesh/vertex_data.h"
+#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/triangulate_polygon.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
 
 using Plane = Eigen::Hyperplane<double, 3>;
 using Eigen::Vector3d;
-using Rim = std::vector<std::uint32_t>;
+using VertexLoop = std::vector<std::uint32_t>;
 
 constexpr double kOnPlaneMm = 1e-5;  // vertices this near are on it: no slivers
 
@@ -72,7 +72,7 @@ class Cutter {
     const auto found = crossings_.find(key);
     if (found != crossings_.end()) return found->second;
     const double t = heights_[a] / (heights_[a] - heights_[b]);
-    const std::uint32_t fresh = blend_vertices(mesh_, a, b, static_cast<float>(t));
+    const std::uint32_t fresh = add_interpolated_vertex(mesh_, a, b, static_cast<float>(t));
     crossings_.emplace(key, fresh);
     return fresh;
   }
@@ -83,8 +83,8 @@ class Cutter {
 };
 
 struct Outline {
-  Rim rim;
-  Polygon shadow;
+  VertexLoop loop;
+  Polygon projection;
   double area = 0.0;  ///< positive when it runs counter-clockwise
 };
 
@@ -117,19 +117,20 @@ std::vector<Outline> outlines_of(const Mesh& mesh, const Plane& plane) {
   const Vector3d y = -plane.normal().cross(x);
   std::vector<Outline> outlines;
   for (const BoundaryLoop& loop : boundary_loops(mesh)) {
-    Outline outline{.rim = vertices_of(mesh, loop), .shadow = {}};
+    Outline outline{.loop = vertices_of(mesh, loop), .projection = {}};
     // Interpolated in single precision: near the plane, not on it.
-    const bool in_plane = std::all_of(outline.rim.begin(), outline.rim.end(), [&](std::uint32_t v) {
-      const Vector3d place = mesh.vertices_mm[v].cast<double>();
-      return std::abs(plane.signedDistance(place)) < kOnPlaneMm + 1e-6 * place.norm();
-    });
+    const bool in_plane =
+        std::all_of(outline.loop.begin(), outline.loop.end(), [&](std::uint32_t v) {
+          const Vector3d position = mesh.vertices_mm[v].cast<double>();
+          return std::abs(plane.signedDistance(position)) < kOnPlaneMm + 1e-6 * position.norm();
+        });
     if (!in_plane) continue;
-    std::reverse(outline.rim.begin(), outline.rim.end());
-    for (const std::uint32_t v : outline.rim) {
-      const Vector3d place = mesh.vertices_mm[v].cast<double>();
-      outline.shadow.emplace_back(place.dot(x), place.dot(y));
+    std::reverse(outline.loop.begin(), outline.loop.end());
+    for (const std::uint32_t v : outline.loop) {
+      const Vector3d position = mesh.vertices_mm[v].cast<double>();
+      outline.projection.emplace_back(position.dot(x), position.dot(y));
     }
-    outline.area = area_of(outline.shadow);
+    outline.area = area_of(outline.projection);
     outlines.push_back(std::move(outline));
   }
   return outlines;
@@ -143,7 +144,7 @@ std::vector<std::vector<std::size_t>> holes_in(const std::vector<Outline>& outli
     std::size_t owner = outlines.size();
     for (std::size_t o = 0; o < outlines.size(); ++o) {
       const bool around = outlines[o].area > -outlines[h].area &&
-                          holds(outlines[o].shadow, outlines[h].shadow.front());
+                          holds(outlines[o].projection, outlines[h].projection.front());
       if (around && (owner == outlines.size() || outlines[o].area < outlines[owner].area))
         owner = o;
     }
@@ -156,14 +157,14 @@ void add_cap(Mesh& mesh,
              const std::vector<Outline>& outlines,
              std::size_t outer,
              const std::vector<std::size_t>& holes) {
-  Rim all = outlines[outer].rim;
+  VertexLoop all = outlines[outer].loop;
   std::vector<Polygon> inner;
   for (const std::size_t hole : holes) {
-    inner.push_back(outlines[hole].shadow);
-    all.insert(all.end(), outlines[hole].rim.begin(), outlines[hole].rim.end());
+    inner.push_back(outlines[hole].projection);
+    all.insert(all.end(), outlines[hole].loop.begin(), outlines[hole].loop.end());
   }
-  for (const auto& [a, b, c] : triangulate_polygon(outlines[outer].shadow, inner))
-    add_triangle(mesh, {all[a], all[b], all[c]}, Mark::Invented);
+  for (const auto& [a, b, c] : triangulate_polygon(outlines[outer].projection, inner))
+    add_triangle(mesh, {all[a], all[b], all[c]}, Mark::Synthesized);
 }
 
 void cap(Mesh& mesh, const Plane& plane, const Run& run) {
@@ -185,7 +186,7 @@ void cap(Mesh& mesh, const Plane& plane, const Run& run) {
 Mesh cut_by_plane(Mesh mesh, const Plane& plane, const CutOptions& options, const Run& run) {
   Cutter(mesh, plane).cut();
   if (options.capped) cap(mesh, plane, run);
-  renew_normals(mesh);
+  recompute_normals(mesh);
   return mesh;
 }
 

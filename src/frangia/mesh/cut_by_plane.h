@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

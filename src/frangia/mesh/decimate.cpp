@@ -11,13 +11,13 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
-#include "frangia/mesh/cheapest_first.h"
-#include "frangia/mesh/collapse_cost.h"
-#include "frangia/mesh/collapse_topology.h"
-#include "frangia/mesh/distance_guard.h"
-#include "frangia/mesh/half_edges.h"
-#include "frangia/mesh/ray_scene.h"
-#include "frangia/mesh/vertex_data.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/ray_scene.h"
+#include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/collapse_cost.h"
+#include "frangia/mesh/internal/collapse_topology.h"
+#include "frangia/mesh/internal/distance_guard.h"
+#include "frangia/mesh/internal/lazy_priority_queue.h"
 
 namespace frangia {
 namespace {
@@ -46,23 +46,23 @@ class Decimation {
         versions_(mesh.vertices_mm.size()) {}
 
   void run(const HalfEdges& edges, std::size_t target, DistanceGuard* guard, const Run& run) {
-    CheapestFirst<Candidate> queue(candidates_of(edges));
+    LazyPriorityQueue<Candidate> queue(candidates_of(edges));
     const auto outdated = [this](const Candidate& candidate) {
       return candidate.version != versions_[candidate.a] + versions_[candidate.b] ||
-             topology_.gone(candidate.a) || topology_.gone(candidate.b);
+             topology_.is_removed(candidate.a) || topology_.is_removed(candidate.b);
     };
-    const std::size_t begin = topology_.living();
+    const std::size_t begin = topology_.remaining_triangles();
     std::size_t steps = 0;
-    while (topology_.living() > target) {
+    while (topology_.remaining_triangles() > target) {
       const auto candidate = queue.pop(outdated);
       if (!candidate) break;
       if (outdated(*candidate)) continue;
-      if (try_join(candidate->a, candidate->b, guard)) {
+      if (try_collapse(candidate->a, candidate->b, guard)) {
         for (const std::uint32_t v : neighbors_)
           if (const auto fresh = candidate_of(candidate->a, v)) queue.push(*fresh);
       }
       if (++steps % 65'536 == 0) {
-        run.report(static_cast<double>(begin - topology_.living()) /
+        run.report(static_cast<double>(begin - topology_.remaining_triangles()) /
                    static_cast<double>(begin - target));
       }
     }
@@ -70,7 +70,7 @@ class Decimation {
   }
 
  private:
-  [[nodiscard]] Vector3d place(std::uint32_t v) const {
+  [[nodiscard]] Vector3d position(std::uint32_t v) const {
     return mesh_.vertices_mm[v].cast<double>();
   }
 
@@ -81,7 +81,7 @@ class Decimation {
       for (std::size_t i = begin; i < end; ++i) {
         const auto edge = static_cast<std::uint32_t>(i);
         if (edges.has_twin(edge) && edges.twin(edge) < edge) continue;
-        const auto candidate = candidate_of(from_of(mesh_, edge), to_of(mesh_, edge));
+        const auto candidate = candidate_of(source_vertex(mesh_, edge), target_vertex(mesh_, edge));
         if (candidate) found[begin / kChunk].push_back(*candidate);
       }
     });
@@ -96,55 +96,55 @@ class Decimation {
   [[nodiscard]] std::optional<Candidate> candidate_of(std::uint32_t a, std::uint32_t b) const {
     if (a > b) std::swap(a, b);
     if (a == b || topology_.is_fixed(a) || topology_.is_fixed(b)) return std::nullopt;
-    const CollapseJoint joint = cost_.joint(a, b);
-    if (joint.mean_square > limit_) return std::nullopt;
+    const CollapseTarget target_mm = cost_.target(a, b);
+    if (target_mm.mean_square > limit_) return std::nullopt;
     // A trace of length parts what is equally flat: short edges first.
-    const double cost = joint.cost + 1e-12 * (place(a) - place(b)).squaredNorm();
+    const double cost = target_mm.cost + 1e-12 * (position(a) - position(b)).squaredNorm();
     return Candidate{static_cast<float>(cost), a, b, versions_[a] + versions_[b]};
   }
 
   /// Whether they were joined; `neighbors_` are then those of a.
-  bool try_join(std::uint32_t a, std::uint32_t b, DistanceGuard* guard) {
-    // The place as the mesh will have it, so that what is checked is what is kept.
-    const Vector3d joint = cost_.joint(a, b).place.cast<float>().cast<double>();
-    if (!topology_.may_join(a, b)) return false;
-    if (!stays_upright(a, b, joint) || !stays_upright(b, a, joint)) return false;
+  bool try_collapse(std::uint32_t a, std::uint32_t b, DistanceGuard* guard) {
+    // The position as the mesh will have it, so that what is checked is what is kept.
+    const Vector3d target_mm = cost_.target(a, b).position.cast<float>().cast<double>();
+    if (!topology_.can_collapse(a, b)) return false;
+    if (!keeps_orientation(a, b, target_mm) || !keeps_orientation(b, a, target_mm)) return false;
     if (guard != nullptr) {
-      if (!guard->allows(topology_, mesh_, a, b, joint)) return false;
+      if (!guard->allows(topology_, mesh_, a, b, target_mm)) return false;
       guard->accept();
     }
-    join(a, b, joint);
+    collapse(a, b, target_mm);
     return true;
   }
 
   /// No triangle at v that stays turns over or becomes a sliver.
-  [[nodiscard]] bool stays_upright(std::uint32_t v,
-                                   std::uint32_t other,
-                                   const Vector3d& joint) const {
+  [[nodiscard]] bool keeps_orientation(std::uint32_t v,
+                                       std::uint32_t other,
+                                       const Vector3d& target_mm) const {
     constexpr double kLeastCosine = 0.2;
     constexpr double kLeastShape = 0.02;  // of twice the area over the longest side squared
-    bool upright = true;
-    topology_.around(v, [&](std::uint32_t corner) {
+    bool unflipped = true;
+    topology_.for_each_corner(v, [&](std::uint32_t corner) {
       const std::uint32_t next = topology_.at(HalfEdges::next(corner));
-      const std::uint32_t last = topology_.at(HalfEdges::before(corner));
-      if (!upright || next == other || last == other) return;
-      const Vector3d side = place(last) - place(next);
-      const Vector3d before = (place(next) - place(v)).cross(side);
-      const Vector3d after = (place(next) - joint).cross(side);
+      const std::uint32_t last = topology_.at(HalfEdges::previous(corner));
+      if (!unflipped || next == other || last == other) return;
+      const Vector3d side = position(last) - position(next);
+      const Vector3d before = (position(next) - position(v)).cross(side);
+      const Vector3d after = (position(next) - target_mm).cross(side);
       const double longest = std::max({side.squaredNorm(),
-                                       (place(next) - joint).squaredNorm(),
-                                       (place(last) - joint).squaredNorm()});
+                                       (position(next) - target_mm).squaredNorm(),
+                                       (position(last) - target_mm).squaredNorm()});
       const bool turned = before.dot(after) < kLeastCosine * before.norm() * after.norm();
       const bool thin = after.norm() < kLeastShape * longest && after.norm() < before.norm();
-      upright = !turned && !thin;
+      unflipped = !turned && !thin;
     });
-    return upright;
+    return unflipped;
   }
 
-  void join(std::uint32_t a, std::uint32_t b, const Vector3d& joint) {
-    topology_.join(a, b);
-    cost_.join(a, b);
-    mesh_.vertices_mm[a] = joint.cast<float>();
+  void collapse(std::uint32_t a, std::uint32_t b, const Vector3d& target_mm) {
+    topology_.collapse(a, b);
+    cost_.collapse(a, b);
+    mesh_.vertices_mm[a] = target_mm.cast<float>();
     if (!mesh_.sigma_mm.empty()) mesh_.sigma_mm[a] = std::max(mesh_.sigma_mm[a], mesh_.sigma_mm[b]);
     if (!mesh_.views.empty()) mesh_.views[a] = std::min(mesh_.views[a], mesh_.views[b]);
     if (!mesh_.vertex_marks.empty()) {
@@ -170,10 +170,10 @@ Mesh decimate_to_count(Mesh mesh, std::size_t triangles, const Run& run) {
 }
 
 Mesh decimate_within(Mesh mesh, const DecimateOptions& options, const Run& run) {
-  constexpr double kGuarded = 0.8;  // of the tolerance: room for what lies between the points
+  constexpr double kCheckedShare = 0.8;  // of the tolerance: room for what lies between the points
   const HalfEdges edges(mesh);
   const RayScene original(mesh);
-  DistanceGuard guard(original, edges, kGuarded * options.tolerance_mm);
+  DistanceGuard guard(original, edges, kCheckedShare * options.tolerance_mm);
   Decimation(mesh, edges, options.tolerance_mm).run(edges, options.triangles, &guard, run);
   return mesh;
 }
@@ -186,7 +186,7 @@ Mesh decimate(Mesh mesh, const DecimateOptions& options, const Run& run) {
   mesh = std::isinf(options.tolerance_mm)
              ? decimate_to_count(std::move(mesh), options.triangles, run)
              : decimate_within(std::move(mesh), options, run);
-  renew_normals(mesh);
+  recompute_normals(mesh);
   return mesh;
 }
 

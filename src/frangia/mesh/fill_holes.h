@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "frangia/core/run.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
 enum class HoleFill {
-  Flat,   ///< triangles between the corners of the rim alone
+  Flat,   ///< triangles between the corners of the boundary alone
   Smooth  ///< as dense as the surface around, and curved on as it is
 };
 

@@ -6,17 +6,17 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/disjoint_sets.h"
-#include "frangia/mesh/half_edges.h"
-#include "frangia/mesh/selection.h"
-#include "frangia/mesh/vertex_data.h"
-#include "frangia/surface/tidy_mesh.h"
+#include "frangia/geometry/clean_mesh.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/selection.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
 
 using Triangle = Mesh::Triangle;
 
-bool is_whole(const Mesh& mesh, const Triangle& t) {
+bool is_valid(const Mesh& mesh, const Triangle& t) {
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
   return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
     return v < mesh.vertices_mm.size() && mesh.vertices_mm[v].allFinite();
@@ -29,11 +29,11 @@ Triangle sorted(Triangle t) {
 }
 
 /// Drops what is no triangle, and all but the first of those with the same corners.
-void drop_broken(Mesh& mesh) {
+void remove_invalid(Mesh& mesh) {
   Selection keep(mesh.triangles.size());
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    keep[i] = is_whole(mesh, mesh.triangles[i]) ? 1 : 0;
+    keep[i] = is_valid(mesh, mesh.triangles[i]) ? 1 : 0;
     if (keep[i] != 0) order.push_back(i);
   }
   // By their smallest corner first: few share it, so that only these must be compared.
@@ -77,13 +77,13 @@ struct Pair {
 
 /// Joins the half-edges of one crowded edge in pairs, the straightest first.
 void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, DisjointSets& corners) {
-  const std::uint32_t from = from_of(mesh, edge);
-  const std::uint32_t to = to_of(mesh, edge);
+  const std::uint32_t from = source_vertex(mesh, edge);
+  const std::uint32_t to = target_vertex(mesh, edge);
   std::vector<Pair> pairs;
-  for (const std::uint32_t out : edges.leaving(from)) {
-    if (to_of(mesh, out) != to) continue;
-    for (const std::uint32_t back : edges.leaving(to)) {
-      if (to_of(mesh, back) != from) continue;
+  for (const std::uint32_t out : edges.outgoing(from)) {
+    if (target_vertex(mesh, out) != to) continue;
+    for (const std::uint32_t back : edges.outgoing(to)) {
+      if (target_vertex(mesh, back) != from) continue;
       pairs.push_back({normal_of(mesh, out / 3).dot(normal_of(mesh, back / 3)), out, back});
     }
   }
@@ -104,7 +104,7 @@ void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, Disjo
 }
 
 /// Parts the triangles at crowded edges and at vertices with several fans.
-void part_fans(Mesh& mesh) {
+void split_fans(Mesh& mesh) {
   const HalfEdges edges(mesh);
   DisjointSets corners(edges.count());
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
@@ -112,33 +112,34 @@ void part_fans(Mesh& mesh) {
       corners.join(edge, HalfEdges::next(edges.twin(edge)));
     } else if (!edges.is_boundary(edge)) {
       // Of each direction once: the lowest half-edge does it for all.
-      const auto others = edges.leaving(from_of(mesh, edge));
+      const auto others = edges.outgoing(source_vertex(mesh, edge));
       const bool lowest = std::all_of(others.begin(), others.end(), [&](std::uint32_t e) {
-        return e >= edge || to_of(mesh, e) != to_of(mesh, edge);
+        return e >= edge || target_vertex(mesh, e) != target_vertex(mesh, edge);
       });
-      if (lowest && from_of(mesh, edge) < to_of(mesh, edge)) pair_up(mesh, edges, edge, corners);
+      if (lowest && source_vertex(mesh, edge) < target_vertex(mesh, edge))
+        pair_up(mesh, edges, edge, corners);
     }
   }
   constexpr std::uint32_t kFree = 0xFFFFFFFF;
   std::vector<std::uint32_t> owner(mesh.vertices_mm.size(), kFree);  // the fan that keeps a vertex
-  std::vector<std::uint32_t> fresh(edges.count(), kFree);
-  std::vector<Triangle> renamed = mesh.triangles;
+  std::vector<std::uint32_t> added(edges.count(), kFree);
+  std::vector<Triangle> new_index = mesh.triangles;
   for (std::uint32_t corner = 0; corner < edges.count(); ++corner) {
     const std::uint32_t fan = corners.find(corner);
-    const std::uint32_t vertex = from_of(mesh, corner);
+    const std::uint32_t vertex = source_vertex(mesh, corner);
     if (owner[vertex] == kFree) owner[vertex] = fan;
     if (owner[vertex] == fan) continue;
-    if (fresh[fan] == kFree) fresh[fan] = copy_vertex(mesh, vertex);
-    renamed[corner / 3][corner % 3] = fresh[fan];
+    if (added[fan] == kFree) added[fan] = copy_vertex(mesh, vertex);
+    new_index[corner / 3][corner % 3] = added[fan];
   }
-  mesh.triangles = std::move(renamed);
+  mesh.triangles = std::move(new_index);
 }
 
 }  // namespace
 
 Mesh make_manifold(Mesh mesh) {
-  drop_broken(mesh);
-  part_fans(mesh);
+  remove_invalid(mesh);
+  split_fans(mesh);
   return mesh;
 }
 
@@ -151,13 +152,13 @@ std::size_t count_non_manifold_edges(const Mesh& mesh, const HalfEdges& edges) {
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (edges.has_twin(edge) || edges.is_boundary(edge)) continue;
     // Once an edge: by the lowest of its half-edges, which leave either end.
-    const std::uint32_t from = from_of(mesh, edge);
-    const std::uint32_t to = to_of(mesh, edge);
+    const std::uint32_t from = source_vertex(mesh, edge);
+    const std::uint32_t to = target_vertex(mesh, edge);
     bool lowest = true;
-    for (const std::uint32_t e : edges.leaving(from))
-      lowest = lowest && (e >= edge || to_of(mesh, e) != to);
-    for (const std::uint32_t e : edges.leaving(to))
-      lowest = lowest && (e >= edge || to_of(mesh, e) != from);
+    for (const std::uint32_t e : edges.outgoing(from))
+      lowest = lowest && (e >= edge || target_vertex(mesh, e) != to);
+    for (const std::uint32_t e : edges.outgoing(to))
+      lowest = lowest && (e >= edge || target_vertex(mesh, e) != from);
     if (lowest) ++count;
   }
   return count;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "frangia/mesh/half_edges.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

@@ -1,10 +1,10 @@
 #include "frangia/mesh/mesh_findings.h"
 
-#include "frangia/mesh/half_edges.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/triangles_intersect.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/self_intersections.h"
-#include "frangia/mesh/triangles_cross.h"
-#include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
 
@@ -20,11 +20,11 @@ MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
     const double twice = (b - a).cross(c - a).norm();
     found.volume_mm3 += a.dot(b.cross(c)) / 6.0;
     found.area_mm2 += twice / 2.0;
-    if (!(twice > 0.0)) ++found.without_area;
+    if (!(twice > 0.0)) ++found.degenerate_triangles;
     ++found.marks.at(static_cast<std::size_t>(mark_of(mesh, i)));
     found.box_mm.extend(a).extend(b).extend(c);
   }
-  found.parts = connected_parts(mesh).parts;
+  found.components = connected_components(mesh).components;
   const HalfEdges edges(mesh);
   found.holes = boundary_loops(mesh, edges);
   found.non_manifold_edges = count_non_manifold_edges(mesh, edges);
@@ -33,7 +33,7 @@ MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
     open = open || edges.is_boundary(edge);
   found.closed = !open && found.non_manifold_edges == 0 && !mesh.empty();
   run.check();
-  if (can_tell_what_crosses()) found.self_intersections = self_intersections(mesh, run).size();
+  if (can_test_intersections()) found.self_intersections = self_intersections(mesh, run).size();
   return found;
 }
 

@@ -8,9 +8,9 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/mesh/boundary_loops.h"
-#include "frangia/mesh/connected_parts.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
@@ -18,10 +18,10 @@ namespace frangia {
 struct MeshFindings {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  std::vector<MeshPart> parts;
+  std::vector<MeshComponent> components;
   std::vector<BoundaryLoop> holes;
   std::size_t non_manifold_edges = 0;
-  std::size_t without_area = 0;  ///< triangles with two equal corners, or all in a line
+  std::size_t degenerate_triangles = 0;  ///< triangles with two equal corners, or all in a line
   /// Pairs of triangles that cross; nothing in a build without CGAL.
   std::optional<std::size_t> self_intersections;
   std::array<std::size_t, 3> marks{};  ///< triangles that are measured, moved, invented

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/symmetric_eigen.h"
-#include "frangia/mesh/vertex_data.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -22,16 +22,16 @@ struct Planes {
 
 /// The shortest way to where all planes, moved by one, meet; along directions that no plane cares
 /// about there is none.
-Vector3d way_of(const Planes& planes) {
+Vector3d displacement_of(const Planes& planes) {
   constexpr double kFlat = 0.01;  // shares of the largest eigenvalue below it are noise
   const auto [values, vectors] = symmetric_eigen(planes.squares);
-  Vector3d way = Vector3d::Zero();
+  Vector3d displacement = Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     if (!(values[i] > kFlat * values[2])) continue;
     const Vector3d axis = vectors.col(i);
-    way += axis * (axis.dot(planes.sum) / values[i]);
+    displacement += axis * (axis.dot(planes.sum) / values[i]);
   }
-  return way;
+  return displacement;
 }
 
 }  // namespace
@@ -56,10 +56,10 @@ Mesh offset_mesh(Mesh mesh, double distance_mm) {
   for (std::size_t v = 0; v < before.size(); ++v) {
     if (planes[v].sum.isZero()) continue;
     mesh.vertices_mm[v] =
-        (before[v].cast<double>() + distance_mm * way_of(planes[v])).cast<float>();
+        (before[v].cast<double>() + distance_mm * displacement_of(planes[v])).cast<float>();
   }
-  mark_moved(mesh, before);
-  renew_normals(mesh);
+  mark_displaced(mesh, before);
+  recompute_normals(mesh);
   return mesh;
 }
 

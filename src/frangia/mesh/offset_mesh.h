@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
@@ -11,6 +11,6 @@ namespace frangia {
 [[nodiscard]] Mesh orient(Mesh mesh);
 
 /// Every triangle and normal turned to the other side.
-[[nodiscard]] Mesh turn_inside_out(Mesh mesh);
+[[nodiscard]] Mesh reverse_orientation(Mesh mesh);
 
 }  // namespace frangia

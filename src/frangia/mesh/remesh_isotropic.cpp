@@ -13,9 +13,9 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include "frangia/mesh/cgal_mesh.h"
-#include "frangia/mesh/ray_scene.h"
-#include "frangia/mesh/take_vertex_data.h"
+#include "frangia/geometry/ray_scene.h"
+#include "frangia/mesh/internal/cgal_mesh.h"
+#include "frangia/mesh/internal/transfer_vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -34,8 +34,8 @@ PlainSurface plain_surface_of(const Mesh& mesh) {
 }  // namespace
 
 Mesh remesh_isotropic(const Mesh& mesh, const RemeshOptions& options, const Run& run) {
-  require(options.edge_mm > 0.0 && options.rounds > 0,
-          "remesh: the length of the edges and the rounds must be positive");
+  require(options.edge_mm > 0.0 && options.iterations > 0,
+          "remesh: the length of the edges and the iterations must be positive");
   if (mesh.empty()) return mesh;
   PlainSurface surface = plain_surface_of(mesh);
   const auto sharp =
@@ -53,12 +53,12 @@ Mesh remesh_isotropic(const Mesh& mesh, const RemeshOptions& options, const Run&
       surface.faces(),
       options.edge_mm,
       surface,
-      pmp::parameters::number_of_iterations(static_cast<unsigned>(options.rounds))
+      pmp::parameters::number_of_iterations(static_cast<unsigned>(options.iterations))
           .edge_is_constrained_map(sharp)
           .protect_constraints(true));
   run.report(0.9);
   Mesh even = from_cgal(surface);
-  take_vertex_data(even, RayScene(mesh));
+  transfer_vertex_data(even, RayScene(mesh));
   return even;
 }
 

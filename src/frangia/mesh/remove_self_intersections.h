@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frangia/core/run.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
-#include "frangia/mesh/half_edges.h"
-#include "frangia/mesh/surface_gap.h"
-#include "frangia/mesh/vertex_data.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/hausdorff_distance.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -20,24 +20,24 @@ namespace {
 using Eigen::Vector3f;
 
 /// Where the tip of a spike belongs; nothing for a vertex that is none.
-std::optional<Vector3f> place_of_tip(const Mesh& mesh,
-                                     const HalfEdges& edges,
-                                     std::uint32_t vertex,
-                                     float below_rad) {
-  const auto leaving = edges.leaving(vertex);
-  if (leaving.size() < 3) return std::nullopt;
+std::optional<Vector3f> tip_target(const Mesh& mesh,
+                                   const HalfEdges& edges,
+                                   std::uint32_t vertex,
+                                   float below_rad) {
+  const auto outgoing = edges.outgoing(vertex);
+  if (outgoing.size() < 3) return std::nullopt;
   const Vector3f& here = mesh.vertices_mm[vertex];
   float angles = 0.0F;
   Vector3f mean = Vector3f::Zero();
-  for (const std::uint32_t edge : leaving) {
-    if (!edges.has_twin(edge) || !edges.has_twin(HalfEdges::before(edge))) return std::nullopt;
-    const Vector3f next = mesh.vertices_mm[to_of(mesh, edge)] - here;
-    const Vector3f last = mesh.vertices_mm[across_of(mesh, edge)] - here;
+  for (const std::uint32_t edge : outgoing) {
+    if (!edges.has_twin(edge) || !edges.has_twin(HalfEdges::previous(edge))) return std::nullopt;
+    const Vector3f next = mesh.vertices_mm[target_vertex(mesh, edge)] - here;
+    const Vector3f last = mesh.vertices_mm[opposite_vertex(mesh, edge)] - here;
     angles += std::atan2(next.cross(last).norm(), next.dot(last));
-    mean += mesh.vertices_mm[to_of(mesh, edge)];
+    mean += mesh.vertices_mm[target_vertex(mesh, edge)];
   }
   if (!(angles < below_rad)) return std::nullopt;
-  return mean / static_cast<float>(leaving.size());
+  return mean / static_cast<float>(outgoing.size());
 }
 
 /// Whether a vertex of the boundary stands out like a needle: a scanner's flying pixel.
@@ -48,11 +48,11 @@ bool is_needle(const Mesh& mesh,
                float shortest_mm) {
   bool at_boundary = false;
   float angles = 0.0F;
-  for (const std::uint32_t edge : edges.leaving(vertex)) {
+  for (const std::uint32_t edge : edges.outgoing(vertex)) {
     at_boundary =
-        at_boundary || edges.is_boundary(edge) || edges.is_boundary(HalfEdges::before(edge));
-    const Vector3f next = mesh.vertices_mm[to_of(mesh, edge)] - mesh.vertices_mm[vertex];
-    const Vector3f last = mesh.vertices_mm[across_of(mesh, edge)] - mesh.vertices_mm[vertex];
+        at_boundary || edges.is_boundary(edge) || edges.is_boundary(HalfEdges::previous(edge));
+    const Vector3f next = mesh.vertices_mm[target_vertex(mesh, edge)] - mesh.vertices_mm[vertex];
+    const Vector3f last = mesh.vertices_mm[opposite_vertex(mesh, edge)] - mesh.vertices_mm[vertex];
     if (std::min(next.norm(), last.norm()) < shortest_mm) return false;
     angles += std::atan2(next.cross(last).norm(), next.dot(last));
   }
@@ -65,17 +65,17 @@ HalfEdges cut_needles(Mesh& mesh, const RemoveSpikesOptions& options) {
   constexpr float kSharp = 1.0F / 12.0F;  // of a spike's angles: 15 degrees instead of 180
   constexpr float kLong = 2.0F;           // mean edges
   const float below_rad = kSharp * static_cast<float>(options.below_rad);
-  const float shortest_mm = kLong * static_cast<float>(mean_edge_mm(mesh));
+  const float shortest_mm = kLong * static_cast<float>(mean_edge_length_mm(mesh));
   for (int round = 0;; ++round) {
     HalfEdges edges(mesh);
     std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
     for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) {
       if (!is_needle(mesh, edges, v, below_rad, shortest_mm)) continue;
-      for (const std::uint32_t edge : edges.leaving(v))
+      for (const std::uint32_t edge : edges.outgoing(v))
         keep[edge / 3] = 0;
     }
     const bool none = std::find(keep.begin(), keep.end(), 0) == keep.end();
-    if (none || round == options.rounds) return edges;
+    if (none || round == options.iterations) return edges;
     keep_triangles(mesh, keep);
   }
 }
@@ -87,23 +87,23 @@ Mesh remove_spikes(Mesh mesh, const RemoveSpikesOptions& options, const Run& run
   const HalfEdges edges = cut_needles(mesh, options);
   const std::vector<Vector3f> before = mesh.vertices_mm;
   const auto below = static_cast<float>(options.below_rad);
-  for (int round = 0; round < options.rounds; ++round) {
-    std::vector<std::optional<Vector3f>> places(mesh.vertices_mm.size());
-    parallel_chunks(places.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  for (int round = 0; round < options.iterations; ++round) {
+    std::vector<std::optional<Vector3f>> positions(mesh.vertices_mm.size());
+    parallel_chunks(positions.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
-        places[v] = place_of_tip(mesh, edges, static_cast<std::uint32_t>(v), below);
+        positions[v] = tip_target(mesh, edges, static_cast<std::uint32_t>(v), below);
     });
     bool any = false;
-    for (std::size_t v = 0; v < places.size(); ++v) {
-      if (!places[v]) continue;
-      mesh.vertices_mm[v] = *places[v];
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      if (!positions[v]) continue;
+      mesh.vertices_mm[v] = *positions[v];
       any = true;
     }
     if (!any) break;
-    run.report((round + 1.0) / options.rounds);
+    run.report((round + 1.0) / options.iterations);
   }
-  mark_moved(mesh, before);
-  renew_normals(mesh);
+  mark_displaced(mesh, before);
+  recompute_normals(mesh);
   return mesh;
 }
 

@@ -2,7 +2,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/run.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
@@ -10,7 +10,7 @@ struct RemoveSpikesOptions {
   /// A vertex is a spike when the angles of its triangles there add up to less than this: 360 on a
   /// plane, 270 at the corner of a cube, 180 at the tip of a cone of 60 degrees.
   double below_rad = rad_from_deg(180.0);
-  int rounds = 10;  ///< spikes of several vertices go down one after the other
+  int iterations = 10;  ///< spikes of several vertices go down one after the other
 };
 
 /// The mesh with the tips of spikes set down on the mean of their neighbours, and marked as moved.

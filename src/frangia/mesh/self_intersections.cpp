@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "frangia/core/parallel.h"
-#include "frangia/mesh/box_tree.h"
-#include "frangia/mesh/surely_parted.h"
-#include "frangia/mesh/triangles_cross.h"
+#include "frangia/geometry/aabb_tree.h"
+#include "frangia/geometry/surely_disjoint.h"
+#include "frangia/geometry/triangles_intersect.h"
 
 namespace frangia {
 namespace {
@@ -15,27 +15,27 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 constexpr std::size_t kChunk = 2048;  // leaves
 
-CornerPlaces corners_of(const Mesh& mesh, std::uint32_t triangle) {
-  return corner_places(mesh.triangles[triangle],
-                       [&](std::uint32_t v) { return mesh.vertices_mm[v].cast<double>(); });
+IndexedTriangle corners_of(const Mesh& mesh, std::uint32_t triangle) {
+  return indexed_triangle(mesh.triangles[triangle],
+                          [&](std::uint32_t v) { return mesh.vertices_mm[v].cast<double>(); });
 }
 
 bool crossing(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
-  const CornerPlaces of_a = corners_of(mesh, a);
-  const CornerPlaces of_b = corners_of(mesh, b);
-  return !surely_parted(of_a, of_b) && triangles_cross(of_a, of_b);
+  const IndexedTriangle of_a = corners_of(mesh, a);
+  const IndexedTriangle of_b = corners_of(mesh, b);
+  return !surely_disjoint(of_a, of_b) && triangles_intersect(of_a, of_b);
 }
 
 }  // namespace
 
 Pairs self_intersections(const Mesh& mesh, const Run& run) {
-  const BoxTree tree(mesh);
+  const AabbTree tree(mesh);
   const std::size_t count = tree.leaves();
   std::vector<Pairs> found((count + kChunk - 1) / kChunk);
   parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     Pairs& pairs = found[begin / kChunk];
     for (std::size_t leaf = begin; leaf < end; ++leaf) {
-      tree.touching_pairs(leaf, [&](std::uint32_t a, std::uint32_t b) {
+      tree.overlapping_pairs(leaf, [&](std::uint32_t a, std::uint32_t b) {
         if (crossing(mesh, a, b)) {
           pairs.emplace_back(std::min(a, b), std::max(a, b));
         }

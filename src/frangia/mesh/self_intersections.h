@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "frangia/core/run.h"
-#include "frangia/mesh/selection.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/geometry/selection.h"
 
 namespace frangia {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "frangia/core/run.h"
-#include "frangia/mesh/selection.h"
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/geometry/selection.h"
 
 namespace frangia {
 
@@ -25,7 +25,7 @@ struct SmoothOptions {
 
 struct KeepEdgesOptions {
   SmoothOptions smooth{.iterations = 8, .max_sigmas = 3.0, .only = {}};
-  double edge_rad = 0.35;  ///< triangles that turn from each other by much more are not mixed
+  double crease_rad = 0.35;  ///< triangles that turn from each other by much more are not mixed
 };
 
 /// Takes away noise and keeps edges: directions of triangles are averaged with those beside them

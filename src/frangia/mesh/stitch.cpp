@@ -8,72 +8,73 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
-#include "frangia/mesh/half_edges.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/make_manifold.h"
-#include "frangia/mesh/vertex_data.h"
 
 namespace frangia {
 namespace {
 
 /// Places so far, findable by nearness.
-class NearPlaces {
+class PointHash {
  public:
-  NearPlaces(const Mesh& mesh, const HalfEdges& edges, double tolerance_mm)
+  PointHash(const Mesh& mesh, const HalfEdges& edges, double tolerance_mm)
       : mesh_(mesh), edges_(edges), tolerance_(tolerance_mm) {}
 
-  /// The nearest place within the tolerance that is not beside `vertex` on the mesh, or `vertex`
-  /// itself, which is then kept as a new place.
+  /// The nearest position within the tolerance that is not beside `vertex` on the mesh, or `vertex`
+  /// itself, which is then kept as a new position.
   std::uint32_t join(std::uint32_t vertex) {
-    const Eigen::Vector3d place = mesh_.vertices_mm[vertex].cast<double>();
+    const Eigen::Vector3d position = mesh_.vertices_mm[vertex].cast<double>();
     std::uint32_t best = vertex;
     double nearest = tolerance_;
     const int reach = tolerance_ > 0.0 ? 1 : 0;
     for (int x = -reach; x <= reach; ++x) {
       for (int y = -reach; y <= reach; ++y) {
         for (int z = -reach; z <= reach; ++z)
-          look(key_of(place, {x, y, z}), vertex, best, nearest);
+          look(key_of(position, {x, y, z}), vertex, best, nearest);
       }
     }
-    if (best == vertex) places_[key_of(place, {0, 0, 0})].push_back(vertex);
+    if (best == vertex) buckets_[key_of(position, {0, 0, 0})].push_back(vertex);
     return best;
   }
 
  private:
-  [[nodiscard]] std::uint64_t key_of(const Eigen::Vector3d& place,
+  [[nodiscard]] std::uint64_t key_of(const Eigen::Vector3d& position,
                                      const std::array<int, 3>& step) const {
     const double cell = tolerance_ > 0.0 ? tolerance_ : 1e-3;
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double index = std::floor(place[axis] / cell) + step.at(static_cast<std::size_t>(axis));
+      const double index =
+          std::floor(position[axis] / cell) + step.at(static_cast<std::size_t>(axis));
       key = hash(key, static_cast<std::uint64_t>(static_cast<std::int64_t>(index)));
     }
     return key;
   }
 
   void look(std::uint64_t key, std::uint32_t vertex, std::uint32_t& best, double& nearest) const {
-    const auto found = places_.find(key);
-    if (found == places_.end()) return;
+    const auto found = buckets_.find(key);
+    if (found == buckets_.end()) return;
     for (const std::uint32_t other : found->second) {
-      const auto apart =
+      const auto distance =
           static_cast<double>((mesh_.vertices_mm[other] - mesh_.vertices_mm[vertex]).norm());
-      const bool nearer = apart < nearest || (apart == nearest && best == vertex);
-      if (!nearer || are_beside(vertex, other)) continue;
+      const bool nearer = distance < nearest || (distance == nearest && best == vertex);
+      if (!nearer || are_adjacent(vertex, other)) continue;
       best = other;
-      nearest = apart;
+      nearest = distance;
     }
   }
 
-  [[nodiscard]] bool are_beside(std::uint32_t a, std::uint32_t b) const {
-    const auto around = edges_.leaving(a);
+  [[nodiscard]] bool are_adjacent(std::uint32_t a, std::uint32_t b) const {
+    const auto around = edges_.outgoing(a);
     return std::any_of(around.begin(), around.end(), [&](std::uint32_t edge) {
-      return to_of(mesh_, edge) == b || across_of(mesh_, edge) == b;
+      return target_vertex(mesh_, edge) == b || opposite_vertex(mesh_, edge) == b;
     });
   }
 
   const Mesh& mesh_;
   const HalfEdges& edges_;
   double tolerance_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> buckets_;
 };
 
 }  // namespace
@@ -84,23 +85,23 @@ Mesh stitch(Mesh mesh, double tolerance_mm) {
   std::vector<std::uint8_t> open(mesh.vertices_mm.size());
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (!edges.is_boundary(edge)) continue;
-    open[from_of(mesh, edge)] = 1;
-    open[to_of(mesh, edge)] = 1;
+    open[source_vertex(mesh, edge)] = 1;
+    open[target_vertex(mesh, edge)] = 1;
   }
-  std::vector<std::uint32_t> renamed(mesh.vertices_mm.size());
-  NearPlaces places(mesh, edges, tolerance_mm);
+  std::vector<std::uint32_t> new_index(mesh.vertices_mm.size());
+  PointHash point_hash(mesh, edges, tolerance_mm);
   bool any = false;
-  for (std::uint32_t vertex = 0; vertex < renamed.size(); ++vertex) {
-    renamed[vertex] = open[vertex] != 0 ? places.join(vertex) : vertex;
-    any = any || renamed[vertex] != vertex;
+  for (std::uint32_t vertex = 0; vertex < new_index.size(); ++vertex) {
+    new_index[vertex] = open[vertex] != 0 ? point_hash.join(vertex) : vertex;
+    any = any || new_index[vertex] != vertex;
   }
   if (!any) return mesh;
   for (auto& triangle : mesh.triangles) {
     for (std::uint32_t& vertex : triangle)
-      vertex = renamed[vertex];
+      vertex = new_index[vertex];
   }
   mesh = make_manifold(std::move(mesh));
-  renew_normals(mesh);
+  recompute_normals(mesh);
   return mesh;
 }
 

@@ -11,11 +11,11 @@
 namespace frangia {
 namespace {
 
-constexpr double kLeastRatio = 1.1;
+constexpr double kMinRatio = 1.1;
 
 }  // namespace
 
-double wrong_order_chance(double sigma_rad) {
+double wrong_order_probability(double sigma_rad) {
   return std::erfc(kPi / (sigma_rad * std::numbers::sqrt2));
 }
 
@@ -46,12 +46,12 @@ std::vector<double> fringe_sequence(const std::string& name, double fringes) {
   return all;
 }
 
-double sigma_of_chance(double chance) {
+double sigma_for_wrong_order_probability(double probability) {
   double low = 1e-3;
   double high = 1e3;
   for (int i = 0; i < 60; ++i) {
     const double middle = std::sqrt(low * high);
-    (wrong_order_chance(middle) > chance ? high : low) = middle;
+    (wrong_order_probability(middle) > probability ? high : low) = middle;
   }
   return low;
 }
@@ -62,16 +62,17 @@ SequencePlan plan_sequence(double fringes, double sigma_rad, double max_wrong_or
   for (int steps = 0;; ++steps) {
     const double ratio = steps == 0 ? 1.0 : std::pow(fringes, 1.0 / steps);
     if (steps == 0 && fringes > 1.0) continue;
-    if (steps > 0 && ratio < kLeastRatio) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("no sequence keeps the chance of a wrong order below {:g} at a sigma "
-                              "of {:g} rad; take more frames a map, or more light",
-                              max_wrong_order,
-                              sigma_rad));
+    if (steps > 0 && ratio < kMinRatio) {
+      throw Error(
+          ErrorKind::Input,
+          fmt::format("no sequence keeps the probability of a wrong order below {:g} at a sigma "
+                      "of {:g} rad; take more frames a map, or more light",
+                      max_wrong_order,
+                      sigma_rad));
     }
-    const double chance = steps * wrong_order_chance(sigma_rad * std::hypot(1.0, ratio));
-    if (chance >= max_wrong_order) continue;
-    SequencePlan plan{.wrong_order = chance};
+    const double probability = steps * wrong_order_probability(sigma_rad * std::hypot(1.0, ratio));
+    if (probability >= max_wrong_order) continue;
+    SequencePlan plan{.wrong_order = probability};
     for (int i = 0; i <= steps; ++i)
       plan.fringes.push_back(std::pow(ratio, i));
     plan.fringes.back() = fringes;

@@ -14,19 +14,19 @@ namespace frangia {
 /// errors   Error(Input) for an unknown name or fewer than 1 fringe
 [[nodiscard]] std::vector<double> fringe_sequence(const std::string& name, double fringes);
 
-/// The chance that a phase of this sigma is more than half a fringe off.
-[[nodiscard]] double wrong_order_chance(double sigma_rad);
+/// The probability that a phase of this sigma is more than half a fringe off.
+[[nodiscard]] double wrong_order_probability(double sigma_rad);
 
-/// The sigma whose chance of that is `chance`.
-[[nodiscard]] double sigma_of_chance(double chance);
+/// The sigma whose probability of that is `probability`.
+[[nodiscard]] double sigma_for_wrong_order_probability(double probability);
 
 struct SequencePlan {
   std::vector<double> fringes;  ///< over the field, coarse to fine
-  double wrong_order = 0.0;     ///< chance over all steps, at the given sigma
+  double wrong_order = 0.0;     ///< probability over all steps, at the given sigma
 };
 
 /// The fewest maps, evenly spaced in their ratio, that lead from one fringe to `fringes` with less
-/// than this chance of a wrong order, when each map has noise `sigma_rad`.
+/// than this probability of a wrong order, when each map has noise `sigma_rad`.
 ///
 /// errors   Error(Input) when the noise is so large that no ratio above 1.1 will do
 [[nodiscard]] SequencePlan plan_sequence(double fringes,

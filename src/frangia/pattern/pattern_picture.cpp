@@ -17,12 +17,13 @@ namespace {
   throw Error(ErrorKind::Input, fmt::format("pattern \"{}\" {}", pattern.name, why));
 }
 
-/// The light at a place across the fringes, in pixels.
-float light_at(const Pattern& pattern, int frame, int place) {
+/// The light at a position across the fringes, in pixels.
+float light_at(const Pattern& pattern, int frame, int position) {
   const auto index = static_cast<std::size_t>(frame);
   if (pattern.kind == PatternKind::Ramp) return static_cast<float>(pattern.levels[index]);
-  if (pattern.kind == PatternKind::Gray) return is_lit(pattern, frame, place) ? 1.0F : 0.0F;
-  const double phase = kTurn * place / pattern.period_px + pattern.shifts_rad[index];
+  if (pattern.kind == PatternKind::Gray)
+    return is_stripe_bright(pattern, frame, position) ? 1.0F : 0.0F;
+  const double phase = kTwoPi * position / pattern.period_px + pattern.shifts_rad[index];
   return static_cast<float>(0.5 + 0.5 * std::cos(phase));
 }
 
@@ -35,9 +36,9 @@ Image<float> pattern_picture(const Pattern& pattern, int frame, int width, int h
   if (frame < 0 || frame >= pattern.frame_count()) fail(pattern, "has fewer frames");
   const bool vertical = pattern.direction == FringeDirection::Vertical;
   std::vector<float> across;
-  for (int place = 0; place < (vertical ? width : height); ++place)
-    across.push_back(light_at(pattern, frame, place));
-  Image<float> picture(width, height, Unfilled{});
+  for (int position = 0; position < (vertical ? width : height); ++position)
+    across.push_back(light_at(pattern, frame, position));
+  Image<float> picture(width, height, Uninitialized{});
   for (int y = 0; y < height; ++y) {
     const auto row =
         picture.pixels().subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width),

@@ -25,16 +25,16 @@ std::vector<double> frames_of(double phi, const std::vector<double>& shifts, Wav
 
 /// Calls `use(phi)` for phases all over the fringe, none of them where a formula divides by zero.
 template <typename Use>
-void over_the_fringe(const Use& use) {
+void for_each_phase(const Use& use) {
   for (int i = 0; i < kPhases; ++i)
-    use(kTurn * (i + 0.37) / kPhases);
+    use(kTwoPi * (i + 0.37) / kPhases);
 }
 
 double harmonic_error(const PhaseAlgorithm& algorithm,
                       const std::vector<double>& shifts,
                       int harmonic) {
   double worst = 0.0;
-  over_the_fringe([&](double phi) {
+  for_each_phase([&](double phi) {
     const double found = phase_of(algorithm, frames_of(phi, shifts, {harmonic, kSmall}));
     worst = std::max(worst, std::abs(wrap_rad(found - phi)) / kSmall);
   });
@@ -45,7 +45,7 @@ double harmonic_error(const PhaseAlgorithm& algorithm,
 
 double noise_gain(const PhaseAlgorithm& algorithm, const std::vector<double>& shifts_rad) {
   double sum = 0.0;
-  over_the_fringe([&](double phi) {
+  for_each_phase([&](double phi) {
     for (std::size_t k = 0; k < shifts_rad.size(); ++k) {
       auto counts = frames_of(phi, shifts_rad);
       counts[k] += kSmall;
@@ -64,9 +64,9 @@ double ripple(const PhaseAlgorithm& algorithm,
   std::vector<double> made = shifts_rad;
   for (double& shift : made)
     shift *= 1.0 + error;
-  double low = kTurn;
-  double high = -kTurn;
-  over_the_fringe([&](double phi) {
+  double low = kTwoPi;
+  double high = -kTwoPi;
+  for_each_phase([&](double phi) {
     const double off = wrap_rad(phase_of(algorithm, frames_of(phi, made)) - phi);
     low = std::min(low, off);
     high = std::max(high, off);
@@ -76,9 +76,9 @@ double ripple(const PhaseAlgorithm& algorithm,
 
 AlgorithmErrors algorithm_errors(const PhaseAlgorithm& algorithm,
                                  const std::vector<double>& shifts_rad,
-                                 bool finds_step) {
+                                 bool step_known) {
   const auto at = [&](double error) {
-    return ripple(finds_step ? make_algorithm(algorithm.name, shifts_rad, error) : algorithm,
+    return ripple(step_known ? make_algorithm(algorithm.name, shifts_rad, error) : algorithm,
                   shifts_rad,
                   error);
   };

@@ -14,10 +14,10 @@ struct AlgorithmErrors {
   double third_harmonic = 0.0;
 };
 
-/// `finds_step` says that the algorithm is told the true step, as the global Carré finds it.
+/// `step_known` says that the algorithm is told the true step, as the global Carré finds it.
 [[nodiscard]] AlgorithmErrors algorithm_errors(const PhaseAlgorithm& algorithm,
                                                const std::vector<double>& shifts_rad,
-                                               bool finds_step = false);
+                                               bool step_known = false);
 
 /// c of sigma_phi = c sigma_I / B, root mean square over phi.
 [[nodiscard]] double noise_gain(const PhaseAlgorithm& algorithm,

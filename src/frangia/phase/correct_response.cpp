@@ -11,14 +11,14 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kPhases = 2880;  ///< of the projector, over a fringe
-constexpr std::size_t kPlaces = 1024;  ///< of the table
+constexpr std::size_t kPhases = 2880;          ///< of the projector, over a fringe
+constexpr std::size_t kTableIntervals = 1024;  ///< of the table
 
 /// What the algorithm finds of a phase.
-double found_of(double phase,
-                const ResponseCurve& response,
-                const PhaseAlgorithm& algorithm,
-                const std::vector<double>& shifts_rad) {
+double measured_phase(double phase,
+                      const ResponseCurve& response,
+                      const PhaseAlgorithm& algorithm,
+                      const std::vector<double>& shifts_rad) {
   std::vector<double> light;
   light.reserve(shifts_rad.size());
   for (const double shift : shifts_rad)
@@ -35,8 +35,8 @@ ResponseTable response_table(const ResponseCurve& response,
   std::vector<double> true_phase;
   std::vector<double> found;
   for (std::size_t i = 0; i <= kPhases; ++i) {
-    const double phase = -kPi + kTurn * static_cast<double>(i) / kPhases;
-    const double seen = found_of(phase, response, algorithm, shifts_rad);
+    const double phase = -kPi + kTwoPi * static_cast<double>(i) / kPhases;
+    const double seen = measured_phase(phase, response, algorithm, shifts_rad);
     true_phase.push_back(phase);
     found.push_back(found.empty() ? phase + wrap_rad(seen - phase)
                                   : found.back() + wrap_rad(seen - found.back()));
@@ -45,12 +45,12 @@ ResponseTable response_table(const ResponseCurve& response,
             "the patterns that it shows instead");
   }
   ResponseTable table;
-  for (std::size_t i = 0; i <= kPlaces; ++i) {
-    double seen = -kPi + kTurn * static_cast<double>(i) / kPlaces;
+  for (std::size_t i = 0; i <= kTableIntervals; ++i) {
+    double seen = -kPi + kTwoPi * static_cast<double>(i) / kTableIntervals;
     while (seen < found.front())
-      seen += kTurn;
+      seen += kTwoPi;
     while (seen > found.back())
-      seen -= kTurn;
+      seen -= kTwoPi;
     const auto above = std::lower_bound(found.begin() + 1, found.end() - 1, seen);
     const auto k = static_cast<std::size_t>(above - found.begin());
     const double within = (seen - found[k - 1]) / (found[k] - found[k - 1]);
@@ -61,17 +61,18 @@ ResponseTable response_table(const ResponseCurve& response,
 }
 
 void correct_response(const ResponseTable& table, WrappedPhase& phase) {
-  const auto places = static_cast<float>(table.correction_rad.size() - 1);
-  const auto step = static_cast<float>(kTurn) / places;
+  const auto intervals = static_cast<float>(table.correction_rad.size() - 1);
+  const auto step = static_cast<float>(kTwoPi) / intervals;
   parallel_rows(phase.phase_rad.height(), [&](int y) {
     for (int x = 0; x < phase.phase_rad.width(); ++x) {
       float& value = phase.phase_rad(x, y);
       if (std::isnan(value)) continue;
-      const float place = std::clamp((value + static_cast<float>(kPi)) / step, 0.0F, places - 0.5F);
-      const auto k = static_cast<std::size_t>(place);
+      const float position =
+          std::clamp((value + static_cast<float>(kPi)) / step, 0.0F, intervals - 0.5F);
+      const auto k = static_cast<std::size_t>(position);
       const float rise = table.correction_rad[k + 1] - table.correction_rad[k];
       value = static_cast<float>(wrap_rad(static_cast<double>(
-          value + table.correction_rad[k] + rise * (place - static_cast<float>(k)))));
+          value + table.correction_rad[k] + rise * (position - static_cast<float>(k)))));
       phase.sigma_rad(x, y) *= 1.0F + rise / step;
     }
   });

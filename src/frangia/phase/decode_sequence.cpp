@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/core/make_room.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/vectorised.h"
-#include "frangia/phase/climb_ladder.h"
-#include "frangia/phase/wrap_quarters.h"
-#include "frangia/phase/wrap_tile.h"
+#include "frangia/core/resize_uninitialized.h"
+#include "frangia/core/vectorized.h"
+#include "frangia/phase/internal/hierarchical_unwrapper.h"
+#include "frangia/phase/internal/wrap_four_step.h"
+#include "frangia/phase/internal/wrap_tile.h"
 
 namespace frangia {
 namespace {
@@ -25,14 +25,14 @@ namespace {
 constexpr std::size_t kLane = kTilePixels + 16;
 constexpr std::size_t kChunk = 64 * kTilePixels;
 
-using Fates = std::array<std::int32_t, kTilePixels>;
+using TileInts = std::array<std::int32_t, kTilePixels>;
 
 /// One over the variance of the phase of one map, and the least of it so far.
-FRANGIA_VECTORISED void find_precision(const WrapTile& __restrict tile,
+FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
                                        std::size_t n,
                                        TileNoise f,
                                        float* __restrict precision,
-                                       float* __restrict least) {
+                                       float* __restrict lowest_precision) {
   for (std::size_t i = 0; i < n; ++i) {
     const float s = tile.sine[i];
     const float c = tile.cosine[i];
@@ -42,7 +42,7 @@ FRANGIA_VECTORISED void find_precision(const WrapTile& __restrict tile,
     const float gain = c * c * f.sine_gain + s * s * f.cosine_gain - 2.0F * s * c * f.cross_gain;
     const float found = square * square / (variance * gain + 1e-20F);
     precision[i] = found;
-    least[i] = found < least[i] ? found : least[i];
+    lowest_precision[i] = found < lowest_precision[i] ? found : lowest_precision[i];
   }
 }
 
@@ -52,45 +52,45 @@ struct Limits {
   std::int32_t white;
 };
 
-FRANGIA_VECTORISED void find_lost(const float* __restrict least,
-                                  const std::uint16_t* __restrict top,
-                                  std::size_t n,
-                                  Limits limits,
-                                  std::int32_t* __restrict fate) {
-  constexpr auto kSaturated = static_cast<std::int32_t>(PixelFate::Saturated);
-  constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelFate::Unmodulated);
+FRANGIA_VECTORIZED void find_status(const float* __restrict lowest_precision,
+                                    const std::uint16_t* __restrict brightest,
+                                    std::size_t n,
+                                    Limits limits,
+                                    std::int32_t* __restrict status) {
+  constexpr auto kSaturated = static_cast<std::int32_t>(PixelStatus::Saturated);
+  constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelStatus::Unmodulated);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t dim = least[i] >= limits.min_precision ? 0 : kUnmodulated;
-    fate[i] = static_cast<std::int32_t>(top[i]) >= limits.white ? kSaturated : dim;
+    const std::int32_t dim = lowest_precision[i] >= limits.min_precision ? 0 : kUnmodulated;
+    status[i] = static_cast<std::int32_t>(brightest[i]) >= limits.white ? kSaturated : dim;
   }
 }
 
-FRANGIA_VECTORISED bool any_measured(const std::int32_t* fate, std::size_t n) {
+FRANGIA_VECTORIZED bool any_measured(const std::int32_t* status, std::size_t n) {
   std::int32_t measured = 0;
   for (std::size_t i = 0; i < n; ++i)
-    measured |= fate[i] == 0 ? 1 : 0;
+    measured |= status[i] == 0 ? 1 : 0;
   return measured != 0;
 }
 
-FRANGIA_VECTORISED void discard(const std::int32_t* __restrict doubtful,
+FRANGIA_VECTORIZED void discard(const std::int32_t* __restrict uncertain,
                                 std::size_t n,
-                                std::int32_t* __restrict fate,
+                                std::int32_t* __restrict status,
                                 float* __restrict phase,
                                 float* __restrict sigma) {
-  constexpr auto kDoubtful = static_cast<std::int32_t>(PixelFate::Doubtful);
+  constexpr auto kUncertain = static_cast<std::int32_t>(PixelStatus::UncertainOrder);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t lost = fate[i] != 0 ? fate[i] : doubtful[i] * kDoubtful;
-    fate[i] = lost;
-    phase[i] = lost != 0 ? kMissing : phase[i];
-    sigma[i] = lost != 0 ? kMissing : sigma[i];
+    const std::int32_t result = status[i] != 0 ? status[i] : uncertain[i] * kUncertain;
+    status[i] = result;
+    phase[i] = result != 0 ? kMissing : phase[i];
+    sigma[i] = result != 0 ? kMissing : sigma[i];
   }
 }
 
-FRANGIA_VECTORISED void narrow(const std::int32_t* __restrict fate,
+FRANGIA_VECTORIZED void narrow(const std::int32_t* __restrict status,
                                std::size_t n,
-                               PixelFate* __restrict out) {
+                               PixelStatus* __restrict out) {
   for (std::size_t i = 0; i < n; ++i)
-    out[i] = static_cast<PixelFate>(fate[i]);
+    out[i] = static_cast<PixelStatus>(status[i]);
 }
 
 /// The work of one thread: tile by tile, all maps of each.
@@ -98,45 +98,48 @@ class TileDecoder {
  public:
   TileDecoder(std::span<const SequenceFrames> maps,
               std::span<const TileNoise> noises,
-              const LadderClimb& ladder,
+              const HierarchicalUnwrapper& unwrapper,
               float min_precision)
       : maps_(maps),
         noises_(noises),
-        ladder_(ladder),
+        unwrapper_(unwrapper),
         min_precision_(min_precision),
         lanes_(2 * maps.size() * kLane) {
     for (std::size_t m = 0; m < maps.size(); ++m) {
       phase_.push_back(lane(2 * m));
       precision_.push_back(lane(2 * m + 1));
-      quarters_.push_back(are_quarters(maps[m].algorithm));
+      is_four_step_.push_back(is_four_step(maps[m].algorithm));
     }
   }
 
   void decode(std::size_t at, std::size_t n, AbsolutePhase& out) {
-    tile_.top.fill(0);
-    least_.fill(std::numeric_limits<float>::max());
+    tile_.brightest.fill(0);
+    lowest_precision_.fill(std::numeric_limits<float>::max());
     for (std::size_t m = 0; m < maps_.size(); ++m) {
       float* phase = lane(2 * m);
       float* precision = lane(2 * m + 1);
-      if (quarters_[m]) {
-        wrap_quarters({*maps_[m].stack, maps_[m].algorithm, noises_[m]},
-                      at,
-                      n,
-                      {phase, precision, least_.data(), tile_.top.data()});
+      if (is_four_step_[m]) {
+        wrap_four_step({*maps_[m].stack, maps_[m].algorithm, noises_[m]},
+                       at,
+                       n,
+                       {phase, precision, lowest_precision_.data(), tile_.brightest.data()});
         continue;
       }
       sum_frames(*maps_[m].stack, maps_[m].algorithm, at, n, tile_);
       find_tile_phase(tile_, n, phase);
-      find_precision(tile_, n, noises_[m], precision, least_.data());
+      find_precision(tile_, n, noises_[m], precision, lowest_precision_.data());
     }
-    find_lost(
-        least_.data(), tile_.top.data(), n, {min_precision_, noises_.front().white}, fates_.data());
+    find_status(lowest_precision_.data(),
+                tile_.brightest.data(),
+                n,
+                {min_precision_, noises_.front().white},
+                status_.data());
     float* phase = out.phase_rad.pixels().data() + at;
     float* sigma = out.sigma_rad.pixels().data() + at;
-    if (any_measured(fates_.data(), n))
-      ladder_.climb({phase_, precision_, fates_.data()}, n, phase, sigma, doubtful_.data());
-    discard(doubtful_.data(), n, fates_.data(), phase, sigma);
-    narrow(fates_.data(), n, out.fate.pixels().data() + at);
+    if (any_measured(status_.data(), n))
+      unwrapper_.unwrap({phase_, precision_, status_.data()}, n, phase, sigma, uncertain_.data());
+    discard(uncertain_.data(), n, status_.data(), phase, sigma);
+    narrow(status_.data(), n, out.status.pixels().data() + at);
   }
 
  private:
@@ -144,16 +147,16 @@ class TileDecoder {
 
   std::span<const SequenceFrames> maps_;
   std::span<const TileNoise> noises_;
-  const LadderClimb& ladder_;
+  const HierarchicalUnwrapper& unwrapper_;
   float min_precision_;
   WrapTile tile_;
   std::vector<float> lanes_;  ///< phase and precision of each map
   std::vector<const float*> phase_;
   std::vector<const float*> precision_;
-  std::vector<bool> quarters_;  ///< whether each map's frames are a quarter turn apart
-  alignas(64) Lane least_{};
-  Fates fates_{};
-  Fates doubtful_{};
+  std::vector<bool> is_four_step_;  ///< whether each map's frames are a quarter turn apart
+  alignas(64) Lane lowest_precision_{};
+  TileInts status_{};
+  TileInts uncertain_{};
 };
 
 }  // namespace
@@ -162,7 +165,7 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
                               const NoiseModel& noise,
                               const Projector& projector,
                               const SequenceOptions& options,
-                              AbsolutePhase lent) {
+                              AbsolutePhase recycled) {
   std::vector<Pattern> patterns;
   std::vector<TileNoise> noises;
   for (const SequenceFrames& map : coarse_to_fine) {
@@ -175,16 +178,16 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
     patterns.push_back(map.stack->pattern);
     noises.push_back(tile_noise(*map.stack, map.algorithm, noise));
   }
-  const LadderClimb ladder(patterns, projector, options.in_time.max_wrong_order);
+  const HierarchicalUnwrapper unwrapper(patterns, projector, options.temporal.max_wrong_order);
   const Frame& first = coarse_to_fine.front().stack->frames.front();
-  AbsolutePhase out = std::move(lent);
+  AbsolutePhase out = std::move(recycled);
   out.pattern = patterns.back();
-  make_room(width_of(first), height_of(first), out.phase_rad);
-  make_room(width_of(first), height_of(first), out.sigma_rad);
-  make_room(width_of(first), height_of(first), out.fate);
+  resize_uninitialized(width_of(first), height_of(first), out.phase_rad);
+  resize_uninitialized(width_of(first), height_of(first), out.sigma_rad);
+  resize_uninitialized(width_of(first), height_of(first), out.status);
   const float min_precision = 1.0F / (options.wrap.max_sigma_rad * options.wrap.max_sigma_rad);
-  parallel_chunks(out.fate.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    TileDecoder decoder(coarse_to_fine, noises, ladder, min_precision);
+  parallel_chunks(out.status.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    TileDecoder decoder(coarse_to_fine, noises, unwrapper, min_precision);
     for (std::size_t at = begin; at < end; at += kTilePixels)
       decoder.decode(at, std::min(kTilePixels, end - at), out);
   });

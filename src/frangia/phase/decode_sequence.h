@@ -6,7 +6,7 @@
 #include "frangia/frames/noise_model.h"
 #include "frangia/phase/phase_algorithm.h"
 #include "frangia/phase/phase_map.h"
-#include "frangia/phase/unwrap_in_time.h"
+#include "frangia/phase/unwrap_temporally.h"
 #include "frangia/phase/wrap_phase.h"
 #include "frangia/rig/projector.h"
 
@@ -20,13 +20,13 @@ struct SequenceFrames {
 
 struct SequenceOptions {
   WrapOptions wrap;
-  TimeUnwrapOptions in_time;
+  TemporalUnwrapOptions temporal;
 };
 
 /// `wrap_phase` of every map and `unwrap_sequence` in one pass over the frames: the maps between
 /// live in the cache only, which is what the time goes into.
 ///
-/// `lent` is a phase that is no longer needed: of the same size, its memory is written over.
+/// `recycled` is a phase that is no longer needed: of the same size, its memory is written over.
 /// shape    coarse to fine, all frames w x h
 /// missing  as `wrap_phase` and `unwrap_sequence`
 /// errors   Error(Input) as theirs
@@ -34,6 +34,6 @@ struct SequenceOptions {
                                             const NoiseModel& noise,
                                             const Projector& projector,
                                             const SequenceOptions& options = {},
-                                            AbsolutePhase lent = {});
+                                            AbsolutePhase recycled = {});
 
 }  // namespace frangia

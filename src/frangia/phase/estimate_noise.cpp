@@ -15,7 +15,7 @@ namespace frangia {
 namespace {
 
 constexpr int kBins = NoiseSamples::kBins;
-constexpr std::size_t kEnough = 200;          ///< samples that make a bin's median trustworthy
+constexpr std::size_t kMinSamples = 200;      ///< samples that make a bin's median trustworthy
 constexpr std::size_t kRowSamples = 400'000;  ///< pixels looked at in a stack, about
 
 using Bins = std::array<std::vector<float>, kBins>;
@@ -62,8 +62,8 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
   const int width = width_of(stack.frames.front());
   std::vector<double> sum(static_cast<std::size_t>(width), 0.0);
   std::vector<double> mean(sum);
-  std::vector<int> top(sum.size(), 0);
-  std::vector<int> bottom(sum.size(), stack.white_level);
+  std::vector<int> brightest(sum.size(), 0);
+  std::vector<int> darkest(sum.size(), stack.white_level);
   for (std::size_t k = 0; k < stack.frames.size(); ++k) {
     std::visit(
         [&](const auto& image) {
@@ -71,16 +71,16 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
             const auto i = static_cast<std::size_t>(x);
             sum[i] += weights[k] * image(x, y);
             mean[i] += image(x, y) / static_cast<double>(stack.frames.size());
-            top[i] = std::max(top[i], static_cast<int>(image(x, y)));
-            bottom[i] = std::min(bottom[i], static_cast<int>(image(x, y)));
+            brightest[i] = std::max(brightest[i], static_cast<int>(image(x, y)));
+            darkest[i] = std::min(darkest[i], static_cast<int>(image(x, y)));
           }
         },
         stack.frames[k]);
   }
   for (std::size_t i = 1; i + 1 < sum.size(); ++i) {
-    if (std::max({top[i - 1], top[i], top[i + 1]}) >= stack.white_level) continue;
+    if (std::max({brightest[i - 1], brightest[i], brightest[i + 1]}) >= stack.white_level) continue;
     // Cut off at black, noise looks smaller than it is.
-    if (std::min({bottom[i - 1], bottom[i], bottom[i + 1]}) <= 0) continue;
+    if (std::min({darkest[i - 1], darkest[i], darkest[i + 1]}) <= 0) continue;
     const double difference = (sum[i - 1] - 2.0 * sum[i] + sum[i + 1]) / std::sqrt(6.0);
     const double share = mean[i] / stack.white_level;
     const auto bin = std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(share * kBins));
@@ -128,7 +128,7 @@ NoiseModel NoiseSamples::model() const {
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (int bin = 0; bin < kBins; ++bin) {
     const auto& magnitudes = bins_[static_cast<std::size_t>(bin)];
-    if (magnitudes.size() < kEnough) continue;
+    if (magnitudes.size() < kMinSamples) continue;
     const double variance = std::max(robust_variance(magnitudes), 1.0 / 12.0);
     const Eigen::Vector2d row(1.0, (bin + 0.5) * white_ / kBins);
     const double weight = static_cast<double>(magnitudes.size()) / (variance * variance);

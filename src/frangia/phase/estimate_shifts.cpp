@@ -15,57 +15,58 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kSamples = 20'000;
-constexpr Eigen::Index kEnough = 100;
+constexpr Eigen::Index kMinSamples = 100;
 constexpr int kIterations = 100;
-constexpr double kSettled_rad = 1e-9;
+constexpr double kConverged_rad = 1e-9;
 
 /// The residual may exceed the noise by this factor: noise itself is known no better.
 constexpr double kMaxExcess = 1.5;
 
 /// What waves of these shifts do not explain in the frames, whose products are `root * root^T`: all
 /// that the pixels say, so that an iteration costs nothing, however many pixels there are.
-Eigen::VectorXd left_over(const Eigen::MatrixXd& root, const std::vector<double>& shifts) {
+Eigen::VectorXd residuals_of(const Eigen::MatrixXd& root, const std::vector<double>& shifts) {
   const PhaseAlgorithm fit = least_squares(shifts);
   const auto frames = static_cast<Eigen::Index>(shifts.size());
   const auto column = [&](const std::vector<double>& weights) {
     return Eigen::Map<const Eigen::VectorXd>(weights.data(), frames);
   };
-  Eigen::MatrixXd left = root;
+  Eigen::MatrixXd residual = root;
   for (Eigen::Index k = 0; k < frames; ++k) {
     const double shift = shifts[static_cast<std::size_t>(k)];
     const Eigen::VectorXd weights = column(fit.mean) + std::cos(shift) * column(fit.cosine) -
                                     std::sin(shift) * column(fit.sine);
-    left.row(k) -= weights.transpose() * root;
+    residual.row(k) -= weights.transpose() * root;
   }
-  return left.reshaped();
+  return residual.reshaped();
 }
 
 /// One step of Levenberg and Marquardt in all shifts but the first. Alternating between phases and
 /// shifts, as published, creeps along a valley.
-std::vector<double> better_shifts(const Eigen::MatrixXd& root,
-                                  const std::vector<double>& shifts,
-                                  double& damping) {
+std::vector<double> levenberg_marquardt_step(const Eigen::MatrixXd& root,
+                                             const std::vector<double>& shifts,
+                                             double& damping) {
   constexpr double kProbe_rad = 1e-6;
-  const Eigen::VectorXd left = left_over(root, shifts);
-  Eigen::MatrixXd slopes(left.size(), std::ssize(shifts) - 1);
+  const Eigen::VectorXd residual = residuals_of(root, shifts);
+  Eigen::MatrixXd slopes(residual.size(), std::ssize(shifts) - 1);
   for (std::size_t k = 1; k < shifts.size(); ++k) {
     std::vector<double> probe = shifts;
     probe[k] += kProbe_rad;
-    slopes.col(static_cast<Eigen::Index>(k) - 1) = (left_over(root, probe) - left) / kProbe_rad;
+    slopes.col(static_cast<Eigen::Index>(k) - 1) =
+        (residuals_of(root, probe) - residual) / kProbe_rad;
   }
   Eigen::MatrixXd normal = slopes.transpose() * slopes;
   normal.diagonal() *= 1.0 + damping;
-  const Eigen::VectorXd change = solve_symmetric(normal, slopes.transpose() * left);
-  std::vector<double> moved = shifts;
+  const Eigen::VectorXd change = solve_symmetric(normal, slopes.transpose() * residual);
+  std::vector<double> trial = shifts;
   for (std::size_t k = 1; k < shifts.size(); ++k)
-    moved[k] -= change(static_cast<Eigen::Index>(k) - 1);
-  const bool better = left_over(root, moved).squaredNorm() <= left.squaredNorm();
+    trial[k] -= change(static_cast<Eigen::Index>(k) - 1);
+  const bool better = residuals_of(root, trial).squaredNorm() <= residual.squaredNorm();
   damping *= better ? 0.2 : 10.0;
-  return better ? moved : shifts;
+  return better ? trial : shifts;
 }
 
 /// Places the shifts as a whole so that the nominal ones, scaled, fit them best.
-void place(const std::vector<double>& nominal, std::vector<double>& shifts) {
+void align_to_nominal(const std::vector<double>& nominal, std::vector<double>& shifts) {
   const auto n = static_cast<double>(nominal.size());
   double x = 0.0;
   double y = 0.0;
@@ -98,23 +99,23 @@ ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) 
   const std::vector<double>& nominal = stack.pattern.shifts_rad;
   ShiftEstimate out{.shifts_rad = nominal};
   const Eigen::ArrayXXd counts = sample_frames(stack, kSamples).cast<double>();
-  if (counts.rows() < kEnough) return out;
+  if (counts.rows() < kMinSamples) return out;
   const Eigen::MatrixXd root = (counts.matrix().transpose() * counts.matrix()).llt().matrixL();
   std::vector<double> shifts = nominal;
   double damping = 1e-3;
-  bool settled = false;
-  for (int i = 0; i < kIterations && !settled; ++i) {
-    const std::vector<double> better = better_shifts(root, shifts, damping);
+  bool converged = false;
+  for (int i = 0; i < kIterations && !converged; ++i) {
+    const std::vector<double> better = levenberg_marquardt_step(root, shifts, damping);
     const double change = largest_change(better, shifts);
-    settled = change < kSettled_rad && (change > 0.0 || damping > 1e6);
+    converged = change < kConverged_rad && (change > 0.0 || damping > 1e6);
     shifts = better;
   }
-  place(nominal, shifts);
-  const double left = left_over(root, shifts).squaredNorm();
+  align_to_nominal(nominal, shifts);
+  const double residual = residuals_of(root, shifts).squaredNorm();
   const auto n = static_cast<double>(counts.rows());
-  out.residual_counts2 = left / (n * static_cast<double>(counts.cols() - 3));
+  out.residual_counts2 = residual / (n * static_cast<double>(counts.cols() - 3));
   out.expected_counts2 = noise.variance(counts.mean());
-  out.found = settled && out.residual_counts2 < kMaxExcess * out.expected_counts2;
+  out.found = converged && out.residual_counts2 < kMaxExcess * out.expected_counts2;
   if (out.found) out.shifts_rad = shifts;
   return out;
 }

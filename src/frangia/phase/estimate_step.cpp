@@ -14,7 +14,7 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kSamples = 400'000;
-constexpr Eigen::Index kEnough = 100;
+constexpr Eigen::Index kMinSamples = 100;
 
 /// The scatter along the line must stand out from that across it by this factor.
 constexpr double kMinSignal = 4.0;
@@ -24,7 +24,7 @@ constexpr double kMaxGainError = 0.25;
 
 /// The step between the shifts as they are asked for, not wrapped: a shifter makes 270 degrees as
 /// 270, and is off in proportion. 0 when they are not equally spaced.
-double asked_step(const std::vector<double>& shifts_rad) {
+double nominal_step(const std::vector<double>& shifts_rad) {
   const double step = shifts_rad[1] - shifts_rad[0];
   for (std::size_t k = 2; k < shifts_rad.size(); ++k) {
     if (std::abs(shifts_rad[k] - shifts_rad[k - 1] - step) > 1e-6) return 0.0;
@@ -43,7 +43,7 @@ double nearest_angle(double cosine, double nominal) {
 /// The angle by which I1 - I4 is turned against I2 - I3: the mean error of the shifts 1 and 4 less
 /// that of 2 and 3. The relation between the four frames has it, as the share b of
 /// I2 + I3 - I1 - I4 in I1 - I4 = a (I2 - I3) + b (I2 + I3 - I1 - I4).
-double turn_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, double step) {
+double shift_error_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, double step) {
   const double outer = std::sin(1.5 * step);
   if (std::abs(outer) < 0.1) return 0.0;
   Eigen::MatrixX3d contrasts(counts.rows(), 3);
@@ -67,7 +67,7 @@ double turn_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, double step
 double jitter_of(const Eigen::ArrayXXf& counts, double step) {
   double sum = 0.0;
   for (Eigen::Index k = 0; k + 3 < counts.cols(); ++k) {
-    const double turn = turn_of_window(counts, k, step);
+    const double turn = shift_error_of_window(counts, k, step);
     sum += turn * turn;
   }
   return std::sqrt(sum / static_cast<double>(counts.cols() - 3));
@@ -78,10 +78,10 @@ double jitter_of(const Eigen::ArrayXXf& counts, double step) {
 StepEstimate estimate_step(const FrameStack& stack) {
   StepEstimate out;
   if (stack.frames.size() < 4 || stack.pattern.shifts_rad.size() != stack.frames.size()) return out;
-  out.nominal_rad = out.step_rad = asked_step(stack.pattern.shifts_rad);
+  out.nominal_rad = out.step_rad = nominal_step(stack.pattern.shifts_rad);
   if (std::abs(std::sin(out.nominal_rad)) < 0.1) return out;
   const Eigen::ArrayXXf counts = sample_frames(stack, kSamples);
-  if (counts.rows() < kEnough) return out;
+  if (counts.rows() < kMinSamples) return out;
   out.mean_counts = static_cast<double>(counts.mean());
 
   double xx = 0.0;

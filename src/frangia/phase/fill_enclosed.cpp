@@ -19,38 +19,38 @@ struct Pixel {
 
 struct Hole {
   std::vector<Pixel> inside;
-  std::vector<Pixel> rim;  ///< measured pixels beside it, some more than once
+  std::vector<Pixel> boundary;  ///< measured pixels beside it, some more than once
   std::size_t unmodulated = 0;
   bool open = false;  ///< reaches the image's border
 };
 
-bool is_discarded(PixelFate fate) {
-  return fate == PixelFate::Saturated || fate == PixelFate::Residue ||
-         fate == PixelFate::Unmodulated;
+bool is_discarded(PixelStatus status) {
+  return status == PixelStatus::Saturated || status == PixelStatus::Residue ||
+         status == PixelStatus::Unmodulated;
 }
 
 template <typename Visit>
-void visit_neighbours(const Image<PixelFate>& fate, Pixel p, const Visit& visit) {
+void visit_neighbors(const Image<PixelStatus>& status, Pixel p, const Visit& visit) {
   if (p.x > 0) visit(Pixel{p.x - 1, p.y});
-  if (p.x + 1 < fate.width()) visit(Pixel{p.x + 1, p.y});
+  if (p.x + 1 < status.width()) visit(Pixel{p.x + 1, p.y});
   if (p.y > 0) visit(Pixel{p.x, p.y - 1});
-  if (p.y + 1 < fate.height()) visit(Pixel{p.x, p.y + 1});
+  if (p.y + 1 < status.height()) visit(Pixel{p.x, p.y + 1});
 }
 
 /// The discarded pixels connected to `start`, at most `limit` of them beyond which it is open.
-Hole collect(const Image<PixelFate>& fate, Pixel start, Image<std::uint8_t>& seen) {
+Hole collect(const Image<PixelStatus>& status, Pixel start, Image<std::uint8_t>& seen) {
   Hole hole;
   hole.inside.push_back(start);
   seen(start.x, start.y) = 1;
   for (std::size_t head = 0; head < hole.inside.size(); ++head) {
     const Pixel p = hole.inside[head];
-    if (fate(p.x, p.y) == PixelFate::Unmodulated) ++hole.unmodulated;
-    if (p.x == 0 || p.y == 0 || p.x + 1 == fate.width() || p.y + 1 == fate.height())
+    if (status(p.x, p.y) == PixelStatus::Unmodulated) ++hole.unmodulated;
+    if (p.x == 0 || p.y == 0 || p.x + 1 == status.width() || p.y + 1 == status.height())
       hole.open = true;
-    visit_neighbours(fate, p, [&](Pixel q) {
-      if (fate(q.x, q.y) == PixelFate::Measured) {
-        hole.rim.push_back(q);
-      } else if (!is_discarded(fate(q.x, q.y))) {
+    visit_neighbors(status, p, [&](Pixel q) {
+      if (status(q.x, q.y) == PixelStatus::Measured) {
+        hole.boundary.push_back(q);
+      } else if (!is_discarded(status(q.x, q.y))) {
         hole.open = true;
       } else if (seen(q.x, q.y) == 0) {
         seen(q.x, q.y) = 1;
@@ -62,26 +62,27 @@ Hole collect(const Image<PixelFate>& fate, Pixel start, Image<std::uint8_t>& see
 }
 
 struct Plane {
-  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();  ///< of 1, x, y from the first rim pixel
+  Eigen::Vector3d coefficients =
+      Eigen::Vector3d::Zero();  ///< of 1, x, y from the first boundary pixel
   double rms = 0.0;
   double largest = 0.0;
 };
 
-Plane fit_plane(const AbsolutePhase& phase, const std::vector<Pixel>& rim) {
-  const Pixel origin = rim.front();
+Plane fit_plane(const AbsolutePhase& phase, const std::vector<Pixel>& boundary) {
+  const Pixel origin = boundary.front();
   Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const Pixel p : rim) {
+  for (const Pixel p : boundary) {
     const Eigen::Vector3d row(1.0, p.x - origin.x, p.y - origin.y);
     normal += row * row.transpose();
     right += row * static_cast<double>(phase.phase_rad(p.x, p.y));
   }
   Plane plane;
   plane.coefficients = normal.inverse() * right;
-  for (const Pixel p : rim) {
+  for (const Pixel p : boundary) {
     const double error = phase.phase_rad(p.x, p.y) - plane.coefficients.dot(Eigen::Vector3d(
                                                          1.0, p.x - origin.x, p.y - origin.y));
-    plane.rms += error * error / static_cast<double>(rim.size());
+    plane.rms += error * error / static_cast<double>(boundary.size());
     plane.largest = std::max(plane.largest, std::abs(error));
   }
   plane.rms = std::sqrt(plane.rms);
@@ -89,20 +90,20 @@ Plane fit_plane(const AbsolutePhase& phase, const std::vector<Pixel>& rim) {
 }
 
 void fill(AbsolutePhase& phase, const Hole& hole, const Plane& plane) {
-  float rim_sigma = 0.0F;
-  for (const Pixel p : hole.rim)
-    rim_sigma = std::max(rim_sigma, phase.sigma_rad(p.x, p.y));
+  float boundary_sigma = 0.0F;
+  for (const Pixel p : hole.boundary)
+    boundary_sigma = std::max(boundary_sigma, phase.sigma_rad(p.x, p.y));
   for (const Pixel p : hole.inside) {
-    const Eigen::Vector3d row(1.0, p.x - hole.rim.front().x, p.y - hole.rim.front().y);
+    const Eigen::Vector3d row(1.0, p.x - hole.boundary.front().x, p.y - hole.boundary.front().y);
     phase.phase_rad(p.x, p.y) = static_cast<float>(plane.coefficients.dot(row));
-    phase.sigma_rad(p.x, p.y) = std::hypot(rim_sigma, static_cast<float>(plane.rms));
-    phase.fate(p.x, p.y) = PixelFate::Filled;
+    phase.sigma_rad(p.x, p.y) = std::hypot(boundary_sigma, static_cast<float>(plane.rms));
+    phase.status(p.x, p.y) = PixelStatus::Filled;
   }
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     float moved = 0.0F;
     for (const Pixel p : hole.inside) {
       float sum = 0.0F;
-      visit_neighbours(phase.fate, p, [&](Pixel q) { sum += phase.phase_rad(q.x, q.y); });
+      visit_neighbors(phase.status, p, [&](Pixel q) { sum += phase.phase_rad(q.x, q.y); });
       moved = std::max(moved, std::abs(0.25F * sum - phase.phase_rad(p.x, p.y)));
       phase.phase_rad(p.x, p.y) = 0.25F * sum;
     }
@@ -113,18 +114,18 @@ void fill(AbsolutePhase& phase, const Hole& hole, const Plane& plane) {
 }  // namespace
 
 std::size_t fill_enclosed(AbsolutePhase& phase, const FillOptions& options) {
-  Image<std::uint8_t> seen(phase.fate.width(), phase.fate.height(), 0);
+  Image<std::uint8_t> seen(phase.status.width(), phase.status.height(), 0);
   std::size_t filled = 0;
-  for (int y = 0; y < phase.fate.height(); ++y) {
-    for (int x = 0; x < phase.fate.width(); ++x) {
-      if (seen(x, y) != 0 || !is_discarded(phase.fate(x, y))) continue;
-      const Hole hole = collect(phase.fate, {x, y}, seen);
+  for (int y = 0; y < phase.status.height(); ++y) {
+    for (int x = 0; x < phase.status.width(); ++x) {
+      if (seen(x, y) != 0 || !is_discarded(phase.status(x, y))) continue;
+      const Hole hole = collect(phase.status, {x, y}, seen);
       const bool may_be_true =
           2 * hole.unmodulated > hole.inside.size() && hole.inside.size() > kSpeckPx;
-      if (hole.open || may_be_true || hole.rim.empty() || hole.inside.size() > options.max_px)
+      if (hole.open || may_be_true || hole.boundary.empty() || hole.inside.size() > options.max_px)
         continue;
-      const Plane plane = fit_plane(phase, hole.rim);
-      if (plane.largest > options.max_rise_rad) continue;
+      const Plane plane = fit_plane(phase, hole.boundary);
+      if (plane.largest > options.max_plane_deviation_rad) continue;
       fill(phase, hole, plane);
       filled += hole.inside.size();
     }

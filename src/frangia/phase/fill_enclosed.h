@@ -7,8 +7,9 @@
 namespace frangia {
 
 struct FillOptions {
-  std::size_t max_px = 100;   ///< a larger hole stays open
-  double max_rise_rad = 0.5;  ///< measured pixels around it must lie on a plane to within this
+  std::size_t max_px = 100;  ///< a larger hole stays open
+  double max_plane_deviation_rad =
+      0.5;  ///< measured pixels around it must lie on a plane to within this
 };
 
 /// Interpolates discarded pixels that measured ones enclose: saturated highlights, residues, and

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "frangia/core/parallel.h"
-#include "frangia/core/vectorised.h"
+#include "frangia/core/vectorized.h"
 
 namespace frangia {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 
 /// Loops between two rows. The jumps themselves sum to zero; the turns taken away must do so too.
 /// A loop with a missing pixel is none.
-FRANGIA_VECTORISED void find_loops(const float* __restrict above,
+FRANGIA_VECTORIZED void find_loops(const float* __restrict above,
                                    const float* __restrict below,
                                    int count,
                                    std::int32_t* __restrict residue) {

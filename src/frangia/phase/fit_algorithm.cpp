@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "frangia/phase/estimate_shifts.h"
-#include "frangia/phase/pool_steps.h"
+#include "frangia/phase/pooled_gain_error.h"
 #include "frangia/phase/published_algorithms.h"
 
 namespace frangia {
@@ -15,7 +15,9 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-FittedAlgorithm iterated(const FrameStack& stack, const NoiseModel& noise, const Run& run) {
+FittedAlgorithm fit_advanced_iterative(const FrameStack& stack,
+                                       const NoiseModel& noise,
+                                       const Run& run) {
   static_cast<void>(make_algorithm("aia", stack.pattern.shifts_rad));  // refuses too few frames
   const ShiftEstimate shifts = estimate_shifts(stack, noise);
   if (!shifts.found) {
@@ -49,7 +51,7 @@ FittedAlgorithm fit_algorithm(const std::string& name,
                          pattern.frame_count(),
                          angular ? "an interferometer" : "a digital projector"));
   }
-  if (chosen == "aia") return iterated(stack, noise, run);
+  if (chosen == "aia") return fit_advanced_iterative(stack, noise, run);
   FittedAlgorithm out;
   if (angular || chosen == "carre" || chosen == "global-carre") {
     out.step = estimate_step(stack);
@@ -59,7 +61,7 @@ FittedAlgorithm fit_algorithm(const std::string& name,
   const double own = out.step.found ? out.step.gain_error() : out.gain_error;
   const double constant = (out.gain_error - own) * mean_of(pattern.shifts_rad);
   out.algorithm = make_algorithm(chosen, pattern.shifts_rad, own);
-  turn_back(constant, out.algorithm);
+  subtract_phase_offset(constant, out.algorithm);
   for (const double shift : pattern.shifts_rad)
     out.shifts_rad.push_back(shift * (1.0 + own) + constant);
   return out;

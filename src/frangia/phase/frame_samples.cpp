@@ -56,7 +56,7 @@ FrameStack sample_rows(const FrameStack& stack, std::size_t wanted) {
   for (const Frame& frame : stack.frames) {
     std::visit(
         [&](const auto& image) {
-          std::remove_cvref_t<decltype(image)> some(width, kept, Unfilled{});
+          std::remove_cvref_t<decltype(image)> some(width, kept, Uninitialized{});
           for (int y = 0; y < kept; ++y) {
             const auto* row = &image(0, y * static_cast<int>(stride));
             std::copy(row, row + width, &some(0, y));

@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-constexpr double kTurnRad = 6.283185307179586;
+constexpr double kTwoPiRad = 6.283185307179586;
 
 /// What the border between two regions says: how often each whole number of fringes is asked for.
 struct Border {
@@ -40,7 +40,7 @@ class Forest {
     return {region, fringes};
   }
   /// Hangs root `child` below root `parent`, `fringes` to be added to it.
-  void hang(int child, int parent, int fringes) {
+  void attach(int child, int parent, int fringes) {
     parent_[static_cast<std::size_t>(child)] = parent;
     fringes_[static_cast<std::size_t>(child)] = fringes;
   }
@@ -69,7 +69,7 @@ std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& reg
       const int b = phase.region(u, v);
       if (a == b || a < 0 || b < 0) return;
       const double jump = phase.phase_rad(x, y) - phase.phase_rad(u, v);
-      const int fringes = static_cast<int>(std::lround(jump / kTurnRad));
+      const int fringes = static_cast<int>(std::lround(jump / kTwoPiRad));
       rows[static_cast<std::size_t>(y)].push_back({a, b, fringes, smooth});
     };
     // Most blocks lie within one region, and so do the pixels to their right and below.
@@ -139,7 +139,7 @@ int merge_safe(const Borders& borders, double min_agreement, Forest& forest) {
     // A region that has just changed is looked at again in the next round, with its new border.
     if (touched[static_cast<std::size_t>(merge.keep)]) continue;
     if (touched[static_cast<std::size_t>(merge.give)]) continue;
-    forest.hang(merge.give, merge.keep, merge.fringes);
+    forest.attach(merge.give, merge.keep, merge.fringes);
     touched[static_cast<std::size_t>(merge.give)] = true;
     ++merged;
   }
@@ -155,7 +155,7 @@ void relabel_from_largest(RelativePhase& phase, const Forest& forest) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] < 0) continue;
     const auto [root, fringes] = roots[static_cast<std::size_t>(labels[i])];
-    phase.phase_rad.pixels()[i] += static_cast<float>(kTurnRad * fringes);
+    phase.phase_rad.pixels()[i] += static_cast<float>(kTwoPiRad * fringes);
     labels[i] = root;
     ++sizes[static_cast<std::size_t>(root)];
   }

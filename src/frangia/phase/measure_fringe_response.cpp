@@ -15,9 +15,9 @@
 namespace frangia {
 namespace {
 
-constexpr int kKnots = 17;             ///< of the curve, evenly spaced levels from 0 to 1
-constexpr double kLeastSwing = 0.075;  ///< of white: amplitude of the fringes
-constexpr int kEnough = 1000;          ///< pixels
+constexpr int kKnots = 17;               ///< of the curve, evenly spaced levels from 0 to 1
+constexpr double kMinAmplitude = 0.075;  ///< of white: amplitude of the fringes
+constexpr int kMinPixels = 1000;         ///< pixels
 
 /// Least squares of a curve that is straight between knots.
 class CurveFit {
@@ -57,7 +57,7 @@ int add_pixels(const FrameStack& stack, CurveFit& fit) {
         return std::inner_product(weights.begin(), weights.end(), counts.begin(), 0.0);
       };
       const double size = std::hypot(sum(algorithm.sine), sum(algorithm.cosine));
-      if (size < kLeastSwing * stack.white_level) continue;
+      if (size < kMinAmplitude * stack.white_level) continue;
       const double phase = std::atan2(sum(algorithm.sine), sum(algorithm.cosine));
       const double mean = sum(algorithm.mean);
       ++used;
@@ -72,10 +72,10 @@ int add_pixels(const FrameStack& stack, CurveFit& fit) {
 
 }  // namespace
 
-bool tells_response(const Pattern& pattern) {
-  if (pattern.kind != PatternKind::Fringe || pattern.shifts_rad.size() < kFramesForResponse)
+bool determines_response(const Pattern& pattern) {
+  if (pattern.kind != PatternKind::Fringe || pattern.shifts_rad.size() < kMinResponseFrames)
     return false;
-  const double step = kTurn / static_cast<double>(pattern.shifts_rad.size());
+  const double step = kTwoPi / static_cast<double>(pattern.shifts_rad.size());
   for (std::size_t k = 0; k < pattern.shifts_rad.size(); ++k) {
     const double apart = pattern.shifts_rad[k] - pattern.shifts_rad.front();
     if (std::abs(wrap_rad(apart - step * static_cast<double>(k))) > 1e-6 &&
@@ -92,11 +92,12 @@ ResponseCurve measure_fringe_response(std::span<const FrameStack> stacks) {
   CurveFit fit;
   int used = 0;
   for (const FrameStack& stack : stacks) {
-    require(tells_response(stack.pattern) && stack.frames.size() == stack.pattern.shifts_rad.size(),
+    require(determines_response(stack.pattern) &&
+                stack.frames.size() == stack.pattern.shifts_rad.size(),
             "measure_fringe_response: needs six frames or more, evenly spread over a turn");
     used += add_pixels(stack, fit);
   }
-  require(used >= kEnough,
+  require(used >= kMinPixels,
           "the fringes light too few pixels that do not saturate; check the exposure");
   const Eigen::VectorXd light = fit.solve();
   std::vector<double> levels;

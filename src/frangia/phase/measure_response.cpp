@@ -8,25 +8,26 @@
 namespace frangia {
 namespace {
 
-constexpr double kLeastSwing = 0.15;  ///< of white, between the darkest and the brightest frame
-constexpr std::size_t kEnough = 100;  ///< pixels
+constexpr double kMinContrast = 0.15;    ///< of white, between the darkest and the brightest frame
+constexpr std::size_t kMinPixels = 100;  ///< pixels
 
-/// Adds the counts of one view's lit pixels to the sum of each level; returns how many there were.
-std::size_t add_lit(const FrameStack& ramp, std::vector<double>& sums) {
+/// Adds the counts of one view's illuminated pixels to the sum of each level; returns how many
+/// there were.
+std::size_t add_illuminated(const FrameStack& ramp, std::vector<double>& sums) {
   const Frame& dark = ramp.frames.front();
   const Frame& full = ramp.frames.back();
-  std::size_t lit = 0;
+  std::size_t illuminated = 0;
   for (int y = 0; y < height_of(full); ++y) {
     for (int x = 0; x < width_of(full); ++x) {
-      const int top = counts_at(full, x, y);
-      const int swing = top - counts_at(dark, x, y);
-      if (top >= ramp.white_level || swing < kLeastSwing * ramp.white_level) continue;
-      ++lit;
+      const int brightest = counts_at(full, x, y);
+      const int contrast = brightest - counts_at(dark, x, y);
+      if (brightest >= ramp.white_level || contrast < kMinContrast * ramp.white_level) continue;
+      ++illuminated;
       for (std::size_t k = 0; k < sums.size(); ++k)
         sums[k] += counts_at(ramp.frames[k], x, y);
     }
   }
-  return lit;
+  return illuminated;
 }
 
 }  // namespace
@@ -36,13 +37,13 @@ ResponseCurve measure_response(std::span<const FrameStack> ramps) {
           "the scan holds no pattern of kind \"ramp\", which a response is measured by");
   const std::vector<double>& levels = ramps.front().pattern.levels;
   std::vector<double> sums(levels.size(), 0.0);
-  std::size_t lit = 0;
+  std::size_t illuminated = 0;
   for (const FrameStack& ramp : ramps) {
     require(ramp.pattern.levels == levels && ramp.frames.size() == levels.size(),
             "measure_response: the ramps differ, or their frames are not as many as their levels");
-    lit += add_lit(ramp, sums);
+    illuminated += add_illuminated(ramp, sums);
   }
-  require(lit >= kEnough,
+  require(illuminated >= kMinPixels,
           "the ramp lights too few pixels that do not saturate; check the exposure");
   return make_response_curve(levels, sums);
 }

@@ -14,7 +14,7 @@ namespace frangia {
 namespace {
 
 /// The inverse of the largest number that a normal matrix may be ill-conditioned by.
-constexpr double kLeastPivot = 1e-4;
+constexpr double kMinPivot = 1e-4;
 
 /// One frame of one exposure: counts are row . (mean, cosine, sine of the fringe).
 struct Shot {
@@ -77,7 +77,7 @@ class Fitter {
     Fit out;
     const Eigen::LDLT<Eigen::Matrix3d> factors(normal);
     const Eigen::Vector3d pivots = factors.vectorD();
-    if (!(pivots.minCoeff() > kLeastPivot * pivots.maxCoeff())) return out;
+    if (!(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) return out;
     out.determined = true;
     out.fringe = factors.solve(right);
     out.covariance = factors.solve(Eigen::Matrix3d::Identity());
@@ -95,14 +95,14 @@ void write_pixel(const Fit& fit, const WrapOptions& options, int x, int y, Wrapp
   const double square = cosine * cosine + sine * sine;
   out.modulation_counts(x, y) = static_cast<float>(std::sqrt(square));
   if (!fit.determined) {
-    out.fate(x, y) = PixelFate::Saturated;
+    out.status(x, y) = PixelStatus::Saturated;
     return;
   }
   if (!(square > 0.0)) return;  // all black, such as a background without any light
   const Eigen::Vector3d slope(0.0, -sine / square, cosine / square);  // of phi in the fringe
   const double sigma = std::sqrt(slope.dot(fit.covariance * slope));
   if (!(sigma <= static_cast<double>(options.max_sigma_rad))) return;
-  out.fate(x, y) = PixelFate::Measured;
+  out.status(x, y) = PixelStatus::Measured;
   out.phase_rad(x, y) = static_cast<float>(std::atan2(sine, cosine));
   out.sigma_rad(x, y) = static_cast<float>(sigma);
 }
@@ -121,7 +121,7 @@ WrappedPhase merge_exposures(std::span<const FrameStack> exposures,
                    .sigma_rad = Image<float>(width, height, kMissing),
                    .modulation_counts = Image<float>(width, height, 0.0F),
                    .mean_counts = Image<float>(width, height, 0.0F),
-                   .fate = Image<PixelFate>(width, height, PixelFate::Unmodulated)};
+                   .status = Image<PixelStatus>(width, height, PixelStatus::Unmodulated)};
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x)
       write_pixel(fitter.fit(x, y), options, x, y, out);

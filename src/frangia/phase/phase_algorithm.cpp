@@ -18,15 +18,15 @@ namespace frangia {
 namespace {
 
 /// Below this the shifts are as good as singular: noise would be amplified a thousandfold.
-constexpr double kLeastEigenvalueShare = 1e-6;
+constexpr double kMinEigenvalueRatio = 1e-6;
 
-double weighted(const std::vector<double>& weights, std::span<const double> counts) {
+double weighted_sum(const std::vector<double>& weights, std::span<const double> counts) {
   return std::inner_product(weights.begin(), weights.end(), counts.begin(), 0.0);
 }
 
 /// Larkin and Oreb's: N + 1 frames over a whole turn, the ends at half weight.
 void larkin_oreb(std::size_t frames, PhaseAlgorithm& out) {
-  const double step = kTurn / static_cast<double>(frames - 1);
+  const double step = kTwoPi / static_cast<double>(frames - 1);
   for (std::size_t j = 0; j < frames; ++j) {
     const bool end = j == 0 || j + 1 == frames;
     const double angle = step * static_cast<double>(j);
@@ -39,15 +39,15 @@ void larkin_oreb(std::size_t frames, PhaseAlgorithm& out) {
 void surrel(std::size_t frames, PhaseAlgorithm& out) {
   const double n = static_cast<double>(frames + 1) / 2.0;
   for (std::size_t k = 0; k < frames; ++k) {
-    const double place = static_cast<double>(k);
-    const double weight = n - std::abs(place - (n - 1.0));
-    out.sine.push_back(-weight * std::sin(kTurn / n * place));
-    out.cosine.push_back(weight * std::cos(kTurn / n * place));
+    const double index = static_cast<double>(k);
+    const double weight = n - std::abs(index - (n - 1.0));
+    out.sine.push_back(-weight * std::sin(kTwoPi / n * index));
+    out.cosine.push_back(weight * std::cos(kTwoPi / n * index));
   }
 }
 
 /// Numerator and denominator as printed, for shifts 0, step, 2 step ...
-PhaseAlgorithm as_printed(const std::string& name, std::size_t frames) {
+PhaseAlgorithm published_coefficients(const std::string& name, std::size_t frames) {
   PhaseAlgorithm out{.name = name};
   const auto set = [&](std::vector<double> sine, std::vector<double> cosine) {
     out.sine = std::move(sine);
@@ -75,10 +75,10 @@ struct Wave {
 
 /// B sin(phi), B cos(phi) of a pixel, before the turn.
 Wave wave_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
-  Wave wave{weighted(algorithm.sine, counts), weighted(algorithm.cosine, counts)};
+  Wave wave{weighted_sum(algorithm.sine, counts), weighted_sum(algorithm.cosine, counts)};
   if (!algorithm.outer.empty()) {
     const double u = wave.sine;
-    const double v = weighted(algorithm.outer, counts);
+    const double v = weighted_sum(algorithm.outer, counts);
     wave.sine = std::copysign(std::sqrt(std::max(0.0, (3.0 * u - v) * (u + v))), u);
   }
   return wave;
@@ -98,18 +98,19 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
     for (double& weight : *weights)
       weight /= size;
   }
-  turn_back(std::atan2(wave.sine, wave.cosine) - kProbe_rad, algorithm);
+  subtract_phase_offset(std::atan2(wave.sine, wave.cosine) - kProbe_rad, algorithm);
   if (step < 0.0) {  // the frames of falling shifts are those of -phi
     for (auto* weights : {&algorithm.sine, &algorithm.outer}) {
       for (double& weight : *weights)
         weight = -weight;
     }
-    algorithm.turn_rad = -algorithm.turn_rad;
+    algorithm.phase_offset_rad = -algorithm.phase_offset_rad;
   }
-  turn_back(shifts_rad.front(), algorithm);
+  subtract_phase_offset(shifts_rad.front(), algorithm);
 }
 
-[[noreturn]] void refuse(const PublishedAlgorithm& wanted, const std::vector<double>& shifts_rad) {
+[[noreturn]] void throw_shift_mismatch(const PublishedAlgorithm& wanted,
+                                       const std::vector<double>& shifts_rad) {
   std::vector<std::string> others;
   for (const PublishedAlgorithm& other : published_algorithms()) {
     if (fits(other, shifts_rad)) others.push_back(other.name);
@@ -117,7 +118,7 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
   throw Error(ErrorKind::Input,
               fmt::format("the algorithm \"{}\" takes {}, which these {} shifts are not; {}",
                           wanted.name,
-                          frames_in_words(wanted),
+                          describe_frames(wanted),
                           shifts_rad.size(),
                           others.empty() ? "give at least 3"
                                          : fmt::format("use {}", fmt::join(others, ", "))));
@@ -125,9 +126,9 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
 
 }  // namespace
 
-void turn_back(double angle_rad, PhaseAlgorithm& algorithm) {
+void subtract_phase_offset(double angle_rad, PhaseAlgorithm& algorithm) {
   if (!algorithm.outer.empty()) {
-    algorithm.turn_rad += angle_rad;
+    algorithm.phase_offset_rad += angle_rad;
     return;
   }
   const double c = std::cos(angle_rad);
@@ -141,7 +142,7 @@ void turn_back(double angle_rad, PhaseAlgorithm& algorithm) {
 
 double phase_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
   const Wave wave = wave_of(algorithm, counts);
-  return wrap_rad(std::atan2(wave.sine, wave.cosine) - algorithm.turn_rad);
+  return wrap_rad(std::atan2(wave.sine, wave.cosine) - algorithm.phase_offset_rad);
 }
 
 PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
@@ -159,7 +160,7 @@ PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
     normal += row(shift) * row(shift).transpose();
   const Eigen::Vector3d eigenvalues =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(normal).eigenvalues();
-  if (!(eigenvalues(0) > kLeastEigenvalueShare * eigenvalues(2))) {
+  if (!(eigenvalues(0) > kMinEigenvalueRatio * eigenvalues(2))) {
     throw Error(ErrorKind::Input,
                 "shifts_deg does not determine a phase: at least three shifts must differ, modulo "
                 "360 degrees");
@@ -190,9 +191,9 @@ PhaseAlgorithm make_algorithm(const std::string& name,
         ErrorKind::Input,
         fmt::format("there is no algorithm \"{}\"; choose from {}", name, fmt::join(names, ", ")));
   }
-  if (!fits(*published, shifts_rad)) refuse(*published, shifts_rad);
+  if (!fits(*published, shifts_rad)) throw_shift_mismatch(*published, shifts_rad);
 
-  PhaseAlgorithm algorithm = as_printed(name, shifts_rad.size());
+  PhaseAlgorithm algorithm = published_coefficients(name, shifts_rad.size());
   const double mean_shift = std::accumulate(shifts_rad.begin(), shifts_rad.end(), 0.0) /
                             static_cast<double>(shifts_rad.size());
   if (name == "global-carre" || name == "aia") {  // the shifts themselves are put right
@@ -210,7 +211,7 @@ PhaseAlgorithm make_algorithm(const std::string& name,
     algorithm.mean = least_squares(shifts_rad).mean;
     refer_to_shift_zero(shifts_rad, algorithm);
   }
-  turn_back(gain_error * mean_shift, algorithm);
+  subtract_phase_offset(gain_error * mean_shift, algorithm);
   algorithm.noise_gain = noise_gain(algorithm, shifts_rad);
   return algorithm;
 }

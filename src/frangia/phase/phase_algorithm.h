@@ -18,7 +18,7 @@ struct PhaseAlgorithm {
   /// Carré's alone, which is not linear: with u of `sine` and v of `outer`,
   /// B sin(phi + turn) = sgn(u) sqrt((3u - v)(u + v)). Empty for all others.
   std::vector<double> outer;
-  double turn_rad = 0.0;  ///< taken off the phase at the end; 0 where `outer` is empty
+  double phase_offset_rad = 0.0;  ///< taken off the phase at the end; 0 where `outer` is empty
   /// c of sigma_phi = c sigma_I / B, root mean square over phi.
   double noise_gain = 0.0;
 
@@ -45,6 +45,6 @@ struct PhaseAlgorithm {
                                             double gain_error = 0.0);
 
 /// Takes `angle_rad` off the phase that the algorithm finds.
-void turn_back(double angle_rad, PhaseAlgorithm& algorithm);
+void subtract_phase_offset(double angle_rad, PhaseAlgorithm& algorithm);
 
 }  // namespace frangia

@@ -8,16 +8,16 @@
 namespace frangia {
 
 /// What became of a pixel, and why it went.
-enum class PixelFate : std::uint8_t {
-  Measured,     ///< holds a phase
-  Filled,       ///< discarded, then interpolated from the measured pixels around it
-  Unmodulated,  ///< its fringes do not rise above its noise: background or shadow
-  Saturated,    ///< at the white level in a frame
-  Residue,      ///< in a 2 x 2 loop whose phase jumps do not sum to zero
-  Doubtful,     ///< the chance of a wrong fringe order is too high
-  Unanchored,   ///< its region's whole number of fringes is not known
-  MixedEdge,    ///< sees two surfaces at a depth edge
-  OutOfField    ///< no point in front of camera and projector has this phase
+enum class PixelStatus : std::uint8_t {
+  Measured,        ///< holds a phase
+  Filled,          ///< discarded, then interpolated from the measured pixels around it
+  Unmodulated,     ///< its fringes do not rise above its noise: background or shadow
+  Saturated,       ///< at the white level in a frame
+  Residue,         ///< in a 2 x 2 loop whose phase jumps do not sum to zero
+  UncertainOrder,  ///< the chance of a wrong fringe order is too high
+  Unresolved,      ///< its region's whole number of fringes is not known
+  MixedPixel,      ///< sees two surfaces at a depth edge
+  OutOfField       ///< no point in front of camera and projector has this phase
 };
 
 /// Phase within one fringe, of all pixels.
@@ -27,7 +27,7 @@ struct WrappedPhase {
   Image<float> sigma_rad;          ///< standard deviation of `phase_rad`; NaN where not measured
   Image<float> modulation_counts;  ///< I0 gamma0 of the paper's equation (1), at every pixel
   Image<float> mean_counts;        ///< I0 plus light that is not the projector's, at every pixel
-  Image<PixelFate> fate;
+  Image<PixelStatus> status;
 };
 
 /// Phase that is continuous within a region, known there but for a whole number of fringes.
@@ -37,10 +37,10 @@ struct RelativePhase {
   Image<float> sigma_rad;
   Image<std::int32_t> region;  ///< 0, 1, ... from the largest; -1 where not measured
   int region_count = 0;
-  Image<PixelFate> fate;
+  Image<PixelStatus> status;
   /// Which pixel of its region the growth reached first (0), second (1), ...; -1 where not
   /// measured. Empty unless it was asked for.
-  Image<std::int32_t> order;
+  Image<std::int32_t> growth_order;
 };
 
 /// Phase counted from the projection axis or the projector's first column. Its own type, so that a
@@ -49,7 +49,7 @@ struct AbsolutePhase {
   Pattern pattern;
   Image<float> phase_rad;  ///< NaN where not measured
   Image<float> sigma_rad;
-  Image<PixelFate> fate;
+  Image<PixelStatus> status;
 };
 
 }  // namespace frangia

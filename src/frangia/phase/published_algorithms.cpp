@@ -16,7 +16,7 @@ constexpr double kTolerance_rad = 1e-3;
 constexpr int kExampleSteps = 6;
 
 /// The N of 360 / N degrees that an algorithm of `frames` frames works with; 0 for none.
-int steps_a_turn(ShiftRule rule, int frames) {
+int steps_per_period(ShiftRule rule, int frames) {
   if (rule == ShiftRule::PlusOne) return frames >= 5 ? frames - 1 : 0;
   return frames >= 5 && frames % 2 == 1 ? (frames + 1) / 2 : 0;
 }
@@ -46,7 +46,7 @@ const std::vector<PublishedAlgorithm>& published_algorithms() {
   return all;
 }
 
-std::string frames_in_words(const PublishedAlgorithm& algorithm) {
+std::string describe_frames(const PublishedAlgorithm& algorithm) {
   switch (algorithm.rule) {
     case ShiftRule::Any:
       return "3 frames or more";
@@ -89,7 +89,7 @@ bool fits(const PublishedAlgorithm& algorithm, const std::vector<double>& shifts
     return frames == algorithm.frames &&
            (algorithm.step_deg == 0.0 || is_step(step, algorithm.step_deg));
   }
-  const int n = steps_a_turn(algorithm.rule, frames);
+  const int n = steps_per_period(algorithm.rule, frames);
   return n > 0 && is_step(step, 360.0 / n);
 }
 

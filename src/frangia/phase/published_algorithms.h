@@ -30,7 +30,7 @@ struct PublishedAlgorithm {
 [[nodiscard]] const std::vector<PublishedAlgorithm>& published_algorithms();
 
 /// "4 frames 90 degrees apart", for a person.
-[[nodiscard]] std::string frames_in_words(const PublishedAlgorithm& algorithm);
+[[nodiscard]] std::string describe_frames(const PublishedAlgorithm& algorithm);
 
 /// Whether the shifts are the algorithm's own, rising or falling, from any start.
 [[nodiscard]] bool fits(const PublishedAlgorithm& algorithm, const std::vector<double>& shifts_rad);

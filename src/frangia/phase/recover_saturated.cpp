@@ -27,7 +27,7 @@ std::size_t recover_saturated(FrameStack& stack) {
   const int height = height_of(stack.frames.front());
   std::vector<Image<std::uint16_t>> wide;
   for (const Frame& frame : stack.frames) {
-    wide.emplace_back(width, height, Unfilled{});
+    wide.emplace_back(width, height, Uninitialized{});
     std::visit(
         [&](const auto& image) {
           std::transform(image.pixels().begin(),

@@ -7,13 +7,13 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/vectorised.h"
+#include "frangia/core/vectorized.h"
 
 namespace frangia {
 namespace {
 
 /// Wrapped jumps between two rows, or a row and itself one pixel on; NaN where an end is missing.
-FRANGIA_VECTORISED void find_jumps(const float* from, const float* to, int count, float* jump) {
+FRANGIA_VECTORIZED void find_jumps(const float* from, const float* to, int count, float* jump) {
   for (int x = 0; x < count; ++x) {
     const float difference = to[x] - from[x];
     const float down = difference > 3.14159265F ? 6.28318531F : 0.0F;
@@ -36,10 +36,10 @@ struct JumpRows {
 
 /// Whether each jump is smooth: small, and not far outside the ones before and behind it. One that
 /// is missing is passed over, and a lone jump has no departure.
-FRANGIA_VECTORISED void judge_jumps(JumpRows rows,
-                                    int count,
-                                    Limits limits,
-                                    std::uint8_t* __restrict smooth) {
+FRANGIA_VECTORIZED void classify_jumps(JumpRows rows,
+                                       int count,
+                                       Limits limits,
+                                       std::uint8_t* __restrict smooth) {
   for (int x = 0; x < count; ++x) {
     const float before = rows.before[x];
     const float jump = rows.here[x];
@@ -63,9 +63,11 @@ float jump_noise(const Image<float>& phase, int dx, int dy) {
   const int stride = std::max(1, static_cast<int>(phase.pixels().size() / kSamples));
   for (int y = dy; y + dy < phase.height(); y += stride) {
     for (int x = dx; x + dx < phase.width(); ++x) {
-      const float bend = phase(x - dx, y - dy) - 2.0F * phase(x, y) + phase(x + dx, y + dy);
-      if (std::isnan(bend)) continue;
-      differences.push_back(std::fabs(bend - 6.28318531F * std::round(bend / 6.28318531F)));
+      const float second_difference =
+          phase(x - dx, y - dy) - 2.0F * phase(x, y) + phase(x + dx, y + dy);
+      if (std::isnan(second_difference)) continue;
+      differences.push_back(
+          std::fabs(second_difference - 6.28318531F * std::round(second_difference / 6.28318531F)));
     }
   }
   if (differences.empty()) return 0.0F;
@@ -80,13 +82,14 @@ float jump_noise(const Image<float>& phase, int dx, int dy) {
 Image<std::uint8_t> smooth_right(const Image<float>& phase_rad, const JumpOptions& options) {
   const int width = phase_rad.width();
   const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase_rad, 1, 0), options.max_jump_rad};
-  Image<std::uint8_t> smooth(width, phase_rad.height(), Unfilled{});
+  const Limits limits{options.tolerance_rad + 5.0F * jump_noise(phase_rad, 1, 0),
+                      options.max_jump_rad};
+  Image<std::uint8_t> smooth(width, phase_rad.height(), Uninitialized{});
   parallel_rows(phase_rad.height(), [&](int y) {
     std::vector<float> jump(row + 2, kMissing);  // one more at each end
     const float* from = phase_rad.pixels().data() + static_cast<std::size_t>(y) * row;
     find_jumps(from, from + 1, width - 1, jump.data() + 1);
-    judge_jumps({jump.data(), jump.data() + 1, jump.data() + 2}, width, limits, &smooth(0, y));
+    classify_jumps({jump.data(), jump.data() + 1, jump.data() + 2}, width, limits, &smooth(0, y));
   });
   return smooth;
 }
@@ -96,8 +99,9 @@ Image<std::uint8_t> smooth_below(const Image<float>& phase_rad, const JumpOption
   const int width = phase_rad.width();
   const int height = phase_rad.height();
   const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.slack_rad + 5.0F * jump_noise(phase_rad, 0, 1), options.max_jump_rad};
-  Image<std::uint8_t> smooth(width, height, Unfilled{});
+  const Limits limits{options.tolerance_rad + 5.0F * jump_noise(phase_rad, 0, 1),
+                      options.max_jump_rad};
+  Image<std::uint8_t> smooth(width, height, Uninitialized{});
   parallel_rows((height + kBand - 1) / kBand, [&](int band) {
     std::vector<float> before(row);
     std::vector<float> here(row);
@@ -114,7 +118,7 @@ Image<std::uint8_t> smooth_below(const Image<float>& phase_rad, const JumpOption
     jumps_below(band * kBand, here);
     for (int y = band * kBand; y < std::min(height, (band + 1) * kBand); ++y) {
       jumps_below(y + 1, behind);
-      judge_jumps({before.data(), here.data(), behind.data()}, width, limits, &smooth(0, y));
+      classify_jumps({before.data(), here.data(), behind.data()}, width, limits, &smooth(0, y));
       std::swap(before, here);
       std::swap(here, behind);
     }

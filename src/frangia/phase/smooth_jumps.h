@@ -9,7 +9,7 @@ namespace frangia {
 struct JumpOptions {
   /// How far a jump between neighbours may lie from those beside it, besides the noise that the
   /// jumps themselves show: a crease bends the phase by less, a depth step by any amount.
-  float slack_rad = 0.1F;
+  float tolerance_rad = 0.1F;
   /// A fringe is at least three pixels wide, as the paper asks.
   float max_jump_rad = 2.09F;
 };

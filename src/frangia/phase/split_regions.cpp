@@ -8,8 +8,8 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/core/pixel_allocator.h"
-#include "frangia/core/vectorised.h"
-#include "frangia/phase/pixel_runs.h"
+#include "frangia/core/vectorized.h"
+#include "frangia/phase/internal/pixel_runs.h"
 #include "frangia/phase/smooth_jumps.h"
 
 namespace frangia {
@@ -18,7 +18,7 @@ namespace {
 using Mask = Image<std::uint8_t>;
 
 /// 1 where a pixel and its neighbour are both measured but their jump is not smooth.
-FRANGIA_VECTORISED void mark_broken(const float* __restrict a,
+FRANGIA_VECTORIZED void mark_broken(const float* __restrict a,
                                     const float* __restrict b,
                                     const std::uint8_t* __restrict smooth,
                                     int count,
@@ -34,7 +34,7 @@ FRANGIA_VECTORISED void mark_broken(const float* __restrict a,
 Mask broken_pixels(const Image<float>& phase, const Regions& regions) {
   const int width = phase.width();
   const int height = phase.height();
-  Mask broken(width, height, Unfilled{});
+  Mask broken(width, height, Uninitialized{});
   const auto row_of = [&](const auto& image, int y) {
     return image.pixels().data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
   };
@@ -51,7 +51,7 @@ Mask broken_pixels(const Image<float>& phase, const Regions& regions) {
   return broken;
 }
 
-FRANGIA_VECTORISED void widen(std::uint8_t* __restrict into,
+FRANGIA_VECTORIZED void widen(std::uint8_t* __restrict into,
                               const std::uint8_t* __restrict from,
                               std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
@@ -85,23 +85,23 @@ void dilate(int radius, Mask& mask) {
 }
 
 /// Pixels in raster order, as their index.
-using Front = LargeVector<std::uint32_t>;
+using PixelQueue = LargeVector<std::uint32_t>;
 
 /// Spreads labels over smooth jumps, breadth first, into pixels that `allowed` admits.
 template <typename Allowed>
-void spread(Front& front, Regions& regions, const Allowed& allowed) {
+void grow_labels(PixelQueue& queue, Regions& regions, const Allowed& allowed) {
   const auto width = static_cast<std::uint32_t>(regions.label.width());
   const auto height = static_cast<std::uint32_t>(regions.label.height());
   const auto label = regions.label.pixels();
   const auto right = regions.smooth_right.pixels();
   const auto below = regions.smooth_below.pixels();
-  for (std::size_t head = 0; head < front.size(); ++head) {
-    const std::uint32_t at = front[head];
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const std::uint32_t at = queue[head];
     const std::int32_t own = label[at];
     const auto visit = [&](std::uint32_t to, std::uint8_t smooth) {
       if (smooth == 0 || label[to] >= 0 || !allowed(to)) return;
       label[to] = own;
-      front.push_back(to);
+      queue.push_back(to);
     };
     const std::uint32_t x = at % width;
     if (x > 0) visit(at - 1, right[at - 1]);
@@ -127,10 +127,11 @@ RunSets connect_runs(const Regions& regions, const Allowed& allowed) {
       [&](int x, int y) { return regions.smooth_right(x, y) != 0; });
   RunForest forest(all.runs.size());
   for (int y = 1; y < height; ++y) {
-    meet_row_above(all, y, [&](std::size_t a, std::size_t b, std::int32_t begin, std::int32_t end) {
-      const std::uint8_t* smooth = &regions.smooth_below(0, y - 1);
-      if (std::find(smooth + begin, smooth + end, 1) != smooth + end) forest.join(a, b, 0);
-    });
+    for_each_overlap_above(
+        all, y, [&](std::size_t a, std::size_t b, std::int32_t begin, std::int32_t end) {
+          const std::uint8_t* smooth = &regions.smooth_below(0, y - 1);
+          if (std::find(smooth + begin, smooth + end, 1) != smooth + end) forest.join(a, b, 0);
+        });
   }
   return {std::move(all), std::move(forest)};
 }
@@ -164,46 +165,46 @@ constexpr std::int32_t kNoLabel = -1;
 constexpr std::int32_t kSeveral = -2;
 
 /// The one label that smooth jumps lead to from a run, kNoLabel or kSeveral.
-std::int32_t label_beside(const Regions& regions, int y, PixelRun run) {
+std::int32_t label_adjacent_to(const Regions& regions, int y, PixelRun run) {
   std::int32_t found = kNoLabel;
-  const auto meet = [&](int x, int v, std::uint8_t smooth) {
+  const auto visit = [&](int x, int v, std::uint8_t smooth) {
     const std::int32_t label = regions.label(x, v);
     if (smooth == 0 || label < 0 || label == found) return;
     found = found == kNoLabel ? label : kSeveral;
   };
-  if (run.begin > 0) meet(run.begin - 1, y, regions.smooth_right(run.begin - 1, y));
-  if (run.end < regions.label.width()) meet(run.end, y, regions.smooth_right(run.end - 1, y));
+  if (run.begin > 0) visit(run.begin - 1, y, regions.smooth_right(run.begin - 1, y));
+  if (run.end < regions.label.width()) visit(run.end, y, regions.smooth_right(run.end - 1, y));
   for (std::int32_t x = run.begin; x < run.end && found != kSeveral; ++x) {
-    if (y > 0) meet(x, y - 1, regions.smooth_below(x, y - 1));
-    if (y + 1 < regions.label.height()) meet(x, y + 1, regions.smooth_below(x, y));
+    if (y > 0) visit(x, y - 1, regions.smooth_below(x, y - 1));
+    if (y + 1 < regions.label.height()) visit(x, y + 1, regions.smooth_below(x, y));
   }
   return found;
 }
 
-/// Labels at once the sets of unlabelled pixels that border on a single label: what `spread` would
-/// do a pixel at a time.
+/// Labels at once the sets of unlabelled pixels that border on a single label: what `grow_labels`
+/// would do a pixel at a time.
 template <typename Allowed>
-void label_beside_one(Regions& regions, const Allowed& allowed) {
+void label_sets_with_one_neighbor(Regions& regions, const Allowed& allowed) {
   RunSets sets = connect_runs(regions, allowed);
-  std::vector<std::int32_t> beside(sets.all.runs.size());
+  std::vector<std::int32_t> adjacent(sets.all.runs.size());
   parallel_rows(regions.label.height(), [&](int y) {
     const auto row = static_cast<std::size_t>(y);
     for (std::size_t i = sets.all.first[row]; i < sets.all.first[row + 1]; ++i)
-      beside[i] = label_beside(regions, y, sets.all.runs[i]);
+      adjacent[i] = label_adjacent_to(regions, y, sets.all.runs[i]);
   });
-  std::vector<std::int32_t> of_set(beside.size(), kNoLabel);
-  for (std::size_t i = 0; i < beside.size(); ++i) {
+  std::vector<std::int32_t> of_set(adjacent.size(), kNoLabel);
+  for (std::size_t i = 0; i < adjacent.size(); ++i) {
     std::int32_t& known = of_set[sets.forest.root(i).run];
-    if (beside[i] == kNoLabel || beside[i] == known) continue;
-    known = known == kNoLabel ? beside[i] : kSeveral;
+    if (adjacent[i] == kNoLabel || adjacent[i] == known) continue;
+    known = known == kNoLabel ? adjacent[i] : kSeveral;
   }
-  for (std::size_t i = 0; i < beside.size(); ++i)
-    beside[i] = of_set[sets.forest.root(i).run];
-  label_runs(sets.all, beside, regions);
+  for (std::size_t i = 0; i < adjacent.size(); ++i)
+    adjacent[i] = of_set[sets.forest.root(i).run];
+  label_runs(sets.all, adjacent, regions);
 }
 
 /// 1 where a pixel or one beside it is near a cut: elsewhere no pixel waits for a label.
-FRANGIA_VECTORISED void mark_near(const std::uint8_t* above,
+FRANGIA_VECTORIZED void mark_near(const std::uint8_t* above,
                                   const std::uint8_t* here,
                                   const std::uint8_t* below,
                                   std::size_t count,
@@ -213,10 +214,12 @@ FRANGIA_VECTORISED void mark_near(const std::uint8_t* above,
 }
 
 /// Labelled pixels beside measured ones that have no label yet, which are near a cut.
-Front rims(const Image<float>& phase, const Image<std::int32_t>& label, const Mask& near_cut) {
+PixelQueue growth_seeds(const Image<float>& phase,
+                        const Image<std::int32_t>& label,
+                        const Mask& near_cut) {
   const int width = label.width();
   const int height = label.height();
-  const auto waits = [&](int x, int y) {
+  const auto is_unlabeled = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < width && y < height && label(x, y) < 0 &&
            !std::isnan(phase(x, y));
   };
@@ -236,15 +239,16 @@ Front rims(const Image<float>& phase, const Image<std::int32_t>& label, const Ma
       for (int u = std::max(done, x - 1); u <= std::min(width - 1, x + 1); ++u) {
         done = u + 1;
         if (label(u, y) < 0) continue;
-        if (waits(u - 1, y) || waits(u + 1, y) || waits(u, y - 1) || waits(u, y + 1))
+        if (is_unlabeled(u - 1, y) || is_unlabeled(u + 1, y) || is_unlabeled(u, y - 1) ||
+            is_unlabeled(u, y + 1))
           rows[static_cast<std::size_t>(y)].push_back(begin + static_cast<std::uint32_t>(u));
       }
     }
   });
-  Front front;
+  PixelQueue queue;
   for (const auto& row : rows)
-    front.insert(front.end(), row.begin(), row.end());
-  return front;
+    queue.insert(queue.end(), row.begin(), row.end());
+  return queue;
 }
 
 }  // namespace
@@ -260,9 +264,10 @@ Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options) 
   const auto measured = [&](int x, int y) { return !std::isnan(phase(x, y)); };
   label_all(regions, [&](int x, int y) { return measured(x, y) && near_cut(x, y) == 0; });
   // The rims around the cores: most belong to one, for the others the nearest one is sought.
-  label_beside_one(regions, [&](int x, int y) { return near_cut(x, y) != 0 && measured(x, y); });
-  Front front = rims(phase, regions.label, near_cut);
-  spread(front, regions, [&](std::uint32_t at) { return !std::isnan(phase.pixels()[at]); });
+  label_sets_with_one_neighbor(regions,
+                               [&](int x, int y) { return near_cut(x, y) != 0 && measured(x, y); });
+  PixelQueue queue = growth_seeds(phase, regions.label, near_cut);
+  grow_labels(queue, regions, [&](std::uint32_t at) { return !std::isnan(phase.pixels()[at]); });
   label_all(regions, measured);  // what no core reaches
   return regions;
 }

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "frangia/phase/find_ladder.h"
 #include "frangia/phase/phase_map.h"
-#include "frangia/phase/unwrap_in_time.h"
+#include "frangia/phase/unwrap_levels.h"
+#include "frangia/phase/unwrap_temporally.h"
 #include "frangia/rig/projector.h"
 
 namespace frangia {
@@ -22,6 +22,6 @@ namespace frangia {
 /// source   Huntley and Saldner 1997 for the slope; Reich, Ritter and Thesing 1997 for beats
 [[nodiscard]] AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
                                             const Projector& projector,
-                                            const TimeUnwrapOptions& options = {});
+                                            const TemporalUnwrapOptions& options = {});
 
 }  // namespace frangia

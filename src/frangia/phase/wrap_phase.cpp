@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <utility>
 
-#include "frangia/core/make_room.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/vectorised.h"
-#include "frangia/phase/wrap_tile.h"
+#include "frangia/core/resize_uninitialized.h"
+#include "frangia/core/vectorized.h"
+#include "frangia/phase/internal/wrap_tile.h"
 
 namespace frangia {
 namespace {
@@ -28,12 +28,12 @@ struct Output {
   float* sigma;
   float* modulation;
   float* mean;
-  PixelFate* fate;
+  PixelStatus* status;
 };
 
 /// Modulation, mean and sigma: d phi = (cos phi dS - sin phi dC) / B, with S and C sums over frames
 /// of equal variance.
-FRANGIA_VECTORISED void find_noise(const WrapTile& __restrict tile,
+FRANGIA_VECTORIZED void find_noise(const WrapTile& __restrict tile,
                                    std::size_t n,
                                    TileNoise f,
                                    float* __restrict sigma,
@@ -50,45 +50,45 @@ FRANGIA_VECTORISED void find_noise(const WrapTile& __restrict tile,
   }
 }
 
-FRANGIA_VECTORISED void find_lost(const float* __restrict sigma,
-                                  std::size_t n,
-                                  Limits f,
-                                  WrapTile& __restrict tile) {
-  constexpr auto kSaturated = static_cast<std::int32_t>(PixelFate::Saturated);
-  constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelFate::Unmodulated);
+FRANGIA_VECTORIZED void find_status(const float* __restrict sigma,
+                                    std::size_t n,
+                                    Limits f,
+                                    WrapTile& __restrict tile) {
+  constexpr auto kSaturated = static_cast<std::int32_t>(PixelStatus::Saturated);
+  constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelStatus::Unmodulated);
   for (std::size_t i = 0; i < n; ++i) {
     const std::int32_t dim = sigma[i] <= f.max_sigma ? 0 : kUnmodulated;
-    tile.lost[i] = static_cast<std::int32_t>(tile.top[i]) >= f.white ? kSaturated : dim;
+    tile.status[i] = static_cast<std::int32_t>(tile.brightest[i]) >= f.white ? kSaturated : dim;
   }
 }
 
-FRANGIA_VECTORISED void discard_lost(const WrapTile& __restrict tile,
-                                     std::size_t n,
-                                     float* __restrict phase,
-                                     float* __restrict sigma) {
+FRANGIA_VECTORIZED void clear_discarded(const WrapTile& __restrict tile,
+                                        std::size_t n,
+                                        float* __restrict phase,
+                                        float* __restrict sigma) {
   for (std::size_t i = 0; i < n; ++i) {
-    phase[i] = tile.lost[i] != 0 ? kMissing : phase[i];
-    sigma[i] = tile.lost[i] != 0 ? kMissing : sigma[i];
+    phase[i] = tile.status[i] != 0 ? kMissing : phase[i];
+    sigma[i] = tile.status[i] != 0 ? kMissing : sigma[i];
   }
 }
 
-FRANGIA_VECTORISED void copy_out(const WrapTile& __restrict tile,
+FRANGIA_VECTORIZED void copy_out(const WrapTile& __restrict tile,
                                  std::size_t n,
                                  float* __restrict mean,
-                                 PixelFate* __restrict fate) {
+                                 PixelStatus* __restrict status) {
   for (std::size_t i = 0; i < n; ++i)
     mean[i] = tile.mean[i];
   for (std::size_t i = 0; i < n; ++i)
-    fate[i] = static_cast<PixelFate>(tile.lost[i]);
+    status[i] = static_cast<PixelStatus>(tile.status[i]);
 }
 
 void finish_tile(
     WrapTile& tile, std::size_t n, const TileNoise& noise, float max_sigma, const Output& out) {
   find_tile_phase(tile, n, out.phase);
   find_noise(tile, n, noise, out.sigma, out.modulation);
-  find_lost(out.sigma, n, {noise.white, max_sigma}, tile);
-  discard_lost(tile, n, out.phase, out.sigma);
-  copy_out(tile, n, out.mean, out.fate);
+  find_status(out.sigma, n, {noise.white, max_sigma}, tile);
+  clear_discarded(tile, n, out.phase, out.sigma);
+  copy_out(tile, n, out.mean, out.status);
 }
 
 }  // namespace
@@ -97,22 +97,22 @@ WrappedPhase wrap_phase(const FrameStack& stack,
                         const PhaseAlgorithm& algorithm,
                         const NoiseModel& noise,
                         const WrapOptions& options,
-                        WrappedPhase lent) {
+                        WrappedPhase recycled) {
   check_frames(stack, algorithm);
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
   const TileNoise noise_of_sums = tile_noise(stack, algorithm, noise);
-  WrappedPhase out = std::move(lent);
+  WrappedPhase out = std::move(recycled);
   out.pattern = stack.pattern;
   for (auto* map : {&out.phase_rad, &out.sigma_rad, &out.modulation_counts, &out.mean_counts})
-    make_room(width, height, *map);
-  make_room(width, height, out.fate);
+    resize_uninitialized(width, height, *map);
+  resize_uninitialized(width, height, out.status);
 
   parallel_chunks(out.phase_rad.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
     WrapTile tile;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
     for (std::size_t at = begin; at < end; at += kTilePixels) {
       const std::size_t n = std::min(kTilePixels, end - at);
-      tile.top.fill(0);
+      tile.brightest.fill(0);
       sum_frames(stack, algorithm, at, n, tile);
       finish_tile(tile,
                   n,
@@ -122,7 +122,7 @@ WrappedPhase wrap_phase(const FrameStack& stack,
                    out.sigma_rad.pixels().data() + at,
                    out.modulation_counts.pixels().data() + at,
                    out.mean_counts.pixels().data() + at,
-                   out.fate.pixels().data() + at});
+                   out.status.pixels().data() + at});
     }
   });
   return out;

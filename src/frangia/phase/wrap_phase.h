@@ -15,17 +15,16 @@ struct WrapOptions {
 
 /// Phase, modulation, mean and expected phase noise of every pixel.
 ///
-/// `lent` is a map that is no longer needed: of the same size, its memory is written over, since
-/// touching new memory for the first time costs more than all the rest.
-/// shape    N frames of w x h in, w x h out
-/// units    counts in; rad and counts out
-/// missing  a pixel that is saturated in any frame, or unmodulated, has no phase and says why
-/// errors   Error(Input) when the frames differ in number or size from what the pattern says
-/// source   the paper's equation (1) and the algorithm's own
+/// `recycled` is a map that is no longer needed: of the same size, its memory is written over,
+/// since touching new memory for the first time costs more than all the rest. shape    N frames of
+/// w x h in, w x h out units    counts in; rad and counts out missing  a pixel that is saturated in
+/// any frame, or unmodulated, has no phase and says why errors   Error(Input) when the frames
+/// differ in number or size from what the pattern says source   the paper's equation (1) and the
+/// algorithm's own
 [[nodiscard]] WrappedPhase wrap_phase(const FrameStack& stack,
                                       const PhaseAlgorithm& algorithm,
                                       const NoiseModel& noise,
                                       const WrapOptions& options = {},
-                                      WrappedPhase lent = {});
+                                      WrappedPhase recycled = {});
 
 }  // namespace frangia

@@ -10,39 +10,42 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
-/// Ray (x, y, 1) t against the plane normal . (X - centre) = 0. `turning` is d normal / d angle.
-RayDepth meet_plane(const Eigen::Vector3d& direction,
-                    const Eigen::Vector3d& normal,
-                    const Eigen::Vector3d& turning,
-                    const Eigen::Vector3d& centre) {
+/// Ray (x, y, 1) t against the plane normal . (X - center) = 0. `normal_derivative` is d normal / d
+/// angle.
+RayDepth intersect_plane(const Eigen::Vector3d& direction,
+                         const Eigen::Vector3d& normal,
+                         const Eigen::Vector3d& normal_derivative,
+                         const Eigen::Vector3d& center) {
   const double across = normal.dot(direction);
-  const double depth = normal.dot(centre) / across;
+  const double depth = normal.dot(center) / across;
   if (!(depth > 0.0) || std::isinf(depth)) return {kNowhere, kNowhere};
-  return {depth, turning.dot(centre - depth * direction) / across};
+  return {depth, normal_derivative.dot(center - depth * direction) / across};
 }
 
-RayDepth meet_angle(const Eigen::Vector3d& direction, double psi_rad, const Projector& projector) {
+RayDepth intersect_angle(const Eigen::Vector3d& direction,
+                         double psi_rad,
+                         const Projector& projector) {
   // psi = atan2(p.x, p.z) is the plane p.x cos psi - p.z sin psi = 0.
   const Eigen::Vector3d x = projector.rotation.row(0);
   const Eigen::Vector3d z = projector.rotation.row(2);
   const double c = std::cos(psi_rad);
   const double s = std::sin(psi_rad);
-  return meet_plane(direction, c * x - s * z, -s * x - c * z, projector.position_mm);
+  return intersect_plane(direction, c * x - s * z, -s * x - c * z, projector.position_mm);
 }
 
 /// A projector column (axis 0) or row (1): a plane but for the lens, so a plane first, then Newton
 /// along the ray on the distorted column.
-RayDepth meet_pixel(const Eigen::Vector3d& direction,
-                    double pixel,
-                    int axis,
-                    const Projector& projector) {
-  const auto& lens = std::get<PinholeModel>(projector.model);
-  const double focal = lens.focal_px(axis);
-  const double normalised = (pixel - lens.principal_point_px(axis)) / focal;
+RayDepth intersect_pixel(const Eigen::Vector3d& direction,
+                         double pixel,
+                         int axis,
+                         const Projector& projector) {
+  const auto& pinhole = std::get<PinholeModel>(projector.model);
+  const double focal = pinhole.focal_px(axis);
+  const double normalized = (pixel - pinhole.principal_point_px(axis)) / focal;
   const Eigen::Vector3d across = projector.rotation.row(axis);
   const Eigen::Vector3d forward = projector.rotation.row(2);
-  RayDepth found =
-      meet_plane(direction, across - normalised * forward, -forward / focal, projector.position_mm);
+  RayDepth found = intersect_plane(
+      direction, across - normalized * forward, -forward / focal, projector.position_mm);
   const Eigen::Vector3d step = projector.rotation * direction;
   constexpr int kIterations = 12;
   for (int i = 0; i < kIterations; ++i) {
@@ -50,8 +53,9 @@ RayDepth meet_pixel(const Eigen::Vector3d& direction,
     if (!(p.z() > 0.0)) return {kNowhere, kNowhere};
     const Eigen::Vector2d point = p.head<2>() / p.z();
     const Eigen::Vector2d moves = (step.head<2>() - point * step.z()) / p.z();
-    const double error = focal * lens.distort(point)(axis) + lens.principal_point_px(axis) - pixel;
-    const double px_per_mm = focal * lens.distort_jacobian(point).row(axis).dot(moves);
+    const double error =
+        focal * pinhole.distort(point)(axis) + pinhole.principal_point_px(axis) - pixel;
+    const double px_per_mm = focal * pinhole.distort_jacobian(point).row(axis).dot(moves);
     found.mm_per_rad = 1.0 / px_per_mm;
     if (std::abs(error) < 1e-9) return found;
     found.depth_mm -= error / px_per_mm;
@@ -62,20 +66,20 @@ RayDepth meet_pixel(const Eigen::Vector3d& direction,
 
 }  // namespace
 
-RayDepth intersect(const Eigen::Vector2d& ray,
-                   double phase_rad,
-                   const Pattern& pattern,
-                   const Projector& projector) {
-  const double unit = phase_rad / (kTurn * pattern.fringes_per_unit());  // degrees, or pixels
-  const double unit_per_rad = 1.0 / (kTurn * pattern.fringes_per_unit());
+RayDepth intersect_fringe(const Eigen::Vector2d& ray,
+                          double phase_rad,
+                          const Pattern& pattern,
+                          const Projector& projector) {
+  const double unit = phase_rad / (kTwoPi * pattern.fringes_per_unit());  // degrees, or pixels
+  const double unit_per_rad = 1.0 / (kTwoPi * pattern.fringes_per_unit());
   const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
   if (projector.is_angular()) {
-    RayDepth found = meet_angle(direction, rad_from_deg(unit), projector);
+    RayDepth found = intersect_angle(direction, rad_from_deg(unit), projector);
     found.mm_per_rad *= rad_from_deg(unit_per_rad);
     return found;
   }
   const int axis = pattern.direction == FringeDirection::Horizontal ? 1 : 0;
-  RayDepth found = meet_pixel(direction, unit, axis, projector);
+  RayDepth found = intersect_pixel(direction, unit, axis, projector);
   found.mm_per_rad *= unit_per_rad;
   return found;
 }
@@ -84,7 +88,7 @@ double phase_at(const Eigen::Vector3d& point_mm,
                 const Pattern& pattern,
                 const Projector& projector) {
   const Eigen::Vector3d p = projector.from_rig(point_mm);
-  const double rad_per_unit = kTurn * pattern.fringes_per_unit();
+  const double rad_per_unit = kTwoPi * pattern.fringes_per_unit();
   if (!(p.z() > 0.0)) return kNowhere;
   if (projector.is_angular()) return rad_per_unit * deg_from_rad(std::atan2(p.x(), p.z()));
   const int axis = pattern.direction == FringeDirection::Horizontal ? 1 : 0;

@@ -23,10 +23,10 @@ RangeGrid triangulate(AbsolutePhase& phase, const Rig& rig, const Image<Eigen::V
       const double sigma = phase.sigma_rad(x, y);
       const Eigen::Vector2d ray = rays(x, y).cast<double>();
       const bool in_field = phi > lit.min_rad - 4.0 * sigma && phi < lit.max_rad + 4.0 * sigma;
-      const RayDepth found = in_field ? intersect(ray, phi, phase.pattern, rig.projector)
+      const RayDepth found = in_field ? intersect_fringe(ray, phi, phase.pattern, rig.projector)
                                       : RayDepth{kMissing, kMissing};
       if (std::isnan(found.depth_mm)) {
-        phase.fate(x, y) = PixelFate::OutOfField;
+        phase.status(x, y) = PixelStatus::OutOfField;
         continue;
       }
       const double along_ray = std::sqrt(1.0 + ray.squaredNorm());

@@ -11,7 +11,7 @@ namespace frangia {
 
 /// Where each camera ray meets the light of its phase.
 ///
-/// shape    w x h in and out; `rays` from `rays_of(rig.camera.lens)`
+/// shape    w x h in and out; `rays` from `rays_of(rig.camera.model)`
 /// units    mm, rig frame; sigma along the viewing ray
 /// missing  a pixel without a phase, or whose phase the projector does not show in front of the
 ///          camera, has no depth; the latter is marked OutOfField in `phase`

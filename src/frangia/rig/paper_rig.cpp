@@ -16,12 +16,12 @@ Rig make_paper_rig(const PaperGeometry& g) {
   require(g.theta0_rad > 0.0 && g.x0_mm > g.xp_mm,
           "make_paper_rig: theta0 must be above 0 and the projector in front of O");
   Rig rig;
-  Lens& lens = rig.camera.lens;
-  lens.width_px = g.columns;
-  lens.height_px = g.rows;
-  lens.focal_px.setConstant(g.focal_mm / g.pixel_mm);
+  CameraModel& model = rig.camera.model;
+  model.width_px = g.columns;
+  model.height_px = g.rows;
+  model.focal_px.setConstant(g.focal_mm / g.pixel_mm);
   // Equation (2) counts pixels from ncol / 2, and y to the left: the paper's y is our -x.
-  lens.principal_point_px = {0.5 * g.columns, 0.5 * g.rows};
+  model.principal_point_px = {0.5 * g.columns, 0.5 * g.rows};
   const double c = std::cos(g.theta0_rad);
   const double s = std::sin(g.theta0_rad);
   rig.projector.model = AngularModel{-0.5 * g.field_rad, 0.5 * g.field_rad};
@@ -31,7 +31,7 @@ Rig make_paper_rig(const PaperGeometry& g) {
       0.0, -1.0, 0.0,                    //
       s, 0.0, c;
   const Eigen::Vector3d normal(c, 0.0, -s);
-  rig.line = LightPlane{normal, normal.dot(rig.projector.position_mm)};
+  rig.laser_sheet = LaserSheet{normal, normal.dot(rig.projector.position_mm)};
   return rig;
 }
 

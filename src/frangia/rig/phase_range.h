@@ -10,7 +10,7 @@ struct PhaseRange {
   double min_rad = 0.0;
   double max_rad = 0.0;
   [[nodiscard]] double width_rad() const { return max_rad - min_rad; }
-  [[nodiscard]] double centre_rad() const { return 0.5 * (min_rad + max_rad); }
+  [[nodiscard]] double center_rad() const { return 0.5 * (min_rad + max_rad); }
 };
 
 [[nodiscard]] PhaseRange phase_range(const Pattern& pattern, const Projector& projector);

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "frangia/rig/lens.h"
+#include "frangia/rig/camera_model.h"
 #include "frangia/rig/response_curve.h"
 
 namespace frangia {
@@ -17,7 +17,7 @@ struct AngularModel {
 };
 
 /// A digital projector, evenly spaced in its own pixels.
-using PinholeModel = Lens;
+using PinholeModel = CameraModel;
 
 struct Projector {
   std::variant<AngularModel, PinholeModel> model;

@@ -53,29 +53,29 @@ Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
   return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
 }
 
-Lens read_lens(TomlReader& reader) {
-  Lens lens;
+CameraModel read_camera_model(TomlReader& reader) {
+  CameraModel model;
   const auto size = reader.numbers("size_px", 2);
   for (const double side : size) {
     if (side < 1.0 || side > kMaxSide || side != std::floor(side)) {
       reader.fail("size_px", "must be two whole numbers, width and height, from 1 to 65535");
     }
   }
-  lens.width_px = static_cast<int>(size[0]);
-  lens.height_px = static_cast<int>(size[1]);
-  lens.focal_px = vector2(reader, "focal_px");
-  if (lens.focal_px.minCoeff() <= 0.0) reader.fail("focal_px", "must be two numbers above 0");
-  lens.principal_point_px = vector2(reader, "principal_point_px");
+  model.width_px = static_cast<int>(size[0]);
+  model.height_px = static_cast<int>(size[1]);
+  model.focal_px = vector2(reader, "focal_px");
+  if (model.focal_px.minCoeff() <= 0.0) reader.fail("focal_px", "must be two numbers above 0");
+  model.principal_point_px = vector2(reader, "principal_point_px");
   if (reader.has("distortion")) {
     const auto values = reader.numbers("distortion", 5);
-    std::copy(values.begin(), values.end(), lens.distortion.begin());
+    std::copy(values.begin(), values.end(), model.distortion.begin());
   }
-  return lens;
+  return model;
 }
 
 Camera read_camera(TomlReader reader, const Run& run) {
   Camera camera;
-  camera.lens = read_lens(reader);
+  camera.model = read_camera_model(reader);
   camera.white_level = reader.has("white_level") ? reader.integer("white_level", 1, 65535) : 255;
   if (reader.has("noise")) {
     TomlReader noise = reader.table("noise");
@@ -83,9 +83,9 @@ Camera read_camera(TomlReader reader, const Run& run) {
     const double read = noise.number("read_e");
     if (read < 0.0) noise.fail("read_e", fmt::format("is {}; it must be 0 or above", read));
     camera.noise = NoiseModel::from_camera(gain, read);
-    noise.warn_of_the_rest(run);
+    noise.warn_of_unused_keys(run);
   }
-  reader.warn_of_the_rest(run);
+  reader.warn_of_unused_keys(run);
   return camera;
 }
 
@@ -101,7 +101,7 @@ Projector read_projector(TomlReader reader, const Run& run) {
     }
     projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1])};
   } else if (model == "pinhole") {
-    projector.model = read_lens(reader);
+    projector.model = read_camera_model(reader);
   } else {
     reader.fail("model", fmt::format(R"(is "{}"; it must be "angular" or "pinhole")", model));
   }
@@ -112,27 +112,27 @@ Projector read_projector(TomlReader reader, const Run& run) {
     if (light.size() < 2 || light.front() != 0.0 || light.back() != 1.0 || !rises)
       response.fail("light", "must rise from 0 to 1, a number for each of evenly spaced levels");
     projector.response = ResponseCurve{light};
-    response.warn_of_the_rest(run);
+    response.warn_of_unused_keys(run);
   }
   if (projector.position_mm.norm() == 0.0) {
     reader.fail("position_mm",
                 "is the camera's own centre; without a baseline nothing is measured");
   }
-  reader.warn_of_the_rest(run);
+  reader.warn_of_unused_keys(run);
   return projector;
 }
 
-std::string toml_of(const Lens& lens) {
+std::string toml_of(const CameraModel& model) {
   return fmt::format(
       "size_px = [{}, {}]\nfocal_px = [{}, {}]\nprincipal_point_px = [{}, {}]\n"
       "distortion = [{}]\n",
-      lens.width_px,
-      lens.height_px,
-      lens.focal_px.x(),
-      lens.focal_px.y(),
-      lens.principal_point_px.x(),
-      lens.principal_point_px.y(),
-      fmt::join(lens.distortion, ", "));
+      model.width_px,
+      model.height_px,
+      model.focal_px.x(),
+      model.focal_px.y(),
+      model.principal_point_px.x(),
+      model.principal_point_px.y(),
+      fmt::join(model.distortion, ", "));
 }
 
 std::string toml_of(const Eigen::Vector3d& v) {
@@ -174,21 +174,21 @@ Rig read_rig(const std::filesystem::path& path, const Run& run) {
   rig.projector = read_projector(reader.table("projector"), run);
   if (reader.has("line")) {
     TomlReader line = reader.table("line");
-    rig.line = LightPlane{direction(line, "normal"), line.number("offset_mm")};
-    line.warn_of_the_rest(run);
+    rig.laser_sheet = LaserSheet{direction(line, "normal"), line.number("offset_mm")};
+    line.warn_of_unused_keys(run);
   }
   if (reader.has("turntable")) {
     TomlReader turntable = reader.table("turntable");
     rig.turntable = Turntable{vector3(turntable, "point_mm"), direction(turntable, "axis")};
-    turntable.warn_of_the_rest(run);
+    turntable.warn_of_unused_keys(run);
   }
-  reader.warn_of_the_rest(run);
+  reader.warn_of_unused_keys(run);
   return rig;
 }
 
 void write_rig(const std::filesystem::path& path, const Rig& rig) {
   std::string text = "format = \"frangia-rig\"\nversion = 1\n\n[camera]\n";
-  text += toml_of(rig.camera.lens);
+  text += toml_of(rig.camera.model);
   text += fmt::format("white_level = {}\n", rig.camera.white_level);
   if (rig.camera.noise) {
     const double gain = 1.0 / rig.camera.noise->slope_counts;
@@ -197,9 +197,10 @@ void write_rig(const std::filesystem::path& path, const Rig& rig) {
         "\n[camera.noise]\ngain_e_per_count = {}\nread_e = {}\n", gain, gain * std::sqrt(read2));
   }
   text += toml_of(rig.projector);
-  if (rig.line) {
-    text += fmt::format(
-        "\n[line]\nnormal = {}\noffset_mm = {}\n", toml_of(rig.line->normal), rig.line->offset_mm);
+  if (rig.laser_sheet) {
+    text += fmt::format("\n[line]\nnormal = {}\noffset_mm = {}\n",
+                        toml_of(rig.laser_sheet->normal),
+                        rig.laser_sheet->offset_mm);
   }
   if (rig.turntable) {
     text += fmt::format("\n[turntable]\npoint_mm = {}\naxis = {}\n",

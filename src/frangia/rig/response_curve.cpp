@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kSamples = 65;
 
 /// Averages values that fall into steps that do not.
-void make_rising(std::vector<double>& values) {
+void make_monotone(std::vector<double>& values) {
   struct Pool {
     double sum;
     double count;
@@ -51,13 +51,13 @@ std::vector<double> slopes_of(const std::vector<double>& x, const std::vector<do
 }  // namespace
 
 double ResponseCurve::light_of(double level) const {
-  const double place = std::clamp(level, 0.0, 1.0) * static_cast<double>(light.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(place), light.size() - 2);
-  return std::lerp(light[i], light[i + 1], place - static_cast<double>(i));
+  const double position = std::clamp(level, 0.0, 1.0) * static_cast<double>(light.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(position), light.size() - 2);
+  return std::lerp(light[i], light[i + 1], position - static_cast<double>(i));
 }
 
-double ResponseCurve::level_of(double light_share) const {
-  const double wanted = std::clamp(light_share, 0.0, 1.0);
+double ResponseCurve::level_of(double light_fraction) const {
+  const double wanted = std::clamp(light_fraction, 0.0, 1.0);
   const auto above = std::lower_bound(light.begin() + 1, light.end() - 1, wanted);
   const auto i = static_cast<std::size_t>(above - light.begin()) - 1;
   const double rise = light[i + 1] - light[i];
@@ -77,7 +77,7 @@ ResponseCurve make_response_curve(const std::vector<double>& levels, std::vector
           "the projector's last level is no brighter than its first: check its light");
   for (double& value : light)
     value = (value - dark) / full;
-  make_rising(light);
+  make_monotone(light);
   for (double& value : light)
     value = std::clamp(value, 0.0, 1.0);
   light.front() = 0.0;
@@ -96,16 +96,16 @@ ResponseCurve make_response_curve(const std::vector<double>& levels, std::vector
                          light[i + 1] * t * t * (1.0 + 2.0 * u) - step * slope[i + 1] * t * t * u;
     curve.light.push_back(std::clamp(cubic, 0.0, 1.0));
   }
-  make_rising(curve.light);
+  make_monotone(curve.light);
   curve.light.front() = 0.0;
   curve.light.back() = 1.0;
   return curve;
 }
 
-ResponseCurve compose(const ResponseCurve& known, const ResponseCurve& left) {
+ResponseCurve compose(const ResponseCurve& known, const ResponseCurve& residual) {
   ResponseCurve all;
   for (std::size_t k = 0; k < kSamples; ++k)
-    all.light.push_back(left.light_of(known.light_of(static_cast<double>(k) / (kSamples - 1))));
+    all.light.push_back(residual.light_of(known.light_of(static_cast<double>(k) / (kSamples - 1))));
   return all;
 }
 

@@ -11,7 +11,7 @@ struct ResponseCurve {
   /// The light of a level.
   [[nodiscard]] double light_of(double level) const;
   /// The level that gives this light: what a pattern's look-up table holds.
-  [[nodiscard]] double level_of(double light_share) const;
+  [[nodiscard]] double level_of(double light_fraction) const;
 };
 
 /// A curve from light measured at some levels, made monotone.
@@ -23,7 +23,7 @@ struct ResponseCurve {
                                                 std::vector<double> light);
 
 /// The response of a projector whose pattern was shown through the look-up table of `known`, and
-/// then was seen to have the response `left`.
-[[nodiscard]] ResponseCurve compose(const ResponseCurve& known, const ResponseCurve& left);
+/// then was seen to have the response `residual`.
+[[nodiscard]] ResponseCurve compose(const ResponseCurve& known, const ResponseCurve& residual);
 
 }  // namespace frangia

@@ -5,19 +5,19 @@
 #include <Eigen/Geometry>
 
 #include "frangia/frames/noise_model.h"
-#include "frangia/rig/lens.h"
+#include "frangia/rig/camera_model.h"
 #include "frangia/rig/projector.h"
 
 namespace frangia {
 
 struct Camera {
-  Lens lens;
+  CameraModel model;
   int white_level = 255;            ///< the value at which a pixel is saturated
   std::optional<NoiseModel> noise;  ///< estimated from the frames where it is not given
 };
 
 /// The single plane of light: normal . X = offset_mm, in the rig frame.
-struct LightPlane {
+struct LaserSheet {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit
   double offset_mm = 0.0;
 };
@@ -35,7 +35,7 @@ struct Turntable {
 struct Rig {
   Camera camera;
   Projector projector;
-  std::optional<LightPlane> line;
+  std::optional<LaserSheet> laser_sheet;
   std::optional<Turntable> turntable;
 
   /// `Turntable::rig_from_object`, or the identity for a rig without a turntable.

@@ -19,8 +19,8 @@ namespace frangia {
 /// For sources only: it brings toml++ along.
 class TomlReader {
  public:
-  TomlReader(std::filesystem::path file, std::string place, const toml::table& table)
-      : file_(std::move(file)), place_(std::move(place)), table_(&table) {}
+  TomlReader(std::filesystem::path file, std::string table_name, const toml::table& table)
+      : file_(std::move(file)), table_name_(std::move(table_name)), table_(&table) {}
 
   [[noreturn]] void fail(std::string_view key, std::string_view what) const {
     throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), name(key), what));
@@ -28,19 +28,19 @@ class TomlReader {
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
 
   [[nodiscard]] double number(std::string_view key) { return finite(key, node(key)); }
-  [[nodiscard]] double number_or(std::string_view key, double otherwise) {
-    return has(key) ? number(key) : otherwise;
+  [[nodiscard]] double number_or(std::string_view key, double fallback) {
+    return has(key) ? number(key) : fallback;
   }
   [[nodiscard]] double positive(std::string_view key) {
     const double value = number(key);
     if (value <= 0.0) fail(key, fmt::format("is {}; it must be above 0", value));
     return value;
   }
-  [[nodiscard]] int integer(std::string_view key, int least, int most) {
+  [[nodiscard]] int integer(std::string_view key, int minimum, int maximum) {
     const auto value = node(key).value_exact<std::int64_t>();
     if (!value) fail(key, "must be a whole number");
-    if (*value < least || *value > most) {
-      fail(key, fmt::format("is {}; it must lie between {} and {}", *value, least, most));
+    if (*value < minimum || *value > maximum) {
+      fail(key, fmt::format("is {}; it must lie between {} and {}", *value, minimum, maximum));
     }
     return static_cast<int>(*value);
   }
@@ -87,7 +87,9 @@ class TomlReader {
   [[nodiscard]] TomlReader table(std::string_view key) {
     const toml::table* inner = node(key).as_table();
     if (inner == nullptr) fail(key, fmt::format("must be a table, [{}]", key));
-    return {file_, place_.empty() ? std::string(key) : fmt::format("{}.{}", place_, key), *inner};
+    return {file_,
+            table_name_.empty() ? std::string(key) : fmt::format("{}.{}", table_name_, key),
+            *inner};
   }
   /// The tables of [[key]]; empty when there are none.
   [[nodiscard]] std::vector<TomlReader> tables(std::string_view key) {
@@ -106,7 +108,7 @@ class TomlReader {
   void ignore(std::string_view key) { used_.insert(std::string(key)); }
 
   /// Warns of each key that nothing has asked for.
-  void warn_of_the_rest(const Run& run) const {
+  void warn_of_unused_keys(const Run& run) const {
     for (const auto& [key, value] : *table_) {
       if (!used_.contains(std::string(key.str()))) {
         run.warn(fmt::format("{}: {} is not known and ignored", file_.string(), name(key.str())));
@@ -116,7 +118,7 @@ class TomlReader {
 
  private:
   [[nodiscard]] std::string name(std::string_view key) const {
-    return place_.empty() ? std::string(key) : fmt::format("{}.{}", place_, key);
+    return table_name_.empty() ? std::string(key) : fmt::format("{}.{}", table_name_, key);
   }
   [[nodiscard]] const toml::node& node(std::string_view key) {
     used_.insert(std::string(key));
@@ -132,7 +134,7 @@ class TomlReader {
   }
 
   std::filesystem::path file_;
-  std::string place_;
+  std::string table_name_;
   const toml::table* table_;
   std::set<std::string> used_;
 };

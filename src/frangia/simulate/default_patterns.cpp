@@ -19,7 +19,7 @@ std::vector<double> even_shifts(int count) {
   std::vector<double> shifts;
   shifts.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
-    shifts.push_back(kTurn * i / count);
+    shifts.push_back(kTwoPi * i / count);
   return shifts;
 }
 
@@ -34,7 +34,7 @@ Pattern angular_pattern(const std::string& name, double fringes_per_degree, int 
 std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
   const double finest = plan.fringes_per_degree;
   require(std::isfinite(finest) && finest > 0.0, "fringes per degree must be above 0");
-  if (rig.line) {
+  if (rig.laser_sheet) {
     Pattern line;
     line.name = "line";
     line.kind = PatternKind::Line;
@@ -52,10 +52,10 @@ std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
   return patterns;
 }
 
-std::vector<Pattern> pinhole_patterns(const PinholeModel& lens, const PatternPlan& plan) {
+std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const PatternPlan& plan) {
   std::vector<double> periods = plan.periods_px;
   if (periods.empty()) {
-    const double width = lens.width_px;
+    const double width = pinhole.width_px;
     periods = {width, width / 8.0, width / 64.0};
   }
   std::sort(periods.begin(), periods.end(), std::greater<>());
@@ -73,15 +73,16 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& lens, const PatternPla
 
 /// A sequence of fringes over the whole field of either projector.
 std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) {
-  const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+  const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns;
   const bool gray = plan.sequence == "gray";
-  require(!gray || lens != nullptr, "Gray code is for a digital projector; the rig's is angular");
+  require(!gray || pinhole != nullptr,
+          "Gray code is for a digital projector; the rig's is angular");
   for (const double fringes :
        gray ? std::vector<double>{plan.fringes} : fringe_sequence(plan.sequence, plan.fringes)) {
     const std::string name = fmt::format("f{:g}", fringes);
-    if (lens != nullptr) {
-      Pattern pattern{.name = name, .period_px = lens->width_px / fringes};
+    if (pinhole != nullptr) {
+      Pattern pattern{.name = name, .period_px = pinhole->width_px / fringes};
       pattern.shifts_rad = even_shifts(plan.shifts);
       patterns.push_back(pattern);
       continue;
@@ -90,7 +91,8 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
     const double field_deg = deg_from_rad(field.field_max_rad - field.field_min_rad);
     patterns.push_back(angular_pattern(name, fringes / field_deg, plan.shifts));
   }
-  if (gray) patterns.push_back(gray_for_fringes(patterns.front(), lens->width_px, plan.inverted));
+  if (gray)
+    patterns.push_back(gray_code_for_fringes(patterns.front(), pinhole->width_px, plan.inverted));
   return patterns;
 }
 
@@ -98,9 +100,9 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
 
 std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
   require(plan.shifts >= 3, "a phase needs at least three shifts");
-  const auto* lens = std::get_if<PinholeModel>(&rig.projector.model);
+  const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns = !plan.sequence.empty() ? sequence_patterns(rig, plan)
-                                  : lens != nullptr      ? pinhole_patterns(*lens, plan)
+                                  : pinhole != nullptr   ? pinhole_patterns(*pinhole, plan)
                                                          : angular_patterns(rig, plan);
   for (Pattern& pattern : patterns)
     if (pattern.kind != PatternKind::Line) pattern.exposures_ms = plan.exposures_ms;

@@ -23,7 +23,7 @@ struct PatternPlan {
 
 /// Patterns that give a rig absolute phase.
 ///
-/// angular with a plane of light   one fringe pattern, and the line that numbers its fringes
+/// angular with a laser sheet   one fringe pattern, and the line that numbers its fringes
 /// angular without                 from one fringe over the field, doubled up to the finest
 /// pinhole                         the periods, from coarse to fine
 ///

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frangia/surface/mesh.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 

@@ -23,11 +23,11 @@ Eigen::Vector3d tilted_axis(const Eigen::Vector3d& forward) {
 
 Rig digital() {
   Rig rig;
-  rig.camera.lens = {.width_px = 960,
-                     .height_px = 768,
-                     .focal_px = {1800.0, 1800.0},
-                     .principal_point_px = {490.45, 377.35},
-                     .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0}};
+  rig.camera.model = {.width_px = 960,
+                      .height_px = 768,
+                      .focal_px = {1800.0, 1800.0},
+                      .principal_point_px = {490.45, 377.35},
+                      .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0}};
   rig.projector.model = PinholeModel{.width_px = 1280,
                                      .height_px = 800,
                                      .focal_px = {1900.0, 1900.0},
@@ -40,8 +40,8 @@ Rig digital() {
   return rig;
 }
 
-/// A plane of light through the projector that leaves it at an angle from the camera's axis.
-LightPlane plane_of_light(const Projector& projector, double angle_rad) {
+/// A laser sheet through the projector that leaves it at an angle from the camera's axis.
+LaserSheet laser_sheet_through(const Projector& projector, double angle_rad) {
   const Eigen::Vector3d normal(std::cos(angle_rad), 0.0, std::sin(angle_rad));
   return {normal, normal.dot(projector.position_mm)};
 }
@@ -53,10 +53,10 @@ Rig paper_rig(double focal_px) {
   constexpr double kProjectorDistance_mm = 1000.0;
   const double theta0 = rad_from_deg(20.0);
   Rig rig;
-  rig.camera.lens = {.width_px = 512,
-                     .height_px = 512,
-                     .focal_px = {focal_px, focal_px},
-                     .principal_point_px = {255.5, 255.5}};
+  rig.camera.model = {.width_px = 512,
+                      .height_px = 512,
+                      .focal_px = {focal_px, focal_px},
+                      .principal_point_px = {255.5, 255.5}};
   rig.projector.model = AngularModel{rad_from_deg(-12.0), rad_from_deg(12.0)};
   rig.projector.position_mm = {kProjectorDistance_mm * std::sin(theta0),
                                0.0,
@@ -64,7 +64,7 @@ Rig paper_rig(double focal_px) {
   rig.projector.rotation << std::cos(theta0), 0.0, std::sin(theta0),  //
       0.0, 1.0, 0.0,                                                  //
       -std::sin(theta0), 0.0, std::cos(theta0);
-  rig.line = plane_of_light(rig.projector, theta0);
+  rig.laser_sheet = laser_sheet_through(rig.projector, theta0);
   rig.turntable = Turntable{{0.0, 55.0, kX0_mm}, {0.0, -1.0, 0.0}};
   return rig;
 }
@@ -76,12 +76,13 @@ Rig carducci() {
 
 Rig angular() {
   Rig rig = paper_rig(1000.0);
-  rig.line = plane_of_light(rig.projector, rad_from_deg(20.5));
-  // On the plane of light and leaning within it, so that the line crosses the part at every height.
-  const Eigen::Vector3d& normal = rig.line->normal;
+  rig.laser_sheet = laser_sheet_through(rig.projector, rad_from_deg(20.5));
+  // On the laser sheet and leaning within it, so that the line crosses the part at every height.
+  const Eigen::Vector3d& normal = rig.laser_sheet->normal;
   const double z_mm = 516.0;
-  rig.turntable = Turntable{{(rig.line->offset_mm - normal.z() * z_mm) / normal.x(), 50.0, z_mm},
-                            tilted_axis(normal.cross(Eigen::Vector3d::UnitY()))};
+  rig.turntable =
+      Turntable{{(rig.laser_sheet->offset_mm - normal.z() * z_mm) / normal.x(), 50.0, z_mm},
+                tilted_axis(normal.cross(Eigen::Vector3d::UnitY()))};
   return rig;
 }
 

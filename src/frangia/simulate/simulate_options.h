@@ -23,8 +23,8 @@ struct SimulateOptions {
   double step_error = 0.0;       ///< every shift is larger by this share of itself
   double step_jitter_rad = 0.0;  ///< rms, another error for each frame
   double display_gamma = 1.0;    ///< of a pinhole projector that was not linearised
-  double line_sigma_mm = 0.25;   ///< of the plane of light's profile, across the plane
-  double line_spill = 0.03;      ///< light beside the plane of light, as a share of its peak
+  double line_sigma_mm = 0.25;   ///< of the laser sheet's profile, across the plane
+  double line_spill = 0.03;      ///< light beside the laser sheet, as a share of its peak
 
   // The surface.
   double texture = 0.0;           ///< 0: all white; 1: smooth patches down to black
@@ -38,9 +38,9 @@ struct SimulateOptions {
   // The turntable.
   double angle_error_rad =
       0.0;  ///< rms, another for each view but the first, which says how the part stands
-  double axis_offset_mm = 0.0;     ///< how far the true axis is from the one rig.toml gives
-  double axis_tilt_rad = 0.0;      ///< and how much it leans from it
-  double platter_radius_mm = 0.0;  ///< a disc with its top at z = 0; 0 for none
+  double axis_offset_mm = 0.0;           ///< how far the true axis is from the one rig.toml gives
+  double axis_tilt_rad = 0.0;            ///< and how much it leans from it
+  double turntable_top_radius_mm = 0.0;  ///< a disc with its top at z = 0; 0 for none
 };
 
 }  // namespace frangia

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "frangia/simulate/simulated_devices.h"
+#include "frangia/simulate/internal/simulated_devices.h"
 
 namespace frangia {
 namespace {
@@ -14,7 +14,7 @@ Driver driver(std::string name, DeviceKind kind, std::string what, Open open) {
   Driver made;
   made.name = std::move(name);
   made.kind = kind;
-  made.what = std::move(what);
+  made.description = std::move(what);
   made.open = std::move(open);
   return made;
 }
@@ -69,7 +69,7 @@ std::vector<Driver> simulated_drivers(const BenchPtr& bench) {
   drivers.push_back(
       switch_driver(DeviceKind::Light, "the fringes' light", bench, &SimulatedBench::fringe_light));
   drivers.push_back(
-      switch_driver(DeviceKind::Line, "a plane of light", bench, &SimulatedBench::line_light));
+      switch_driver(DeviceKind::LaserSheet, "a laser sheet", bench, &SimulatedBench::line_light));
   return drivers;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 struct Count {
   std::size_t kept = 0;
-  std::size_t dropped = 0;
+  std::size_t removed = 0;
 };
 
 Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip) {
@@ -31,27 +31,31 @@ Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip
       if (keeps(rays(x, y), depth(x, y))) {
         ++count.kept;
       } else {
-        ++count.dropped;
+        ++count.removed;
         depth(x, y) = kMissing;
       }
     }
   });
   Count all;
-  const auto beyond = std::remove_if(view.rim.begin(), view.rim.end(), [&](const RangePixel& p) {
-    return !keeps(rays(p.x, p.y), p.depth_mm);
-  });
-  all.dropped += static_cast<std::size_t>(view.rim.end() - beyond);
-  view.rim.erase(beyond, view.rim.end());
+  const auto beyond =
+      std::remove_if(view.edge_pixels.begin(), view.edge_pixels.end(), [&](const RangePixel& p) {
+        return !keeps(rays(p.x, p.y), p.depth_mm);
+      });
+  all.removed += static_cast<std::size_t>(view.edge_pixels.end() - beyond);
+  view.edge_pixels.erase(beyond, view.edge_pixels.end());
   for (const Count& row : rows) {
     all.kept += row.kept;
-    all.dropped += row.dropped;
+    all.removed += row.removed;
   }
   return all;
 }
 
 }  // namespace
 
-std::size_t clip_views(ViewStore& views, const Lens& camera, const Clip& clip, const Run& run) {
+std::size_t clip_views(ViewStore& views,
+                       const CameraModel& camera,
+                       const Clip& clip,
+                       const Run& run) {
   const auto rays = rays_of(camera);
   Count all;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -60,14 +64,14 @@ std::size_t clip_views(ViewStore& views, const Lens& camera, const Clip& clip, c
     require(same_size(view.range.depth_mm, rays),
             "clip_views: a view and the camera differ in size");
     const Count count = clip_view(view, rays, clip);
-    if (count.dropped > 0) views.replace(i, view);
+    if (count.removed > 0) views.replace(i, view);
     all.kept += count.kept;
-    all.dropped += count.dropped;
+    all.removed += count.removed;
   }
   require(all.kept > 0,
           "nothing is left of the object: every point lies below the clip or beyond its radius; "
           "lower --clip-below or widen --clip-radius");
-  return all.dropped;
+  return all.removed;
 }
 
 }  // namespace frangia

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/rig/lens.h"
+#include "frangia/rig/camera_model.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -25,6 +25,9 @@ struct Clip {
 /// missing  a dropped point is NaN, as one that was never seen
 /// errors   Error(Input) when no point is left
 /// Returns how many points were dropped.
-std::size_t clip_views(ViewStore& views, const Lens& camera, const Clip& clip, const Run& run = {});
+std::size_t clip_views(ViewStore& views,
+                       const CameraModel& camera,
+                       const Clip& clip,
+                       const Run& run = {});
 
 }  // namespace frangia

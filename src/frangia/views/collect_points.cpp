@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-PointCloud collect_points(const ViewStore& views, const Lens& camera, const Run& run) {
+PointCloud collect_points(const ViewStore& views, const CameraModel& camera, const Run& run) {
   const auto rays = rays_of(camera);
   PointCloud cloud;
   for (std::size_t i = 0; i < views.size(); ++i) {

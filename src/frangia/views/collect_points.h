@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/run.h"
-#include "frangia/rig/lens.h"
+#include "frangia/rig/camera_model.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -20,7 +20,7 @@ struct PointCloud {
 
 /// View by view, row by row.
 [[nodiscard]] PointCloud collect_points(const ViewStore& views,
-                                        const Lens& camera,
+                                        const CameraModel& camera,
                                         const Run& run = {});
 
 }  // namespace frangia

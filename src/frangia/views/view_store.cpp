@@ -79,13 +79,14 @@ std::int64_t ViewStore::write(const View& view, std::int64_t offset) {
   Cursor cursor(file_, offset);
   cursor.write(std::as_bytes(view.range.depth_mm.pixels()));
   cursor.write(std::as_bytes(view.range.sigma_mm.pixels()));
-  cursor.write(std::as_bytes(std::span(view.rim)));
+  cursor.write(std::as_bytes(std::span(view.edge_pixels)));
   return cursor.offset();
 }
 
 void ViewStore::add(const View& view) {
   const Image<float>& depth = view.range.depth_mm;
-  const Entry entry{view.rig_from_object, depth.width(), depth.height(), view.rim.size(), end_};
+  const Entry entry{
+      view.rig_from_object, depth.width(), depth.height(), view.edge_pixels.size(), end_};
   end_ = write(view, end_);
   entries_.push_back(entry);
 }
@@ -95,16 +96,17 @@ void ViewStore::replace(std::size_t index, const View& view) {
   require(
       view.range.depth_mm.width() == entry.width && view.range.depth_mm.height() == entry.height,
       "ViewStore::replace: the grid has another size");
-  require(view.rim.size() <= entry.rim, "ViewStore::replace: the rim has grown");
+  require(view.edge_pixels.size() <= entry.edge_pixels,
+          "ViewStore::replace: it has more edge pixels than before");
   entry.rig_from_object = view.rig_from_object;
-  entry.rim = view.rim.size();
+  entry.edge_pixels = view.edge_pixels.size();
   write(view, entry.offset);
 }
 
 void ViewStore::clear(std::size_t index) {
   View view = load(index);
   std::fill(view.range.depth_mm.pixels().begin(), view.range.depth_mm.pixels().end(), kMissing);
-  view.rim.clear();
+  view.edge_pixels.clear();
   replace(index, view);
 }
 
@@ -112,13 +114,13 @@ View ViewStore::load(std::size_t index) const {
   const Entry& entry = entries_.at(index);
   View view;
   view.rig_from_object = entry.rig_from_object;
-  view.rim.resize(entry.rim);
-  view.range.depth_mm = Image<float>(entry.width, entry.height, Unfilled{});
-  view.range.sigma_mm = Image<float>(entry.width, entry.height, Unfilled{});
+  view.edge_pixels.resize(entry.edge_pixels);
+  view.range.depth_mm = Image<float>(entry.width, entry.height, Uninitialized{});
+  view.range.sigma_mm = Image<float>(entry.width, entry.height, Uninitialized{});
   Cursor cursor(file_, entry.offset);
   cursor.read(std::as_writable_bytes(view.range.depth_mm.pixels()));
   cursor.read(std::as_writable_bytes(view.range.sigma_mm.pixels()));
-  cursor.read(std::as_writable_bytes(std::span(view.rim)));
+  cursor.read(std::as_writable_bytes(std::span(view.edge_pixels)));
   return view;
 }
 

@@ -23,7 +23,7 @@ class ViewStore {
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
   void add(const View& view);
-  /// Replaces view `index`; the grid must have the size it had, the rim no more pixels.
+  /// Replaces view `index`; the grid must have the size it had, with no more edge pixels.
   void replace(std::size_t index, const View& view);
   /// Takes all points of view `index` away: it stays, but saw nothing.
   void clear(std::size_t index);
@@ -41,7 +41,7 @@ class ViewStore {
     Eigen::Isometry3d rig_from_object;
     int width = 0;
     int height = 0;
-    std::size_t rim = 0;  ///< pixels
+    std::size_t edge_pixels = 0;  ///< pixels
     std::int64_t offset = 0;
   };
   /// Returns where it ends.

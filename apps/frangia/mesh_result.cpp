@@ -1,0 +1,38 @@
+#include "mesh_result.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace frangia {
+namespace {
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+void print_mesh_result(nlohmann::ordered_json result,
+                       Terminal& terminal,
+                       const std::vector<std::filesystem::path>& outputs) {
+  for (const auto& [stage, seconds] : terminal.stage_seconds())
+    result["seconds"][stage] = seconds;
+  result["peak_memory_mb"] = peak_memory_mb();
+  result["warnings"] = terminal.warnings();
+  for (const auto& path : outputs)
+    result["outputs"].push_back(path.string());
+  fmt::print("{}\n", result.dump(2));
+}
+
+void print_mesh_summary(Terminal& terminal, const std::vector<std::filesystem::path>& outputs) {
+  for (const auto& [stage, seconds] : terminal.stage_seconds())
+    fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
+  fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
+  for (const auto& path : outputs)
+    fmt::print("wrote {}\n", path.string());
+}
+
+}  // namespace frangia

@@ -1,0 +1,186 @@
+#include "frangia/acquisition/internal/capture_devices.h"
+
+#include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/pattern/pattern_picture.h"
+
+namespace frangia {
+namespace {
+
+/// Adds the time it lives to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  Stopwatch(Stopwatch&&) = delete;
+  Stopwatch& operator=(Stopwatch&&) = delete;
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(Deadline::Clock::now() - begin_).count();
+  }
+
+ private:
+  double& seconds_;
+  Deadline::Clock::time_point begin_ = Deadline::Clock::now();
+};
+
+void check_frame(const Device& camera, const Frame& frame, const Rig& rig) {
+  const CameraModel& model = rig.camera.model;
+  if (width_of(frame) == model.width_px && height_of(frame) == model.height_px) return;
+  fail_device(camera,
+              fmt::format("its frame is {} x {} pixels, but camera.size_px in rig.toml is {} x "
+                          "{}; correct the one or the other",
+                          width_of(frame),
+                          height_of(frame),
+                          model.width_px,
+                          model.height_px));
+}
+
+}  // namespace
+
+void check_devices(const RigDevices& devices,
+                   const Rig& rig,
+                   std::span<const Pattern> patterns,
+                   std::span<const double> angles_rad) {
+  require(devices.camera != nullptr, "the rig has no [devices.camera]; add it to rig.toml");
+  for (const Pattern& pattern : patterns) {
+    if (pattern.kind == PatternKind::Line) {
+      require(devices.laser_sheet != nullptr,
+              "the rig has no [devices.line], which the laser sheet needs; add it to rig.toml");
+    } else if (rig.projector.is_angular()) {
+      require(devices.shifter != nullptr,
+              "the rig has no [devices.fringes], which moves an interferometer's fringes; add it "
+              "to rig.toml");
+    } else {
+      require(devices.display != nullptr,
+              "the rig has no [devices.fringes], which shows a digital projector's patterns; add "
+              "it to rig.toml");
+    }
+  }
+  if (!devices.turntable) {
+    require(angles_rad.size() < 2,
+            "the rig has no [devices.turntable], which several views need; add it to rig.toml, or "
+            "take --views 1");
+    return;
+  }
+  const TurntableInfo& info = devices.turntable->info();
+  constexpr double kRounding = 1e-9;
+  for (const double angle_rad : angles_rad) {
+    if (angle_rad >= info.min_rad - kRounding && angle_rad <= info.max_rad + kRounding) continue;
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: the view at {:.6g} degrees is outside its limits, {:.6g} to "
+                            "{:.6g}; take other views, or correct min_deg and max_deg in rig.toml",
+                            devices.turntable->name(),
+                            deg_from_rad(angle_rad),
+                            deg_from_rad(info.min_rad),
+                            deg_from_rad(info.max_rad)));
+  }
+}
+
+CaptureDevices::CaptureDevices(RigDevices& devices,
+                               const Rig& rig,
+                               const CaptureOptions& options,
+                               const Run& run)
+    : devices_(devices), rig_(rig), options_(options), run_(run) {
+  if (devices.shifter) shift_.emplace(*devices.shifter);
+}
+
+void CaptureDevices::turn_to(double angle_rad) {
+  if (!devices_.turntable) return;
+  const Stopwatch watch(seconds_);
+  TurntableDevice& table = *devices_.turntable;
+  const Deadline until = deadline(options_.move_timeout_s);
+  if (!enabled_) table.enable(true, until);
+  enabled_ = true;
+  if (!table.angle_rad()) table.home(until);
+  table.move_to(angle_rad, until);
+  deadline(options_.settle_s + 1.0).sleep(options_.settle_s);
+}
+
+void CaptureDevices::begin_set(const Pattern& pattern, double scale) {
+  if (!shift_ || pattern.kind != PatternKind::Fringe) return;
+  const Stopwatch watch(seconds_);
+  devices_.shifter->set_fringe_frequency(pattern.fringes_per_degree, deadline(options_.timeout_s));
+  shift_->set_scale(scale);
+  shift_->return_to_start(deadline(options_.timeout_s));
+}
+
+void CaptureDevices::show(const Pattern& pattern, int frame) {
+  switch_to(pattern.kind == PatternKind::Line ? Light::Line : Light::Fringes);
+  if (pattern.kind == PatternKind::Line) return;
+  if (shift_) {
+    const Stopwatch watch(seconds_);
+    shift_->shift_to(pattern.shifts_rad[static_cast<std::size_t>(frame)],
+                     deadline(options_.timeout_s));
+    return;
+  }
+  const DisplayInfo& info = devices_.display->info();
+  const Image<float> picture = pattern_picture(pattern, frame, info.width_px, info.height_px);
+  const Stopwatch watch(seconds_);
+  devices_.display->show(picture, deadline(options_.timeout_s));
+}
+
+void CaptureDevices::switch_to(Light wanted) {
+  if (wanted == active_light_) return;
+  const Stopwatch watch(seconds_);
+  const Deadline until = deadline(options_.timeout_s);
+  if (devices_.laser_sheet) devices_.laser_sheet->set(wanted == Light::Line, until);
+  if (devices_.light) devices_.light->set(wanted == Light::Fringes, until);
+  active_light_ = wanted;
+}
+
+void CaptureDevices::expose_for(double exposure_ms) {
+  if (exposure_ms == exposure_ms_) return;
+  const Stopwatch watch(seconds_);
+  CameraSettings settings = options_.camera;
+  settings.exposure_ms = exposure_ms;
+  exposure_ms_ = 0.0;
+  devices_.camera->configure(settings, deadline(options_.timeout_s));
+  exposure_ms_ = exposure_ms;
+}
+
+CompleteFrame CaptureDevices::capture(const FrameLabel& label) {
+  const Stopwatch watch(seconds_);
+  std::string cause;
+  for (int attempts = 1; attempts <= options_.frame_attempts; ++attempts) {
+    run_.check();
+    const Deadline until = deadline(options_.timeout_s + 1e-3 * exposure_ms_);
+    CapturedFrame captured = devices_.camera->capture(label, until);
+    if (captured.complete) {
+      check_frame(*devices_.camera, captured.frame, rig_);
+      return {std::move(captured.frame), attempts};
+    }
+    cause = captured.incomplete_cause;
+  }
+  fail_device(*devices_.camera,
+              fmt::format("frame {} of \"{}\" came incomplete {} times ({}); check its cable and "
+                          "network",
+                          label.frame,
+                          label.pattern,
+                          options_.frame_attempts,
+                          cause));
+}
+
+void CaptureDevices::make_safe() noexcept {
+  devices_.make_safe();
+  active_light_ = Light::None;
+  enabled_ = false;
+  exposure_ms_ = 0.0;
+}
+
+void CaptureDevices::check_health() {
+  for (Device* device : devices_.all())
+    static_cast<void>(device->test(deadline(options_.timeout_s)));
+  if (devices_.turntable && !devices_.turntable->info().can_home &&
+      !devices_.turntable->angle_rad()) {
+    fail_device(*devices_.turntable,
+                "its angle was lost and it has no home switch; turn it back to 0 by hand and scan "
+                "again, which goes on where this ended");
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,79 @@
+#include "frangia/acquisition/internal/view_assessor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/pipeline/decode_view.h"
+
+namespace frangia {
+namespace {
+
+/// The one word that a assessment begins with, and what to do about it.
+std::string word_for(const FrameAssessment& frames, std::size_t points) {
+  constexpr double kOverexposed = 0.02;
+  constexpr double kLowContrast = 0.2;
+  if (points == 0) return "nothing measured, check light and exposure";
+  if (frames.vibration_suspected) return "vibration suspected, check the mounting";
+  if (frames.saturated_fraction > kOverexposed)
+    return "overexposed, shorten or bracket the exposure";
+  if (frames.contrast < kLowContrast) return "low contrast, reduce ambient light";
+  return "good";
+}
+
+}  // namespace
+
+ViewAssessor::ViewAssessor(const Scan& plan, const Run& run)
+    : plan_(plan), run_(run), rays_(rays_of(plan.rig.camera.model)) {}
+
+void ViewAssessor::begin(std::size_t view, std::vector<std::shared_ptr<const Frame>> frames) {
+  report(true);
+  view_ = view;
+  decoding_ =
+      std::async(std::launch::async, [this, all = std::move(frames)] { return decode(all); });
+}
+
+void ViewAssessor::report(bool wait) {
+  if (!decoding_.valid()) return;
+  if (!wait && decoding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  run_.note(fmt::format("view {} of {} at {:.6g} degrees: {}",
+                        view_ + 1,
+                        plan_.views.size(),
+                        deg_from_rad(plan_.views[view_].angle_rad),
+                        decoding_.get()));
+}
+
+std::string ViewAssessor::decode(const std::vector<std::shared_ptr<const Frame>>& frames) const {
+  std::vector<FrameStack> stacks;
+  std::size_t next = 0;
+  for (const Pattern& pattern : plan_.patterns) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      FrameStack stack{pattern, {}, plan_.rig.camera.white_level, exposure};
+      for (int frame = 0; frame < pattern.frame_count(); ++frame)
+        stack.frames.push_back(*frames.at(next++));
+      stacks.push_back(std::move(stack));
+    }
+  }
+  try {
+    const DecodedView decoded = decode_view(stacks, plan_.rig, rays_);
+    const auto phase = decoded.phase.phase_rad.pixels();
+    auto points = static_cast<std::size_t>(
+        std::count_if(phase.begin(), phase.end(), [](float value) { return !std::isnan(value); }));
+    for (const UnresolvedRegion& region : decoded.unresolved)
+      points += region.pixel.size();
+    const FrameAssessment& finest = decoded.assessments.back();
+    return fmt::format("{}: contrast {:.2f}, {:.1f} % saturated, {} points",
+                       word_for(finest, points),
+                       finest.contrast,
+                       100.0 * finest.saturated_fraction,
+                       points);
+  } catch (const Error& error) {
+    return fmt::format("cannot be decoded: {}", error.what());
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/core/pixel_allocator.h"
+
+namespace frangia {
+
+/// Many values in pieces of one size on huge pages. They stay where they are while others are
+/// added, and the memory that one kind gives back is what the next kind takes: to touch memory for
+/// the first time costs as much as to compute what it holds.
+///
+/// missing  new values hold nothing yet, not even zeros
+template <typename T>
+class ChunkedVector {
+ public:
+  ChunkedVector() = default;
+  explicit ChunkedVector(std::size_t count) {
+    chunks_.reserve((count + kChunkSize - 1) / kChunkSize);
+    while (chunks_.size() * kChunkSize < count)
+      chunks_.emplace_back(kChunkCapacity);
+    size_ = count;
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] T& operator[](std::size_t i) { return chunks_[i / kChunkSize][i % kChunkSize]; }
+  [[nodiscard]] const T& operator[](std::size_t i) const {
+    return chunks_[i / kChunkSize][i % kChunkSize];
+  }
+  void append_uninitialized() {
+    if (size_ == chunks_.size() * kChunkSize) chunks_.emplace_back(kChunkCapacity);
+    ++size_;
+  }
+
+ private:
+  static constexpr std::size_t kBytes = std::size_t{4} << 20U;
+  static constexpr std::size_t kChunkCapacity = kBytes / sizeof(T);
+  static constexpr std::size_t kChunkSize =
+      std::bit_floor(kChunkCapacity);  ///< used: a shift finds it
+  std::vector<LargeVector<T>> chunks_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace frangia

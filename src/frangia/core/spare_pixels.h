@@ -1,9 +1,0 @@
-#pragma once
-
-namespace frangia {
-
-/// Gives the memory that is kept for the next image back to the system: at the end of a stage whose
-/// images the next one does not have.
-void release_spare_pixels() noexcept;
-
-}  // namespace frangia

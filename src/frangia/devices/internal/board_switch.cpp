@@ -1,0 +1,35 @@
+#include "frangia/devices/internal/board_switch.h"
+
+#include <utility>
+
+namespace frangia {
+
+BoardSwitch::BoardSwitch(std::shared_ptr<MotionController> board, std::string on, std::string off)
+    : board_(std::move(board)), on_command_(std::move(on)), off_command_(std::move(off)) {}
+
+BoardSwitch::~BoardSwitch() {
+  make_safe();
+}
+
+std::string BoardSwitch::test(const Deadline& deadline) {
+  return board_->identify(deadline);
+}
+
+void BoardSwitch::make_safe() noexcept {
+  if (!is_on()) return;
+  try {
+    set(false, Deadline::in(1.0));
+  } catch (const Error&) {
+    board_->stop();
+    on_ = false;
+  }
+}
+
+void BoardSwitch::set(bool on, const Deadline& deadline) {
+  stop_count_ = board_->stop_count();
+  on_ = true;  // for all that is known, until the board has said "ok" to off
+  board_->command(on ? on_command_ : off_command_, deadline);
+  on_ = on;
+}
+
+}  // namespace frangia

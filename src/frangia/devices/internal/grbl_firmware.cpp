@@ -1,0 +1,206 @@
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/devices/internal/motion_controller.h"
+
+namespace frangia {
+namespace {
+
+constexpr const char* kReset = "\x18";
+constexpr const char* kHold = "!";
+constexpr double kQuiet_s = 0.05;
+
+const char* meaning_of_alarm(int code) {
+  switch (code) {
+    case 1:
+      return "a limit switch was hit";
+    case 2:
+      return "the target lies beyond the travel set in $130 to $132";
+    case 3:
+      return "it was reset while it moved";
+    case 6:
+    case 7:
+    case 8:
+    case 9:
+      return "homing failed; check the home switch";
+    default:
+      return "see GRBL's list of alarms";
+  }
+}
+
+const char* meaning_of_error(int code) {
+  switch (code) {
+    case 5:
+      return "homing is not enabled; set $22=1, or home = \"here\"";
+    case 8:
+      return "it does that at standstill only";
+    case 9:
+      return "it is locked after an alarm; home the table again";
+    case 15:
+      return "the target lies beyond its travel";
+    case 20:
+      return "it does not know this command";
+    default:
+      return "see GRBL's list of errors";
+  }
+}
+
+/// "ALARM:3" and "error:9" end in the number.
+int number_after_colon(const std::string& line) {
+  return std::atoi(line.c_str() + line.find(':') + 1);  // NOLINT(cert-err34-c) 0 is no code
+}
+
+bool is_greeting(const std::string& line) {
+  return line.rfind("Grbl ", 0) == 0;
+}
+
+class Grbl final : public MotionController {
+ public:
+  Grbl(std::unique_ptr<Transport> transport, const MotionControllerSettings& settings)
+      : transport_(std::move(transport)), settings_(settings) {}
+
+  [[nodiscard]] const std::string& name() const override { return transport_->name(); }
+
+  void connect(const Deadline& deadline) override {
+    // Opening the port resets most boards: let it boot, a byte now may land in its boot loader.
+    if (!wait_for_greeting(deadline.at_most(settings_.boot_s))) {
+      transport_->write(kReset, deadline);
+      if (!wait_for_greeting(deadline)) {
+        fail_device(name(),
+                    last_line_.empty()
+                        ? fmt::format("no greeting from GRBL within {:.3g} s; is this the port?",
+                                      deadline.timeout_s)
+                        : fmt::format("does not speak GRBL: it said '{}'; check port and baud",
+                                      printable(last_line_)));
+      }
+    }
+    if (settings_.steps_per_unit > 0.0) set_steps(deadline);
+  }
+
+  [[nodiscard]] std::string identify(const Deadline& deadline) override {
+    transport_->write("?", deadline);
+    for (;;) {
+      const std::string answer = read_line(*transport_, deadline);
+      if (!answer.empty() && answer.front() == '<') return "GRBL, " + printable(answer);
+    }
+  }
+
+  // GRBL holds its motor as long as $1 says; there is no command for it.
+  void enable_motor(bool /*on*/, const Deadline& deadline) override {
+    static_cast<void>(identify(deadline));
+  }
+
+  void home(const Deadline& deadline) override {
+    command("$H", deadline);
+    set_zero(deadline);
+  }
+
+  void set_zero(const Deadline& deadline) override {
+    command("$X", deadline);
+    command(fmt::format("G92 {}0", settings_.axis), deadline);
+  }
+
+  void move_to(double units, double units_per_s, const Deadline& deadline) override {
+    try {
+      command(fmt::format("G21 G90 G1 {}{:.4f} F{:.3f}", settings_.axis, units, 60.0 * units_per_s),
+              deadline);
+      // "ok" to a move says that it is queued. A dwell is answered when the queue has run empty.
+      command("G4 P0.01", deadline);
+    } catch (const Error&) {
+      stop();
+      throw;
+    }
+  }
+
+  void command(const std::string& line, const Deadline& deadline) override {
+    static_cast<void>(answer_to(line, deadline));
+  }
+
+  void stop() noexcept override {
+    record_stop();
+    try {
+      const Deadline soon = Deadline::in(1.0);
+      transport_->write(kHold, soon);
+      // Reset turns spindle and coolant off, which is where lasers hang.
+      transport_->write(kReset, soon);
+      if (!wait_for_greeting(soon)) return;
+      // Answers to what was given up may still be on their way.
+      while (transport_->try_read('\n', Deadline::in(kQuiet_s))) {
+      }
+    } catch (
+        const Error&) {  // NOLINT(bugprone-empty-catch) the line is dead: nothing more can be done
+    }
+  }
+
+ private:
+  bool wait_for_greeting(const Deadline& deadline) {
+    while (auto line = transport_->try_read('\n', deadline)) {
+      if (is_greeting(*line)) return true;
+      if (line->find_first_not_of("\r ") != std::string::npos) last_line_ = *line;
+    }
+    return false;
+  }
+
+  /// The lines that come before "ok".
+  std::map<int, double> answer_to(const std::string& line, const Deadline& deadline) {
+    transport_->write(line + "\n", deadline);
+    std::map<int, double> values;
+    for (;;) {
+      const std::string answer = read_line(*transport_, deadline);
+      if (answer == "ok") return values;
+      if (answer.rfind("error:", 0) == 0) {
+        fail_device(name(), refusal(line, answer));
+      }
+      if (answer.rfind("ALARM:", 0) == 0) {
+        fail_device(name(),
+                    fmt::format("{}, {}; its angle is lost, home the table again",
+                                answer,
+                                meaning_of_alarm(number_after_colon(answer))));
+      }
+      if (is_greeting(answer)) {
+        fail_device(name(), "the board started anew; its angle is lost, home the table again");
+      }
+      if (answer.rfind('$', 0) == 0 && answer.find('=') != std::string::npos) {
+        values[std::atoi(answer.c_str() + 1)] =  // NOLINT(cert-err34-c) a setting of no number is 0
+            std::atof(answer.c_str() + answer.find('=') + 1);  // NOLINT(cert-err34-c)
+      } else if (!answer.empty() && answer.front() != '[' && answer.front() != '<') {
+        fail_device(name(),
+                    fmt::format("answered '{}' to {}; is it GRBL, and the baud rate right?",
+                                printable(answer),
+                                line));
+      }
+    }
+  }
+  [[nodiscard]] static std::string refusal(const std::string& line, const std::string& answer) {
+    return fmt::format(
+        "refused {} ({}): {}", line, answer, meaning_of_error(number_after_colon(answer)));
+  }
+
+  void set_steps(const Deadline& deadline) {
+    const int key = 100 + (settings_.axis == 'Y' ? 1 : settings_.axis == 'Z' ? 2 : 0);
+    const auto values = answer_to("$$", deadline);
+    const auto found = values.find(key);
+    if (found == values.end()) fail_device(name(), fmt::format("does not tell its ${}", key));
+    if (std::abs(found->second - settings_.steps_per_unit) < 1e-3) return;
+    // Only where it differs: the memory wears, and while it is written the board hears nothing,
+    // so that nothing else may be on the way before its "ok".
+    command(fmt::format("${}={:.3f}", key, settings_.steps_per_unit), deadline);
+  }
+
+  std::unique_ptr<Transport> transport_;
+  MotionControllerSettings settings_;
+  std::string last_line_;
+};
+
+}  // namespace
+
+std::unique_ptr<MotionController> make_grbl(std::unique_ptr<Transport> transport,
+                                            const MotionControllerSettings& settings) {
+  return std::make_unique<Grbl>(std::move(transport), settings);
+}
+
+}  // namespace frangia

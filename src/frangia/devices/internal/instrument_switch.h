@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "frangia/devices/internal/message_instrument.h"
+#include "frangia/devices/switch_device.h"
+
+namespace frangia {
+
+/// A lamp or laser behind an instrument on a line: a supply's output, a relay.
+class InstrumentSwitch final : public SwitchDevice {
+ public:
+  /// Switches off first.
+  InstrumentSwitch(MessageInstrument line,
+                   std::vector<std::string> on,
+                   std::vector<std::string> off,
+                   const Deadline& deadline);
+  InstrumentSwitch(const InstrumentSwitch&) = delete;
+  InstrumentSwitch& operator=(const InstrumentSwitch&) = delete;
+  InstrumentSwitch(InstrumentSwitch&&) = delete;
+  InstrumentSwitch& operator=(InstrumentSwitch&&) = delete;
+  ~InstrumentSwitch() override;
+
+  [[nodiscard]] std::string name() const override { return "light at " + instrument_.name(); }
+  [[nodiscard]] std::string test(const Deadline& deadline) override;
+  void make_safe() noexcept override;
+  void set(bool on, const Deadline& deadline) override;
+  [[nodiscard]] bool is_on() const override { return is_on_; }
+
+ private:
+  MessageInstrument instrument_;
+  std::vector<std::string> on_;
+  std::vector<std::string> off_;
+  bool is_on_ = false;
+};
+
+}  // namespace frangia

@@ -1,0 +1,201 @@
+#include "frangia/devices/internal/open_transport.h"
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <utility>
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/serial_port.hpp>
+#include <boost/asio/write.hpp>
+#include <fmt/format.h>
+#include <sys/file.h>
+
+namespace frangia {
+namespace {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+
+/// A device that talks without ever ending a line does not speak our language.
+constexpr std::size_t kLongestLine = 65536;
+
+/// Runs what was started on the context until `done`; on a stop or at the deadline calls `cancel`
+/// and lets the handlers end. Returns whether it was done in time.
+bool run_until(asio::io_context& context,
+               const bool& done,
+               const Deadline& deadline,
+               const std::function<void()>& cancel) {
+  context.restart();
+  while (!done) {
+    if (deadline.stop.stop_requested() || deadline.passed()) {
+      cancel();
+      context.run();
+      deadline.check();
+      return false;
+    }
+    const auto left = deadline.time - Deadline::Clock::now();
+    context.run_for(std::min<Deadline::Clock::duration>(left, std::chrono::milliseconds(20)));
+  }
+  return true;
+}
+
+template <typename Stream>
+class AsioTransport final : public Transport {
+ public:
+  explicit AsioTransport(std::string name) : name_(std::move(name)), stream_(context_) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Stream& stream() { return stream_; }
+  [[nodiscard]] asio::io_context& context() { return context_; }
+
+  void write(std::string_view bytes, const Deadline& deadline) override {
+    bool done = false;
+    error_code failure;
+    asio::async_write(stream_,
+                      asio::buffer(bytes.data(), bytes.size()),
+                      [&](const error_code& code, std::size_t /*count*/) {
+                        failure = code;
+                        done = true;
+                      });
+    if (!run_until(context_, done, deadline, [this] { cancel(); })) {
+      fail_device(name_, fmt::format("takes no bytes for {:.3g} s", deadline.timeout_s));
+    }
+    if (failure) fail_closed(failure);
+  }
+
+  [[nodiscard]] std::optional<std::string> try_read(char end, const Deadline& deadline) override {
+    for (;;) {
+      const std::size_t found = received_.find(end);
+      if (found != std::string::npos) {
+        std::string text = received_.substr(0, found);
+        received_.erase(0, found + 1);
+        return text;
+      }
+      if (received_.size() > kLongestLine) {
+        fail_device(
+            name_,
+            fmt::format("sends without end ('{}'); is the baud rate right?", printable(received_)));
+      }
+      if (!receive(deadline)) return std::nullopt;
+    }
+  }
+
+  void discard_input() override {
+    while (receive(Deadline::in(0.0))) {
+    }
+    received_.clear();
+  }
+
+ private:
+  bool receive(const Deadline& deadline) {
+    bool done = false;
+    error_code failure;
+    std::size_t received = 0;
+    stream_.async_read_some(asio::buffer(chunk_), [&](const error_code& code, std::size_t count) {
+      failure = code;
+      received = count;
+      done = true;
+    });
+    // What has come already counts even when the deadline has passed.
+    context_.restart();
+    context_.poll();
+    const bool in_time = done || run_until(context_, done, deadline, [this] { cancel(); });
+    received_.append(chunk_.data(), received);
+    if (failure && failure != asio::error::operation_aborted) fail_closed(failure);
+    return in_time || received > 0;
+  }
+  void cancel() {
+    error_code ignored;
+    stream_.cancel(ignored);
+  }
+  [[noreturn]] void fail_closed(const error_code& code) const {
+    fail_device(name_, fmt::format("the connection broke ({}); is it plugged in?", code.message()));
+  }
+
+  std::string name_;
+  asio::io_context context_;
+  Stream stream_;
+  std::array<char, 1024> chunk_{};
+  std::string received_;
+};
+
+void configure_port(asio::serial_port& port, const SerialSettings& settings) {
+  using Port = asio::serial_port_base;
+  const auto parity = settings.parity == Parity::Even  ? Port::parity::even
+                      : settings.parity == Parity::Odd ? Port::parity::odd
+                                                       : Port::parity::none;
+  port.set_option(Port::baud_rate(static_cast<unsigned>(settings.baud)));
+  port.set_option(Port::character_size(8U));
+  port.set_option(Port::parity(parity));
+  port.set_option(
+      Port::stop_bits(settings.stop_bits == 2 ? Port::stop_bits::two : Port::stop_bits::one));
+  port.set_option(Port::flow_control(Port::flow_control::none));
+}
+
+}  // namespace
+
+std::unique_ptr<Transport> open_serial(const SerialSettings& settings) {
+  auto transport = std::make_unique<AsioTransport<asio::serial_port>>(settings.port);
+  asio::serial_port& port = transport->stream();
+  error_code failure;
+  port.open(settings.port, failure);
+  if (failure) {
+    const bool forbidden = failure == asio::error::access_denied;
+    fail_device(settings.port,
+                fmt::format("cannot be opened ({}); {}",
+                            failure.message(),
+                            forbidden ? "join the group dialout and log in again"
+                                      : "'frangia devices' lists the ports there are"));
+  }
+  // Two programs that talk to one motor would make a third thing of it.
+  if (::flock(port.native_handle(), LOCK_EX | LOCK_NB) != 0) {
+    fail_device(settings.port, "is in use by another program; end that first");
+  }
+  try {
+    configure_port(port, settings);
+  } catch (const boost::system::system_error& error) {
+    fail_device(settings.port,
+                fmt::format("cannot do {} baud ({})", settings.baud, error.code().message()));
+  }
+  return transport;
+}
+
+std::unique_ptr<Transport> open_tcp(const std::string& host, int port, const Deadline& deadline) {
+  using asio::ip::tcp;
+  auto transport = std::make_unique<AsioTransport<tcp::socket>>(fmt::format("{}:{}", host, port));
+  tcp::resolver resolver(transport->context());
+  bool done = false;
+  error_code failure;
+  resolver.async_resolve(
+      host, std::to_string(port), [&](const error_code& code, const auto& endpoints) {
+        failure = code;
+        done = static_cast<bool>(code);
+        if (done) return;
+        asio::async_connect(
+            transport->stream(), endpoints, [&](const error_code& connected, const auto& /*at*/) {
+              failure = connected;
+              done = true;
+            });
+      });
+  const auto cancel = [&] {
+    resolver.cancel();
+    error_code ignored;
+    transport->stream().close(ignored);
+  };
+  if (!run_until(transport->context(), done, deadline, cancel)) {
+    fail_device(transport->name(),
+                fmt::format("no connection within {:.3g} s; is the device on and on this network?",
+                            deadline.timeout_s));
+  }
+  if (failure) {
+    fail_device(transport->name(),
+                fmt::format("no connection ({}); check host and port", failure.message()));
+  }
+  transport->stream().set_option(tcp::no_delay(true));
+  return transport;
+}
+
+}  // namespace frangia

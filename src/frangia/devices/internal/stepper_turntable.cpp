@@ -1,0 +1,89 @@
+#include "frangia/devices/internal/stepper_turntable.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+
+StepperTurntable::StepperTurntable(std::shared_ptr<MotionController> board,
+                                   const StepperTurntableOptions& options)
+    : board_(std::move(board)), options_(options) {}
+
+StepperTurntable::~StepperTurntable() {
+  make_safe();
+}
+
+std::string StepperTurntable::test(const Deadline& deadline) {
+  return board_->identify(deadline);
+}
+
+void StepperTurntable::make_safe() noexcept {
+  angle_rad_.reset();
+  enabled_ = false;
+  board_->stop();
+}
+
+void StepperTurntable::enable(bool on, const Deadline& deadline) {
+  enabled_ = false;
+  if (!on) angle_rad_.reset();
+  board_->enable_motor(on, deadline);
+  enabled_ = on;
+}
+
+void StepperTurntable::home(const Deadline& deadline) {
+  if (!enabled_) fail_device(*this, "it is not enabled and cannot look for its home");
+  angle_rad_.reset();
+  backlash_taken_up_ = false;
+  if (options_.info.can_home) {
+    board_->home(deadline);
+  } else {
+    board_->set_zero(deadline);
+  }
+  stop_count_ = board_->stop_count();
+  angle_rad_ = 0.0;
+}
+
+std::optional<double> StepperTurntable::angle_rad() const {
+  // A lamp on the same board may have stopped it.
+  return stop_count_ == board_->stop_count() ? angle_rad_ : std::nullopt;
+}
+
+void StepperTurntable::move_to(double angle_rad, const Deadline& deadline) {
+  check_target(angle_rad);
+  const double target_deg = deg_from_rad(angle_rad);
+  // Until it is there, nobody knows where it is.
+  const double from_deg = deg_from_rad(*std::exchange(angle_rad_, std::nullopt));
+  // Every stop ends upwards, so that a further one upwards has no slack left to take.
+  const double min_travel_deg = backlash_taken_up_ ? 0.0 : options_.backlash_deg;
+  if (options_.backlash_deg > 0.0 && target_deg - from_deg < min_travel_deg) {
+    command_angle(target_deg - options_.backlash_deg, deadline);
+  }
+  command_angle(target_deg, deadline);
+  backlash_taken_up_ = true;
+  deadline.sleep(options_.settle_s);
+  angle_rad_ = angle_rad;
+}
+
+void StepperTurntable::check_target(double angle_rad) const {
+  if (!(angle_rad >= options_.info.min_rad && angle_rad <= options_.info.max_rad)) {
+    fail_device(*this,
+                fmt::format("{:.6g} degrees are outside its limits, {:.6g} to {:.6g}",
+                            deg_from_rad(angle_rad),
+                            deg_from_rad(options_.info.min_rad),
+                            deg_from_rad(options_.info.max_rad)));
+  }
+  if (!enabled_) fail_device(*this, "it is not enabled");
+  if (!this->angle_rad()) fail_device(*this, "its angle is not known; home it first");
+}
+
+void StepperTurntable::command_angle(double angle_deg, const Deadline& deadline) {
+  const double sign = options_.reversed ? -1.0 : 1.0;
+  board_->move_to(sign * angle_deg * options_.units_per_degree,
+                  options_.speed_deg_per_s * options_.units_per_degree,
+                  deadline);
+}
+
+}  // namespace frangia

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "frangia/devices/internal/motion_controller.h"
+#include "frangia/devices/turntable_device.h"
+
+namespace frangia {
+
+struct StepperTurntableOptions {
+  TurntableInfo info;
+  double units_per_degree = 1.0;  ///< the board's units for a degree of the table
+  bool reversed = false;          ///< the board's positive turns the table the negative way
+  double backlash_deg = 0.0;      ///< every stop is reached upwards, after a way down from this far
+                                  ///< below it, which may be beyond the limits
+  double speed_deg_per_s = 20.0;
+  double settle_s = 0.0;  ///< how long the part swings after standstill
+};
+
+/// A turntable on a stepper motor board. Any call that fails stops the board and loses the angle:
+/// it then refuses to move until it is homed again, rather than go on from where it may not be.
+class StepperTurntable final : public TurntableDevice {
+ public:
+  /// The board is connected already; lamps may share it.
+  explicit StepperTurntable(std::shared_ptr<MotionController> board,
+                            const StepperTurntableOptions& options = {});
+  StepperTurntable(const StepperTurntable&) = delete;
+  StepperTurntable& operator=(const StepperTurntable&) = delete;
+  StepperTurntable(StepperTurntable&&) = delete;
+  StepperTurntable& operator=(StepperTurntable&&) = delete;
+  ~StepperTurntable() override;
+
+  [[nodiscard]] std::string name() const override { return "turntable at " + board_->name(); }
+  [[nodiscard]] std::string test(const Deadline& deadline) override;
+  void make_safe() noexcept override;
+  [[nodiscard]] const TurntableInfo& info() const override { return options_.info; }
+  void enable(bool on, const Deadline& deadline) override;
+  void home(const Deadline& deadline) override;
+  [[nodiscard]] std::optional<double> angle_rad() const override;
+  void move_to(double angle_rad, const Deadline& deadline) override;
+
+ private:
+  void check_target(double angle_rad) const;
+  void command_angle(double angle_deg, const Deadline& deadline);
+
+  std::shared_ptr<MotionController> board_;
+  StepperTurntableOptions options_;
+  std::optional<double> angle_rad_;
+  int stop_count_ = 0;  ///< of the board when the angle was found
+  bool enabled_ = false;
+  bool backlash_taken_up_ = false;  ///< the last move took the slack up
+};
+
+}  // namespace frangia

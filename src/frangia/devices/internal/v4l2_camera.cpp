@@ -1,0 +1,311 @@
+#include "frangia/devices/internal/v4l2_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <linux/videodev2.h>
+
+namespace frangia {
+namespace {
+
+constexpr unsigned kMappedBuffers = 3;
+constexpr double kExposureUnit_ms = 0.1;  // of V4L2_CID_EXPOSURE_ABSOLUTE
+
+template <typename T>
+T zeroed() {
+  T value;
+  std::memset(&value, 0, sizeof value);
+  return value;
+}
+
+class V4l2Camera final : public CameraDevice {
+ public:
+  V4l2Camera(const V4l2Settings& settings, std::shared_ptr<V4l2System> system)
+      : system_(std::move(system)),
+        settings_(settings),
+        name_("camera " + settings.path),
+        file_(system_->open(settings.path.c_str())) {
+    if (file_ < 0) {
+      fail(errno == EBUSY
+               ? "is in use by another program; close that one"
+               : fmt::format("cannot be opened ({}); 'frangia devices' lists the cameras "
+                             "there are, and your user must be in the group video",
+                             std::generic_category().message(errno)));
+    }
+    try {
+      prepare();
+    } catch (...) {
+      close();
+      throw;
+    }
+  }
+  V4l2Camera(const V4l2Camera&) = delete;
+  V4l2Camera& operator=(const V4l2Camera&) = delete;
+  V4l2Camera(V4l2Camera&&) = delete;
+  V4l2Camera& operator=(V4l2Camera&&) = delete;
+  ~V4l2Camera() override { close(); }
+
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] const CameraInfo& info() const override { return info_; }
+  [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
+    auto capability = zeroed<v4l2_capability>();
+    control("tell what it is", VIDIOC_QUERYCAP, capability);
+    return fmt::format("{}, {} x {} pixels, {}",
+                       reinterpret_cast<const char*>(capability.card),  // NOLINT
+                       info_.width_px,
+                       info_.height_px,
+                       format_ == V4L2_PIX_FMT_GREY ? "grey" : "YUYV");
+  }
+  void make_safe() noexcept override { stop(); }
+
+  CameraSettings configure(const CameraSettings& settings, const Deadline& deadline) override {
+    deadline.check();
+    check_exposure(settings.exposure_ms);
+    if (settings.black_level_counts != 0.0) fail("its black level cannot be set; leave it at 0");
+    if (settings.gain_db != 0.0) fail("its gain has no known unit; leave it at 0 dB");
+    const int units = static_cast<int>(std::lround(settings.exposure_ms / kExposureUnit_ms));
+    set("its exposure", V4L2_CID_EXPOSURE_ABSOLUTE, units);
+    exposure_ms_ = kExposureUnit_ms * units;
+    return {exposure_ms_, 0.0, 0.0};
+  }
+
+  [[nodiscard]] CapturedFrame capture(const FrameLabel& /*label*/,
+                                      const Deadline& deadline) override {
+    start();
+    const double asked_s = system_->now_s();
+    int skipped = 0;
+    for (;;) {
+      deadline.check();
+      if (deadline.passed()) {
+        fail(fmt::format("no frame within {:.3g} s; is it plugged in?", deadline.timeout_s));
+      }
+      constexpr int kPiece_ms = 20;
+      const int ready = system_->wait_readable(file_, kPiece_ms);
+      if (ready < 0 && errno != EINTR) fail_lost();
+      if (ready <= 0) continue;
+      v4l2_buffer buffer = empty_buffer(0);
+      if (system_->ioctl(file_, VIDIOC_DQBUF, &buffer) < 0) {
+        if (errno == EAGAIN) continue;
+        fail_lost();
+      }
+      // The stamp is of the exposure's end: one that began before it was asked for is not wanted.
+      const double stamp_s = static_cast<double>(buffer.timestamp.tv_sec) +
+                             1e-6 * static_cast<double>(buffer.timestamp.tv_usec);
+      const bool old = stamp_s - 1e-3 * exposure_ms_ < asked_s || skipped < settings_.skip_frames;
+      CapturedFrame captured = old ? CapturedFrame{} : frame_of(buffer, stamp_s);
+      if (system_->ioctl(file_, VIDIOC_QBUF, &buffer) < 0) fail_lost();
+      if (!old) return captured;
+      ++skipped;
+    }
+  }
+
+ private:
+  struct MappedBuffer {
+    void* memory = nullptr;
+    std::size_t length = 0;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorKind::Device, name_ + ": " + what);
+  }
+  [[noreturn]] void fail_lost() const {
+    fail(errno == ENODEV ? "is unplugged; plug it in and scan again"
+                         : fmt::format("its frames stopped ({}); unplug it and plug it in again",
+                                       std::generic_category().message(errno)));
+  }
+  template <typename T>
+  void control(const char* what, unsigned long request, T& argument) {
+    if (system_->ioctl(file_, request, &argument) >= 0) return;
+    if (errno == ENODEV) fail_lost();
+    fail(fmt::format(
+        "cannot {} ({})",
+        what,
+        errno == EBUSY ? "in use by another program" : std::generic_category().message(errno)));
+  }
+  void set(const char* what, unsigned id, int value) {
+    v4l2_control setting{id, value};
+    control(fmt::format("have {} set", what).c_str(), VIDIOC_S_CTRL, setting);
+  }
+  static v4l2_buffer empty_buffer(unsigned index) {
+    auto buffer = zeroed<v4l2_buffer>();
+    buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    buffer.memory = V4L2_MEMORY_MMAP;
+    buffer.index = index;
+    return buffer;
+  }
+
+  void prepare() {
+    auto capability = zeroed<v4l2_capability>();
+    control("tell what it is", VIDIOC_QUERYCAP, capability);
+    const unsigned able = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0
+                              ? capability.device_caps
+                              : capability.capabilities;
+    if ((able & V4L2_CAP_VIDEO_CAPTURE) == 0 || (able & V4L2_CAP_STREAMING) == 0)
+      fail("is no camera; name another of 'frangia devices'");
+    choose_format();
+    // Webcams meter for themselves; a scan needs every frame exposed alike.
+    v4l2_control manual{V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL};
+    static_cast<void>(system_->ioctl(file_, VIDIOC_S_CTRL, &manual));
+    for (const std::uint32_t automatic :
+         {std::uint32_t{V4L2_CID_AUTOGAIN}, std::uint32_t{V4L2_CID_AUTO_WHITE_BALANCE}}) {
+      v4l2_control off{automatic, 0};
+      static_cast<void>(system_->ioctl(file_, VIDIOC_S_CTRL, &off));
+    }
+    auto range = zeroed<v4l2_queryctrl>();
+    range.id = V4L2_CID_EXPOSURE_ABSOLUTE;
+    control("have its exposure set", VIDIOC_QUERYCTRL, range);
+    info_.min_exposure_ms = kExposureUnit_ms * range.minimum;
+    info_.max_exposure_ms = kExposureUnit_ms * range.maximum;
+    map_buffers();
+  }
+
+  void choose_format() {
+    for (const unsigned format : {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV}) {
+      auto wanted = zeroed<v4l2_format>();
+      wanted.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+      wanted.fmt.pix.width = static_cast<unsigned>(settings_.width_px);
+      wanted.fmt.pix.height = static_cast<unsigned>(settings_.height_px);
+      wanted.fmt.pix.pixelformat = format;
+      wanted.fmt.pix.field = V4L2_FIELD_NONE;
+      const int code = system_->ioctl(file_, VIDIOC_S_FMT, &wanted);
+      if (code < 0 && errno == EBUSY) fail("is in use by another program; close that one");
+      if (code < 0 || wanted.fmt.pix.pixelformat != format) continue;
+      format_ = format;
+      row_bytes_ = wanted.fmt.pix.bytesperline;
+      info_.width_px = static_cast<int>(wanted.fmt.pix.width);
+      info_.height_px = static_cast<int>(wanted.fmt.pix.height);
+      info_.white_level = 255;
+      return;
+    }
+    fail(
+        "gives neither grey nor YUYV pictures, only compressed ones, whose artefacts no phase "
+        "survives; take another camera or a smaller size");
+  }
+
+  void map_buffers() {
+    auto request = zeroed<v4l2_requestbuffers>();
+    request.count = kMappedBuffers;
+    request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    request.memory = V4L2_MEMORY_MMAP;
+    control("lend its memory", VIDIOC_REQBUFS, request);
+    for (unsigned i = 0; i < request.count; ++i) {
+      v4l2_buffer buffer = empty_buffer(i);
+      control("lend its memory", VIDIOC_QUERYBUF, buffer);
+      void* memory = system_->map(buffer.length, file_, buffer.m.offset);
+      if (memory == nullptr) fail("cannot lend its memory");
+      mapped_.push_back({memory, buffer.length});
+    }
+  }
+
+  void start() {
+    if (streaming_) return;
+    for (unsigned i = 0; i < mapped_.size(); ++i) {
+      v4l2_buffer buffer = empty_buffer(i);
+      control("start", VIDIOC_QBUF, buffer);
+    }
+    int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    control("start", VIDIOC_STREAMON, type);
+    streaming_ = true;
+  }
+  void stop() noexcept {
+    if (!streaming_) return;
+    int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    static_cast<void>(system_->ioctl(file_, VIDIOC_STREAMOFF, &type));
+    streaming_ = false;
+  }
+  void close() noexcept {
+    stop();
+    for (const MappedBuffer& mapped : mapped_)
+      system_->unmap(mapped.memory, mapped.length);
+    mapped_.clear();
+    system_->close(file_);
+  }
+
+  CapturedFrame frame_of(const v4l2_buffer& buffer, double stamp_s) {
+    CapturedFrame captured;
+    captured.settings.exposure_ms = exposure_ms_;
+    captured.id = buffer.sequence;
+    captured.timestamp_s = stamp_s;
+    const std::size_t wanted =
+        static_cast<std::size_t>(row_bytes_) * static_cast<std::size_t>(info_.height_px);
+    if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytesused < wanted) {
+      captured.complete = false;
+      captured.incomplete_cause = fmt::format("{} of {} bytes came", buffer.bytesused, wanted);
+      return captured;
+    }
+    const std::size_t step =
+        format_ == V4L2_PIX_FMT_GREY ? 1 : 2;  // YUYV: every other is brightness
+    const auto* pixels = static_cast<const std::uint8_t*>(mapped_.at(buffer.index).memory);
+    Image<std::uint8_t> image(info_.width_px, info_.height_px, Uninitialized{});
+    for (int y = 0; y < info_.height_px; ++y) {
+      const std::uint8_t* row =
+          pixels + static_cast<std::size_t>(row_bytes_) * static_cast<std::size_t>(y);
+      for (int x = 0; x < info_.width_px; ++x)
+        image(x, y) = row[step * static_cast<std::size_t>(x)];
+    }
+    captured.frame = std::move(image);
+    return captured;
+  }
+
+  std::shared_ptr<V4l2System> system_;
+  V4l2Settings settings_;
+  std::string name_;
+  CameraInfo info_;
+  int file_;
+  unsigned format_ = 0;
+  unsigned row_bytes_ = 0;
+  double exposure_ms_ = 10.0;
+  bool streaming_ = false;
+  std::vector<MappedBuffer> mapped_;
+};
+
+}  // namespace
+
+std::unique_ptr<CameraDevice> open_v4l2_camera(const V4l2Settings& settings,
+                                               std::shared_ptr<V4l2System> system) {
+  return std::make_unique<V4l2Camera>(settings, std::move(system));
+}
+
+std::vector<FoundDevice> find_v4l2_cameras(V4l2System& system) {
+  std::vector<FoundDevice> found;
+  constexpr int kMost = 64;
+  for (int i = 0; i < kMost; ++i) {
+    const std::string path = fmt::format("/dev/video{}", i);
+    const int file = system.open(path.c_str());
+    if (file < 0) continue;
+    auto capability = zeroed<v4l2_capability>();
+    const bool answers = system.ioctl(file, VIDIOC_QUERYCAP, &capability) >= 0;
+    system.close(file);
+    if (!answers || (capability.device_caps & V4L2_CAP_VIDEO_CAPTURE) == 0) continue;
+    found.push_back(
+        {fmt::format("{} at {}", reinterpret_cast<const char*>(capability.card), path),  // NOLINT
+         fmt::format("driver = \"v4l2\"\npath = \"{}\"\n", path)});
+  }
+  return found;
+}
+
+Driver v4l2_driver() {
+  Driver driver;
+  driver.name = "v4l2";
+  driver.kind = DeviceKind::Camera;
+  driver.description = "webcams, by Video4Linux2";
+  driver.open =
+      [](DeviceSettings& settings, const Rig& rig, const Deadline&) -> std::unique_ptr<Device> {
+    V4l2Settings camera;
+    camera.path = settings.text_or("path", camera.path);
+    camera.skip_frames = settings.integer_or("skip_frames", camera.skip_frames, 0, 30);
+    camera.width_px = rig.camera.model.width_px;
+    camera.height_px = rig.camera.model.height_px;
+    return open_v4l2_camera(camera, kernel_v4l2());
+  };
+  driver.find = [](const Deadline&) { return find_v4l2_cameras(*kernel_v4l2()); };
+  return driver;
+}
+
+}  // namespace frangia

@@ -1,0 +1,91 @@
+#include "frangia/editor/edit_operation.h"
+
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/editor/internal/edit_value.h"
+#include "frangia/editor/internal/operation_groups.h"
+
+namespace frangia {
+namespace {
+
+/// Vectors that are compared as bytes, so that NaN is equal to itself.
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// What an error says behind the name of the function that says it: users know the operation's.
+std::string without_function(const std::string& text) {
+  const std::size_t colon = text.find(": ");
+  const bool named = colon != std::string::npos && text.find(' ') > colon;
+  return named ? text.substr(colon + 2) : text;
+}
+
+}  // namespace
+
+bool EditState::operator==(const EditState& other) const {
+  return same_bytes(mesh.vertices_mm, other.mesh.vertices_mm) &&
+         same_bytes(mesh.triangles, other.mesh.triangles) &&
+         same_bytes(mesh.normals, other.mesh.normals) &&
+         same_bytes(mesh.sigma_mm, other.mesh.sigma_mm) &&
+         same_bytes(mesh.views, other.mesh.views) &&
+         same_bytes(mesh.vertex_marks, other.mesh.vertex_marks) &&
+         same_bytes(mesh.triangle_marks, other.mesh.triangle_marks) &&
+         same_bytes(selection, other.selection) && combine == other.combine &&
+         max_sigmas == other.max_sigmas;
+}
+
+const std::vector<EditOperation>& edit_operations() {
+  static const std::vector<EditOperation> kAll = [] {
+    std::vector<EditOperation> all = selection_operations();
+    for (auto kind : {repair_operations, modify_operations}) {
+      for (EditOperation& operation : kind())
+        all.push_back(std::move(operation));
+    }
+    return all;
+  }();
+  return kAll;
+}
+
+const EditOperation& edit_operation(const std::string& name) {
+  for (const EditOperation& operation : edit_operations())
+    if (name == operation.name) return operation;
+  throw Error(ErrorKind::Input,
+              fmt::format("there is no operation '{}'; frangia edit --help lists them", name));
+}
+
+void check_step(const EditStep& step) {
+  const EditOperation& operation = edit_operation(step.operation);
+  try {
+    const std::string pattern = operation.value;
+    if (pattern.empty()) {
+      require(step.value.empty(), "it takes no value");
+    } else if (pattern == "MARK") {
+      static_cast<void>(edit_mark(step.value));
+    } else {
+      static_cast<void>(edit_numbers(pattern, step.value));
+    }
+  } catch (const Error& error) {
+    throw Error(ErrorKind::Input, fmt::format("{}: {}", step.operation, error.what()));
+  }
+}
+
+void apply_step(EditState& state, const EditStep& step, const Run& run) {
+  check_step(step);
+  try {
+    edit_operation(step.operation).apply(state, step.value, run);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Input) throw;
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: {}", step.operation, without_function(error.what())));
+  }
+  // What was selected is told by numbers of triangles, which a change of them takes away.
+  if (state.selection.size() != state.mesh.triangles.size()) state.selection.clear();
+}
+
+}  // namespace frangia

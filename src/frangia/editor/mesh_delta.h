@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "frangia/editor/edit_operation.h"
+
+namespace frangia {
+
+/// What parts one state of an edit from the next, so that either can be made from the other to the
+/// bit. What did not change is not kept.
+class MeshDelta {
+ public:
+  MeshDelta(const EditState& before, const EditState& after);
+
+  /// Turns the state after into the one before, and back.
+  void undo(EditState& state) const;
+  void redo(EditState& state) const;
+
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  /// A run of an array's bytes that differs.
+  struct Run {
+    std::size_t offset = 0;
+    std::vector<std::uint8_t> before, after;
+  };
+  struct ArrayDelta {
+    std::size_t before_bytes = 0, after_bytes = 0;
+    std::vector<Run> runs;
+  };
+  template <typename T>
+  static ArrayDelta compare(const std::vector<T>& before, const std::vector<T>& after);
+  template <typename T>
+  static void patch(std::vector<T>& array, const ArrayDelta& delta, bool back);
+  void apply(EditState& state, bool back) const;
+
+  std::vector<ArrayDelta> arrays_;
+  Combine combine_before_, combine_after_;
+  double sigmas_before_, sigmas_after_;
+};
+
+}  // namespace frangia

@@ -1,0 +1,75 @@
+#include "frangia/files/internal/check_mesh.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
+}
+
+void check_finite(const std::vector<Eigen::Vector3f>& vectors,
+                  const char* what,
+                  const std::filesystem::path& path) {
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    const Eigen::Vector3f& v = vectors[i];
+    if (v.allFinite()) continue;
+    refuse(path,
+           fmt::format("{} {} (counted from 0) is {} {} {}, which is no place; remove it",
+                       what,
+                       i,
+                       v.x(),
+                       v.y(),
+                       v.z()));
+  }
+}
+
+}  // namespace
+
+void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
+  const std::size_t count = mesh.vertices_mm.size();
+  check_finite(mesh.vertices_mm, "vertex", path);
+  check_finite(mesh.normals, "normal", path);
+  const auto check_count = [&](std::size_t has, const char* what) {
+    if (has != 0 && has != count) {
+      refuse(
+          path,
+          fmt::format("{} {} for {} vertices; there must be one each, or none", has, what, count));
+    }
+  };
+  check_count(mesh.normals.size(), "normals");
+  check_count(mesh.sigma_mm.size(), "values of sigma_mm");
+  check_count(mesh.views.size(), "counts of views");
+  check_count(mesh.vertex_marks.size(), "marks");
+  if (!mesh.triangle_marks.empty() && mesh.triangle_marks.size() != mesh.triangles.size()) {
+    refuse(path,
+           fmt::format("{} marks for {} triangles; there must be one each, or none",
+                       mesh.triangle_marks.size(),
+                       mesh.triangles.size()));
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t corner : mesh.triangles[i]) {
+      if (corner < count) continue;
+      refuse(path,
+             fmt::format("triangle {} refers to vertex {}, counted from 0, of only {}; "
+                         "the mesh is damaged, export it again",
+                         i,
+                         corner,
+                         count));
+    }
+  }
+}
+
+void check_triangles(const Mesh& mesh, const std::filesystem::path& path) {
+  check_mesh(mesh, path);
+  if (!mesh.triangles.empty()) return;
+  refuse(path, "there is no triangle to write; points alone can be written as .ply or .obj");
+}
+
+}  // namespace frangia

@@ -1,0 +1,212 @@
+#include "frangia/files/internal/gltf_document.h"
+
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/files/internal/base64.h"
+#include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/internal/text_reader.h"
+
+namespace frangia {
+namespace {
+
+using nlohmann::json;
+
+std::uint32_t u32_at(std::string_view bytes, std::size_t place) {
+  std::uint32_t number = 0;
+  std::memcpy(&number, bytes.data() + place, sizeof number);
+  return number;
+}
+
+/// The two chunks of a .glb: its JSON and its buffer.
+std::pair<std::string_view, std::string_view> chunks_of(const GltfDocument& document,
+                                                        std::string_view bytes) {
+  constexpr std::size_t kHeader = 12;
+  if (bytes.size() < kHeader + 8 || u32_at(bytes, 4) != 2) {
+    document.fail("it is no glTF of version 2, or was cut short");
+  }
+  std::string_view text;
+  std::string_view binary;
+  for (std::size_t place = kHeader; bytes.size() - place >= 8;) {
+    const std::size_t length = u32_at(bytes, place);
+    const std::string_view kind = bytes.substr(place + 4, 4);
+    if (length > bytes.size() - place - 8) {
+      document.fail(
+          fmt::format("a chunk of {} bytes is promised where {} are left; the file was cut short",
+                      length,
+                      bytes.size() - place - 8));
+    }
+    const std::string_view chunk = bytes.substr(place + 8, length);
+    if (kind == "JSON" && text.empty()) text = chunk;
+    if (kind == std::string_view("BIN\0", 4) && binary.empty()) binary = chunk;
+    place += 8 + length;
+  }
+  return {text, binary};
+}
+
+std::string outside_buffer(const GltfDocument& document, const std::string& uri) {
+  const std::filesystem::path name(uri);
+  const bool beside = !uri.empty() && name.filename() == name && uri != ".." &&
+                      uri.find(':') == std::string::npos && uri.find('%') == std::string::npos;
+  if (!beside) {
+    document.fail(
+        fmt::format("its buffer {} is not a file beside it; export it as .glb", in_quotes(uri)));
+  }
+  return read_bytes(document.path.parent_path() / name);
+}
+
+std::string buffer_of(const GltfDocument& document, const json& buffer, std::string_view binary) {
+  const auto length = buffer.at("byteLength").get<std::uint64_t>();
+  std::string bytes;
+  if (!buffer.contains("uri")) {
+    bytes = std::string(binary);
+  } else {
+    const auto& uri = buffer.at("uri").get_ref<const std::string&>();
+    const std::size_t comma = uri.find(";base64,");
+    if (uri.starts_with("data:") && comma != std::string::npos) {
+      auto decoded = decode_base64(std::string_view(uri).substr(comma + 8));
+      if (!decoded) document.fail("a buffer in it is not base64");
+      bytes = std::move(*decoded);
+    } else {
+      bytes = outside_buffer(document, uri);
+    }
+  }
+  if (length > bytes.size()) {
+    document.fail(
+        fmt::format("a buffer of {} bytes is promised, and {} are there; it was cut short",
+                    length,
+                    bytes.size()));
+  }
+  bytes.resize(length);
+  return bytes;
+}
+
+std::size_t bytes_of_component(std::uint64_t type) {
+  switch (type) {
+    case 5120:
+    case 5121:
+      return 1;
+    case 5122:
+    case 5123:
+      return 2;
+    case 5125:
+    case 5126:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+template <typename Number>
+double number_at(const std::string& bytes, std::size_t place) {
+  Number number{};
+  std::memcpy(&number, bytes.data() + place, sizeof number);
+  return static_cast<double>(number);
+}
+
+double component_at(const std::string& bytes, std::size_t place, std::uint64_t type) {
+  switch (type) {
+    case 5120:
+      return number_at<std::int8_t>(bytes, place);
+    case 5121:
+      return number_at<std::uint8_t>(bytes, place);
+    case 5122:
+      return number_at<std::int16_t>(bytes, place);
+    case 5123:
+      return number_at<std::uint16_t>(bytes, place);
+    case 5125:
+      return number_at<std::uint32_t>(bytes, place);
+    default:
+      return number_at<float>(bytes, place);
+  }
+}
+
+/// How large an integer must be to stand for 1, when they are normalized.
+double full_scale(std::uint64_t type) {
+  switch (type) {
+    case 5120:
+      return 127.0;
+    case 5121:
+      return 255.0;
+    case 5122:
+      return 32'767.0;
+    case 5123:
+      return 65'535.0;
+    default:
+      return 1.0;
+  }
+}
+
+}  // namespace
+
+void GltfDocument::fail(const std::string& why) const {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
+}
+
+const json& GltfDocument::item(const char* list, std::uint64_t index) const {
+  const auto found = json.find(list);
+  if (found == json.end() || !found->is_array() || index >= found->size()) {
+    fail(fmt::format("it refers to number {} of its {}, which is not there", index, list));
+  }
+  return (*found)[index];
+}
+
+std::vector<double> GltfDocument::numbers(std::uint64_t accessor, std::size_t width) const {
+  const nlohmann::json& a = item("accessors", accessor);
+  if (a.contains("sparse") || !a.contains("bufferView")) {
+    fail("sparse or compressed data is not read; export it without");
+  }
+  const auto type = a.at("componentType").get<std::uint64_t>();
+  const std::size_t size = bytes_of_component(type);
+  const auto count = a.at("count").get<std::uint64_t>();
+  const std::string shape = a.at("type").get<std::string>();
+  const std::size_t has = shape == "SCALAR" ? 1 : shape == "VEC3" ? 3 : 0;
+  if (size == 0 || has != width) fail(fmt::format("accessor {} is of another kind", accessor));
+  const nlohmann::json& view = item("bufferViews", a.at("bufferView").get<std::uint64_t>());
+  const auto buffer = view.at("buffer").get<std::uint64_t>();
+  if (buffer >= buffers.size()) fail("it refers to a buffer that is not there");
+  const std::string& bytes = buffers[buffer];
+  const auto begin = view.value("byteOffset", std::uint64_t{0});
+  const auto length = view.at("byteLength").get<std::uint64_t>();
+  const auto offset = a.value("byteOffset", std::uint64_t{0});
+  const auto stride = view.value("byteStride", std::uint64_t{size * width});
+  const bool in_buffer = begin <= bytes.size() && length <= bytes.size() - begin;
+  const bool fits = in_buffer && offset <= length && stride >= size * width && stride <= 252 &&
+                    count <= (length - offset + stride - size * width) / stride;
+  if (!fits) {
+    fail(
+        fmt::format("{} elements are promised beyond the end of their buffer; the file was cut "
+                    "short or its counts are wrong",
+                    count));
+  }
+  const double unit = a.value("normalized", false) ? full_scale(type) : 1.0;
+  std::vector<double> found;
+  found.reserve(count * width);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < width; ++k)
+      found.push_back(component_at(bytes, begin + offset + i * stride + k * size, type) / unit);
+  }
+  return found;
+}
+
+GltfDocument read_gltf_document(const std::filesystem::path& path) {
+  GltfDocument document{.path = path, .json = {}, .buffers = {}};
+  const std::string bytes = read_bytes(path);
+  std::string_view text = bytes;
+  std::string_view binary;
+  if (text.starts_with("glTF")) std::tie(text, binary) = chunks_of(document, bytes);
+  document.json = nlohmann::json::parse(text, nullptr, false);
+  if (!document.json.is_object()) document.fail("its JSON is damaged; export it again");
+  if (const auto found = document.json.find("buffers"); found != document.json.end()) {
+    for (const auto& buffer : *found)
+      document.buffers.push_back(buffer_of(document, buffer, binary));
+  }
+  return document;
+}
+
+}  // namespace frangia

@@ -1,0 +1,106 @@
+#include "frangia/files/internal/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/files/internal/text_reader.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{{
+    {"char", PlyType::Int8},
+    {"int8", PlyType::Int8},
+    {"uchar", PlyType::Uint8},
+    {"uint8", PlyType::Uint8},
+    {"short", PlyType::Int16},
+    {"int16", PlyType::Int16},
+    {"ushort", PlyType::Uint16},
+    {"uint16", PlyType::Uint16},
+    {"int", PlyType::Int32},
+    {"int32", PlyType::Int32},
+    {"uint", PlyType::Uint32},
+    {"uint32", PlyType::Uint32},
+    {"float", PlyType::Float32},
+    {"float32", PlyType::Float32},
+    {"double", PlyType::Float64},
+    {"float64", PlyType::Float64},
+}};
+
+PlyType read_type(TextReader& reader) {
+  const std::string_view word = reader.word_on_line();
+  const auto* const found = std::find_if(
+      kTypes.begin(), kTypes.end(), [&](const auto& entry) { return entry.first == word; });
+  if (found == kTypes.end()) reader.fail(fmt::format("{} is no type of number", in_quotes(word)));
+  return found->second;
+}
+
+PlyFormat read_format(TextReader& reader) {
+  const std::string_view word = reader.word_on_line();
+  if (word == "ascii") return PlyFormat::Ascii;
+  if (word == "binary_little_endian") return PlyFormat::LittleEndian;
+  if (word != "binary_big_endian") {
+    reader.fail(fmt::format("the format {} is not ascii, binary_little_endian or binary_big_endian",
+                            in_quotes(word)));
+  }
+  return PlyFormat::BigEndian;
+}
+
+PlyElement read_element(TextReader& reader) {
+  PlyElement element;
+  element.name = reader.word_on_line();
+  const std::int64_t count = reader.integer();
+  if (count < 0) reader.fail(fmt::format("{} is no count of {}", count, in_quotes(element.name)));
+  element.count = static_cast<std::uint64_t>(count);
+  return element;
+}
+
+PlyProperty read_property(TextReader& reader) {
+  PlyProperty property;
+  TextReader ahead = reader;
+  if (ahead.word_on_line() == "list") {
+    reader = ahead;
+    property.count_type = read_type(reader);
+  }
+  property.type = read_type(reader);
+  property.name = reader.word_on_line();
+  return property;
+}
+
+}  // namespace
+
+std::size_t bytes_of(PlyType type) {
+  constexpr std::array<std::size_t, 8> kBytes{1, 1, 2, 2, 4, 4, 4, 8};
+  return kBytes.at(static_cast<std::size_t>(type));
+}
+
+PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view bytes) {
+  TextReader reader(path, bytes);
+  if (reader.word_on_line() != "ply") reader.fail("a PLY file begins with the word ply");
+  PlyHeader header;
+  bool has_format = false;
+  for (;;) {
+    reader.skip_line();
+    const std::string_view keyword = reader.word_on_line();
+    if (keyword == "end_header") break;
+    if (keyword == "format") {
+      header.format = read_format(reader);
+      has_format = true;
+    } else if (keyword == "element") {
+      header.elements.push_back(read_element(reader));
+    } else if (keyword == "property" && !header.elements.empty()) {
+      header.elements.back().properties.push_back(read_property(reader));
+    } else if (keyword != "comment" && keyword != "obj_info") {
+      reader.fail(fmt::format("{} is not a line of a PLY header", in_quotes(keyword)));
+    }
+  }
+  if (!has_format) reader.fail("the header names no format");
+  reader.skip_line();
+  header.body = reader.position();
+  return header;
+}
+
+}  // namespace frangia

@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/files/internal/append_transformed.h"
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/gltf.h"
+#include "frangia/files/internal/gltf_document.h"
+#include "frangia/geometry/vertex_data.h"
+
+namespace frangia {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kTriangles = 4;
+
+Eigen::Affine3d transform_of(const GltfDocument& document, const json& node) {
+  const auto numbers = [&](const char* key, std::vector<double> usual) {
+    if (!node.contains(key)) return usual;
+    auto found = node.at(key).get<std::vector<double>>();
+    if (found.size() != usual.size())
+      document.fail(fmt::format("the {} of a node is damaged", key));
+    return found;
+  };
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  if (node.contains("matrix")) {
+    const auto m = numbers("matrix", std::vector<double>(16));
+    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(m.data());
+    transform.makeAffine();
+    return transform;
+  }
+  const auto t = numbers("translation", {0.0, 0.0, 0.0});
+  const auto r = numbers("rotation", {0.0, 0.0, 0.0, 1.0});
+  const auto s = numbers("scale", {1.0, 1.0, 1.0});
+  transform.translate(Eigen::Vector3d(t[0], t[1], t[2]));
+  transform.rotate(Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized());
+  transform.scale(Eigen::Vector3d(s[0], s[1], s[2]));
+  return transform;
+}
+
+std::vector<Eigen::Vector3f> vectors_of(const std::vector<double>& numbers) {
+  std::vector<Eigen::Vector3f> vectors;
+  vectors.reserve(numbers.size() / 3);
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    vectors.emplace_back(Eigen::Vector3d(numbers[i], numbers[i + 1], numbers[i + 2]).cast<float>());
+  return vectors;
+}
+
+class GltfReader {
+ public:
+  GltfReader(const GltfDocument& document, const Run& run) : document_(document), run_(run) {}
+
+  Mesh read() {
+    // m with y up become mm with z up.
+    Eigen::Affine3d mm_from_scene = Eigen::Affine3d::Identity();
+    mm_from_scene.linear() << 1000, 0, 0, 0, 0, -1000, 0, 1000, 0;
+    const json& all = document_.json;
+    if (all.contains("scenes")) {
+      const json& scene = document_.item("scenes", all.value("scene", std::uint64_t{0}));
+      for (const auto& node : scene.value("nodes", std::vector<std::uint64_t>()))
+        visit(node, mm_from_scene);
+    } else if (all.contains("nodes")) {
+      std::set<std::uint64_t> children;
+      for (const auto& node : all.at("nodes")) {
+        for (const auto& child : node.value("children", std::vector<std::uint64_t>()))
+          children.insert(child);
+      }
+      for (std::uint64_t node = 0; node < all.at("nodes").size(); ++node)
+        if (!children.contains(node)) visit(node, mm_from_scene);
+    }
+    if (skipped_ > 0) {
+      run_.warn(fmt::format("{}: left out {} sets of points or lines, which are no triangles",
+                            document_.path.string(),
+                            skipped_));
+    }
+    if (mesh_.empty()) document_.fail("there is no triangle in its scene");
+    if (!all_have_normals_) mesh_.normals.clear();
+    return std::move(mesh_);
+  }
+
+ private:
+  /// A tree by its definition: whoever comes twice is no tree. Depth is kept small for the stack.
+  void visit(std::uint64_t number, const Eigen::Affine3d& parent, int depth = 0) {
+    constexpr int kDeepest = 256;
+    const json& node = document_.item("nodes", number);
+    if (!seen_.insert(number).second || depth > kDeepest) {
+      document_.fail("a node has two parents, is its own child or lies too deep");
+    }
+    const Eigen::Affine3d mm_from_node = parent * transform_of(document_, node);
+    if (node.contains("mesh")) {
+      const json& mesh = document_.item("meshes", node.at("mesh").get<std::uint64_t>());
+      add_primitives(mesh, mm_from_node);
+    }
+    for (const auto& child : node.value("children", std::vector<std::uint64_t>()))
+      visit(child, mm_from_node, depth + 1);
+  }
+
+  /// Primitives that share their vertices become one part.
+  void add_primitives(const json& mesh, const Eigen::Affine3d& mm_from_node) {
+    Mesh part;
+    json attributes;
+    for (const auto& primitive : mesh.at("primitives")) {
+      const auto mode = primitive.value("mode", kTriangles);
+      if (mode < kTriangles) {
+        ++skipped_;
+        continue;
+      }
+      if (mode > kTriangles) document_.fail("triangle strips are not read; export it as triangles");
+      if (primitive.contains("extensions") &&
+          primitive.at("extensions").contains("KHR_draco_mesh_compression")) {
+        document_.fail("it is compressed (Draco); export it without compression");
+      }
+      if (attributes != primitive.at("attributes")) {
+        if (!part.empty()) append_transformed(mesh_, part, mm_from_node, document_.path);
+        attributes = primitive.at("attributes");
+        part = vertices_of(attributes);
+      }
+      add_triangles(part, primitive);
+    }
+    if (!part.empty()) append_transformed(mesh_, part, mm_from_node, document_.path);
+  }
+
+  Mesh vertices_of(const json& attributes) {
+    Mesh part;
+    part.vertices_mm =
+        vectors_of(document_.numbers(attributes.at("POSITION").get<std::uint64_t>(), 3));
+    const std::size_t count = part.vertices_mm.size();
+    const auto read = [&](const char* name, std::size_t width) {
+      std::vector<double> found;
+      if (attributes.contains(name)) {
+        found = document_.numbers(attributes.at(name).get<std::uint64_t>(), width);
+        if (found.size() != width * count) {
+          document_.fail(fmt::format("there is not one {} a vertex", name));
+        }
+      }
+      return found;
+    };
+    part.normals = vectors_of(read("NORMAL", 3));
+    all_have_normals_ = all_have_normals_ && !part.normals.empty();
+    for (auto& normal : part.normals)
+      if (!normal.allFinite()) normal.setZero();
+    for (const double sigma : read("_SIGMA_MM", 1))
+      part.sigma_mm.push_back(static_cast<float>(sigma));
+    for (const double views : read("_VIEWS", 1))
+      part.views.push_back(static_cast<std::uint16_t>(views > 0 ? std::min(views, 65'535.0) : 0.0));
+    for (const double mark : read("_MARK", 1)) {
+      part.vertex_marks.push_back(mark == 1.0   ? Mark::Displaced
+                                  : mark == 2.0 ? Mark::Synthesized
+                                                : Mark::Measured);
+    }
+    return part;
+  }
+
+  [[nodiscard]] Mark mark_of_material(const json& primitive) const {
+    if (!primitive.contains("material")) return Mark::Measured;
+    const json& material =
+        document_.item("materials", primitive.at("material").get<std::uint64_t>());
+    const std::string name = material.value("name", "");
+    return name == "moved"      ? Mark::Displaced
+           : name == "invented" ? Mark::Synthesized
+                                : Mark::Measured;
+  }
+
+  void add_triangles(Mesh& part, const json& primitive) const {
+    const std::size_t count = part.vertices_mm.size();
+    std::vector<double> corners;
+    if (primitive.contains("indices")) {
+      corners = document_.numbers(primitive.at("indices").get<std::uint64_t>(), 1);
+    } else {
+      for (std::size_t i = 0; i < count; ++i)
+        corners.push_back(static_cast<double>(i));
+    }
+    if (corners.size() % 3 != 0) document_.fail("its last triangle lacks a corner");
+    const Mark mark = mark_of_material(primitive);
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+      Mesh::Triangle triangle{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double corner = corners[i + k];
+        if (!(corner >= 0.0 && corner < static_cast<double>(count))) {
+          document_.fail(fmt::format(
+              "a triangle refers to vertex {}, counted from 0, of only {}", corner, count));
+        }
+        triangle.at(k) = static_cast<std::uint32_t>(corner);
+      }
+      add_triangle(part, triangle, mark);
+    }
+  }
+
+  const GltfDocument& document_;
+  const Run& run_;
+  Mesh mesh_;
+  std::set<std::uint64_t> seen_;
+  std::size_t skipped_ = 0;
+  bool all_have_normals_ = true;
+};
+
+}  // namespace
+
+Mesh read_gltf(const std::filesystem::path& path, const Run& run) {
+  try {
+    const GltfDocument document = read_gltf_document(path);
+    Mesh mesh = GltfReader(document, run).read();
+    check_mesh(mesh, path);
+    return mesh;
+  } catch (const json::exception& error) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: it is no valid glTF ({}); export it again", path.string(), error.what()));
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/files/internal/add_polygon.h"
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/off.h"
+#include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/internal/text_reader.h"
+
+namespace frangia {
+namespace {
+
+class OffReader {
+ public:
+  OffReader(const std::filesystem::path& path, std::string_view text) : reader_(path, text) {}
+
+  Mesh read() {
+    const std::string_view keyword = word();
+    if (!keyword.ends_with("OFF") || keyword.find_first_of("4n") != std::string_view::npos) {
+      reader_.fail(fmt::format("{} stands where 'OFF' is due", in_quotes(keyword)));
+    }
+    const std::string_view first = word();
+    if (first == "BINARY") reader_.fail("this is a binary OFF; save it as text");
+    const auto vertices = count_of(first, "vertices", kVertexBytes);
+    const auto faces = count_of(word(), "faces", kFaceBytes);
+    reader_.skip_line();  // the count of edges, which nobody keeps right
+    Mesh mesh;
+    mesh.vertices_mm.reserve(vertices);
+    for (std::size_t i = 0; i < vertices; ++i)
+      mesh.vertices_mm.push_back(read_vertex());
+    mesh.triangles.reserve(faces);
+    for (std::size_t i = 0; i < faces; ++i)
+      read_face(mesh);
+    return mesh;
+  }
+
+ private:
+  static constexpr std::size_t kVertexBytes = 6;  // three digits and what parts them
+  static constexpr std::size_t kFaceBytes = 8;
+
+  std::string_view word() {
+    std::string_view found = reader_.word();
+    while (found.starts_with('#')) {
+      reader_.skip_line();
+      found = reader_.word();
+    }
+    return found;
+  }
+
+  std::size_t count_of(std::string_view number, const char* what, std::size_t bytes) {
+    const auto count = parse_integer(number);
+    if (!count || *count < 0) {
+      reader_.fail(fmt::format("{} is not the count of {}", in_quotes(number), what));
+    }
+    const auto room = (reader_.bytes_left() + bytes) / bytes;
+    if (static_cast<std::uint64_t>(*count) > room) {
+      reader_.fail(
+          fmt::format("{} {} are promised, but the file has room for {} at most; it was "
+                      "cut short or its counts are wrong",
+                      *count,
+                      what,
+                      room));
+    }
+    return static_cast<std::size_t>(*count);
+  }
+
+  Eigen::Vector3f read_vertex() {
+    Eigen::Vector3f place;
+    for (float& coordinate : place) {
+      const std::string_view found = word();
+      const auto number = parse_float(found);
+      if (!number) reader_.fail(fmt::format("{} is not a coordinate", in_quotes(found)));
+      coordinate = *number;
+    }
+    reader_.skip_line();
+    return place;
+  }
+
+  void read_face(Mesh& mesh) {
+    const std::string_view size = word();
+    const auto count = parse_integer(size);
+    if (!count || *count < 3) {
+      reader_.fail(fmt::format("a face has {} corners; it needs three", in_quotes(size)));
+    }
+    corners_.clear();
+    for (std::int64_t i = 0; i < *count; ++i) {
+      const std::string_view found = reader_.word_on_line();
+      const auto index = parse_integer(found);
+      if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= mesh.vertices_mm.size()) {
+        reader_.fail(fmt::format("{} is not the number, counted from 0, of one of {} vertices",
+                                 in_quotes(found),
+                                 mesh.vertices_mm.size()));
+      }
+      corners_.push_back(static_cast<std::uint32_t>(*index));
+    }
+    reader_.skip_line();  // a colour, or nothing
+    add_polygon(mesh, corners_);
+  }
+
+  TextReader reader_;
+  std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+Mesh read_off(const std::filesystem::path& path) {
+  const std::string text = read_bytes(path);
+  Mesh mesh = OffReader(path, text).read();
+  check_mesh(mesh, path);
+  return mesh;
+}
+
+}  // namespace frangia

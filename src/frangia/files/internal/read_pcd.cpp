@@ -1,0 +1,225 @@
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/pcd.h"
+#include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/internal/text_reader.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::array<std::string_view, 7> kKept{
+    "x", "y", "z", "normal_x", "normal_y", "normal_z", "sigma_mm"};
+constexpr std::uint64_t kMostInField = 65'536;
+
+struct Field {
+  std::string_view name;
+  std::uint64_t bytes = 4;
+  char type = 'F';
+  std::uint64_t count = 1;
+};
+
+struct Header {
+  std::vector<Field> fields;
+  std::uint64_t points = 0;
+  std::string_view data;
+};
+
+class PcdReader {
+ public:
+  PcdReader(const std::filesystem::path& path, std::string_view text)
+      : text_(text), reader_(path, text) {}
+
+  Mesh read(std::size_t& left_out) {
+    read_header();
+    if (slot_of("x") == kNone || slot_of("y") == kNone || slot_of("z") == kNone) {
+      reader_.fail("its points lack an x, y or z");
+    }
+    has_normals_ = slot_of("normal_x") != kNone && slot_of("normal_y") != kNone &&
+                   slot_of("normal_z") != kNone;
+    has_sigma_ = slot_of("sigma_mm") != kNone;
+    Mesh mesh;
+    if (header_.data == "ascii") {
+      read_points(mesh, left_out, [&](const Field& field) { return ascii(field); });
+    } else {
+      std::string_view body = text_.substr(reader_.position());
+      read_points(mesh, left_out, [&](const Field& field) { return binary(field, body); });
+    }
+    return mesh;
+  }
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  [[nodiscard]] std::size_t slot_of(std::string_view name) const {
+    for (std::size_t i = 0; i < header_.fields.size(); ++i)
+      if (header_.fields[i].name == name) return i;
+    return kNone;
+  }
+
+  void read_header() {
+    std::uint64_t width = 0;
+    std::uint64_t height = 1;
+    std::optional<std::uint64_t> points;
+    while (header_.data.empty()) {
+      const std::string_view key = reader_.word();
+      if (key == "FIELDS" || key == "COLUMNS") {
+        read_names();
+      } else if (key == "SIZE") {
+        for (Field& field : header_.fields)
+          field.bytes = whole();
+      } else if (key == "TYPE") {
+        for (Field& field : header_.fields)
+          field.type = letter();
+      } else if (key == "COUNT") {
+        for (Field& field : header_.fields)
+          field.count = whole();
+      } else if (key == "WIDTH") {
+        width = whole();
+      } else if (key == "HEIGHT") {
+        height = whole();
+      } else if (key == "POINTS") {
+        points = whole();
+      } else if (key == "DATA") {
+        header_.data = reader_.word_on_line();
+      } else if (key != "VERSION" && key != "VIEWPOINT" && !key.starts_with('#')) {
+        reader_.fail(fmt::format("{} is no line of a PCD's header", in_quotes(key)));
+      }
+      reader_.skip_line();
+    }
+    header_.points =
+        points.value_or(width > 0xFFFFFFFF || height > 0xFFFFFFFF ? 0 : width * height);
+    check_header();
+  }
+
+  void read_names() {
+    for (auto name = reader_.word_on_line(); !name.empty(); name = reader_.word_on_line())
+      header_.fields.push_back({.name = name});
+  }
+
+  std::uint64_t whole() {
+    const std::string_view word = reader_.word_on_line();
+    const auto number = parse_integer(word);
+    if (!number || *number < 0) reader_.fail(fmt::format("{} is not a count", in_quotes(word)));
+    return static_cast<std::uint64_t>(*number);
+  }
+
+  char letter() {
+    const std::string_view word = reader_.word_on_line();
+    if (word != "F" && word != "I" && word != "U") {
+      reader_.fail(fmt::format("{} is not the type of a field", in_quotes(word)));
+    }
+    return word[0];
+  }
+
+  void check_header() {
+    if (header_.data == "binary_compressed") {
+      reader_.fail("this PCD is compressed; save it as binary (pcl_convert_pcd_ascii_binary)");
+    }
+    if (header_.data != "ascii" && header_.data != "binary") {
+      reader_.fail(fmt::format("{} is not a kind of data", in_quotes(header_.data)));
+    }
+    std::uint64_t bytes = 0;
+    for (const Field& field : header_.fields) {
+      const bool fits = field.type == 'F' ? field.bytes == 4 || field.bytes == 8
+                                          : std::has_single_bit(field.bytes) && field.bytes <= 8;
+      if (!fits || field.count > kMostInField) {
+        reader_.fail(fmt::format(
+            "a field of {} x {} bytes of type {} cannot be", field.count, field.bytes, field.type));
+      }
+      bytes += field.count * (header_.data == "ascii" ? 2 : field.bytes);
+    }
+    const std::uint64_t room = (reader_.bytes_left() + 1) / std::max<std::uint64_t>(bytes, 1);
+    if (header_.points > room) {
+      reader_.fail(
+          fmt::format("{} points are promised, but the file has room for {} at most; it "
+                      "was cut short or its header is wrong",
+                      header_.points,
+                      room));
+    }
+  }
+
+  template <typename Next>
+  void read_points(Mesh& mesh, std::size_t& left_out, const Next& next) {
+    std::vector<std::size_t> slots;
+    for (const Field& field : header_.fields) {
+      std::size_t slot = 0;
+      while (slot < kKept.size() && kKept.at(slot) != field.name)
+        ++slot;
+      slots.push_back(slot);
+    }
+    mesh.vertices_mm.reserve(header_.points);
+    std::array<float, kKept.size()> kept{};
+    for (std::uint64_t i = 0; i < header_.points; ++i) {
+      for (std::size_t f = 0; f < slots.size(); ++f) {
+        for (std::uint64_t k = 0; k < header_.fields[f].count; ++k) {
+          const float value = next(header_.fields[f]);
+          if (k == 0 && slots[f] < kept.size()) kept.at(slots[f]) = value;
+        }
+      }
+      const Eigen::Vector3f place(kept[0], kept[1], kept[2]);
+      if (!place.allFinite()) {
+        ++left_out;
+        continue;
+      }
+      mesh.vertices_mm.push_back(place);
+      const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
+      if (has_normals_) {
+        mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
+      }
+      if (has_sigma_) mesh.sigma_mm.push_back(kept[6]);
+    }
+  }
+
+  float ascii(const Field& field) {
+    static_cast<void>(field);
+    return reader_.real();
+  }
+
+  template <typename Number>
+  static float take(std::string_view& body) {
+    Number number{};
+    std::memcpy(&number, body.data(), sizeof number);
+    body.remove_prefix(sizeof number);
+    return static_cast<float>(number);
+  }
+
+  float binary(const Field& field, std::string_view& body) {
+    if (body.size() < field.bytes) reader_.fail("the file ends too early; it was cut short");
+    if (field.type == 'F') return field.bytes == 4 ? take<float>(body) : take<double>(body);
+    body.remove_prefix(field.bytes);  // no integer field is kept
+    return 0.0F;
+  }
+
+  std::string_view text_;
+  TextReader reader_;
+  Header header_;
+  bool has_normals_ = false;
+  bool has_sigma_ = false;
+};
+
+}  // namespace
+
+Mesh read_pcd(const std::filesystem::path& path, const Run& run) {
+  const std::string text = read_bytes(path);
+  std::size_t left_out = 0;
+  Mesh mesh = PcdReader(path, text).read(left_out);
+  check_mesh(mesh, path);
+  if (left_out > 0) {
+    run.note(fmt::format("{}: {} points without a place were left out", path.string(), left_out));
+  }
+  return mesh;
+}
+
+}  // namespace frangia

@@ -1,0 +1,189 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/files/internal/add_polygon.h"
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/ply_source.h"
+#include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/ply.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::array<std::string_view, 9> kKeptOfVertices{
+    "x", "y", "z", "nx", "ny", "nz", "sigma_mm", "views", "mark"};
+constexpr std::size_t kViews = 7;
+constexpr std::size_t kMark = 8;
+
+/// For each property of a vertex its place in kKeptOfVertices; the size of kKeptOfVertices for one
+/// that is skipped.
+std::vector<std::size_t> slots_of(const PlyElement& element) {
+  std::vector<std::size_t> slots;
+  for (const PlyProperty& property : element.properties) {
+    const auto* const found =
+        std::find(kKeptOfVertices.begin(), kKeptOfVertices.end(), property.name);
+    const bool kept =
+        !property.count_type &&
+        (property.name != kKeptOfVertices[kViews] || property.type == PlyType::Uint16) &&
+        (property.name != kKeptOfVertices[kMark] || property.type == PlyType::Uint8);
+    slots.push_back(kept ? static_cast<std::size_t>(found - kKeptOfVertices.begin())
+                         : kKeptOfVertices.size());
+  }
+  return slots;
+}
+
+bool has(const std::vector<std::size_t>& slots, std::size_t first, std::size_t count) {
+  for (std::size_t slot = first; slot < first + count; ++slot)
+    if (std::find(slots.begin(), slots.end(), slot) == slots.end()) return false;
+  return true;
+}
+
+template <typename Source>
+std::uint64_t list_length(Source& source, const PlyProperty& property) {
+  const double length = source.value(property.count_type.value_or(PlyType::Uint8));
+  if (!(length >= 0.0) || length != std::floor(length)) {
+    source.fail(fmt::format("a list '{}' of {} values cannot be", property.name, length));
+  }
+  return static_cast<std::uint64_t>(length);
+}
+
+template <typename Source>
+void skip(Source& source, const PlyProperty& property) {
+  const std::uint64_t count = property.count_type ? list_length(source, property) : 1;
+  for (std::uint64_t i = 0; i < count; ++i)
+    static_cast<void>(source.value(property.type));
+}
+
+/// A mark of another program's making is taken for none.
+Mark mark_from(double value) {
+  return value == 1.0 ? Mark::Displaced : value == 2.0 ? Mark::Synthesized : Mark::Measured;
+}
+
+template <typename Source>
+void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
+  const std::vector<std::size_t> slots = slots_of(element);
+  const bool has_normals = has(slots, 3, 3);
+  const bool has_sigma = has(slots, 6, 1);
+  const bool has_views = has(slots, kViews, 1);
+  const bool has_marks = has(slots, kMark, 1);
+  if (!has(slots, 0, 3)) source.fail("its vertices lack an x, y or z");
+  mesh.vertices_mm.reserve(element.count);
+  std::array<float, kKeptOfVertices.size()> kept{};
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    for (std::size_t p = 0; p < slots.size(); ++p) {
+      if (slots[p] < kept.size()) {
+        kept.at(slots[p]) = static_cast<float>(source.value(element.properties[p].type));
+      } else {
+        skip(source, element.properties[p]);
+      }
+    }
+    mesh.vertices_mm.emplace_back(kept[0], kept[1], kept[2]);
+    if (has_sigma) mesh.sigma_mm.push_back(kept[6]);
+    if (has_views) mesh.views.push_back(static_cast<std::uint16_t>(kept[kViews]));
+    if (has_marks) mesh.vertex_marks.push_back(mark_from(static_cast<double>(kept[kMark])));
+    if (!has_normals) continue;
+    const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
+    mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
+  }
+}
+
+template <typename Source>
+void read_polygon(Source& source,
+                  const PlyProperty& list,
+                  std::vector<std::uint32_t>& corners,
+                  Mesh& mesh) {
+  const std::uint64_t count = list_length(source, list);
+  if (count < 3) source.fail(fmt::format("a face has {} corners; it needs three", count));
+  corners.clear();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double index = source.value(list.type);
+    if (!(index >= 0.0 && index <= std::numeric_limits<std::uint32_t>::max()) ||
+        index != std::floor(index)) {
+      source.fail(fmt::format("a face refers to vertex {}, which cannot be", index));
+    }
+    corners.push_back(static_cast<std::uint32_t>(index));
+  }
+  add_polygon(mesh, corners);
+}
+
+bool is_corner_list(const PlyProperty& property) {
+  return property.count_type &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+bool is_mark(const PlyProperty& property) {
+  return !property.count_type && property.name == kKeptOfVertices[kMark] &&
+         property.type == PlyType::Uint8;
+}
+
+template <typename Source>
+void read_faces(Source& source, const PlyElement& element, Mesh& mesh) {
+  std::vector<std::uint32_t> corners;
+  mesh.triangles.reserve(element.count);
+  const bool has_marks = std::any_of(element.properties.begin(), element.properties.end(), is_mark);
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    Mark mark = Mark::Measured;
+    for (const PlyProperty& property : element.properties) {
+      if (is_corner_list(property)) {
+        read_polygon(source, property, corners, mesh);
+      } else if (is_mark(property)) {
+        mark = mark_from(source.value(property.type));
+      } else {
+        skip(source, property);
+      }
+    }
+    if (has_marks) mesh.triangle_marks.resize(mesh.triangles.size(), mark);
+  }
+}
+
+template <typename Source>
+Mesh read_elements(Source source, const PlyHeader& header) {
+  Mesh mesh;
+  bool has_vertices = false;
+  for (const PlyElement& element : header.elements) {
+    if (element.properties.empty()) continue;  // nothing of it is in the file
+    if (const std::uint64_t room = source.max_count(element); element.count > room) {
+      source.fail(
+          fmt::format("the header promises {} of '{}', but the file has room for {} at most; "
+                      "it was cut short or its header is wrong",
+                      element.count,
+                      element.name,
+                      room));
+    }
+    if (element.name == "vertex") {
+      read_vertices(source, element, mesh);
+      has_vertices = true;
+    } else if (element.name == "face") {
+      read_faces(source, element, mesh);
+    } else if (element.name == "tristrips") {
+      source.fail("triangle strips are not read; export it with faces");
+    } else {
+      for (std::uint64_t i = 0; i < element.count; ++i) {
+        for (const PlyProperty& property : element.properties)
+          skip(source, property);
+      }
+    }
+  }
+  if (!has_vertices) source.fail("there is no element 'vertex' in it");
+  return mesh;
+}
+
+}  // namespace
+
+Mesh read_ply(const std::filesystem::path& path) {
+  const std::string bytes = read_bytes(path);
+  const PlyHeader header = parse_ply_header(path, bytes);
+  const std::string_view body = std::string_view(bytes).substr(header.body);
+  Mesh mesh = header.format == PlyFormat::Ascii
+                  ? read_elements(AsciiPlySource(path, bytes, header.body), header)
+                  : read_elements(BinaryPlySource(path, body, header.format), header);
+  check_mesh(mesh, path);
+  return mesh;
+}
+
+}  // namespace frangia

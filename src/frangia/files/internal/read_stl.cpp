@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/internal/text_reader.h"
+#include "frangia/files/internal/weld_vertices.h"
+#include "frangia/files/stl.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84;  // 80 of free text, then the count
+constexpr std::size_t kFacetBytes = 50;   // normal, three corners, two unused bytes
+
+using Corners = std::vector<Eigen::Vector3f>;
+
+std::size_t promised_bytes(std::string_view bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + kHeaderBytes - sizeof count, sizeof count);
+  return kHeaderBytes + kFacetBytes * std::size_t{count};
+}
+
+Corners binary_corners(std::string_view bytes) {
+  Corners corners;
+  corners.reserve(3 * (bytes.size() / kFacetBytes));
+  for (std::size_t facet = kHeaderBytes; facet < bytes.size(); facet += kFacetBytes) {
+    for (std::size_t corner = 1; corner <= 3; ++corner) {
+      Eigen::Vector3f& place = corners.emplace_back();
+      std::memcpy(place.data(), bytes.data() + facet + 12 * corner, 12);
+    }
+  }
+  return corners;
+}
+
+/// Keywords are lower case in the specification and upper case in some programs.
+bool is(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  });
+}
+
+void expect(TextReader& reader, std::string_view keyword) {
+  const std::string_view word = reader.word();
+  if (!is(word, keyword)) {
+    reader.fail(fmt::format("{} stands where '{}' is due", in_quotes(word), keyword));
+  }
+}
+
+void read_facet(TextReader& reader, Corners& corners) {
+  expect(reader, "normal");
+  for (int i = 0; i < 3; ++i)
+    static_cast<void>(reader.word());
+  expect(reader, "outer");
+  expect(reader, "loop");
+  for (int i = 0; i < 3; ++i) {
+    expect(reader, "vertex");
+    const float x = reader.real();
+    const float y = reader.real();
+    const float z = reader.real();
+    corners.emplace_back(x, y, z);
+  }
+  expect(reader, "endloop");
+  expect(reader, "endfacet");
+}
+
+Corners ascii_corners(const std::filesystem::path& path, std::string_view text) {
+  TextReader reader(path, text);
+  Corners corners;
+  bool open = false;
+  for (;;) {
+    const std::string_view word = reader.word();
+    if (word.empty() && !open) return corners;
+    if (is(word, "facet") && open) {
+      read_facet(reader, corners);
+    } else if (is(word, open ? "endsolid" : "solid")) {
+      open = !open;
+      reader.skip_line();  // a name, or nothing
+    } else {
+      reader.fail(fmt::format(
+          "{} stands where '{}' is due", in_quotes(word), open ? "facet' or 'endsolid" : "solid"));
+    }
+  }
+}
+
+Corners read_corners(const std::filesystem::path& path, std::string_view bytes) {
+  // Size first: many a binary file begins with "solid" too.
+  const bool has_header = bytes.size() >= kHeaderBytes;
+  if (has_header && promised_bytes(bytes) == bytes.size()) return binary_corners(bytes);
+  TextReader reader(path, bytes);
+  const bool text = bytes.find('\0') == std::string_view::npos;
+  if (text && is(reader.word(), "solid")) return ascii_corners(path, bytes);
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: it is {} bytes long, where its header promises {}; it was cut short "
+                          "or is not an STL file",
+                          path.string(),
+                          bytes.size(),
+                          has_header ? promised_bytes(bytes) : kHeaderBytes));
+}
+
+}  // namespace
+
+Mesh read_stl(const std::filesystem::path& path) {
+  const std::string bytes = read_bytes(path);
+  Mesh mesh = weld_vertices(read_corners(path, bytes));
+  check_mesh(mesh, path);
+  return mesh;
+}
+
+}  // namespace frangia

@@ -1,0 +1,62 @@
+#include "frangia/files/internal/weld_vertices.h"
+
+#include <bit>
+#include <limits>
+
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+std::uint64_t hash_of(const Eigen::Vector3f& place) {
+  std::uint64_t hash = 0;
+  for (const float coordinate : place) {
+    const auto bits = std::bit_cast<std::uint32_t>(coordinate + 0.0F);  // -0 is 0
+    hash = (hash ^ bits) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 29U;
+  }
+  return hash;
+}
+
+/// Vertices by place, in an open-addressed table that is at most half full.
+class VertexTable {
+ public:
+  VertexTable(std::size_t most, std::vector<Eigen::Vector3f>& vertices)
+      : slots_(std::bit_ceil(2 * most + 1), kFree), vertices_(vertices) {}
+
+  std::uint32_t index_of(const Eigen::Vector3f& place) {
+    std::size_t slot = hash_of(place) & (slots_.size() - 1);
+    while (slots_[slot] != kFree && vertices_[slots_[slot]] != place)
+      slot = (slot + 1) & (slots_.size() - 1);
+    if (slots_[slot] == kFree) {
+      slots_[slot] = static_cast<std::uint32_t>(vertices_.size());
+      vertices_.push_back(place);
+    }
+    return slots_[slot];
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> slots_;
+  std::vector<Eigen::Vector3f>& vertices_;
+};
+
+}  // namespace
+
+Mesh weld_vertices(std::span<const Eigen::Vector3f> corners_mm) {
+  require(corners_mm.size() % 3 == 0, "weld_vertices: a triangle has three corners");
+  require(corners_mm.size() < std::numeric_limits<std::uint32_t>::max(),
+          "weld_vertices: more than 4 billion corners; decimate the mesh first");
+  Mesh mesh;
+  VertexTable table(corners_mm.size(), mesh.vertices_mm);
+  mesh.triangles.reserve(corners_mm.size() / 3);
+  for (std::size_t i = 0; i < corners_mm.size(); i += 3) {
+    const std::uint32_t a = table.index_of(corners_mm[i]);
+    const std::uint32_t b = table.index_of(corners_mm[i + 1]);
+    const std::uint32_t c = table.index_of(corners_mm[i + 2]);
+    if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
+  }
+  return mesh;
+}
+
+}  // namespace frangia

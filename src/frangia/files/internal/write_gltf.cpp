@@ -1,0 +1,228 @@
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/error.h"
+#include "frangia/files/internal/base64.h"
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/file_writer.h"
+#include "frangia/files/internal/gltf.h"
+#include "frangia/files/lowercase_extension.h"
+#include "frangia/geometry/vertex_data.h"
+
+namespace frangia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFloat = 5126;
+constexpr int kUnsigned = 5125;
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementBuffer = 34963;
+constexpr std::array kNames{"measured", "moved", "invented"};
+const std::array<std::array<double, 4>, 3> kColors{
+    {{0.75, 0.75, 0.78, 1.0}, {0.94, 0.78, 0.16, 1.0}, {0.86, 0.16, 0.16, 1.0}}};
+
+/// Writes bytes as they are.
+class PlainSink {
+ public:
+  explicit PlainSink(FileWriter& file) : file_(file) {}
+  template <typename Number>
+  void number(Number value) {
+    file_.binary(value);
+  }
+  void finish() {}
+
+ private:
+  FileWriter& file_;
+};
+
+/// Writes bytes as base64, three at a time.
+class Base64Sink {
+ public:
+  explicit Base64Sink(FileWriter& file) : file_(file) {}
+  template <typename Number>
+  void number(Number value) {
+    kept_.append(reinterpret_cast<const char*>(&value),
+                 sizeof value);  // NOLINT(*-reinterpret-cast)
+    if (kept_.size() >= kBlock) write(kept_.size() / 3 * 3);
+  }
+  void finish() { write(kept_.size()); }
+
+ private:
+  static constexpr std::size_t kBlock = 3 << 14;
+  void write(std::size_t count) {
+    file_.text(encode_base64(std::string_view(kept_).substr(0, count)));
+    kept_.erase(0, count);
+  }
+  FileWriter& file_;
+  std::string kept_;
+};
+
+/// What the file will hold, in the order of its bytes.
+class Layout {
+ public:
+  Layout(const Mesh& mesh, const std::filesystem::path& path) : mesh_(mesh) {
+    std::array<std::size_t, 3> counts{};
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      ++counts.at(static_cast<std::size_t>(mark_of(mesh, i)));
+    describe_vertices();
+    describe_triangles(counts);
+    constexpr std::uint64_t kMost = 0xFFFFFFFFU - 65'536U;
+    if (bytes_ > kMost) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: the mesh is larger than the 4 GB of a glTF; decimate it, or "
+                              "write a .ply",
+                              path.string()));
+    }
+  }
+
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+  [[nodiscard]] Json document(const Json& buffer) const {
+    Json gltf;
+    gltf["asset"] = {{"version", "2.0"}, {"generator", "Frangia"}};
+    gltf["scene"] = 0;
+    gltf["scenes"] = {{{"nodes", {0}}}};
+    // mm with z up, stored; m with y up, shown.
+    gltf["nodes"] = {{{"name", "scan"},
+                      {"mesh", 0},
+                      {"matrix", {0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1}}}};
+    gltf["meshes"] = {{{"name", "scan"}, {"primitives", primitives_}}};
+    gltf["materials"] = materials_;
+    gltf["accessors"] = accessors_;
+    gltf["bufferViews"] = views_;
+    gltf["buffers"] = Json::array({buffer});
+    return gltf;
+  }
+
+  template <typename Sink>
+  void write(Sink sink) const {
+    write_vectors(sink, mesh_.vertices_mm);
+    write_vectors(sink, mesh_.normals);
+    for (const float sigma : mesh_.sigma_mm)
+      sink.number(sigma);
+    for (const std::uint16_t views : mesh_.views)
+      sink.number(static_cast<float>(views));
+    for (const Mark mark : mesh_.vertex_marks)
+      sink.number(static_cast<float>(mark));
+    for (std::size_t mark = 0; mark < kNames.size(); ++mark) {
+      for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+        if (static_cast<std::size_t>(mark_of(mesh_, i)) != mark) continue;
+        for (const std::uint32_t corner : mesh_.triangles[i])
+          sink.number(corner);
+      }
+    }
+    sink.finish();
+  }
+
+ private:
+  template <typename Sink>
+  static void write_vectors(Sink& sink, const std::vector<Eigen::Vector3f>& vectors) {
+    for (const Eigen::Vector3f& vector : vectors) {
+      for (const float coordinate : vector)
+        sink.number(coordinate);
+    }
+  }
+
+  void describe_vertices() {
+    const std::size_t count = mesh_.vertices_mm.size();
+    Eigen::AlignedBox3f box;
+    for (const auto& place : mesh_.vertices_mm)
+      box.extend(place);
+    attributes_["POSITION"] = accessor(count, kFloat, "VEC3");
+    accessors_.back()["min"] = {box.min().x(), box.min().y(), box.min().z()};
+    accessors_.back()["max"] = {box.max().x(), box.max().y(), box.max().z()};
+    if (!mesh_.normals.empty()) attributes_["NORMAL"] = accessor(count, kFloat, "VEC3");
+    if (!mesh_.sigma_mm.empty()) attributes_["_SIGMA_MM"] = accessor(count, kFloat, "SCALAR");
+    if (!mesh_.views.empty()) attributes_["_VIEWS"] = accessor(count, kFloat, "SCALAR");
+    if (!mesh_.vertex_marks.empty()) attributes_["_MARK"] = accessor(count, kFloat, "SCALAR");
+  }
+
+  void describe_triangles(const std::array<std::size_t, 3>& counts) {
+    for (std::size_t mark = 0; mark < counts.size(); ++mark) {
+      if (counts.at(mark) == 0) continue;
+      primitives_.push_back({{"attributes", attributes_},
+                             {"indices", accessor(3 * counts.at(mark), kUnsigned, "SCALAR")},
+                             {"material", materials_.size()},
+                             {"mode", 4}});
+      materials_.push_back({{"name", kNames.at(mark)},
+                            {"pbrMetallicRoughness",
+                             {{"baseColorFactor", kColors.at(mark)},
+                              {"metallicFactor", 0.0},
+                              {"roughnessFactor", 0.8}}},
+                            {"doubleSided", true}});
+    }
+  }
+
+  std::size_t accessor(std::size_t count, int component, const char* type) {
+    const std::uint64_t length = 4 * count * (std::string_view(type) == "VEC3" ? 3 : 1);
+    accessors_.push_back({{"bufferView", views_.size()},
+                          {"componentType", component},
+                          {"count", count},
+                          {"type", type}});
+    views_.push_back({{"buffer", 0},
+                      {"byteOffset", bytes_},
+                      {"byteLength", length},
+                      {"target", component == kUnsigned ? kElementBuffer : kArrayBuffer}});
+    bytes_ += length;
+    return accessors_.size() - 1;
+  }
+
+  const Mesh& mesh_;
+  std::uint64_t bytes_ = 0;
+  Json attributes_;
+  Json primitives_ = Json::array();
+  Json materials_ = Json::array();
+  Json accessors_ = Json::array();
+  Json views_ = Json::array();
+};
+
+void write_glb(FileWriter& file, const Layout& layout) {
+  constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+  constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+  std::string gltf = layout.document({{"byteLength", layout.bytes()}}).dump();
+  gltf.resize((gltf.size() + 3) / 4 * 4, ' ');
+  const auto text = static_cast<std::uint32_t>(gltf.size());
+  const auto body = static_cast<std::uint32_t>(layout.bytes());  // a multiple of four
+  file.text("glTF");
+  file.binary(std::uint32_t{2});
+  file.binary(12 + 8 + text + 8 + body);
+  file.binary(text);
+  file.binary(kJsonChunk);
+  file.text(gltf);
+  file.binary(body);
+  file.binary(kBinaryChunk);
+  layout.write(PlainSink(file));
+}
+
+void write_text(FileWriter& file, const Layout& layout) {
+  const std::string here = "data:application/octet-stream;base64,";
+  const std::string gltf = layout.document({{"byteLength", layout.bytes()}, {"uri", here}}).dump(1);
+  const std::size_t split = gltf.rfind(here) + here.size();
+  file.text(std::string_view(gltf).substr(0, split));
+  layout.write(Base64Sink(file));
+  file.text(std::string_view(gltf).substr(split));
+  file.text("\n");
+}
+
+}  // namespace
+
+void write_gltf(const std::filesystem::path& path, const Mesh& mesh) {
+  check_triangles(mesh, path);
+  const Layout layout(mesh, path);
+  FileWriter file(path);
+  if (lowercase_extension(path) == ".gltf") {
+    write_text(file, layout);
+  } else {
+    write_glb(file, layout);
+  }
+  file.commit();
+}
+
+}  // namespace frangia

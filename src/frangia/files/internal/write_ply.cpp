@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/file_writer.h"
+#include "frangia/files/internal/write_vertices.h"
+#include "frangia/files/ply.h"
+
+namespace frangia {
+namespace {
+
+void write_ply_header(FileWriter& file, const Mesh& mesh) {
+  file.text("ply\nformat binary_little_endian 1.0\ncomment Frangia; lengths in mm\n");
+  file.text(fmt::format("element vertex {}\n", mesh.vertices_mm.size()));
+  file.text("property float x\nproperty float y\nproperty float z\n");
+  if (!mesh.normals.empty()) {
+    file.text("property float nx\nproperty float ny\nproperty float nz\n");
+  }
+  if (!mesh.sigma_mm.empty()) file.text("property float sigma_mm\n");
+  if (!mesh.views.empty()) file.text("property ushort views\n");
+  if (!mesh.vertex_marks.empty()) file.text("property uchar mark\n");
+  file.text(fmt::format("element face {}\n", mesh.triangles.size()));
+  file.text("property list uchar int vertex_indices\n");
+  if (!mesh.triangle_marks.empty()) file.text("property uchar mark\n");
+  file.text("end_header\n");
+}
+
+}  // namespace
+
+void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+  check_mesh(mesh, path);
+  FileWriter file(path);
+  write_ply_header(file, mesh);
+  write_vertices(file, mesh);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    file.binary(std::uint8_t{3});
+    for (const std::uint32_t corner : mesh.triangles[i])
+      file.binary(corner);
+    if (!mesh.triangle_marks.empty()) {
+      file.binary(static_cast<std::uint8_t>(mesh.triangle_marks[i]));
+    }
+  }
+  file.commit();
+}
+
+}  // namespace frangia

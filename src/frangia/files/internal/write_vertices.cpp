@@ -1,0 +1,21 @@
+#include "frangia/files/internal/write_vertices.h"
+
+#include <cstdint>
+
+namespace frangia {
+
+void write_vertices(FileWriter& file, const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    for (const float coordinate : mesh.vertices_mm[i])
+      file.binary(coordinate);
+    if (!mesh.normals.empty()) {
+      for (const float coordinate : mesh.normals[i])
+        file.binary(coordinate);
+    }
+    if (!mesh.sigma_mm.empty()) file.binary(mesh.sigma_mm[i]);
+    if (!mesh.views.empty()) file.binary(mesh.views[i]);
+    if (!mesh.vertex_marks.empty()) file.binary(static_cast<std::uint8_t>(mesh.vertex_marks[i]));
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,86 @@
+#include "frangia/files/internal/xml_parser.h"
+
+#include <exception>
+#include <new>
+
+#include <expat.h>
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+
+namespace frangia {
+
+struct XmlParser::Parser {
+  XML_Parser parser = XML_ParserCreateNS("UTF-8", '|');
+  OnBegin on_begin;
+  OnEnd on_end;
+  std::exception_ptr thrown;
+
+  /// Exceptions must not cross the library's C.
+  template <typename Work>
+  void guard(const Work& work) {
+    try {
+      work();
+    } catch (...) {
+      thrown = std::current_exception();
+      XML_StopParser(parser, XML_FALSE);
+    }
+  }
+
+  static Parser& of(void* self) { return *static_cast<Parser*>(self); }
+  static void begin(void* self, const char* name, const char** attributes) {
+    of(self).guard([&] { of(self).on_begin(name, XmlAttributes(attributes)); });
+  }
+  static void end(void* self, const char* name) {
+    of(self).guard([&] { of(self).on_end(name); });
+  }
+  static void doctype(void* self,
+                      const char* /*name*/,
+                      const char* /*system*/,
+                      const char* /*open*/,
+                      int /*inside*/) {
+    of(self).guard([] {
+      throw Error(ErrorKind::Input, "its XML declares a document type, which is not allowed");
+    });
+  }
+
+  void feed(std::string_view piece, bool last) {
+    const XML_Status status =
+        XML_Parse(parser, piece.data(), static_cast<int>(piece.size()), last ? 1 : 0);
+    if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+    if (status == XML_STATUS_OK) return;
+    throw Error(ErrorKind::Input,
+                fmt::format("its XML is damaged in line {}: {}",
+                            XML_GetCurrentLineNumber(parser),
+                            XML_ErrorString(XML_GetErrorCode(parser))));
+  }
+};
+
+std::string_view XmlAttributes::value(std::string_view name) const {
+  for (const char** pair = pairs_; *pair != nullptr; pair += 2)
+    if (name == pair[0]) return pair[1];
+  return {};
+}
+
+XmlParser::XmlParser(OnBegin on_begin, OnEnd on_end) : parser_(std::make_unique<Parser>()) {
+  if (parser_->parser == nullptr) throw std::bad_alloc();
+  parser_->on_begin = std::move(on_begin);
+  parser_->on_end = std::move(on_end);
+  XML_SetUserData(parser_->parser, parser_.get());
+  XML_SetElementHandler(parser_->parser, Parser::begin, Parser::end);
+  XML_SetStartDoctypeDeclHandler(parser_->parser, Parser::doctype);
+}
+
+XmlParser::~XmlParser() {
+  XML_ParserFree(parser_->parser);
+}
+
+void XmlParser::feed(std::string_view piece) {
+  parser_->feed(piece, false);
+}
+
+void XmlParser::finish() {
+  parser_->feed({}, true);
+}
+
+}  // namespace frangia

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace frangia {
+
+/// The attributes of an XML element.
+class XmlAttributes {
+ public:
+  explicit XmlAttributes(const char** pairs) : pairs_(pairs) {}
+  /// Empty when there is none of this name.
+  [[nodiscard]] std::string_view value(std::string_view name) const;
+
+ private:
+  const char** pairs_;
+};
+
+/// Walks over the elements of an XML text that comes in pieces. Names are "namespace|name".
+///
+/// errors   Error(Input) with the line: not well-formed, or a document type, whose entities can
+///          grow without bound. What a handler throws stops the walk and comes out of `feed`.
+class XmlParser {
+ public:
+  using OnBegin = std::function<void(std::string_view, const XmlAttributes&)>;
+  using OnEnd = std::function<void(std::string_view)>;
+
+  XmlParser(OnBegin on_begin, OnEnd on_end);
+  XmlParser(const XmlParser&) = delete;
+  XmlParser& operator=(const XmlParser&) = delete;
+  XmlParser(XmlParser&&) = delete;
+  XmlParser& operator=(XmlParser&&) = delete;
+  ~XmlParser();
+
+  void feed(std::string_view piece);
+  void finish();
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace frangia

@@ -1,0 +1,153 @@
+#include "frangia/files/internal/zip_file.h"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unzip.h>
+#include <zip.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 18U;
+constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30U;
+constexpr std::uint64_t kHarmlessBytes = std::uint64_t{64} << 20U;
+constexpr std::uint64_t kMostRatio = 200;  // text of coordinates packs to a third or a tenth
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
+}
+
+}  // namespace
+
+struct ZipReader::Archive {
+  unzFile file = nullptr;
+};
+
+ZipReader::ZipReader(std::filesystem::path path)
+    : path_(std::move(path)), archive_(std::make_unique<Archive>()) {
+  std::error_code error;
+  if (!std::filesystem::exists(path_, error)) fail(path_, "there is no such file; check its name");
+  if (!std::filesystem::is_regular_file(path_, error)) fail(path_, "this is not a file; name one");
+  archive_->file = unzOpen64(path_.c_str());
+  if (archive_->file == nullptr) fail(path_, "this is no zip archive, or it was cut short");
+}
+
+ZipReader::~ZipReader() {
+  unzClose(archive_->file);
+}
+
+bool ZipReader::read(const std::string& name,
+                     const std::function<void(std::string_view)>& consume) const {
+  if (unzLocateFile(archive_->file, name.c_str(), 1) != UNZ_OK) return false;
+  unz_file_info64 info{};
+  std::array<char, 4096> ignored{};
+  if (unzGetCurrentFileInfo64(
+          archive_->file, &info, ignored.data(), ignored.size(), nullptr, 0, nullptr, 0) !=
+      UNZ_OK) {
+    fail(path_, "its list of entries is damaged");
+  }
+  const bool bomb = info.uncompressed_size > kMostBytes ||
+                    (info.uncompressed_size > kHarmlessBytes &&
+                     info.uncompressed_size / kMostRatio > info.compressed_size);
+  if (bomb) {
+    fail(path_,
+         fmt::format("entry {} would unpack from {} to {} bytes, as no mesh does; it is refused",
+                     name,
+                     info.compressed_size,
+                     info.uncompressed_size));
+  }
+  if (unzOpenCurrentFile(archive_->file) != UNZ_OK) {
+    fail(path_, fmt::format("entry {} is damaged, or packed in a way that is not read", name));
+  }
+  std::vector<char> block(kBlock);
+  std::uint64_t unpacked = 0;
+  for (;;) {
+    const int got =
+        unzReadCurrentFile(archive_->file, block.data(), static_cast<unsigned>(block.size()));
+    if (got < 0) fail(path_, fmt::format("entry {} is damaged; copy the file again", name));
+    if (got == 0) break;
+    unpacked += static_cast<std::uint64_t>(got);
+    if (unpacked > info.uncompressed_size) {
+      fail(path_, fmt::format("entry {} is longer than it says; it is refused", name));
+    }
+    consume({block.data(), static_cast<std::size_t>(got)});
+  }
+  if (unzCloseCurrentFile(archive_->file) != UNZ_OK || unpacked != info.uncompressed_size) {
+    fail(path_, fmt::format("entry {} is damaged; copy the file again", name));
+  }
+  return true;
+}
+
+struct ZipWriter::Archive {
+  explicit Archive(const std::filesystem::path& path) : atomic(path) {}
+  AtomicFile atomic;
+  zipFile file = nullptr;
+  bool open = false;
+  std::string buffer;
+
+  void check(int code) const {
+    if (code == ZIP_OK) return;
+    throw Error(
+        ErrorKind::File,
+        fmt::format("{}: cannot be written; the disk may be full", atomic.temporary().string()));
+  }
+  void flush() {
+    check(zipWriteInFileInZip(file, buffer.data(), static_cast<unsigned>(buffer.size())));
+    buffer.clear();
+  }
+  void end() {
+    if (!open) return;
+    flush();
+    check(zipCloseFileInZip(file));
+    open = false;
+  }
+};
+
+ZipWriter::ZipWriter(const std::filesystem::path& path)
+    : archive_(std::make_unique<Archive>(path)) {
+  archive_->file = zipOpen64(archive_->atomic.temporary().c_str(), APPEND_STATUS_CREATE);
+  if (archive_->file == nullptr) archive_->check(ZIP_ERRNO);
+}
+
+ZipWriter::~ZipWriter() {
+  if (archive_->file != nullptr) zipClose(archive_->file, nullptr);
+}
+
+void ZipWriter::begin(const std::string& name, std::uint64_t most_bytes) {
+  constexpr int kFast = 1;  // a third larger than the best, five times as fast
+  archive_->end();
+  zip_fileinfo info{};
+  info.tmz_date = {0, 0, 0, 1, 0, 1980};  // the same mesh gives the same bytes
+  archive_->check(zipOpenNewFileInZip64(archive_->file,
+                                        name.c_str(),
+                                        &info,
+                                        nullptr,
+                                        0,
+                                        nullptr,
+                                        0,
+                                        nullptr,
+                                        Z_DEFLATED,
+                                        kFast,
+                                        most_bytes > 0xFFFF0000U ? 1 : 0));
+  archive_->open = true;
+}
+
+void ZipWriter::text(std::string_view piece) {
+  archive_->buffer.append(piece);
+  if (archive_->buffer.size() >= kBlock) archive_->flush();
+}
+
+void ZipWriter::commit() {
+  archive_->end();
+  zipFile file = std::exchange(archive_->file, nullptr);
+  archive_->check(zipClose(file, nullptr));
+  archive_->atomic.commit();
+}
+
+}  // namespace frangia

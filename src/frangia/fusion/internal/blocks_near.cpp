@@ -1,0 +1,134 @@
+#include "frangia/fusion/internal/blocks_near.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "frangia/core/parallel.h"
+
+namespace frangia {
+namespace {
+
+/// Voxels around a measured point within which the field is wanted: a cell's corners are one from a
+/// point in it, and the next point looked at is kStep voxels away.
+constexpr float kMargin = 1.75F;
+constexpr double kStep = 1.05;
+
+/// Collects keys of blocks, cheap when the same ones come again and again.
+class KeySet {
+ public:
+  void add(std::uint64_t key) {
+    std::uint64_t& seen = recent_[key * 0x9e3779b97f4a7c15ULL >> 56];
+    if (seen == key) return;
+    seen = key;
+    keys_.push_back(key);
+    if (keys_.size() > limit_) {
+      sort_unique();
+      limit_ = std::max(limit_, 2 * keys_.size());
+    }
+  }
+  std::vector<std::uint64_t> release() {
+    sort_unique();
+    return std::move(keys_);
+  }
+
+ private:
+  void sort_unique() {
+    std::sort(keys_.begin(), keys_.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  }
+
+  std::array<std::uint64_t, 256> recent_{};  ///< one for each hash
+  std::size_t limit_ = 4096;
+  std::vector<std::uint64_t> keys_;
+};
+
+/// The block that holds a voxel coordinate. `std::floor` would be a call.
+int block_of(float voxel) {
+  const float block = voxel * 0.125F;
+  const int toward_zero = static_cast<int>(block);
+  return toward_zero - (block < static_cast<float>(toward_zero) ? 1 : 0);
+}
+Eigen::Array3i block_of(const Eigen::Array3f& voxel) {
+  return {block_of(voxel.x()), block_of(voxel.y()), block_of(voxel.z())};
+}
+
+/// All blocks from one to another.
+void add_box(KeySet& keys, const Eigen::Array3i& first, const Eigen::Array3i& last) {
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x)
+        keys.add(block_key(x, y, z));
+    }
+  }
+}
+
+/// All blocks that hold the corners of cells around the segment.
+void add_segment(KeySet& keys, const Eigen::Array3f& from, const Eigen::Array3f& to) {
+  const Eigen::Array3i first = block_of(from.min(to) - kMargin);
+  const Eigen::Array3i last = block_of(from.max(to) + kMargin);
+  if ((last - first).sum() <= 1) return add_box(keys, first, last);
+  const Eigen::Array3f whole = to - from;
+  const int steps = static_cast<int>(whole.abs().maxCoeff() / (2.0F * kMargin)) + 1;
+  const Eigen::Array3f step = whole / static_cast<float>(steps);
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Array3f point = from + step * static_cast<float>(i);
+    add_box(keys, block_of(point - kMargin), block_of(point + kMargin));
+  }
+}
+
+/// How many pixels to step so that, with the margin, no corner of a cell between two of them is
+/// left out.
+int pixel_stride(const LocalPlanes& view, const CameraRays& camera, const TruncationBand& band) {
+  float nearest = 0.0F;
+  for (const float q : view.inverse_depth.pixels())
+    nearest = std::max(nearest, q);  // passes NaN over
+  const double voxel_px =
+      band.voxel_mm * static_cast<double>(nearest) * camera.model.focal_px.minCoeff();
+  return std::clamp(static_cast<int>(std::lround(kStep * voxel_px)), 1, 8);
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
+                                       const CameraRays& camera,
+                                       const TruncationBand& band) {
+  const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
+  const Eigen::Matrix3f rotation = (object_from_rig.linear() / band.voxel_mm).cast<float>();
+  const Eigen::Vector3f origin = (object_from_rig.translation() / band.voxel_mm).cast<float>();
+  constexpr float kLongest = 2.0F;  // at grazing incidence the band along the ray has no end
+  const auto near = static_cast<float>(band.allocation_mm / band.voxel_mm);
+  const int stride = pixel_stride(view, camera, band);
+
+  constexpr std::size_t kRows = 16;
+  const std::size_t rows = static_cast<std::size_t>((view.quads.height() + stride - 1) / stride);
+  std::vector<std::vector<std::uint64_t>> parts((rows + kRows - 1) / kRows);
+  parallel_chunks(rows, kRows, [&](std::size_t begin, std::size_t end) {
+    KeySet keys;
+    for (int y = static_cast<int>(begin) * stride; y < static_cast<int>(end) * stride;
+         y += stride) {
+      for (int x = 0; x < view.quads.width(); x += stride) {
+        const LocalPlanes::Quad& quad = view.quads(x, y);
+        if (quad.kind <= LocalPlanes::Kind::Extrapolated) continue;
+        const float depth = 1.0F / view.inverse_depth(x, y);
+        const Eigen::Vector3f ray(camera.rays(x, y).x(), camera.rays(x, y).y(), 1.0F);
+        const Eigen::Vector3f point = origin + rotation * (depth * ray);
+        const Eigen::Vector3f along = (rotation * ray).normalized();  // one voxel
+        const float cosine = std::max(1.0F / kLongest, quad.distance_mm / (depth * ray.norm()));
+        const float reach = near / cosine;
+        add_segment(keys, (point - along * reach).array(), (point + along * reach).array());
+      }
+    }
+    parts[begin / kRows] = keys.release();
+  });
+  KeySet all;
+  for (const auto& part : parts) {
+    for (const std::uint64_t key : part)
+      all.add(key);
+  }
+  return all.release();
+}
+
+}  // namespace frangia

@@ -1,0 +1,214 @@
+#include "frangia/fusion/internal/mesh_quads.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/parallel.h"
+#include "frangia/fusion/internal/find_quads.h"
+#include "frangia/fusion/internal/remove_foldovers.h"
+#include "frangia/fusion/internal/remove_slivers.h"
+#include "frangia/fusion/internal/sharpen_edges.h"
+
+namespace frangia {
+namespace {
+
+constexpr float kSliver = 0.1F;  // voxels: shorter edges are not worth their triangles
+
+/// How a quad reads when cut between corners `from` and `from + 2`.
+struct Diagonal {
+  bool unflipped = true;  ///< neither triangle faces inward
+  bool folded = false;    ///< one does, and is more than a sliver
+  float away_mm = 0.0F;   ///< of the cut's middle from the surface at the crossing
+  float length_mm = 0.0F;
+};
+
+/// Corners of a quad, counter-clockwise from outside.
+using Ring = std::array<std::uint32_t, 4>;
+
+Ring ring_of(const Quad& quad, const EdgeCrossings& crossings) {
+  Ring ring = quad.ring;
+  if (crossings.outward[quad.crossing] < 0) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+/// One of the two triangles beside the cut from a corner.
+Mesh::Triangle half_of(const Ring& ring, std::size_t from, std::size_t half) {
+  const std::size_t start = from + 2 * half;
+  return {ring[start % 4], ring[(start + 1) % 4], ring[(start + 2) % 4]};
+}
+
+/// The surface at a crossing: its plane, and which way out is along the grid's edge.
+struct Surface {
+  Eigen::Hyperplane<float, 3> plane;
+  Eigen::Vector3f outward;
+  float voxel_mm = 0.0F;
+};
+
+Surface surface_at(const EdgeCrossings& crossings,
+                   const HermiteAccumulators& hermite,
+                   std::uint32_t crossing) {
+  const HermiteAccumulator::PlaneSum& face = hermite.dominant(crossing);
+  const Eigen::Vector3f normal = face.normal.normalized();
+  const int axis = std::abs(crossings.outward[crossing]) - 1;
+  const float sign = crossings.outward[crossing] > 0 ? 1.0F : -1.0F;
+  return {{normal, crossings.points_mm[crossing] - normal * face.distance_mm()},
+          sign * Eigen::Vector3f::Unit(axis),
+          static_cast<float>(crossings.voxel_mm)};
+}
+
+Diagonal evaluate_diagonal(const Mesh& mesh,
+                           const Ring& ring,
+                           std::size_t from,
+                           const Surface& surface) {
+  const Eigen::Vector3f& one = mesh.vertices_mm[ring[from]];
+  const Eigen::Vector3f& other = mesh.vertices_mm[ring[(from + 2) % 4]];
+  Diagonal cut;
+  cut.length_mm = (one - other).norm();
+  cut.away_mm = surface.plane.absDistance(0.5F * (one + other));
+  for (std::size_t half = 0; half < 2; ++half) {
+    const Mesh::Triangle triangle = half_of(ring, from, half);
+    const Eigen::Vector3f& origin = mesh.vertices_mm[triangle[0]];
+    const Eigen::Vector3f cross =
+        (mesh.vertices_mm[triangle[1]] - origin).cross(mesh.vertices_mm[triangle[2]] - origin);
+    // Against the edge of the grid, which a triangle within the cells never is, or the plane.
+    const float facing = std::max(cross.dot(surface.outward), cross.dot(surface.plane.normal()));
+    cut.unflipped = cut.unflipped && facing > 0.0F;
+    cut.folded = cut.folded || facing < -kSliver * surface.voxel_mm * surface.voxel_mm;
+  }
+  return cut;
+}
+
+/// The cut that folds no triangle over, then stays on the surface, then is short.
+void choose_diagonal(Quad& quad, const Mesh& mesh, const Ring& ring, const Surface& surface) {
+  const Diagonal one = evaluate_diagonal(mesh, ring, 0, surface);
+  const Diagonal other = evaluate_diagonal(mesh, ring, 1, surface);
+  const bool second = [&] {
+    constexpr float kAlike = 0.02F;  // of the cut's length
+    if (one.folded != other.folded) return one.folded;
+    if (one.unflipped != other.unflipped) return other.unflipped;
+    if (std::abs(one.away_mm - other.away_mm) > kAlike * (one.length_mm + other.length_mm))
+      return other.away_mm < one.away_mm;
+    return other.length_mm < one.length_mm;
+  }();
+  quad.diagonal = second ? 1 : 0;
+  quad.folded = one.folded && other.folded;
+}
+
+void choose_diagonals(Quads& quads,
+                      const Mesh& mesh,
+                      const EdgeCrossings& crossings,
+                      const HermiteAccumulators& hermite) {
+  parallel_chunks(quads.size(), 1, [&](std::size_t part, std::size_t) {
+    for (Quad& quad : quads[part]) {
+      choose_diagonal(
+          quad, mesh, ring_of(quad, crossings), surface_at(crossings, hermite, quad.crossing));
+    }
+  });
+}
+
+/// Pulls the vertices of quads that fold, or are pinched, back into their cells; false when there
+/// are none.
+bool return_to_cells(const Quads& quads, PlacedVertices& vertices) {
+  bool any = false;
+  for (const auto& part : quads) {
+    for (const Quad& quad : part) {
+      if (!quad.folded && quad.pinched == 0) continue;
+      any = true;
+      for (const std::uint32_t v : quad.ring)
+        vertices.mesh.vertices_mm[v] = vertices.in_cell_mm[v];
+    }
+  }
+  return any;
+}
+
+void add_triangles(Mesh& mesh, const EdgeCrossings& crossings, const Quads& quads) {
+  std::size_t count = 0;
+  for (const auto& part : quads)
+    count += part.size();
+  mesh.triangles.reserve(2 * count);
+  for (const auto& part : quads) {
+    for (const Quad& quad : part) {
+      if (quad.pinched != 0) continue;
+      const Ring ring = ring_of(quad, crossings);
+      mesh.triangles.push_back(half_of(ring, quad.diagonal, 0));
+      mesh.triangles.push_back(half_of(ring, quad.diagonal, 1));
+    }
+  }
+}
+
+std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t like) {
+  mesh.vertices_mm.push_back(point);
+  mesh.normals.push_back(mesh.normals[like]);
+  mesh.sigma_mm.push_back(mesh.sigma_mm[like]);
+  mesh.views.push_back(mesh.views[like]);
+  return static_cast<std::uint32_t>(mesh.vertices_mm.size() - 1);
+}
+
+/// Fans of triangles around the crossings of pinched quads, with the vertices on their faces.
+void add_pinched(Mesh& mesh, const EdgeCrossings& crossings, const Quads& quads) {
+  std::vector<Quad> pinched;
+  for (const auto& part : quads) {
+    std::copy_if(part.begin(), part.end(), std::back_inserter(pinched), [](const Quad& quad) {
+      return quad.pinched != 0;
+    });
+  }
+  std::map<std::tuple<int, int, int, int>, std::uint32_t> on_face;
+  for (const Quad& quad : pinched) {
+    const Eigen::Vector3f& point = crossings.points_mm[quad.crossing];
+    std::vector<std::uint32_t> ring;
+    for (std::size_t side = 0; side < 4; ++side) {
+      ring.push_back(quad.ring[side]);
+      if ((quad.pinched >> side & 1U) == 0) continue;
+      const Eigen::Vector3i low = face_low(quad, side);
+      const std::tuple key{low.x(), low.y(), low.z(), face_axis(quad, side)};
+      const auto found = on_face.find(key);
+      if (found == on_face.end()) {
+        const std::uint32_t vertex = add_vertex(mesh, point, quad.ring[side]);
+        on_face.emplace(key, vertex);
+        ring.push_back(vertex);
+      } else {  // the second of the strand's two quads: halfway between their crossings
+        mesh.vertices_mm[found->second] = 0.5F * (mesh.vertices_mm[found->second] + point);
+        ring.push_back(found->second);
+      }
+    }
+    if (crossings.outward[quad.crossing] < 0) std::reverse(ring.begin(), ring.end());
+    const std::uint32_t center = add_vertex(mesh, point, ring[0]);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      mesh.triangles.push_back({center, ring[i], ring[(i + 1) % ring.size()]});
+    }
+  }
+}
+
+}  // namespace
+
+Mesh mesh_quads(PlacedVertices vertices,
+                const EdgeCrossings& crossings,
+                const HermiteAccumulators& hermite) {
+  Mesh& mesh = vertices.mesh;
+  Quads quads = find_quads(crossings, hermite);
+  choose_diagonals(quads, mesh, crossings, hermite);
+  constexpr int kRounds = 3;  // pulling one quad's vertices back may fold the next
+  for (int round = 0; round < kRounds && return_to_cells(quads, vertices); ++round)
+    choose_diagonals(quads, mesh, crossings, hermite);
+  add_triangles(mesh, crossings, quads);
+  add_pinched(mesh, crossings, quads);
+  quads = {};
+
+  const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
+  remove_slivers(mesh, vertices.sharp, kSliver * voxel_mm);
+  const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
+  remove_slivers(mesh, sharp, kSliver * voxel_mm);
+  remove_foldovers(mesh, sharp);
+
+  return std::move(vertices.mesh);
+}
+
+}  // namespace frangia

@@ -1,0 +1,136 @@
+#include "frangia/fusion/internal/remove_foldovers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/parallel.h"
+#include "frangia/geometry/selected_one_rings.h"
+
+namespace frangia {
+namespace {
+
+using Vertex = std::uint32_t;
+
+/// How a triangle faces by the normals of its corners: the cosine of the angle between.
+float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
+  const Eigen::Vector3f& origin = mesh.vertices_mm[t[0]];
+  const Eigen::Vector3f cross =
+      (mesh.vertices_mm[t[1]] - origin).cross(mesh.vertices_mm[t[2]] - origin);
+  const Eigen::Vector3f outward = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
+  const float size = cross.norm() * outward.norm();
+  return size > 0.0F ? cross.dot(outward) / size : 0.0F;
+}
+
+/// The triangles that are less upright than `least`.
+std::vector<std::uint32_t> find_foldovers(const Mesh& mesh, float least) {
+  constexpr std::size_t kChunk = 65536;
+  std::vector<std::vector<std::uint32_t>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
+  parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      if (normal_agreement(mesh, mesh.triangles[t]) < least)
+        parts[begin / kChunk].push_back(static_cast<std::uint32_t>(t));
+    }
+  });
+  std::vector<std::uint32_t> foldovers;
+  for (const auto& part : parts)
+    foldovers.insert(foldovers.end(), part.begin(), part.end());
+  return foldovers;
+}
+
+/// How much of the triangles around a vertex is folded: 0 when nothing is.
+float foldover_measure(const Mesh& mesh, const SelectedOneRings& one_rings, Vertex v) {
+  constexpr float kUpright = 0.4F;
+  float sum = 0.0F;
+  for (const std::uint32_t t : one_rings.of(v))
+    sum += std::max(0.0F, kUpright - normal_agreement(mesh, mesh.triangles[t]));
+  return sum;
+}
+
+/// Moves a vertex along the surface to the middle of its neighbours, when that unfolds more than it
+/// folds.
+void relax_tangentially(Mesh& mesh, const SelectedOneRings& one_rings, Vertex v) {
+  const std::vector<Vertex> around = one_ring_neighbors(mesh, one_rings, v);
+  for (std::size_t i = 0; i < around.size(); i += 2) {
+    if (i + 1 == around.size() || around[i] != around[i + 1]) return;  // at the rim
+  }
+  Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+  for (const Vertex other : around)
+    middle += mesh.vertices_mm[other] / static_cast<float>(around.size());
+  const Eigen::Vector3f before = mesh.vertices_mm[v];
+  const Eigen::Vector3f& normal = mesh.normals[v];
+  const float folded = foldover_measure(mesh, one_rings, v);
+  const Eigen::Vector3f step = middle - before;
+  mesh.vertices_mm[v] += step - normal * normal.dot(step);
+  if (foldover_measure(mesh, one_rings, v) >= folded) mesh.vertices_mm[v] = before;
+}
+
+/// Whether no other triangle is on one of its edges.
+bool is_at_boundary(const Mesh& mesh, const SelectedOneRings& one_rings, std::uint32_t triangle) {
+  const Mesh::Triangle& corners = mesh.triangles[triangle];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& one_ring = one_rings.of(corners[i]);
+    const auto shared = std::count_if(one_ring.begin(), one_ring.end(), [&](std::uint32_t t) {
+      return has_vertex(mesh.triangles[t], corners[(i + 1) % 3]);
+    });
+    if (shared < 2) return true;
+  }
+  return false;
+}
+
+void erase_triangles(Mesh& mesh, const std::vector<std::uint32_t>& ascending) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0, next = 0; t < mesh.triangles.size(); ++t) {
+    if (next < ascending.size() && ascending[next] == t) {
+      ++next;
+    } else {
+      mesh.triangles[kept++] = mesh.triangles[t];
+    }
+  }
+  mesh.triangles.resize(kept);
+}
+
+enum class FoldoverAction : std::uint8_t { Relax, Remove };
+
+/// Deals with the triangles that are less upright than `least`; false when there is none.
+bool treat_foldovers(Mesh& mesh,
+                     std::span<const std::uint8_t> sharp,
+                     float least,
+                     FoldoverAction what) {
+  const std::vector<std::uint32_t> foldovers = find_foldovers(mesh, least);
+  if (foldovers.empty()) return false;
+  std::vector<SelectedOneRings::Edge> corners;
+  for (const std::uint32_t t : foldovers) {
+    corners.emplace_back(mesh.triangles[t][0], mesh.triangles[t][1]);
+    corners.emplace_back(mesh.triangles[t][2], mesh.triangles[t][2]);
+  }
+  const SelectedOneRings one_rings(mesh, corners);
+  std::vector<std::uint32_t> removed;
+  for (const std::uint32_t t : foldovers) {
+    if (what == FoldoverAction::Remove || is_at_boundary(mesh, one_rings, t)) {
+      removed.push_back(t);
+      continue;
+    }
+    for (const Vertex v : mesh.triangles[t]) {
+      if (v >= sharp.size() || sharp[v] == 0) relax_tangentially(mesh, one_rings, v);
+    }
+  }
+  erase_triangles(mesh, removed);
+  return true;
+}
+
+}  // namespace
+
+void remove_foldovers(Mesh& mesh, std::span<const std::uint8_t> sharp) {
+  constexpr int kRounds = 4;
+  constexpr float kLeans = 0.35F;  // 70 degrees off what the views say: nobody saw that
+  for (int round = 0; round < kRounds; ++round) {
+    if (!treat_foldovers(mesh, sharp, kLeans, FoldoverAction::Relax)) break;
+  }
+  treat_foldovers(mesh, sharp, 0.0F, FoldoverAction::Remove);
+}
+
+}  // namespace frangia

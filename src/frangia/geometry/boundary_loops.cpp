@@ -1,0 +1,78 @@
+#include "frangia/geometry/boundary_loops.h"
+
+#include <algorithm>
+
+namespace frangia {
+namespace {
+
+constexpr std::uint32_t kNone = HalfEdges::kBoundary;
+
+/// The boundary edge that follows one: turns about its end from triangle to triangle.
+std::uint32_t following(const HalfEdges& edges, std::uint32_t edge) {
+  std::uint32_t turned = HalfEdges::next(edge);
+  while (edges.has_twin(turned))
+    turned = HalfEdges::next(edges.twin(turned));
+  return edges.is_boundary(turned) ? turned : kNone;
+}
+
+void measure(const Mesh& mesh, BoundaryLoop& loop) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const std::uint32_t edge : loop.edges) {
+    const Eigen::Vector3f& from = mesh.vertices_mm[source_vertex(mesh, edge)];
+    mean += from.cast<double>();
+    loop.length_mm +=
+        static_cast<double>((mesh.vertices_mm[target_vertex(mesh, edge)] - from).norm());
+  }
+  mean /= static_cast<double>(loop.edges.size());
+  for (const std::uint32_t edge : loop.edges) {
+    const Eigen::Vector3d from = mesh.vertices_mm[source_vertex(mesh, edge)].cast<double>();
+    loop.size_mm = std::max(loop.size_mm, 2.0 * (from - mean).norm());
+  }
+}
+
+}  // namespace
+
+std::vector<BoundaryLoop> boundary_loops(const Mesh& mesh, const HalfEdges& edges) {
+  std::vector<BoundaryLoop> loops;
+  std::vector<bool> seen(edges.count());
+  for (std::uint32_t first = 0; first < edges.count(); ++first) {
+    if (seen[first] || !edges.is_boundary(first)) continue;
+    BoundaryLoop loop;
+    std::uint32_t edge = first;
+    while (edge != kNone && !seen[edge]) {
+      seen[edge] = true;
+      loop.edges.push_back(edge);
+      edge = following(edges, edge);
+    }
+    if (edge != first) continue;
+    measure(mesh, loop);
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+std::vector<BoundaryLoop> boundary_loops(const Mesh& mesh) {
+  return boundary_loops(mesh, HalfEdges(mesh));
+}
+
+std::vector<std::uint32_t> vertices_of(const Mesh& mesh, const BoundaryLoop& loop) {
+  std::vector<std::uint32_t> vertices;
+  vertices.reserve(loop.edges.size());
+  for (const std::uint32_t edge : loop.edges)
+    vertices.push_back(source_vertex(mesh, edge));
+  return vertices;
+}
+
+Selection select_loop(const Mesh& mesh, const BoundaryLoop& loop) {
+  std::vector<std::uint8_t> on_loop(mesh.vertices_mm.size());
+  for (const std::uint32_t vertex : vertices_of(mesh, loop))
+    on_loop[vertex] = 1;
+  Selection selection(mesh.triangles.size());
+  for (std::size_t i = 0; i < selection.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    selection[i] = on_loop[a] | on_loop[b] | on_loop[c];
+  }
+  return selection;
+}
+
+}  // namespace frangia

@@ -1,0 +1,191 @@
+#include "frangia/geometry/clean_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "frangia/core/disjoint_sets.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/pixel_allocator.h"
+
+namespace frangia {
+namespace {
+
+/// A number for each vertex that tells its edges apart.
+std::uint64_t hashed(std::uint32_t i) {
+  std::uint64_t x = i + 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+/// Vertices at the mesh's rim: around others each edge is entered as often as it is left.
+std::vector<bool> boundary_of(const Mesh& mesh) {
+  LargeVector<std::uint64_t> balance(mesh.vertices_mm.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    const std::array<std::uint64_t, 3> number{hashed(t[0]), hashed(t[1]), hashed(t[2])};
+    for (std::size_t i = 0; i < 3; ++i)
+      balance[t[i]] += number[(i + 1) % 3] - number[(i + 2) % 3];
+  }
+  std::vector<bool> rim(balance.size());
+  for (std::size_t i = 0; i < rim.size(); ++i)
+    rim[i] = balance[i] != 0;
+  return rim;
+}
+
+struct Corner {
+  std::uint32_t vertex;
+  std::uint32_t triangle;
+  std::uint32_t index;  ///< of the vertex in the triangle
+};
+
+template <typename T>
+void repeat(std::vector<T>& values, std::uint32_t which) {
+  if (!values.empty()) values.push_back(T(values[which]));
+}
+
+/// Numbers the fans among the corners of one vertex; corners that share an edge are of one fan.
+std::vector<std::uint32_t> fans_of(const Mesh& mesh, const std::vector<Corner>& corners) {
+  DisjointSets parts(corners.size());
+  for (std::uint32_t a = 0; a < corners.size(); ++a) {
+    for (std::uint32_t b = 0; b < corners.size(); ++b) {
+      const auto& one = mesh.triangles[corners[a].triangle];
+      const auto& other = mesh.triangles[corners[b].triangle];
+      if (one[(corners[a].index + 2) % 3] == other[(corners[b].index + 1) % 3]) parts.join(a, b);
+    }
+  }
+  std::vector<std::uint32_t> fans(corners.size());
+  for (std::uint32_t a = 0; a < corners.size(); ++a)
+    fans[a] = parts.find(a);
+  return fans;
+}
+
+/// The connected parts of a mesh that have too few triangles.
+class SmallComponents {
+ public:
+  SmallComponents(const Mesh& mesh, std::size_t min_triangles)
+      : components_(mesh.vertices_mm.size()),
+        sizes_(mesh.vertices_mm.size(), 0),
+        min_triangles_(min_triangles) {
+    for (const auto& t : mesh.triangles) {
+      components_.join(t[0], t[1]);
+      components_.join(t[0], t[2]);
+    }
+    for (const auto& t : mesh.triangles)
+      ++sizes_[components_.find(t[0])];
+  }
+
+  void remove_from(Mesh& mesh) {
+    if (std::none_of(sizes_.begin(), sizes_.end(), [&](auto size) { return is_small(size); }))
+      return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (is_small(sizes_[components_.find(mesh.triangles[i][0])])) continue;
+      if (!mesh.triangle_marks.empty()) mesh.triangle_marks[kept] = mesh.triangle_marks[i];
+      mesh.triangles[kept++] = mesh.triangles[i];
+    }
+    mesh.triangles.resize(kept);
+    if (!mesh.triangle_marks.empty()) mesh.triangle_marks.resize(kept);
+  }
+
+ private:
+  [[nodiscard]] bool is_small(std::uint32_t size) const {
+    return size != 0 && size < min_triangles_;
+  }
+
+  DisjointSets components_;
+  LargeVector<std::uint32_t> sizes_;  ///< in triangles, of each part at its own number
+  std::size_t min_triangles_;
+};
+
+void split_at(const std::vector<bool>& rim, Mesh& mesh) {
+  std::vector<Corner> corners;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (rim[mesh.triangles[t][i]]) corners.push_back({mesh.triangles[t][i], t, i});
+    }
+  }
+  std::stable_sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.vertex < b.vertex;
+  });
+  for (auto begin = corners.begin(); begin != corners.end();) {
+    const auto end = std::find_if(
+        begin, corners.end(), [&](const Corner& c) { return c.vertex != begin->vertex; });
+    const std::vector<Corner> around(begin, end);
+    const std::vector<std::uint32_t> fans = fans_of(mesh, around);
+    for (std::uint32_t fan = 1; fan < fans.size(); ++fan) {
+      if (fans[fan] != fan) continue;
+      const auto added = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+      repeat(mesh.vertices_mm, around[0].vertex);
+      repeat(mesh.normals, around[0].vertex);
+      repeat(mesh.sigma_mm, around[0].vertex);
+      repeat(mesh.views, around[0].vertex);
+      repeat(mesh.vertex_marks, around[0].vertex);
+      for (std::size_t i = 0; i < fans.size(); ++i) {
+        if (fans[i] == fan) mesh.triangles[around[i].triangle][around[i].index] = added;
+      }
+    }
+    begin = end;
+  }
+}
+
+}  // namespace
+
+void remove_small_components(Mesh& mesh, std::size_t min_triangles) {
+  SmallComponents(mesh, min_triangles).remove_from(mesh);
+}
+
+void split_nonmanifold_vertices(Mesh& mesh) {
+  split_at(boundary_of(mesh), mesh);
+}
+
+void clean_mesh(Mesh& mesh, std::size_t min_triangles) {
+  // Both look at all triangles, and without the small parts the rim of the others is the same.
+  std::optional<SmallComponents> small;
+  std::vector<bool> rim;
+  parallel_chunks(2, 1, [&](std::size_t which, std::size_t) {
+    if (which == 0) {
+      small.emplace(mesh, min_triangles);
+    } else {
+      rim = boundary_of(mesh);
+    }
+  });
+  small->remove_from(mesh);
+  split_at(rim, mesh);
+  remove_unused_vertices(mesh);
+}
+
+void remove_unused_vertices(Mesh& mesh) {
+  constexpr std::uint32_t kUnused = ~0U;
+  LargeVector<std::uint32_t> new_index(mesh.vertices_mm.size(), kUnused);
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t vertex : t)
+      new_index[vertex] = 0;
+  }
+  std::uint32_t next = 0;
+  for (std::uint32_t& name : new_index) {
+    if (name != kUnused) name = next++;
+  }
+  if (next == new_index.size()) return;
+  const auto keep = [&](auto& values) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < new_index.size(); ++i) {
+      if (new_index[i] != kUnused) values[new_index[i]] = values[i];
+    }
+    values.resize(next);
+  };
+  keep(mesh.vertices_mm);
+  keep(mesh.normals);
+  keep(mesh.sigma_mm);
+  keep(mesh.views);
+  keep(mesh.vertex_marks);
+  parallel_chunks(mesh.triangles.size(), 65536, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (std::uint32_t& vertex : mesh.triangles[t])
+        vertex = new_index[vertex];
+    }
+  });
+}
+
+}  // namespace frangia

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frangia/geometry/mesh.h"
+
+namespace frangia {
+
+/// Who is beside whom in a mesh: half-edge 3 t + i runs from corner i of triangle t to corner
+/// (i + 1) % 3. Built from the triangles in one pass over them and one over the vertices.
+///
+/// A half-edge has a twin when exactly one other runs the other way and no other runs the same way:
+/// elsewhere the mesh has a boundary or is not manifold.
+/// errors   Error(Input) when a triangle refers to a vertex that is not there
+class HalfEdges {
+ public:
+  static constexpr std::uint32_t kBoundary = 0xFFFFFFFF;     ///< no triangle on the other side
+  static constexpr std::uint32_t kNonManifold = 0xFFFFFFFE;  ///< several, or one turned round
+
+  explicit HalfEdges(const Mesh& mesh);
+
+  [[nodiscard]] std::uint32_t twin(std::uint32_t edge) const { return twins_[edge]; }
+  [[nodiscard]] bool has_twin(std::uint32_t edge) const { return twins_[edge] < kNonManifold; }
+  [[nodiscard]] bool is_boundary(std::uint32_t edge) const { return twins_[edge] == kBoundary; }
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(twins_.size()); }
+
+  /// The half-edges that leave a vertex, one for each of its triangles, in ascending order.
+  [[nodiscard]] std::span<const std::uint32_t> outgoing(std::uint32_t vertex) const {
+    return std::span(edges_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
+  }
+
+  [[nodiscard]] static std::uint32_t next(std::uint32_t edge) {
+    return edge % 3 == 2 ? edge - 2 : edge + 1;
+  }
+  [[nodiscard]] static std::uint32_t previous(std::uint32_t edge) {
+    return edge % 3 == 0 ? edge + 2 : edge - 1;
+  }
+
+ private:
+  std::vector<std::uint32_t> twins_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> edges_;
+};
+
+[[nodiscard]] inline std::uint32_t source_vertex(const Mesh& mesh, std::uint32_t edge) {
+  return mesh.triangles[edge / 3][edge % 3];
+}
+[[nodiscard]] inline std::uint32_t target_vertex(const Mesh& mesh, std::uint32_t edge) {
+  return source_vertex(mesh, HalfEdges::next(edge));
+}
+[[nodiscard]] inline std::uint32_t opposite_vertex(const Mesh& mesh, std::uint32_t edge) {
+  return source_vertex(mesh, HalfEdges::previous(edge));
+}
+
+}  // namespace frangia

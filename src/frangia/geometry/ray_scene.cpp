@@ -1,0 +1,209 @@
+#include "frangia/geometry/ray_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <tbb/task_arena.h>
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/error.h"
+#include "frangia/geometry/nearest_on_triangle.h"
+
+namespace frangia {
+namespace {
+
+struct Corners {
+  Eigen::Vector3d a, b, c;
+};
+
+Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return {mesh.vertices_mm[a].cast<double>(),
+          mesh.vertices_mm[b].cast<double>(),
+          mesh.vertices_mm[c].cast<double>()};
+}
+
+/// Two distances closer than this, in mm, share a nearest point: an edge or a corner.
+constexpr double kTie = 1e-7;
+
+struct Search {
+  const Mesh* mesh;
+  Eigen::Vector3d point_mm;
+  std::optional<NearestPoint> best;
+  double max_distance_mm;
+  double squareness = 0.0;  ///< |cos| between the best triangle's normal and the way to it
+};
+
+/// Keeps the nearer triangle; of two equally near the squarer, then the first.
+bool consider(Search& search, std::uint32_t triangle) {
+  const Corners corners = corners_of(*search.mesh, triangle);
+  const Eigen::Vector3d normal = (corners.b - corners.a).cross(corners.c - corners.a).normalized();
+  if (!(normal.squaredNorm() > 0.5)) return false;
+  const Eigen::Vector3d point =
+      nearest_on_triangle(corners.a, corners.b, corners.c, search.point_mm);
+  const Eigen::Vector3d way = search.point_mm - point;
+  const double distance = way.norm();
+  if (!(distance <= search.max_distance_mm)) return false;
+  const double height = way.dot(normal);
+  const double squareness = distance > 0.0 ? std::abs(height) / distance : 1.0;
+  if (search.best) {
+    if (distance > search.best->distance_mm + kTie) return false;
+    const bool nearer = distance < search.best->distance_mm - kTie;
+    const bool squarer = squareness > search.squareness + 1e-9;
+    const bool as_square = squareness >= search.squareness - 1e-9;
+    if (!nearer && !squarer && !(as_square && triangle < search.best->triangle)) return false;
+  }
+  search.best = {point, distance, height < 0.0 ? -distance : distance, triangle};
+  search.squareness = squareness;
+  return true;
+}
+
+bool on_candidate(RTCPointQueryFunctionArguments* arguments) {
+  auto& search = *static_cast<Search*>(arguments->userPtr);
+  if (!consider(search, arguments->primID)) return false;
+  // Embree prunes in single precision: keep a margin that also lets ties through.
+  const double radius = search.best->distance_mm * (1.0 + 1e-6) + 1e-4;
+  if (radius >= static_cast<double>(arguments->query->radius)) return false;
+  arguments->query->radius = static_cast<float>(radius);
+  return true;
+}
+
+RTCRay ray_of(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double end) {
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(origin.x());
+  ray.org_y = static_cast<float>(origin.y());
+  ray.org_z = static_cast<float>(origin.z());
+  ray.dir_x = static_cast<float>(direction.x());
+  ray.dir_y = static_cast<float>(direction.y());
+  ray.dir_z = static_cast<float>(direction.z());
+  ray.tfar = static_cast<float>(end);
+  ray.mask = ~0U;
+  return ray;
+}
+
+/// A copy of its own: Embree reads some bytes past the last vertex.
+template <typename Item>
+void copy_buffer(RTCGeometry geometry,
+                 RTCBufferType type,
+                 RTCFormat format,
+                 const std::vector<Item>& items) {
+  void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), items.size());
+  if (buffer == nullptr) throw std::bad_alloc();
+  std::copy(items.begin(), items.end(), static_cast<Item*>(buffer));
+}
+
+}  // namespace
+
+struct RayScene::Embree {
+  RTCDevice device = rtcNewDevice(nullptr);
+  RTCScene scene = rtcNewScene(device);
+
+  Embree() = default;
+  Embree(const Embree&) = delete;
+  Embree& operator=(const Embree&) = delete;
+  Embree(Embree&&) = delete;
+  Embree& operator=(Embree&&) = delete;
+  ~Embree() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+
+  void build(const Mesh& mesh) const {
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    if (!mesh.empty()) {
+      RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+      copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices_mm);
+      copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometry(scene, geometry);
+      rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(scene);
+  }
+};
+
+RayScene::RayScene(Mesh mesh) : mesh_(std::move(mesh)) {
+  for (const auto& triangle : mesh_.triangles) {
+    require(*std::max_element(triangle.begin(), triangle.end()) < mesh_.vertices_mm.size(),
+            "RayScene: a triangle names a vertex that the mesh does not have");
+  }
+  // One thread: which of two triangles a ray through their edge hits depends on the tree.
+  tbb::task_arena(1).execute([&] {
+    embree_ = std::make_unique<Embree>();
+    embree_->build(mesh_);
+  });
+}
+
+RayScene::RayScene(RayScene&& other) noexcept = default;
+RayScene& RayScene::operator=(RayScene&& other) noexcept = default;
+RayScene::~RayScene() = default;
+
+std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3d& origin_mm,
+                                          const Eigen::Vector3d& direction,
+                                          double max_distance) const {
+  RTCRayHit query{};
+  query.ray = ray_of(origin_mm, direction, max_distance);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(embree_->scene, &query);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(embree_->scene, &context, &query);
+#endif
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+  const Corners t = corners_of(mesh_, query.hit.primID);
+  const Eigen::Vector3d cross = (t.b - t.a).cross(t.c - t.a);
+  RayHit hit;
+  hit.triangle = query.hit.primID;
+  hit.normal = cross.normalized();
+  // A ray that grazes the plane keeps Embree's distance: there the plane says nothing better.
+  const double steepness = direction.dot(cross);
+  const bool grazing = std::abs(steepness) < 1e-6 * direction.norm() * cross.norm();
+  hit.distance =
+      grazing ? static_cast<double>(query.ray.tfar) : (t.a - origin_mm).dot(cross) / steepness;
+  const Eigen::Vector3d p = origin_mm + hit.distance * direction;
+  const double area2 = cross.squaredNorm();
+  const double b = (p - t.a).cross(t.c - t.a).dot(cross) / area2;
+  const double c = (t.b - t.a).cross(p - t.a).dot(cross) / area2;
+  hit.barycentric = {1.0 - b - c, b, c};
+  return hit;
+}
+
+bool RayScene::occluded(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm) const {
+  RTCRay ray = ray_of(from_mm, to_mm - from_mm, 1.0);
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(embree_->scene, &ray);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(embree_->scene, &context, &ray);
+#endif
+  return ray.tfar < 0.0F;
+}
+
+std::optional<NearestPoint> RayScene::nearest(const Eigen::Vector3d& point_mm,
+                                              double max_distance_mm) const {
+  Search search{&mesh_, point_mm, std::nullopt, max_distance_mm};
+  RTCPointQuery query{};
+  query.x = static_cast<float>(point_mm.x());
+  query.y = static_cast<float>(point_mm.y());
+  query.z = static_cast<float>(point_mm.z());
+  query.radius = static_cast<float>(max_distance_mm * (1.0 + 1e-6) + 1e-4);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(embree_->scene, &query, &context, on_candidate, &search);
+  return search.best;
+}
+
+}  // namespace frangia

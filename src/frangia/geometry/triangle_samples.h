@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace frangia {
+
+/// Whether `holds(point)` for points all over a triangle: its corners, the middles of its edges,
+/// its own middle, and others between them no farther apart than the spacing.
+template <typename Predicate>
+[[nodiscard]] bool all_triangle_samples(const Eigen::Vector3d& a,
+                                        const Eigen::Vector3d& b,
+                                        const Eigen::Vector3d& c,
+                                        double spacing_mm,
+                                        const Predicate& predicate) {
+  constexpr double kMost = 200.0;
+  const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+  const int steps =
+      2 * static_cast<int>(std::clamp(std::ceil(0.5 * longest / spacing_mm), 1.0, kMost));
+  if (!predicate(Eigen::Vector3d((a + b + c) / 3.0))) return false;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; i + j <= steps; ++j) {
+      const double u = static_cast<double>(i) / steps;
+      const double v = static_cast<double>(j) / steps;
+      if (!predicate(Eigen::Vector3d(a + u * (b - a) + v * (c - a)))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace frangia

@@ -1,0 +1,138 @@
+#include "frangia/geometry/vertex_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+#include "frangia/geometry/clean_mesh.h"
+
+namespace frangia {
+namespace {
+
+std::uint32_t last_vertex(const Mesh& mesh) {
+  return static_cast<std::uint32_t>(mesh.vertices_mm.size() - 1);
+}
+
+template <typename T>
+void repeat(std::vector<T>& values, std::uint32_t which) {
+  if (!values.empty()) values.push_back(T(values[which]));
+}
+
+/// Appends `more` to values that one of two meshes may lack.
+template <typename T>
+void join(std::vector<T>& values, std::size_t count, const std::vector<T>& more, T missing) {
+  if (values.empty() && more.empty()) return;
+  values.resize(count, missing);
+  values.insert(values.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+void ensure_marks(Mesh& mesh) {
+  mesh.vertex_marks.resize(mesh.vertices_mm.size(), Mark::Measured);
+  mesh.triangle_marks.resize(mesh.triangles.size(), Mark::Measured);
+}
+
+Mark mark_of(const Mesh& mesh, std::size_t triangle) {
+  Mark mark = mesh.triangle_marks.empty() ? Mark::Measured : mesh.triangle_marks[triangle];
+  if (mesh.vertex_marks.empty()) return mark;
+  for (const std::uint32_t vertex : mesh.triangles[triangle])
+    mark = std::max(mark, mesh.vertex_marks[vertex]);
+  return mark;
+}
+
+std::uint32_t copy_vertex(Mesh& mesh, std::uint32_t from) {
+  repeat(mesh.vertices_mm, from);
+  repeat(mesh.normals, from);
+  repeat(mesh.sigma_mm, from);
+  repeat(mesh.views, from);
+  repeat(mesh.vertex_marks, from);
+  return last_vertex(mesh);
+}
+
+std::uint32_t add_interpolated_vertex(Mesh& mesh, std::uint32_t a, std::uint32_t b, float t) {
+  const std::uint32_t fresh = copy_vertex(mesh, t < 0.5F ? a : b);
+  const auto mean = [&](const auto& values) { return (1.0F - t) * values[a] + t * values[b]; };
+  mesh.vertices_mm[fresh] = mean(mesh.vertices_mm);
+  if (!mesh.normals.empty()) {
+    mesh.normals[fresh] = Eigen::Vector3f(mean(mesh.normals)).stableNormalized();
+  }
+  if (!mesh.sigma_mm.empty()) mesh.sigma_mm[fresh] = mean(mesh.sigma_mm);
+  if (!mesh.vertex_marks.empty()) {
+    mesh.vertex_marks[fresh] = std::max(mesh.vertex_marks[a], mesh.vertex_marks[b]);
+  }
+  return fresh;
+}
+
+std::uint32_t add_synthesized_vertex(Mesh& mesh,
+                                     const Eigen::Vector3f& position_mm,
+                                     std::span<const std::uint32_t> around) {
+  mesh.vertices_mm.push_back(position_mm);
+  if (!mesh.normals.empty()) mesh.normals.emplace_back(Eigen::Vector3f::Zero());
+  if (!mesh.views.empty()) mesh.views.push_back(0);
+  if (!mesh.vertex_marks.empty()) mesh.vertex_marks.push_back(Mark::Synthesized);
+  if (!mesh.sigma_mm.empty()) {
+    float largest = around.empty() ? kMissing : 0.0F;
+    for (const std::uint32_t vertex : around)
+      largest = std::max(largest, mesh.sigma_mm[vertex]);
+    mesh.sigma_mm.push_back(largest);
+  }
+  return last_vertex(mesh);
+}
+
+void add_triangle(Mesh& mesh, const Mesh::Triangle& triangle, Mark mark) {
+  if (mark != Mark::Measured) ensure_marks(mesh);
+  mesh.triangles.push_back(triangle);
+  if (!mesh.triangle_marks.empty()) mesh.triangle_marks.push_back(mark);
+}
+
+void keep_triangles(Mesh& mesh, std::span<const std::uint8_t> keep) {
+  require(keep.size() == mesh.triangles.size(), "keep_triangles: there must be one flag each");
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (keep[i] == 0) continue;
+    if (!mesh.triangle_marks.empty()) mesh.triangle_marks[kept] = mesh.triangle_marks[i];
+    mesh.triangles[kept++] = mesh.triangles[i];
+  }
+  mesh.triangles.resize(kept);
+  if (!mesh.triangle_marks.empty()) mesh.triangle_marks.resize(kept);
+  remove_unused_vertices(mesh);
+}
+
+void append_mesh(Mesh& mesh, const Mesh& other) {
+  const std::size_t vertices = mesh.vertices_mm.size();
+  const std::size_t all = vertices + other.vertices_mm.size();
+  require(all < 0xFFFFFFFFU, "append_mesh: more than 4 billion vertices; decimate first");
+  join(mesh.normals, vertices, other.normals, Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  join(mesh.sigma_mm, vertices, other.sigma_mm, kMissing);
+  join(mesh.views, vertices, other.views, std::uint16_t{0});
+  join(mesh.vertex_marks, vertices, other.vertex_marks, Mark::Measured);
+  join(mesh.triangle_marks, mesh.triangles.size(), other.triangle_marks, Mark::Measured);
+  mesh.vertices_mm.insert(
+      mesh.vertices_mm.end(), other.vertices_mm.begin(), other.vertices_mm.end());
+  const auto shift = static_cast<std::uint32_t>(vertices);
+  for (const Mesh::Triangle& t : other.triangles)
+    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  if (!mesh.normals.empty()) mesh.normals.resize(all, Eigen::Vector3f::Zero());
+  if (!mesh.sigma_mm.empty()) mesh.sigma_mm.resize(all, kMissing);
+  if (!mesh.views.empty()) mesh.views.resize(all, 0);
+  if (!mesh.vertex_marks.empty() || !mesh.triangle_marks.empty()) ensure_marks(mesh);
+}
+
+void mark_displaced(Mesh& mesh, std::span<const Eigen::Vector3f> before_mm) {
+  constexpr float kStillMm = 1e-3F;
+  ensure_marks(mesh);
+  for (std::size_t i = 0; i < before_mm.size(); ++i) {
+    const float sigma = mesh.sigma_mm.empty() ? kStillMm : mesh.sigma_mm[i];
+    const float allowed = std::isfinite(sigma) ? std::max(sigma, 1e-6F) : kStillMm;
+    const bool moved = (mesh.vertices_mm[i] - before_mm[i]).norm() > allowed;
+    if (moved) mesh.vertex_marks[i] = std::max(mesh.vertex_marks[i], Mark::Displaced);
+  }
+}
+
+void recompute_normals(Mesh& mesh) {
+  if (!mesh.normals.empty()) mesh.normals = vertex_normals(mesh);
+}
+
+}  // namespace frangia

@@ -1,0 +1,137 @@
+#include "frangia/local_fit/choose_window.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/local_fit/internal/fit_quadratic.h"
+
+namespace frangia {
+namespace {
+
+const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
+
+/// The window of 3 x 3 pixels about (x, y), by hand; NaN as in `fit_windows`.
+WindowFit small_fit(const Image<float>& q, int x, int y) {
+  if (x < 1 || y < 1 || x + 1 >= q.width() || y + 1 >= q.height()) {
+    return kNoFit;
+  }
+  WindowFit fit;
+  for (const int dy : {-1, 0, 1}) {
+    for (const int dx : {-1, 0, 1}) {
+      const float value = q(x + dx, y + dy);
+      fit.mean += value / 9.0F;
+      fit.slope_x += static_cast<float>(dx) * value / 6.0F;
+      fit.slope_y += static_cast<float>(dy) * value / 6.0F;
+    }
+  }
+  for (const int dy : {-1, 0, 1}) {
+    for (const int dx : {-1, 0, 1}) {
+      const float plane =
+          fit.mean + static_cast<float>(dx) * fit.slope_x + static_cast<float>(dy) * fit.slope_y;
+      fit.variance += (q(x + dx, y + dy) - plane) * (q(x + dx, y + dy) - plane) / 6.0F;
+    }
+  }
+  // Of the best paraboloid: the mean less what its curvature lifts the mean by.
+  fit.value = fit.mean;
+  for (const int dy : {-1, 0, 1}) {
+    for (const int dx : {-1, 0, 1}) {
+      fit.value -= (static_cast<float>(dx * dx + dy * dy) - 4.0F / 3.0F) * q(x + dx, y + dy) / 3.0F;
+    }
+  }
+  return fit;
+}
+
+/// Of a pixel's own window and eight shifted by `shift`, the best one; its own unless another is
+/// clearly better. `fit_at(x, y)` is the fit about a pixel.
+template <typename FitAt>
+WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at) {
+  constexpr float kClearlyBetter = 0.5F;  // in variance
+  WindowFit best = fit_at(at.x(), at.y());
+  float limit = std::isnan(best.variance) ? 1e30F : kClearlyBetter * best.variance;
+  for (const int dy : {-shift, 0, shift}) {
+    for (const int dx : {-shift, 0, shift}) {
+      const WindowFit shifted = fit_at(at.x() + dx, at.y() + dy);
+      if (!(shifted.variance < limit)) continue;
+      limit = shifted.variance;
+      best = shifted;
+      best.mean -=
+          static_cast<float>(dx) * shifted.slope_x + static_cast<float>(dy) * shifted.slope_y;
+    }
+  }
+  return best;
+}
+
+/// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
+/// or, of a loud one, more of it than the phase knows of, but without structure. An edge leaves
+/// structure over.
+ChosenWindow curved_window(const Image<float>& image,
+                           const Eigen::Vector2i& at,
+                           const PixelNoise& noise,
+                           const QuadraticFit& patch,
+                           bool noisy) {
+  constexpr float kMaxCurvedRatio = 1.3F;  // in variance
+  constexpr float kMaxNoisyRatio = 9.0F;
+  constexpr float kMaxAutocorrelation = 0.0F;
+  const float expected = noise.variance(patch.window);
+  const float residual_variance = patch.window.residual_variance;
+  if (!(residual_variance < (noisy ? kMaxNoisyRatio : kMaxCurvedRatio) * expected))
+    return kNoWindow;  // and for NaN
+  const bool quiet = residual_variance < kMaxCurvedRatio * expected;
+  if (!(noisy && quiet) &&
+      !(residual_autocorrelation(image, at, patch.window) < kMaxAutocorrelation))
+    return kNoWindow;
+  return {patch.window,
+          WindowKind::Centered,
+          patch.window.value,
+          patch.variance * std::max(expected, quiet ? 0.0F : residual_variance)};
+}
+
+}  // namespace
+
+ChosenWindow choose_window(const Image<float>& image,
+                           const WindowRows& fits,
+                           const Eigen::Vector2i& at,
+                           const PixelNoise& noise) {
+  constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
+  constexpr float kAtCorner = 0.2F;  // of a pixel's variance, what a plane has at a corner
+  const auto centered_on = [&](const WindowFit& fit, int radius) {
+    const float variance = value_variance(radius) * noise.variance(fit);
+    return ChosenWindow{fit, WindowKind::Centered, fit.value, variance};
+  };
+  const auto good = [&](const WindowFit& fit) {
+    return fit.variance < kMaxScatterRatio * noise.variance(fit);  // false for NaN
+  };
+  const auto near = [&](const WindowFit& fit) {
+    const float off = fit.mean - image(at.x(), at.y());
+    return off * off < kFarthest * kFarthest * noise.variance(fit);
+  };
+  const WindowFit centered = fits.at(at.x(), at.y());
+  const auto patch = [&]() -> QuadraticFit {
+    if (fits.radius != kQuadraticRadius || std::isnan(centered.mean))
+      return fit_quadratic(image, at);
+    QuadraticFit complete{centered, value_variance(kQuadraticRadius)};
+    complete.window.mean = centered.value;
+    complete.window.variance = centered.residual_variance;
+    return complete;
+  };
+  if (good(centered)) return centered_on(centered, fits.radius);
+  if (!std::isnan(centered.mean)) {
+    const ChosenWindow curved = curved_window(image, at, noise, patch(), false);
+    if (curved.kind == WindowKind::Centered) return curved;
+  }
+  const WindowFit close = small_fit(image, at.x(), at.y());
+  if (good(close)) return centered_on(close, 1);
+  const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
+  // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
+  if (std::isnan(centered.mean) || !good(large)) {
+    const ChosenWindow curved = curved_window(image, at, noise, patch(), true);
+    if (curved.kind == WindowKind::Centered) return curved;
+  }
+  if (good(large) && near(large))
+    return {large, WindowKind::Shifted, large.mean, kAtCorner * noise.variance(large)};
+  const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
+  if (near(small)) return {small, WindowKind::Small, image(at.x(), at.y()), noise.variance(small)};
+  return kNoWindow;
+}
+
+}  // namespace frangia

@@ -1,0 +1,258 @@
+#include "frangia/local_fit/fit_windows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/vectorized.h"
+
+namespace frangia {
+namespace {
+
+/// Sums over one side of a window of the powers of the place, which make its fits orthogonal.
+template <int kRadius>
+struct Moments {
+  static constexpr int kSide = 2 * kRadius + 1;
+  static constexpr float kSquare = kRadius * (kRadius + 1) / 3.0F;  ///< mean of x^2
+  /// Of x^2 less its mean.
+  static constexpr float quadratic(int i) {
+    return static_cast<float>((i - kRadius) * (i - kRadius)) - kSquare;
+  }
+  static constexpr float spread() {  ///< sum of quadratic^2 over a side
+    float sum = 0.0F;
+    for (int i = 0; i < kSide; ++i)
+      sum += quadratic(i) * quadratic(i);
+    return sum;
+  }
+  static constexpr float kSquares = kSide * kSquare;  ///< sum of x^2 over a side
+  static constexpr float kPerCount = 1.0F / kSide;
+  static constexpr float kPerSquares = 1.0F / kSquares;
+  static constexpr float kPerQuadratic = 1.0F / (kSide * spread());
+  static constexpr float kPerProduct = 1.0F / (kSquares * kSquares);
+};
+
+/// What the rows of windows have in one row of the image, each quantity in a row of its own: loops
+/// over them become vector code. Of a window's row it is the line that fits best.
+struct Lines {
+  float* mean = nullptr;
+  float* slope = nullptr;
+  float* quadratic = nullptr;  ///< sum of `Moments::quadratic` times the values
+  float* squares = nullptr;    ///< of the values off the line
+};
+
+/// The same of whole windows.
+struct Windows {
+  float* mean = nullptr;
+  float* slope_x = nullptr;
+  float* slope_y = nullptr;
+  float* variance = nullptr;
+  float* value = nullptr;
+  float* residual_variance = nullptr;
+  float* curvature_xx = nullptr;
+  float* curvature_yy = nullptr;
+  float* curvature_xy = nullptr;
+};
+
+template <int kRadius>
+[[gnu::always_inline]] inline void fit_lines(const float* values,
+                                             std::ptrdiff_t count,
+                                             const Lines& lines) {
+  using M = Moments<kRadius>;
+  const Lines to = lines;
+#pragma GCC ivdep
+  for (std::ptrdiff_t x = 0; x < count; ++x) {
+    float sum = 0.0F;
+    float along = 0.0F;
+    float quadratic = 0.0F;
+    for (int i = 0; i < M::kSide; ++i) {
+      const float value = values[x + i];
+      sum += value;
+      along += static_cast<float>(i - kRadius) * value;
+      quadratic += M::quadratic(i) * value;
+    }
+    const float mean = sum * M::kPerCount;
+    const float slope = along * M::kPerSquares;
+    float squares = 0.0F;
+    for (int i = 0; i < M::kSide; ++i) {
+      const float off = values[x + i] - (mean + static_cast<float>(i - kRadius) * slope);
+      squares += off * off;
+    }
+    to.mean[x] = mean;
+    to.slope[x] = slope;
+    to.quadratic[x] = quadratic;
+    to.squares[x] = squares;
+  }
+}
+
+/// Windows from the lines of their rows. What lies off the plane is what lies off the lines, and
+/// what these lie off the plane: nothing cancels.
+template <int kRadius>
+[[gnu::always_inline]] inline void join_lines(const std::array<Lines, 7>& rows,
+                                              std::ptrdiff_t count,
+                                              const Windows& windows) {
+  using M = Moments<kRadius>;
+  constexpr int kSide = M::kSide;
+  const std::array<Lines, 7> from = rows;
+  const Windows to = windows;
+#pragma GCC ivdep
+  for (std::ptrdiff_t x = 0; x < count; ++x) {
+    float sum = 0.0F;
+    float along_x = 0.0F;
+    float along_y = 0.0F;
+    float curvature_xx = 0.0F;
+    float curvature_yy = 0.0F;
+    float curvature_xy = 0.0F;
+    for (int j = 0; j < kSide; ++j) {
+      const Lines& row = from[static_cast<std::size_t>(j)];
+      const float down = static_cast<float>(j - kRadius);
+      sum += row.mean[x];
+      along_x += row.slope[x];
+      along_y += down * row.mean[x];
+      curvature_xx += row.quadratic[x];
+      curvature_yy += M::quadratic(j) * row.mean[x];
+      curvature_xy += down * row.slope[x];
+    }
+    const float mean = sum * M::kPerCount;
+    const float slope_x = along_x * M::kPerCount;
+    const float slope_y = along_y * M::kPerSquares;
+    float squares = 0.0F;
+    for (int j = 0; j < kSide; ++j) {
+      const Lines& row = from[static_cast<std::size_t>(j)];
+      const float off = row.mean[x] - (mean + static_cast<float>(j - kRadius) * slope_y);
+      const float turn = row.slope[x] - slope_x;
+      squares +=
+          row.squares[x] + (static_cast<float>(kSide) * off * off + M::kSquares * turn * turn);
+    }
+    curvature_xx *= M::kPerQuadratic;
+    curvature_yy *= static_cast<float>(kSide) * M::kPerQuadratic;
+    curvature_xy *= M::kSquares * M::kPerProduct;
+    const float explained =  // of the squares, by the paraboloid
+        (curvature_xx * curvature_xx + curvature_yy * curvature_yy) / M::kPerQuadratic +
+        curvature_xy * curvature_xy / M::kPerProduct;
+    to.mean[x] = mean;
+    to.slope_x[x] = slope_x;
+    to.slope_y[x] = slope_y;
+    to.variance[x] = squares * (1.0F / (kSide * kSide - 3));
+    to.value[x] = mean - (curvature_xx + curvature_yy) * M::kSquare;
+    to.residual_variance[x] = std::max(0.0F, squares - explained) * (1.0F / (kSide * kSide - 6));
+    to.curvature_xx[x] = curvature_xx;
+    to.curvature_yy[x] = curvature_yy;
+    to.curvature_xy[x] = curvature_xy;
+  }
+}
+
+FRANGIA_VECTORIZED_WIDE void fit_lines(const float* values,
+                                       std::ptrdiff_t count,
+                                       int radius,
+                                       const Lines& lines) {
+  if (radius == 1) fit_lines<1>(values, count, lines);
+  if (radius == 2) fit_lines<2>(values, count, lines);
+  if (radius == 3) fit_lines<3>(values, count, lines);
+}
+FRANGIA_VECTORIZED_WIDE void join_lines(const std::array<Lines, 7>& rows,
+                                        std::ptrdiff_t count,
+                                        int radius,
+                                        const Windows& windows) {
+  if (radius == 1) join_lines<1>(rows, count, windows);
+  if (radius == 2) join_lines<2>(rows, count, windows);
+  if (radius == 3) join_lines<3>(rows, count, windows);
+}
+
+/// Columns [begin, end) outside of which some rows hold nothing.
+struct Span {
+  int begin = 0;
+  int end = 0;
+};
+Span seen_columns(const Image<float>& image, int first_row, int rows) {
+  Span span{image.width(), 0};
+  for (int y = std::max(0, first_row); y < std::min(image.height(), first_row + rows); ++y) {
+    int x = 0;
+    while (x < span.begin && std::isnan(image(x, y)))
+      ++x;
+    span.begin = std::min(span.begin, x);
+    x = image.width();
+    while (x > span.end && std::isnan(image(x - 1, y)))
+      --x;
+    span.end = std::max(span.end, x);
+  }
+  return span;
+}
+
+}  // namespace
+
+WindowFits::WindowFits(int width, int rows)
+    : width_(width),
+      values_(std::make_unique_for_overwrite<float[]>(  // NOLINT(*-avoid-c-arrays)
+          static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * QuantityCount))) {}
+
+void WindowFits::set_missing_outside(int begin, int end, int row) {
+  for (int quantity = 0; quantity < QuantityCount; ++quantity) {
+    float* values = this->row(static_cast<Quantity>(quantity), row);
+    std::fill(values, values + begin, kMissing);
+    std::fill(values + end, values + width_, kMissing);
+  }
+}
+
+WindowFit WindowFits::at(int x, int row) const {
+  const float* first = values_.get() + offset(Mean, row) + x;
+  const auto quantity = [&](Quantity which) { return first[std::ptrdiff_t{width_} * which]; };
+  return {quantity(Mean),
+          quantity(SlopeX),
+          quantity(SlopeY),
+          quantity(Variance),
+          quantity(Value),
+          quantity(ResidualVariance),
+          quantity(CurvatureXX),
+          quantity(CurvatureYY),
+          quantity(CurvatureXY)};
+}
+
+WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows) {
+  require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
+  WindowFits fits(image.width(), rows);
+  const int side = 2 * radius + 1;
+  const Span seen = seen_columns(image, first - radius, rows + 2 * radius);
+  const int inner = seen.end - seen.begin - 2 * radius;  // windows in a row
+  const auto width = static_cast<std::size_t>(std::max(0, inner));
+  std::vector<float> kept(width * static_cast<std::size_t>(4 * side));
+  const auto lines_of = [&](int y) {
+    float* slot = kept.data() + static_cast<std::size_t>(4 * (y % side)) * width;
+    return Lines{slot, slot + width, slot + 2 * width, slot + 3 * width};
+  };
+  int next = std::max(0, first - radius);  // the first row whose lines are not known
+  for (int row = 0; row < rows; ++row) {
+    const int top = first + row - radius;
+    if (inner <= 0 || top < 0 || top + side > image.height()) {
+      fits.set_missing_outside(0, 0, row);
+      continue;
+    }
+    fits.set_missing_outside(seen.begin + radius, seen.begin + radius + inner, row);
+    for (; next < top + side; ++next)
+      fit_lines(&image(seen.begin, next), inner, radius, lines_of(next));
+    std::array<Lines, 7> lines;
+    for (int j = 0; j < side; ++j)
+      lines[static_cast<std::size_t>(j)] = lines_of(top + j);
+    const auto of = [&](WindowFits::Quantity quantity) {
+      return fits.row(quantity, row) + seen.begin + radius;
+    };
+    join_lines(lines,
+               inner,
+               radius,
+               {of(WindowFits::Mean),
+                of(WindowFits::SlopeX),
+                of(WindowFits::SlopeY),
+                of(WindowFits::Variance),
+                of(WindowFits::Value),
+                of(WindowFits::ResidualVariance),
+                of(WindowFits::CurvatureXX),
+                of(WindowFits::CurvatureYY),
+                of(WindowFits::CurvatureXY)});
+  }
+  return fits;
+}
+
+}  // namespace frangia

@@ -1,0 +1,70 @@
+#include "frangia/local_fit/internal/estimate_lateral_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/core/parallel.h"
+#include "frangia/local_fit/fit_windows.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kRadius = 2;
+constexpr int kEvery = 6;                 // rows are looked at, of an image that has few
+constexpr int kMaxRows = 100;             // rows of one that has many
+constexpr std::size_t kMinWindows = 200;  // windows tell too little
+constexpr float kMax_px = 0.5F;           // beyond its own edge no pixel looks
+constexpr float kSteepest = 0.25F;        // the share of windows that is looked at
+
+/// What one window says.
+struct Slope {
+  float steepness;         ///< slope^2 over noise^2
+  float lateral_variance;  ///< excess of the scatter over noise^2, over slope^2
+};
+
+std::vector<Slope> slopes_of_row(const Image<float>& image, const Image<float>& noise, int y) {
+  std::vector<Slope> slopes;
+  const WindowFits fits = fit_windows(image, kRadius, y, 1);
+  for (int x = 0; x < image.width(); ++x) {
+    const WindowFit fit = fits.at(x, 0);
+    const float expected = noise(x, y) * noise(x, y);
+    const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
+    if (!(fit.residual_variance >= 0.0F && square > 0.0F && expected > 0.0F)) continue;
+    slopes.push_back({square / expected, (fit.residual_variance - expected) / square});
+  }
+  return slopes;
+}
+
+std::vector<Slope> slopes_of(const Image<float>& image, const Image<float>& noise) {
+  const int every = std::max(kEvery, image.height() / kMaxRows);
+  const int rows = std::max(0, image.height() - 2 * kRadius + every - 1) / every;
+  std::vector<std::vector<Slope>> parts(static_cast<std::size_t>(rows));
+  parallel_rows(rows, [&](int row) {
+    parts[static_cast<std::size_t>(row)] = slopes_of_row(image, noise, kRadius + row * every);
+  });
+  std::vector<Slope> slopes;
+  for (const auto& part : parts)
+    slopes.insert(slopes.end(), part.begin(), part.end());
+  return slopes;
+}
+
+}  // namespace
+
+float estimate_lateral_noise(const Image<float>& image, const Image<float>& noise) {
+  std::vector<Slope> slopes = slopes_of(image, noise);
+  if (slopes.size() < kMinWindows) return 0.0F;
+  const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(
+                                          (1.0F - kSteepest) * static_cast<float>(slopes.size()));
+  std::nth_element(slopes.begin(), steep, slopes.end(), [](const Slope& a, const Slope& b) {
+    return a.steepness < b.steepness;
+  });
+  const auto middle = steep + (slopes.end() - steep) / 2;
+  std::nth_element(steep, middle, slopes.end(), [](const Slope& a, const Slope& b) {
+    return a.lateral_variance < b.lateral_variance;
+  });
+  return std::min(kMax_px, std::sqrt(std::max(0.0F, middle->lateral_variance)));
+}
+
+}  // namespace frangia

@@ -1,0 +1,80 @@
+#include "frangia/local_fit/internal/link_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/vectorized.h"
+
+namespace frangia {
+namespace {
+
+constexpr float kSteepest = 7.1F;     // tan(82 degrees): steeper than that is a step, not a slope
+constexpr float kNoiseSigmas = 4.0F;  // and a step must rise out of the noise
+constexpr float kSmallestSigma = 1e-6F;  // of the depth: keeps the weight of perfect data finite
+
+/// A row of inverse depths and their noise.
+struct GridRow {
+  const float* q;
+  const float* noise;
+};
+struct LinkRow {
+  LinkedPixels::Link which;
+  std::uint8_t* links;
+  int count;
+};
+
+/// Links pixels to those beside them. Missing ones are linked to none.
+FRANGIA_VECTORIZED void link_row(const GridRow& from,
+                                 const GridRow& to,
+                                 float steepest,
+                                 const LinkRow& row) {
+  const auto [q, noise] = from;
+  const auto [other_q, other_noise] = to;
+  const auto [which, links, count] = row;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float here = q[x];
+    const float there = other_q[x];
+    const float slope = std::max(here, there) * steepest;
+    const float far = kNoiseSigmas * std::max(noise[x], other_noise[x]);
+    const bool linked = std::abs(here - there) < slope + far;  // false for NaN
+    links[x] = static_cast<std::uint8_t>(links[x] | (linked ? which : 0));
+  }
+}
+
+}  // namespace
+
+LinkedPixels link_pixels(const RangeGrid& range, const CameraModel& camera) {
+  const int width = range.depth_mm.width();
+  const int height = range.depth_mm.height();
+  LinkedPixels grid{Image<float>(width, height, Uninitialized{}),
+                    Image<float>(width, height, Uninitialized{}),
+                    Image<std::uint8_t>(width, height)};
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const float depth = range.depth_mm(x, y);
+      const float sigma = std::max(range.sigma_mm(x, y), kSmallestSigma * depth);
+      const bool seen = depth > 0.0F && sigma >= 0.0F;
+      grid.q(x, y) = seen ? 1.0F / depth : kMissing;
+      grid.noise(x, y) = sigma / (depth * depth);
+    }
+  });
+  const auto steepest = static_cast<float>(kSteepest / camera.focal_px.mean());
+  parallel_rows(height, [&](int y) {
+    std::uint8_t* links = &grid.links(0, y);
+    link_row({&grid.q(0, y), &grid.noise(0, y)},
+             {&grid.q(0, y) + 1, &grid.noise(0, y) + 1},
+             steepest,
+             {LinkedPixels::Right, links, width - 1});
+    if (y + 1 == height) return;
+    link_row({&grid.q(0, y), &grid.noise(0, y)},
+             {&grid.q(0, y + 1), &grid.noise(0, y + 1)},
+             steepest,
+             {LinkedPixels::Down, links, width});
+  });
+  return grid;
+}
+
+}  // namespace frangia

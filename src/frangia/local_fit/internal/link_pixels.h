@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "frangia/core/image.h"
+#include "frangia/range/range_grid.h"
+#include "frangia/rig/camera_model.h"
+
+namespace frangia {
+
+/// Inverse depths of a view, and which neighbours of a pixel lie on its surface.
+///
+/// units    1/mm
+/// missing  q is NaN where nothing was seen
+struct LinkedPixels {
+  enum Link : std::uint8_t { Right = 1, Down = 2 };
+
+  Image<float> q;             ///< inverse depth, as measured
+  Image<float> noise;         ///< its standard deviation
+  Image<std::uint8_t> links;  ///< bits of `Link`
+
+  [[nodiscard]] bool has(int x, int y, Link link) const { return (links(x, y) & link) != 0; }
+};
+
+/// Neighbouring pixels are on one surface unless the line that joins them is within 8 degrees of
+/// the viewing ray, by more than their noise.
+[[nodiscard]] LinkedPixels link_pixels(const RangeGrid& range, const CameraModel& camera);
+
+}  // namespace frangia

@@ -1,0 +1,134 @@
+#include "frangia/local_fit/local_planes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/local_fit/choose_window.h"
+#include "frangia/local_fit/internal/estimate_lateral_noise.h"
+#include "frangia/local_fit/internal/extrapolate_planes.h"
+#include "frangia/local_fit/internal/link_pixels.h"
+#include "frangia/local_fit/internal/plane_row.h"
+#include "frangia/rig/fast_camera_model.h"
+
+namespace frangia {
+namespace {
+
+template <typename T>
+void resize_image(Image<T>& image, int width, int height) {
+  if (image.width() != width || image.height() != height) image = Image<T>(width, height);
+}
+
+/// The corners of quad (x, y).
+using Corners = std::array<Eigen::Vector2i, 4>;
+Corners corners_of(int x, int y) {
+  return {Eigen::Vector2i(x, y),
+          Eigen::Vector2i(x + 1, y),
+          Eigen::Vector2i(x, y + 1),
+          Eigen::Vector2i(x + 1, y + 1)};
+}
+
+/// Whether the corners of a quad lie on one face.
+bool is_smooth(const std::array<const LocalPlanes::Plane*, 4>& corners, float crease_cosine) {
+  float least = 1.0F;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      least = std::min(least, corners[i]->normal.dot(corners[j]->normal));
+  }
+  return least > crease_cosine;
+}
+
+/// Whether the faces of a quad bulge or gape: whether its corners lie behind one another's planes.
+LocalPlanes::Kind crease_of(const LocalPlanes& view,
+                            const Image<Eigen::Vector2f>& rays,
+                            int x,
+                            int y) {
+  float in_front = 0.0F;
+  for (const auto& a : corners_of(x, y)) {
+    for (const auto& b : corners_of(x, y)) {
+      const float depth = 1.0F / view.inverse_depth(b.x(), b.y());
+      in_front += view.planes(a.x(), a.y()).in_front_mm(depth * rays(b.x(), b.y()).homogeneous());
+    }
+  }
+  return in_front < 0.0F ? LocalPlanes::Kind::Ridge : LocalPlanes::Kind::Valley;
+}
+
+LocalPlanes::Quad quad_of(const LinkedPixels& grid,
+                          const LocalPlanes& view,
+                          const Image<Eigen::Vector2f>& rays,
+                          const Eigen::Vector2i& at,
+                          float crease_cosine) {
+  const int x = at.x();
+  const int y = at.y();
+  constexpr auto kRight = LinkedPixels::Right;
+  constexpr auto kDown = LinkedPixels::Down;
+  if (!grid.has(x, y, kRight) || !grid.has(x, y, kDown) || !grid.has(x, y + 1, kRight) ||
+      !grid.has(x + 1, y, kDown)) {
+    return {};
+  }
+  const std::array<const LocalPlanes::Plane*, 4> corners{&view.planes(x, y),
+                                                         &view.planes(x + 1, y),
+                                                         &view.planes(x, y + 1),
+                                                         &view.planes(x + 1, y + 1)};
+  LocalPlanes::Quad quad;
+  for (const LocalPlanes::Plane* corner : corners) {
+    if (!(corner->distance_mm > 0.0F)) return {};
+    quad.distance_mm += 0.25F * corner->distance_mm;
+    quad.weight += 0.25F * corner->weight;
+  }
+  quad.kind =
+      is_smooth(corners, crease_cosine) ? LocalPlanes::Kind::Smooth : crease_of(view, rays, x, y);
+  return quad;
+}
+
+}  // namespace
+
+LocalPlanes local_planes(const View& view,
+                         const CameraRays& camera,
+                         const LocalPlanesOptions& options,
+                         LocalPlanes reuse) {
+  const Image<Eigen::Vector2f>& rays = camera.rays;
+  require(same_size(view.range.depth_mm, rays) && same_size(view.range.sigma_mm, rays),
+          "local_planes: the range grid and the camera differ in size");
+  const int width = rays.width();
+  const int height = rays.height();
+  LocalPlanes out = std::move(reuse);
+  out.rig_from_object = view.rig_from_object;
+  resize_image(out.planes, width, height);
+  resize_image(out.quads, std::max(0, width - 1), std::max(0, height - 1));
+  resize_image(out.inverse_depth, width, height);
+  const LinkedPixels grid = link_pixels(view.range, camera.model);
+  const FastCameraModel model(camera.model);
+  const float lateral_noise_px = estimate_lateral_noise(grid.q, grid.noise);
+  constexpr std::size_t kRows = 32;
+  parallel_chunks(static_cast<std::size_t>(height), kRows, [&](std::size_t begin, std::size_t end) {
+    const WindowRows fits(
+        grid.q, options.radius, static_cast<int>(begin), static_cast<int>(end - begin));
+    std::optional<WindowRows> wider;
+    if (options.widen) {
+      constexpr int kWide = 3;
+      wider.emplace(grid.q, kWide, static_cast<int>(begin), static_cast<int>(end - begin));
+    }
+    PlaneRow row(width);
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      row.choose(grid, fits, wider ? &*wider : nullptr, y, lateral_noise_px);
+      row.fit(&rays(0, y), model);
+      row.write(&out.planes(0, y), &out.inverse_depth(0, y));
+    }
+  });
+  const auto crease_cosine = static_cast<float>(std::cos(options.crease_rad));
+  parallel_rows(out.quads.height(), [&](int y) {
+    for (int x = 0; x < out.quads.width(); ++x) {
+      out.quads(x, y) = quad_of(grid, out, rays, {x, y}, crease_cosine);
+    }
+  });
+  if (options.extrapolate_px > 0) extrapolate_planes(out, options.extrapolate_px);
+  return out;
+}
+
+}  // namespace frangia

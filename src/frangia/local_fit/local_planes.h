@@ -1,0 +1,178 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/image.h"
+#include "frangia/local_fit/choose_window.h"
+#include "frangia/rig/camera_model.h"
+#include "frangia/views/view.h"
+
+namespace frangia {
+
+/// A camera and the ray of each of its pixels.
+struct CameraRays {
+  explicit CameraRays(const CameraModel& camera) : model(camera), rays(rays_of(camera)) {}
+
+  CameraModel model;
+  Image<Eigen::Vector2f> rays;
+};
+
+/// One view made ready to be asked how far a point lies from the surface it saw.
+///
+/// A plane `a x + b y + c z = 1` of the rig frame is linear in inverse depth over the undistorted
+/// image: 1/z = a rx + b ry + c. So inverse depth q is what is interpolated and fitted, and a point
+/// at depth z lies `(1 - z q) / |(a, b, c)|` in front of the plane seen at its pixel, which is the
+/// distance along the ray times the cosine of incidence.
+///
+/// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
+/// units    mm, rig frame
+/// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Extrapolated
+/// beside what
+///          was seen, when a plane reaches there, or Unseen
+struct LocalPlanes {
+  struct Plane {
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
+    float distance_mm = 0.0F;                          ///< from the camera's center
+    float tangent_distance_mm =
+        0.0F;             ///< the same of the parallel plane through the pixel's own point
+    float weight = 0.0F;  ///< cos(incidence)^2 / sigma^2, in 1/mm^2; 0 of one carried on
+    WindowKind window = WindowKind::None;  ///< that it was fitted over
+
+    [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
+      return normal.dot(point) + distance_mm;
+    }
+  };
+  /// As wide as the numbers beside it, so that the compiler takes 8 quads at once.
+  enum class Kind : std::int32_t { Unseen, Extrapolated, Smooth, Ridge, Valley };
+  struct Quad {
+    float distance_mm = 0.0F;  ///< of its plane from the camera's center
+    float weight = 0.0F;       ///< mean of the corners'
+    Kind kind = Kind::Unseen;
+  };
+
+  Image<float> inverse_depth;  ///< q, 1/mm
+  Image<Plane> planes;
+  Image<Quad> quads;
+  Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
+
+  /// Whether (x, y) is a pixel with a plane.
+  [[nodiscard]] bool has_plane(int x, int y) const {
+    return x >= 0 && y >= 0 && x < planes.width() && y < planes.height() &&
+           planes(x, y).distance_mm > 0.0F;
+  }
+
+  /// The quad that pixel (u, v) falls into; null where nothing is, outside the image, and for NaN.
+  [[nodiscard]] const Quad* quad_or_extrapolated(float u, float v) const {
+    const bool within = u >= 0.0F && v >= 0.0F && u < static_cast<float>(quads.width()) &&
+                        v < static_cast<float>(quads.height());
+    if (!within) return nullptr;
+    const Quad& quad = quads(static_cast<int>(u), static_cast<int>(v));
+    return quad.kind == Kind::Unseen ? nullptr : &quad;
+  }
+  /// The same, null where nothing was seen.
+  [[nodiscard]] const Quad* quad_at(float u, float v) const {
+    const Quad* quad = quad_or_extrapolated(u, v);
+    return quad != nullptr && quad->kind == Kind::Extrapolated ? nullptr : quad;
+  }
+
+  /// The plane of the pixel whose square (u, v) falls into, which is in the picture.
+  [[nodiscard]] const Plane& nearest(float u, float v) const {
+    const float right = u + 0.5F;
+    const float down = v + 0.5F;
+    return planes(static_cast<int>(right), static_cast<int>(down));
+  }
+  /// The same, null where the picture ends or the pixel has no plane: what is half a pixel beside
+  /// the last quad was seen, too.
+  [[nodiscard]] const Plane* pixel_at(float u, float v) const {
+    const float right = u + 0.5F;
+    const float down = v + 0.5F;
+    const bool within = right > 0.0F && down > 0.0F && right < static_cast<float>(planes.width()) &&
+                        down < static_cast<float>(planes.height());
+    if (!within) return nullptr;
+    const Plane& plane = nearest(u, v);
+    return plane.weight > 0.0F ? &plane : nullptr;
+  }
+
+  /// Inverse depth between the pixels of a quad.
+  [[nodiscard]] float inverse_depth_at(float u, float v) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    const float right = u - static_cast<float>(x);
+    const float down = v - static_cast<float>(y);
+    const Image<float>& q = inverse_depth;
+    const float upper = q(x, y) + right * (q(x + 1, y) - q(x, y));
+    const float lower = q(x, y + 1) + right * (q(x + 1, y + 1) - q(x, y + 1));
+    return upper + down * (lower - upper);
+  }
+
+  /// A point's distance from the surface of a smooth quad, to second order: halfway between the
+  /// chords from corner to corner, which a curved surface leaves on one side, and the corners'
+  /// tangent planes, which it leaves as far on the other.
+  [[nodiscard]] float smooth_mm(float u, float v, const Eigen::Vector3f& point) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    const float right = u - static_cast<float>(x);
+    const float down = v - static_cast<float>(y);
+    const auto tangent = [&](const Plane& plane) {
+      return plane.normal.dot(point) + plane.tangent_distance_mm;
+    };
+    const float upper = (1.0F - right) * tangent(planes(x, y)) + right * tangent(planes(x + 1, y));
+    const float lower =
+        (1.0F - right) * tangent(planes(x, y + 1)) + right * tangent(planes(x + 1, y + 1));
+    const float tangents = upper + down * (lower - upper);
+    const float chords = (1.0F - point.z() * inverse_depth_at(u, v)) * quads(x, y).distance_mm;
+    return 0.5F * (tangents + chords);
+  }
+
+  /// Of a quad whose corners lie on several faces, the one that a point belongs to: the object is
+  /// what all faces of a ridge have behind them, and what any face of a valley has.
+  [[nodiscard]] const Plane& nearest_face(float u, float v, const Eigen::Vector3f& point) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    const bool ridge = quads(x, y).kind == Kind::Ridge;
+    const Plane* found = &planes(x, y);
+    for (const Plane* other : {&planes(x + 1, y), &planes(x, y + 1), &planes(x + 1, y + 1)}) {
+      if ((other->in_front_mm(point) > found->in_front_mm(point)) == ridge) found = other;
+    }
+    return *found;
+  }
+
+  /// A point's distance from the nearest plane that reaches a quad beside what was seen.
+  [[nodiscard]] float extrapolated_mm(float u, float v, const Eigen::Vector3f& point) const {
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    float least = std::numeric_limits<float>::infinity();
+    for (const Plane* plane :
+         {&planes(x, y), &planes(x + 1, y), &planes(x, y + 1), &planes(x + 1, y + 1)}) {
+      const float distance = plane->in_front_mm(point);
+      if (plane->distance_mm > 0.0F && std::abs(distance) < std::abs(least)) least = distance;
+    }
+    return least;
+  }
+};
+
+struct LocalPlanesOptions {
+  int radius = 2;           ///< of the windows, px
+  double crease_rad = 0.3;  ///< neighbouring planes that differ by more belong to different faces
+  int extrapolate_px = 0;   ///< how far planes are carried on beside what was seen
+  bool widen = false;       ///< smooth over 7 x 7 pixels where those leave nothing over but noise
+};
+
+/// The local plane at each pixel, by least squares over a square window.
+///
+/// Near an edge of the object a window about the pixel would round it off: of the windows that hold
+/// the pixel and fit no better than noise allows, the best one is taken, which lies to one side.
+/// Neighbouring pixels are on one surface unless the line that joins them is within 8 degrees of
+/// the viewing ray, by more than their noise.
+/// errors   Error(Input) when the grid and the camera differ in size
+/// source   the choice among windows: Kuwahara et al. 1976
+[[nodiscard]] LocalPlanes local_planes(const View& view,
+                                       const CameraRays& camera,
+                                       const LocalPlanesOptions& options = {},
+                                       LocalPlanes reuse = {});
+
+}  // namespace frangia

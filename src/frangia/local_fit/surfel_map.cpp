@@ -1,0 +1,50 @@
+#include "frangia/local_fit/surfel_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/core/parallel.h"
+
+namespace frangia {
+
+SurfelMap make_surfel_map(const LocalPlanes& view, const CameraRays& camera, std::size_t pixels) {
+  const auto all = static_cast<double>(view.planes.pixels().size());
+  SurfelMap map;
+  map.stride =
+      std::max(1, static_cast<int>(std::ceil(std::sqrt(all / static_cast<double>(pixels)))));
+  map.surfels = Image<SurfelMap::Surfel>(view.quads.width() / map.stride + 1,
+                                         view.quads.height() / map.stride + 1);
+  parallel_rows(map.surfels.height(), [&](int row) {
+    for (int column = 0; column < map.surfels.width(); ++column) {
+      const int x = column * map.stride;
+      const int y = row * map.stride;
+      if (x >= view.quads.width() || y >= view.quads.height()) continue;
+      const LocalPlanes::Quad& quad = view.quads(x, y);
+      const LocalPlanes::Plane& plane = view.planes(x, y);
+      if (quad.kind != LocalPlanes::Kind::Smooth || plane.window != WindowKind::Centered) continue;
+      const Eigen::Vector3f ray = camera.rays(x, y).homogeneous();
+      const Eigen::Vector3f point = ray / view.inverse_depth(x, y);
+      const float cosine = -plane.normal.dot(point) / point.norm();
+      map.surfels(column, row) = {point, plane.normal, cosine * cosine / std::sqrt(quad.weight)};
+    }
+  });
+  return map;
+}
+
+std::vector<SurfelMap::Surfel> pick_surfels(const SurfelMap& map, std::size_t count) {
+  const auto seen = [](const SurfelMap::Surfel& surfel) { return surfel.sigma_mm > 0.0F; };
+  const auto surfels = map.surfels.pixels();
+  const auto all = static_cast<std::size_t>(std::count_if(surfels.begin(), surfels.end(), seen));
+  std::vector<SurfelMap::Surfel> picked;
+  picked.reserve(std::min(all, count));
+  std::size_t rank = 0;
+  for (const SurfelMap::Surfel& surfel : surfels) {
+    if (!seen(surfel)) continue;
+    // Every all / count-th of them, which over many rows is as good as a grid.
+    if (all <= count || rank * count / all != (rank + 1) * count / all) picked.push_back(surfel);
+    ++rank;
+  }
+  return picked;
+}
+
+}  // namespace frangia

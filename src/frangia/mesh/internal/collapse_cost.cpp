@@ -1,0 +1,82 @@
+#include "frangia/mesh/internal/collapse_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kBoundaryWeight = 10.0;
+
+/// The median of the sigmas that are known; 0 when none is.
+double median_sigma(const Mesh& mesh) {
+  std::vector<float> known;
+  for (const float sigma : mesh.sigma_mm)
+    if (std::isfinite(sigma) && sigma > 0.0F) known.push_back(sigma);
+  if (known.empty()) return 0.0;
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+CollapseCost::CollapseCost(const Mesh& mesh, const HalfEdges& edges)
+    : mesh_(&mesh), median_sigma_mm_(median_sigma(mesh)), quadrics_(mesh.vertices_mm.size()) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
+    const Vector3d cross = (position(triangle[1]) - position(triangle[0]))
+                               .cross(position(triangle[2]) - position(triangle[0]));
+    const double length = cross.norm();
+    if (!(length > 0.0)) continue;
+    const double weight = length * confidence(triangle);
+    for (const std::uint32_t vertex : triangle)
+      quadrics_[vertex].add_plane(cross / length, position(triangle[0]), weight);
+    for (std::uint32_t edge = 3 * t; edge < 3 * t + 3; ++edge)
+      if (edges.is_boundary(edge)) constrain_boundary(edge, cross / length);
+  }
+}
+
+/// Triangles weigh by 1/sigma^2, within a factor of four of the usual one.
+double CollapseCost::confidence(const Mesh::Triangle& triangle) const {
+  if (!(median_sigma_mm_ > 0.0)) return 1.0;
+  double sum = 0.0;
+  for (const std::uint32_t vertex : triangle) {
+    const auto sigma = static_cast<double>(mesh_->sigma_mm[vertex]);
+    const double ratio = sigma > 0.0 ? median_sigma_mm_ / sigma : 0.5;
+    sum += std::clamp(ratio * ratio, 0.25, 4.0) / 3.0;
+  }
+  return sum;
+}
+
+void CollapseCost::constrain_boundary(std::uint32_t edge, const Vector3d& normal) {
+  const std::uint32_t a = source_vertex(*mesh_, edge);
+  const std::uint32_t b = target_vertex(*mesh_, edge);
+  const Vector3d along = position(b) - position(a);
+  const Vector3d side = along.cross(normal).stableNormalized();
+  for (const std::uint32_t v : {a, b})
+    quadrics_[v].add_plane(side, position(a), kBoundaryWeight * along.squaredNorm());
+}
+
+CollapseTarget CollapseCost::target(std::uint32_t a, std::uint32_t b) const {
+  Quadric sum = quadrics_[a];
+  sum += quadrics_[b];
+  const Vector3d pa = position(a);
+  const Vector3d pb = position(b);
+  const Vector3d middle = 0.5 * (pa + pb);
+  Vector3d best;
+  const bool closed = sum.minimize(best);
+  if (!closed || (best - middle).squaredNorm() > (pa - pb).squaredNorm()) {
+    best = middle;
+    for (const Vector3d& other : {pa, pb})
+      if (sum.at(other) < sum.at(best)) best = other;
+  }
+  const double cost = sum.at(best);
+  return {best, cost, sum.weight > 0.0 ? cost / sum.weight : 0.0};
+}
+
+}  // namespace frangia

@@ -1,0 +1,88 @@
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/error.h"
+#include "frangia/geometry/triangulate_polygon.h"
+#include "frangia/mesh/internal/hole_patch.h"
+#include "frangia/mesh/internal/minimum_area_triangulation.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+using VertexLoop = std::vector<std::uint32_t>;
+
+constexpr std::size_t kMaxByArea = 100;  // of larger boundaries the projection is the better guess
+
+Vector3d position(const Mesh& mesh, std::uint32_t vertex) {
+  return mesh.vertices_mm[vertex].cast<double>();
+}
+
+/// The direction of the plane that fits a line best, by the area of its projection.
+Vector3d direction_of(const std::vector<Vector3d>& line) {
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i = 0; i < line.size(); ++i)
+    normal += (line[i] - line.front()).cross(line[(i + 1) % line.size()] - line.front());
+  return normal;
+}
+
+std::vector<Mesh::Triangle> minimum_area(const std::vector<Vector3d>& line,
+                                         const VertexLoop& loop) {
+  std::vector<Mesh::Triangle> triangles;
+  const MinimumAreaOptions options{.normals = {line.size(), direction_of(line)},
+                                   .is_forbidden = {}};
+  for (const auto& [a, b, c] : minimum_area_triangulation(line, options))
+    triangles.push_back({loop[a], loop[b], loop[c]});
+  return triangles;
+}
+
+/// The triangles of the line's projection on its plane; none when the projection crosses itself.
+std::vector<Mesh::Triangle> by_projection(const std::vector<Vector3d>& line,
+                                          const VertexLoop& loop) {
+  const Vector3d normal = direction_of(line);
+  const Vector3d x = normal.unitOrthogonal();
+  const Vector3d y = normal.normalized().cross(x);
+  Polygon projection;
+  for (const Vector3d& corner : line) {
+    const Vector3d away = corner - line.front();
+    projection.emplace_back(away.dot(x), away.dot(y));
+  }
+  std::vector<Mesh::Triangle> triangles;
+  try {
+    for (const auto& [a, b, c] : triangulate_polygon(projection))
+      triangles.push_back({loop[a], loop[b], loop[c]});
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Numeric) throw;
+    triangles.clear();
+  }
+  return triangles;
+}
+
+}  // namespace
+
+HolePatch flat_patch(const Mesh& mesh, const VertexLoop& boundary) {
+  HolePatch patch;
+  if (boundary.size() < 3) return patch;
+  const VertexLoop loop(boundary.rbegin(), boundary.rend());  // the patch runs against the boundary
+  std::vector<Vector3d> line;
+  for (const std::uint32_t vertex : loop)
+    line.push_back(position(mesh, vertex));
+  if (loop.size() > kMaxByArea) patch.triangles = by_projection(line, loop);
+  if (patch.triangles.empty()) patch.triangles = minimum_area(line, loop);
+  return patch;
+}
+
+HolePatch fan_patch(const Mesh& mesh, const std::vector<std::uint32_t>& loop) {
+  HolePatch patch;
+  Vector3d mean = Vector3d::Zero();
+  for (const std::uint32_t vertex : loop)
+    mean += position(mesh, vertex);
+  patch.positions_mm.emplace_back((mean / static_cast<double>(loop.size())).cast<float>());
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices_mm.size());
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    patch.triangles.push_back({loop[(i + 1) % loop.size()], loop[i], middle});
+  return patch;
+}
+
+}  // namespace frangia

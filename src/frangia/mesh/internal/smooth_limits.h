@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frangia/geometry/half_edges.h"
+#include "frangia/mesh/smooth.h"
+
+namespace frangia {
+
+/// Which vertices a smoothing may move, and how far from where they began.
+class SmoothLimits {
+ public:
+  /// errors   Error(Input) as smooth_taubin
+  SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const SmoothOptions& options);
+
+  [[nodiscard]] bool may_move(std::size_t vertex) const { return movable_[vertex] != 0; }
+  /// The position nearest to `wanted` that the vertex may take.
+  [[nodiscard]] Eigen::Vector3f allowed(std::size_t vertex, const Eigen::Vector3f& wanted) const;
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& initial_mm() const { return initial_mm_; }
+
+ private:
+  std::vector<Eigen::Vector3f> initial_mm_;
+  std::vector<std::uint8_t> movable_;
+  std::vector<float> max_move_mm_;  ///< empty: no bound
+};
+
+}  // namespace frangia

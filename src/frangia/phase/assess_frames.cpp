@@ -1,0 +1,134 @@
+#include "frangia/phase/assess_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kSamples = 100'000;
+
+/// Beyond this the residual is no noise: a noise model is good to some 10 %.
+constexpr double kMaxResidualRatio = 1.6;
+
+/// What each frame holds beyond the waves of `shifts`, as weights of the frames: a row a frame.
+std::vector<std::vector<double>> residual_weights(const std::vector<double>& shifts) {
+  const PhaseAlgorithm fit = least_squares(shifts);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t k = 0; k < shifts.size(); ++k) {
+    std::vector<double> row;
+    for (std::size_t j = 0; j < shifts.size(); ++j) {
+      row.push_back((j == k ? 1.0 : 0.0) - fit.mean[j] - std::cos(shifts[k]) * fit.cosine[j] +
+                    std::sin(shifts[k]) * fit.sine[j]);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Median, over measured pixels, of the residual's square over its expectation, scaled to be 1 for
+/// Gaussian noise of one degree of freedom or more.
+double residual_ratio(const FrameStack& stack,
+                      const std::vector<double>& shifts,
+                      const WrappedPhase& map,
+                      const NoiseModel& noise) {
+  if (shifts.size() < 4) return 0.0;
+  const auto rows = residual_weights(shifts);
+  const auto freedom = static_cast<double>(shifts.size() - 3);
+  const std::size_t pixels = map.status.pixels().size();
+  const std::size_t stride = std::max<std::size_t>(1, pixels / kSamples);
+  double ratio = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < pixels; i += stride) {
+    if (map.status.pixels()[i] != PixelStatus::Measured) continue;
+    std::vector<double> counts;
+    for (const Frame& frame : stack.frames) {
+      counts.push_back(std::visit(
+          [&](const auto& image) { return static_cast<double>(image.pixels()[i]); }, frame));
+    }
+    double square = 0.0;
+    for (const auto& row : rows) {
+      double residual = 0.0;
+      for (std::size_t k = 0; k < counts.size(); ++k)
+        residual += row[k] * counts[k];
+      square += residual * residual;
+    }
+    const double expected =
+        freedom * noise.variance(static_cast<double>(map.mean_counts.pixels()[i]));
+    ratio += std::min(square / expected, 25.0);  // a depth edge's few pixels do not decide
+    count += 1.0;
+  }
+  return count > 0.0 ? ratio / count : 0.0;
+}
+
+double median_contrast(const WrappedPhase& map) {
+  std::vector<float> contrast;
+  const std::size_t stride = std::max<std::size_t>(1, map.status.pixels().size() / kSamples);
+  for (std::size_t i = 0; i < map.status.pixels().size(); i += stride) {
+    const float mean = map.mean_counts.pixels()[i];
+    if (map.status.pixels()[i] == PixelStatus::Measured && mean > 0.0F)
+      contrast.push_back(map.modulation_counts.pixels()[i] / mean);
+  }
+  if (contrast.empty()) return 0.0;
+  const auto middle = contrast.begin() + std::ssize(contrast) / 2;
+  std::nth_element(contrast.begin(), middle, contrast.end());
+  return static_cast<double>(*middle);
+}
+
+double fraction_of(const Image<PixelStatus>& status, PixelStatus which) {
+  const auto count = std::count(status.pixels().begin(), status.pixels().end(), which);
+  return static_cast<double>(count) / static_cast<double>(std::ssize(status.pixels()));
+}
+
+}  // namespace
+
+FrameAssessment assess_frames(const FrameStack& stack,
+                              const FittedAlgorithm& fitted,
+                              const WrappedPhase& map,
+                              const NoiseModel& noise) {
+  FrameAssessment assessment{.pattern = stack.pattern.name, .algorithm = fitted.algorithm.name};
+  if (fitted.step.found) {
+    assessment.nominal_deg = deg_from_rad(fitted.step.nominal_rad);
+    assessment.step_deg = deg_from_rad(fitted.step.step_rad);
+    assessment.jitter_deg = deg_from_rad(fitted.step.jitter_rad);
+    assessment.step_sigma_deg = deg_from_rad(fitted.step.sigma_rad);
+  }
+  assessment.contrast = median_contrast(map);
+  assessment.measured_fraction = fraction_of(map.status, PixelStatus::Measured);
+  assessment.saturated_fraction = fraction_of(map.status, PixelStatus::Saturated);
+  assessment.residual_ratio = residual_ratio(stack, fitted.shifts_rad, map, noise);
+  assessment.vibration_suspected = assessment.residual_ratio > kMaxResidualRatio;
+  return assessment;
+}
+
+std::string describe(const FrameAssessment& assessment) {
+  std::string text =
+      fmt::format("pattern \"{}\" by {}: ", assessment.pattern, assessment.algorithm);
+  if (assessment.nominal_deg != 0.0) {
+    text += fmt::format("steps of {:.3f} +- {:.3f} degrees for {:g}, ",
+                        assessment.step_deg,
+                        assessment.step_sigma_deg,
+                        assessment.nominal_deg);
+    if (assessment.jitter_deg > 0.0)
+      text += fmt::format("uneven by some {:.2f} degrees, ", assessment.jitter_deg);
+  }
+  text += fmt::format("contrast {:.2f}, {:.1f} % measured, {:.1f} % saturated",
+                      assessment.contrast,
+                      100.0 * assessment.measured_fraction,
+                      100.0 * assessment.saturated_fraction);
+  if (assessment.residual_ratio > 0.0) {
+    text += fmt::format(", {} ({:.2f} times the noise's variance is left over)",
+                        assessment.vibration_suspected
+                            ? "something moved or flickered between the frames"
+                            : "frames consistent",
+                        assessment.residual_ratio);
+  }
+  return text;
+}
+
+}  // namespace frangia

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "frangia/phase/phase_map.h"
+#include "frangia/phase/split_regions.h"
+
+namespace frangia {
+
+/// Unwraps each region by growth from its best pixel to the neighbour with the largest product of
+/// modulations. The fringe of the best pixel is called 0. With `keep_growth_order` the order in
+/// which the pixels were reached is kept, too.
+///
+/// source   the paper's reference [35], Takeda & Abe 1996
+[[nodiscard]] RelativePhase unwrap_quality_guided(const WrappedPhase& phase,
+                                                  const Regions& regions,
+                                                  bool keep_growth_order = false);
+
+}  // namespace frangia

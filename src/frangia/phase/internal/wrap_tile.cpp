@@ -1,0 +1,259 @@
+#include "frangia/phase/internal/wrap_tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/vectorized.h"
+#include "frangia/phase/internal/fast_atan2.h"
+#include "frangia/phase/internal/wrap_four_step.h"
+
+namespace frangia {
+namespace {
+
+struct Weights {
+  float sine = 0.0F;
+  float cosine = 0.0F;
+  float mean = 0.0F;
+};
+
+Weights weights_of(const PhaseAlgorithm& algorithm, std::size_t frame) {
+  return {static_cast<float>(algorithm.sine[frame]),
+          static_cast<float>(algorithm.cosine[frame]),
+          static_cast<float>(algorithm.mean[frame])};
+}
+
+// One small loop a step, its values in the first-level cache: a single large one does not
+// vectorise.
+
+/// Writes the sums of the first three frames.
+template <typename T>
+FRANGIA_VECTORIZED void set_three(std::array<const T*, 3> frames,
+                                  std::size_t n,
+                                  std::array<Weights, 3> w,
+                                  WrapTile& __restrict tile) {
+  const T* __restrict a = frames[0];
+  const T* __restrict b = frames[1];
+  const T* __restrict c = frames[2];
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto one = static_cast<float>(a[i]);
+    const auto two = static_cast<float>(b[i]);
+    const auto three = static_cast<float>(c[i]);
+    tile.sine[i] = w[0].sine * one + w[1].sine * two + w[2].sine * three;
+    tile.cosine[i] = w[0].cosine * one + w[1].cosine * two + w[2].cosine * three;
+    tile.mean[i] = w[0].mean * one + w[1].mean * two + w[2].mean * three;
+  }
+}
+
+/// Writes the sums of the first four frames: at once, so that no sum is loaded and stored again.
+template <typename T>
+FRANGIA_VECTORIZED void set_four(std::array<const T*, 4> frames,
+                                 std::size_t n,
+                                 std::array<Weights, 4> w,
+                                 WrapTile& __restrict tile) {
+  const T* __restrict a = frames[0];
+  const T* __restrict b = frames[1];
+  const T* __restrict c = frames[2];
+  const T* __restrict d = frames[3];
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto one = static_cast<float>(a[i]);
+    const auto two = static_cast<float>(b[i]);
+    const auto three = static_cast<float>(c[i]);
+    const auto four = static_cast<float>(d[i]);
+    tile.sine[i] = (w[0].sine * one + w[1].sine * two) + (w[2].sine * three + w[3].sine * four);
+    tile.cosine[i] =
+        (w[0].cosine * one + w[1].cosine * two) + (w[2].cosine * three + w[3].cosine * four);
+    tile.mean[i] = (w[0].mean * one + w[1].mean * two) + (w[2].mean * three + w[3].mean * four);
+  }
+}
+
+/// The same of four frames whose sine is of the second and fourth only, and whose cosine is of the
+/// others: a quarter turn apart. Half of the work.
+template <typename T>
+FRANGIA_VECTORIZED void set_four_step(std::array<const T*, 4> frames,
+                                      std::size_t n,
+                                      std::array<Weights, 4> w,
+                                      WrapTile& __restrict tile) {
+  const T* __restrict a = frames[0];
+  const T* __restrict b = frames[1];
+  const T* __restrict c = frames[2];
+  const T* __restrict d = frames[3];
+  const float sine = w[3].sine;
+  const float cosine = w[0].cosine;
+  const float mean = w[0].mean;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto one = static_cast<std::int32_t>(a[i]);
+    const auto two = static_cast<std::int32_t>(b[i]);
+    const auto three = static_cast<std::int32_t>(c[i]);
+    const auto four = static_cast<std::int32_t>(d[i]);
+    tile.sine[i] = sine * static_cast<float>(four - two);
+    tile.cosine[i] = cosine * static_cast<float>(one - three);
+    tile.mean[i] = mean * static_cast<float>((one + three) + (two + four));
+  }
+}
+
+/// The brightest of the frames, in their own narrow numbers: many at once.
+template <typename T>
+FRANGIA_VECTORIZED void raise_brightest(const T* __restrict a,
+                                        std::size_t n,
+                                        std::uint16_t* __restrict brightest) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint16_t counts = a[i];
+    brightest[i] = counts > brightest[i] ? counts : brightest[i];
+  }
+}
+
+/// Adds two more frames.
+template <typename T>
+FRANGIA_VECTORIZED void add_frames(const T* __restrict a,
+                                   const T* __restrict b,
+                                   std::size_t n,
+                                   std::array<Weights, 2> w,
+                                   WrapTile& __restrict tile) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto one = static_cast<float>(a[i]);
+    const auto two = static_cast<float>(b[i]);
+    tile.sine[i] += w[0].sine * one + w[1].sine * two;
+    tile.cosine[i] += w[0].cosine * one + w[1].cosine * two;
+    tile.mean[i] += w[0].mean * one + w[1].mean * two;
+  }
+}
+
+template <typename T>
+FRANGIA_VECTORIZED void add_outer(const T* counts, std::size_t n, float weight, WrapTile& tile) {
+  for (std::size_t i = 0; i < n; ++i)
+    tile.outer[i] += weight * static_cast<float>(counts[i]);
+}
+
+/// Carré's sine from its two differences, and both turned back by the angle of `c` and `s`.
+FRANGIA_VECTORIZED void finish_carre(std::size_t n, float c, float s, WrapTile& tile) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float u = tile.sine[i];
+    const float square = (3.0F * u - tile.outer[i]) * (u + tile.outer[i]);
+    const float size = std::sqrt(square > 0.0F ? square : 0.0F);
+    const float sine = u < 0.0F ? -size : size;
+    tile.sine[i] = sine * c - tile.cosine[i] * s;
+    tile.cosine[i] = tile.cosine[i] * c + sine * s;
+  }
+}
+
+void add_carre(const FrameStack& stack,
+               const PhaseAlgorithm& algorithm,
+               std::size_t at,
+               std::size_t n,
+               WrapTile& tile) {
+  tile.outer.fill(0.0F);
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    const auto weight = static_cast<float>(algorithm.outer[k]);
+    std::visit([&](const auto& image) { add_outer(image.pixels().data() + at, n, weight, tile); },
+               stack.frames[k]);
+  }
+  finish_carre(n,
+               static_cast<float>(std::cos(algorithm.phase_offset_rad)),
+               static_cast<float>(std::sin(algorithm.phase_offset_rad)),
+               tile);
+}
+
+/// Frames of one depth.
+template <typename T>
+void sum_all(const FrameStack& stack,
+             const PhaseAlgorithm& algorithm,
+             std::size_t at,
+             std::size_t n,
+             WrapTile& tile) {
+  const auto pixels = [&](std::size_t k) {
+    return std::get<Image<T>>(stack.frames[k]).pixels().data() + at;
+  };
+  const auto weights = [&](std::size_t k) { return weights_of(algorithm, k); };
+  const std::size_t count = stack.frames.size();
+  const std::size_t first = count == 3 ? 3 : 4;
+  if (count == 3) {
+    set_three<T>({pixels(0), pixels(1), pixels(2)}, n, {weights(0), weights(1), weights(2)}, tile);
+  } else {
+    const std::array<Weights, 4> four = {weights(0), weights(1), weights(2), weights(3)};
+    const std::array<const T*, 4> frames = {pixels(0), pixels(1), pixels(2), pixels(3)};
+    if (is_four_step(algorithm)) {
+      set_four_step<T>(frames, n, four, tile);
+    } else {
+      set_four<T>(frames, n, four, tile);
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    raise_brightest<T>(pixels(k), n, tile.brightest.data());
+  for (std::size_t k = first; k < count; k += 2) {
+    const bool pair = k + 1 < count;  // an odd last one goes with itself at no weight
+    add_frames<T>(pixels(k),
+                  pixels(pair ? k + 1 : k),
+                  n,
+                  {weights(k), pair ? weights(k + 1) : Weights{}},
+                  tile);
+  }
+}
+
+}  // namespace
+
+void check_frames(const FrameStack& stack, const PhaseAlgorithm& algorithm) {
+  if (stack.frames.size() != algorithm.sine.size()) {
+    throw Error(ErrorKind::Input,
+                fmt::format(R"(pattern "{}" has {} frames, but the algorithm "{}" takes {})",
+                            stack.pattern.name,
+                            stack.frames.size(),
+                            algorithm.name,
+                            algorithm.sine.size()));
+  }
+  for (const Frame& frame : stack.frames) {
+    require(width_of(frame) == width_of(stack.frames.front()) &&
+                height_of(frame) == height_of(stack.frames.front()) &&
+                frame.index() == stack.frames.front().index(),
+            "wrap_phase: the frames differ in size or depth");
+  }
+}
+
+TileNoise tile_noise(const FrameStack& stack,
+                     const PhaseAlgorithm& algorithm,
+                     const NoiseModel& noise) {
+  double sine_gain = 0.0;
+  double cosine_gain = 0.0;
+  double cross_gain = 0.0;
+  for (std::size_t k = 0; k < algorithm.sine.size(); ++k) {
+    sine_gain += algorithm.sine[k] * algorithm.sine[k];
+    cosine_gain += algorithm.cosine[k] * algorithm.cosine[k];
+    cross_gain += algorithm.sine[k] * algorithm.cosine[k];
+  }
+  if (!algorithm.outer.empty()) {  // not linear: the mean over the fringe
+    sine_gain = cosine_gain = algorithm.noise_gain * algorithm.noise_gain;
+    cross_gain = 0.0;
+  }
+  return {.white = stack.white_level,
+          .variance_floor = static_cast<float>(noise.floor_counts2),
+          .variance_slope = static_cast<float>(noise.slope_counts),
+          .sine_gain = static_cast<float>(sine_gain),
+          .cosine_gain = static_cast<float>(cosine_gain),
+          .cross_gain = static_cast<float>(cross_gain)};
+}
+
+void sum_frames(const FrameStack& stack,
+                const PhaseAlgorithm& algorithm,
+                std::size_t at,
+                std::size_t n,
+                WrapTile& tile) {
+  if (std::holds_alternative<Image<std::uint8_t>>(stack.frames.front())) {
+    sum_all<std::uint8_t>(stack, algorithm, at, n, tile);
+  } else {
+    sum_all<std::uint16_t>(stack, algorithm, at, n, tile);
+  }
+  if (!algorithm.outer.empty()) add_carre(stack, algorithm, at, n, tile);
+}
+
+FRANGIA_VECTORIZED void find_tile_phase(const WrapTile& __restrict tile,
+                                        std::size_t n,
+                                        float* __restrict phase_rad) {
+  for (std::size_t i = 0; i < n; ++i)
+    phase_rad[i] = fast_atan2(tile.sine[i], tile.cosine[i]);
+}
+
+}  // namespace frangia

@@ -1,0 +1,236 @@
+#include "frangia/pipeline/decode_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/phase/correct_response.h"
+#include "frangia/phase/decode_gray_code.h"
+#include "frangia/phase/decode_sequence.h"
+#include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/frame_samples.h"
+#include "frangia/phase/merge_exposures.h"
+#include "frangia/phase/recover_saturated.h"
+#include "frangia/phase/unwrap_levels.h"
+#include "frangia/phase/unwrap_sequence.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/rig/phase_range.h"
+
+namespace frangia {
+namespace {
+
+/// The fringe patterns that number the projector's columns (or its rows, when there are only
+/// those), coarse to fine.
+std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks) {
+  std::vector<const FrameStack*> fringes;
+  for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
+    for (const FrameStack& stack : stacks) {
+      const bool first = stack.exposure == 0;
+      if (first && stack.pattern.kind == PatternKind::Fringe &&
+          stack.pattern.direction == direction) {
+        fringes.push_back(&stack);
+      }
+    }
+    if (!fringes.empty()) break;
+  }
+  require(!fringes.empty(), "scan.toml has no pattern of kind \"fringe\"; nothing can be measured");
+  std::stable_sort(fringes.begin(), fringes.end(), [](const auto* a, const auto* b) {
+    return a->pattern.fringes_per_unit() < b->pattern.fringes_per_unit();
+  });
+  return fringes;
+}
+
+const FrameStack* line_of(std::span<const FrameStack> stacks) {
+  const auto found = std::find_if(stacks.begin(), stacks.end(), [](const FrameStack& stack) {
+    return stack.pattern.kind == PatternKind::Line;
+  });
+  return found == stacks.end() ? nullptr : &*found;
+}
+
+/// All exposures of the pattern whose first one is `stack`.
+std::span<const FrameStack> exposures_of(const FrameStack* stack) {
+  return {stack, static_cast<std::size_t>(stack->pattern.exposure_count())};
+}
+
+/// Gray code that runs as the fringes do, at all its exposures.
+std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDirection direction) {
+  for (const FrameStack& stack : stacks) {
+    if (stack.pattern.kind == PatternKind::Gray && stack.pattern.direction == direction)
+      return exposures_of(&stack);
+  }
+  return {};
+}
+
+/// The camera's noise: as the rig gives it, else from some views, else from this one.
+NoiseModel noise_of(std::span<const FrameStack> stacks,
+                    const Rig& rig,
+                    const DecodeOptions& options) {
+  if (rig.camera.noise) return *rig.camera.noise;
+  return options.survey.noise ? *options.survey.noise : estimate_noise(stacks);
+}
+
+/// Distance at which the camera's axis meets the middle of the lit field: the paper's x0.
+double crossing_distance(const Pattern& pattern, const Rig& rig) {
+  const double middle = phase_range(pattern, rig.projector).center_rad();
+  return intersect_fringe({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
+}
+
+/// The way up by several patterns, beats of two among them; empty where there is none.
+std::vector<UnwrapLevel> unwrap_levels_of(std::span<const FrameStack* const> fringes,
+                                          const Projector& projector) {
+  std::vector<Pattern> patterns;
+  for (const FrameStack* stack : fringes)
+    patterns.push_back(stack->pattern);
+  return patterns.size() > 1 ? find_unwrap_levels(patterns, projector) : std::vector<UnwrapLevel>{};
+}
+
+/// Whether each step of a ladder is safe for every pixel that wrapping keeps, without a look at its
+/// neighbours.
+bool is_pixelwise_safe(std::span<const UnwrapLevel> levels, const DecodeOptions& options) {
+  constexpr double kRare = 1e-6;
+  return is_safe(levels, options.wrap.max_sigma_rad, kRare);
+}
+
+/// The algorithm for one pattern's frames.
+FittedAlgorithm fit(const FrameStack& taken,
+                    const NoiseModel& noise,
+                    const DecodeOptions& options,
+                    const Run& run) {
+  Run warnings = run;  // the assessment tells the algorithm: one sentence a pattern is enough
+  warnings.on_note = nullptr;
+  std::optional<double> gain_error;
+  const auto known = options.survey.gain_error.find(taken.pattern.name);
+  if (known != options.survey.gain_error.end()) gain_error = known->second;
+  return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
+}
+
+/// Undoes the projector's response, where it is to be undone, in the map found last.
+void apply_response_correction(const DecodeOptions& options,
+                               const PhaseAlgorithm& algorithm,
+                               const std::vector<double>& shifts_rad,
+                               DecodedView& out) {
+  if (options.response)
+    correct_response(response_table(*options.response, algorithm, shifts_rad), out.wrapped.back());
+}
+
+/// One pattern's frames to its wrapped phase, and what is to be said of them.
+void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
+  const FittedAlgorithm fitted = fit(taken, out.noise, options, run);
+  if (taken.pattern.exposure_count() > 1) {
+    out.wrapped.push_back(
+        merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
+    out.assessments.push_back(assess_frames(taken, fitted, out.wrapped.back(), out.noise));
+    apply_response_correction(options, least_squares(fitted.shifts_rad), fitted.shifts_rad, out);
+    return;
+  }
+  FrameStack recovered;
+  if (options.recover_saturated) {
+    recovered = taken;
+    const std::size_t pixels = recover_saturated(recovered);
+    run.note(fmt::format(
+        "pattern \"{}\": one saturated frame of {} pixels recovered", taken.pattern.name, pixels));
+  }
+  const FrameStack& stack = options.recover_saturated ? recovered : taken;
+  out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
+  out.assessments.push_back(assess_frames(stack, fitted, out.wrapped.back(), out.noise));
+  apply_response_correction(options, fitted.algorithm, fitted.shifts_rad, out);
+}
+
+/// All patterns in one pass; what is to be said of them comes from some of their rows.
+void decode_in_one_pass(std::span<const FrameStack* const> fringes,
+                        const Rig& rig,
+                        const DecodeOptions& options,
+                        const Run& run,
+                        DecodedView& out) {
+  constexpr std::size_t kAssessedPixels = 200'000;
+  std::vector<SequenceFrames> maps;
+  for (const FrameStack* stack : fringes) {
+    const FittedAlgorithm fitted = fit(*stack, out.noise, options, run);
+    const FrameStack some = sample_rows(*stack, kAssessedPixels);
+    const WrappedPhase map = wrap_phase(some, fitted.algorithm, out.noise, options.wrap);
+    out.assessments.push_back(assess_frames(some, fitted, map, out.noise));
+    maps.push_back({stack, fitted.algorithm});
+  }
+  out.phase = decode_sequence(maps, out.noise, rig.projector, {options.wrap, options.temporal});
+}
+
+bool are_unprocessed_frames(std::span<const FrameStack* const> fringes,
+                            const DecodeOptions& options) {
+  return !options.recover_saturated && !options.response &&
+         std::all_of(fringes.begin(), fringes.end(), [](const FrameStack* stack) {
+           return stack->pattern.exposure_count() == 1;
+         });
+}
+
+}  // namespace
+
+bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
+  std::vector<Pattern> fringes;
+  for (const Pattern& pattern : patterns) {
+    if (pattern.kind == PatternKind::Line || pattern.kind == PatternKind::Gray ||
+        is_absolute(pattern, projector))
+      return true;
+    if (pattern.kind != PatternKind::Fringe) continue;
+    if (fringes.empty() || pattern.direction == fringes.front().direction)
+      fringes.push_back(pattern);
+  }
+  std::stable_sort(fringes.begin(), fringes.end(), [](const Pattern& a, const Pattern& b) {
+    return a.fringes_per_unit() < b.fringes_per_unit();
+  });
+  return !find_unwrap_levels(fringes, projector).empty();
+}
+
+DecodedView decode_view(std::span<const FrameStack> stacks,
+                        const Rig& rig,
+                        const Image<Eigen::Vector2f>& rays,
+                        const DecodeOptions& options,
+                        const Run& run) {
+  DecodedView out;
+  const auto fringes = fringes_of(stacks);
+  out.noise = noise_of(stacks, rig, options);
+  out.coarsest = fringes.front()->pattern;
+  const auto levels = unwrap_levels_of(fringes, rig.projector);
+  const auto gray = gray_of(stacks, out.coarsest.direction);
+  const bool pixelwise_safe = gray.empty() && is_pixelwise_safe(levels, options);
+  if (pixelwise_safe && !options.keep_maps && are_unprocessed_frames(fringes, options)) {
+    decode_in_one_pass(fringes, rig, options, run, out);
+    fill_enclosed(out.phase, options.fill);
+    return out;
+  }
+  for (const FrameStack* stack : fringes) {
+    run.check();
+    wrap(*stack, options, run, out);
+  }
+  if (!gray.empty()) {
+    out.phase = unwrap_finer_levels(
+        decode_gray_code(gray, out.wrapped.front(), out.noise, options.temporal),
+        std::span(out.wrapped).subspan(1),
+        options.temporal);
+  } else if (!pixelwise_safe && is_absolute(out.coarsest, rig.projector)) {
+    out.phase = unwrap_temporally(out.wrapped, rig.projector, options.temporal);
+  } else if (!levels.empty()) {
+    out.phase = unwrap_sequence(out.wrapped, rig.projector, options.temporal);
+  } else {
+    out.relative = unwrap_spatially(out.wrapped.front(), options.spatial);
+    const FrameStack* line = line_of(stacks);
+    if (line != nullptr) {
+      out.profile =
+          laser_profile(*line, out.wrapped.front().mean_counts, rig, out.noise, options.line);
+    }
+    ResolvedPhase resolved =
+        line != nullptr
+            ? resolve_by_laser_sheet(
+                  *out.relative, out.profile, rig.projector, options.fringe_order)
+            : resolve_by_distance(
+                  *out.relative, rig, rays, crossing_distance(out.relative->pattern, rig));
+    const auto finer = std::span(out.wrapped).subspan(1);
+    out.phase = unwrap_finer_levels(std::move(resolved.phase), finer, options.temporal);
+    out.unresolved = std::move(resolved.unresolved);
+  }
+  fill_enclosed(out.phase, options.fill);
+  return out;
+}
+
+}  // namespace frangia

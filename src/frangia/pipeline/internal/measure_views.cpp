@@ -1,0 +1,121 @@
+#include "frangia/pipeline/internal/measure_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/pipeline/survey_scan.h"
+#include "frangia/range/recover_edge_pixels.h"
+#include "frangia/range/triangulate.h"
+
+namespace frangia {
+namespace {
+
+std::size_t count_points(const RangeGrid& range) {
+  const auto depth = range.depth_mm.pixels();
+  return static_cast<std::size_t>(
+      std::count_if(depth.begin(), depth.end(), [](float z) { return !std::isnan(z); }));
+}
+
+double share(const Image<PixelStatus>& status, PixelStatus which) {
+  const auto count = std::count(status.pixels().begin(), status.pixels().end(), which);
+  return 100.0 * static_cast<double>(count) / static_cast<double>(status.pixels().size());
+}
+
+std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatus>& status) {
+  return fmt::format(
+      "{}: no point was measured, and the view is left out: {:.1f} % of its pixels are unmodulated "
+      "and {:.1f} % saturated; check light and exposure",
+      (scan.folder / scan.views[view].folder).string(),
+      share(status, PixelStatus::Unmodulated),
+      share(status, PixelStatus::Saturated));
+}
+
+/// The first view's assessments stand for all; of the others only what is suspect is worth a
+/// sentence.
+void report_assessments(const Scan& scan,
+                        std::size_t view,
+                        const std::vector<FrameAssessment>& assessments,
+                        const Run& run) {
+  for (const FrameAssessment& assessment : assessments) {
+    const std::string folder = scan.views[view].folder.string();
+    if (assessment.vibration_suspected) {
+      run.warn(fmt::format("{}: {}", folder, describe(assessment)));
+    } else if (view == 0) {
+      run.note(fmt::format("{}: {}", folder, describe(assessment)));
+    }
+  }
+}
+
+/// What the frames of one view say, in mm.
+struct MeasuredView {
+  RangeGrid range;
+  std::vector<RangePixel> edge_pixels;
+  DecodedView decoded;
+  std::size_t points = 0;
+};
+
+/// What all views are measured with.
+struct MeasureContext {
+  const Scan& scan;
+  const Image<Eigen::Vector2f>& rays;
+  DecodeOptions decode;
+  const MixedPixelOptions& mixed_pixels;
+};
+
+MeasuredView measure_view(const MeasureContext& context, std::size_t view, const Run& run) {
+  const auto& [scan, rays, decode, mixed_pixels] = context;
+  run.stage("frames");
+  const auto frames = read_frames(scan, view, run);
+  run.stage("phase");
+  MeasuredView out;
+  out.decoded = decode_view(frames, scan.rig, rays, decode, run);
+  report_assessments(scan, view, out.decoded.assessments, run);
+  run.stage("range");
+  out.range = triangulate(out.decoded.phase, scan.rig, rays);
+  const auto removed = remove_mixed_pixels(out.range, rays, out.decoded.phase.status, mixed_pixels);
+  out.edge_pixels = recover_edge_pixels(
+      out.range, rays, removed, {.max_incidence_deg = mixed_pixels.max_incidence_deg});
+  out.points = count_points(out.range);
+  return out;
+}
+
+}  // namespace
+
+MeasuredViews measure_views(const Scan& scan,
+                            const Image<Eigen::Vector2f>& rays,
+                            const DecodeOptions& decode,
+                            const MixedPixelOptions& mixed_pixels,
+                            const Run& run) {
+  MeasuredViews all;
+  run.stage("survey");
+  MeasureContext context{scan, rays, decode, mixed_pixels};
+  context.decode.survey = survey_scan(scan, run);
+  context.decode.keep_maps = false;
+  for (std::size_t i = 0; i < scan.views.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
+    MeasuredView one = measure_view(context, i, run);
+    if (one.points == 0 && one.decoded.unresolved.empty()) {
+      run.warn(why_empty(scan, i, one.decoded.phase.status));
+      continue;
+    }
+    for (UnresolvedRegion& region : one.decoded.unresolved)
+      all.unresolved.push_back({all.views.size(), std::move(region)});
+    all.coarsest = one.decoded.coarsest;
+    all.unwrapped_spatially = one.decoded.relative.has_value();
+    all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
+    all.setups.push_back(scan.views[i].setup);
+    all.views.add({std::move(one.range),
+                   scan.rig.rig_from_object(scan.views[i].angle_rad),
+                   std::move(one.edge_pixels)});
+    all.points += one.points;
+  }
+  return all;
+}
+
+}  // namespace frangia

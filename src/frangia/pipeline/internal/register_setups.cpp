@@ -1,0 +1,195 @@
+#include "frangia/pipeline/internal/register_setups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/registration/join_by_shape.h"
+
+namespace frangia {
+namespace {
+
+/// Every view of every setup in little.
+struct MappedSetups {
+  std::vector<SurfelMap> maps;
+  std::vector<std::vector<ViewGroup::Member>> members;  ///< by setup
+};
+
+MappedSetups map_setups(const std::vector<MeasuredSetup>& setups,
+                        const CameraModel& camera,
+                        const Run& run) {
+  MappedSetups all;
+  for (const MeasuredSetup& setup : setups) {
+    const ViewStore& views = setup.measured.views;
+    std::vector<ViewGroup::Member> members;
+    for (SurfelMap& map : make_surfel_maps(views, camera, 250000, run)) {
+      members.push_back({all.maps.size(), views.rig_from_object(members.size())});
+      all.maps.push_back(std::move(map));
+    }
+    all.members.push_back(std::move(members));
+  }
+  return all;
+}
+
+std::string name_of(const MeasuredSetup& setup) {
+  const auto& stations = setup.measured.stations;
+  return fmt::format(
+      "setup {} ({} to {})", setup.number, stations.front().name, stations.back().name);
+}
+
+/// Where each setup stands as seen from the reference; none where nobody can tell.
+struct SetupPoses {
+  std::size_t reference = 0;
+  std::vector<std::optional<Eigen::Isometry3d>> setup_from_reference;
+};
+
+/// By the part poses of scan.toml, when it has those of all setups but the first.
+std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& setups,
+                                             const std::vector<ViewGroup>& groups,
+                                             const GroupViews& views,
+                                             const RegisterSetupsOptions& options,
+                                             double spacing_mm) {
+  constexpr double kStart = 4.0;  // spacings: what people can tell
+  constexpr double kGate = 0.3;
+  SetupPoses setup_poses{0, {Eigen::Isometry3d::Identity()}};
+  for (std::size_t i = 1; i < setups.size(); ++i) {
+    const auto known = options.part_poses.find(setups[i].number);
+    if (known == options.part_poses.end() || setups[0].number != 0) return std::nullopt;
+    const Eigen::Isometry3d reference_from_setup =
+        refine_fit(groups[0],
+                   groups[i],
+                   known->second.inverse(),
+                   views,
+                   {kStart * spacing_mm, kGate * spacing_mm});
+    const GroupFit fit =
+        compare_groups(groups[0], groups[i], reference_from_setup, views, kGate * spacing_mm);
+    const JoinByShapeOptions usual;
+    const bool fits =
+        fit.overlap >= usual.min_overlap && fit.free_space_violation() <= 3.0 * usual.max_violation;
+    setup_poses.setup_from_reference.push_back(fits ? std::optional(reference_from_setup.inverse())
+                                                    : std::nullopt);
+  }
+  return setup_poses;
+}
+
+SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
+                           const CameraModel& camera,
+                           const RegisterSetupsOptions& options,
+                           const Run& run) {
+  const MappedSetups all = map_setups(setups, camera, run);
+  const double spacing_mm = spacing_for(all.members, all.maps);
+  std::vector<ViewGroup> groups;
+  for (const auto& members : all.members)
+    groups.push_back(make_group(members, all.maps, spacing_mm));
+  const FastCameraModel model(camera);
+  const GroupViews views{all.maps, model};
+  if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm)) return *given;
+  const JoinedGroups joined = join_by_shape(groups, views, {.spacing_mm = spacing_mm}, run);
+  SetupPoses setup_poses{joined.reference, {}};
+  for (const auto& pose : joined.reference_from_group)
+    setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
+                                                    : std::nullopt);
+  return setup_poses;
+}
+
+/// Appends the views of a setup, as setup `index` of those that stay.
+void append(MeasuredViews& all, const MeasuredViews& setup, std::size_t index) {
+  for (std::size_t i = 0; i < setup.views.size(); ++i) {
+    all.views.add(setup.views.load(i));
+    all.stations.push_back(setup.stations[i]);
+    all.stations.back().setup = index;
+  }
+  all.points += setup.points;
+}
+
+Turntable table_of(const MeasuredSetup& setup, const Rig& rig) {
+  return setup.registration ? setup.registration->table : *rig.turntable;
+}
+
+/// Poses as the part poses have them, for who wants none refined.
+void set_poses(MeasuredSetup& joined,
+               const Rig& rig,
+               const std::vector<Eigen::Isometry3d>& part_poses) {
+  for (std::size_t i = 0; i < joined.measured.stations.size(); ++i) {
+    const Station& station = joined.measured.stations[i];
+    const Eigen::Isometry3d pose = rig.rig_from_object(station.angle_rad);
+    joined.measured.views.set_rig_from_object(
+        i, station.setup == 0 ? pose : pose * part_poses[station.setup - 1]);
+  }
+}
+
+}  // namespace
+
+std::vector<MeasuredSetup> split_setups(MeasuredViews all, const std::vector<int>& numbers) {
+  std::map<int, std::vector<std::size_t>> views;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    views[numbers[i]].push_back(i);
+  std::vector<MeasuredSetup> setups;
+  if (views.size() < 2) {
+    setups.push_back({numbers.empty() ? 0 : numbers.front(), std::move(all), {}});
+    return setups;
+  }
+  for (const auto& [number, which] : views) {
+    MeasuredSetup setup{number, {}, {}};
+    setup.measured.coarsest = all.coarsest;
+    setup.measured.unwrapped_spatially = all.unwrapped_spatially;
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const View view = all.views.load(which[i]);
+      const auto depth = view.range.depth_mm.pixels();
+      setup.measured.points += static_cast<std::size_t>(
+          std::count_if(depth.begin(), depth.end(), [](float z) { return !std::isnan(z); }));
+      setup.measured.views.add(view);
+      setup.measured.stations.push_back(all.stations[which[i]]);
+      for (UnresolvedViewRegion& part : all.unresolved) {
+        if (part.view == which[i]) setup.measured.unresolved.push_back({i, std::move(part.region)});
+      }
+    }
+    setups.push_back(std::move(setup));
+  }
+  return setups;
+}
+
+MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
+                              const Rig& rig,
+                              const RegisterSetupsOptions& options,
+                              const Run& run) {
+  const CameraModel& camera = rig.camera.model;
+  const SetupPoses setup_poses = find_part_poses(setups, camera, options, run);
+  MeasuredSetup& reference = setups[setup_poses.reference];
+  const Eigen::Isometry3d given_from_rig = rig.rig_from_object(0.0).inverse();
+  const Eigen::Isometry3d reference_from_rig =
+      table_of(reference, rig).rig_from_object(0.0).inverse();
+  MeasuredSetup joined{reference.number, {}, {}};
+  joined.measured.coarsest = reference.measured.coarsest;
+  append(joined.measured, reference.measured, 0);
+  RegisterOptions registration = options.registration;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    if (i == setup_poses.reference) continue;
+    const auto& part_pose = setup_poses.setup_from_reference[i];
+    if (!part_pose) {
+      run.warn(fmt::format(
+          "{} fits the other setups in no one place and is left out: take more views of what both "
+          "show, or say roughly how the part stands in a [[setup]] of scan.toml",
+          name_of(setups[i])));
+      continue;
+    }
+    // Both setups have a table of their own as yet: through the rig, into the given table's frame.
+    registration.part_poses.emplace_back(
+        given_from_rig * table_of(setups[i], rig).rig_from_object(0.0) * *part_pose *
+        reference_from_rig * given_from_rig.inverse());
+    append(joined.measured, setups[i].measured, registration.part_poses.size());
+  }
+  if (!options.refine) {
+    set_poses(joined, rig, registration.part_poses);
+    return joined;
+  }
+  joined.registration = register_views(
+      joined.measured.views, camera, {*rig.turntable, joined.measured.stations}, registration, run);
+  return joined;
+}
+
+}  // namespace frangia

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/fringe_order/correct_fringe_orders.h"
+#include "frangia/fringe_order/resolve_by_views.h"
+#include "frangia/fusion/fuse_views.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/pipeline/decode_view.h"
+#include "frangia/pipeline/finish_mesh.h"
+#include "frangia/range/remove_mixed_pixels.h"
+#include "frangia/registration/find_turntable_top.h"
+#include "frangia/registration/register_views.h"
+#include "frangia/views/collect_points.h"
+
+namespace frangia {
+
+struct ReconstructOptions {
+  DecodeOptions decode;
+  MixedPixelOptions mixed_pixels;
+  ResolveByViewsOptions resolve_by_views;
+  FringeOrderCorrectionOptions fringe_order_correction;
+  bool register_views = true;  ///< refine the turntable's axis and angles by what the views saw
+  RegisterOptions registration;
+  bool keep_turntable_top = false;  ///< else the top of the turntable is found and left out
+  TurntableTopOptions turntable_top;
+  double clip_below_mm = -std::numeric_limits<double>::infinity();  ///< height, object frame
+  double clip_radius_mm = std::numeric_limits<double>::infinity();  ///< from the axis
+  FusionOptions fusion;
+  FinishOptions finish;
+  bool keep_raw = false;  ///< the registered points, too
+};
+
+struct Reconstruction {
+  Mesh mesh;
+  PointCloud raw;                                  ///< empty unless asked for
+  std::size_t points = 0;                          ///< measured, in all views
+  std::size_t views = 0;                           ///< that held any
+  std::optional<RegistrationReport> registration;  ///< none when it was not asked for or impossible
+  double turntable_top_height_mm =
+      std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was left out
+};
+
+/// The whole path of light: frames, phase, range, views, surface.
+///
+/// units    mm, object frame
+/// missing  a view without a lit pixel is left out with a warning
+/// errors   Error(Input) when no view has a lit pixel, and all that the stages throw
+[[nodiscard]] Reconstruction reconstruct(const Scan& scan,
+                                         const ReconstructOptions& options = {},
+                                         const Run& run = {});
+
+}  // namespace frangia

@@ -1,0 +1,148 @@
+#include "frangia/pipeline/write_stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+#include "frangia/frames/float_tiff.h"
+#include "frangia/frames/map_picture.h"
+#include "frangia/pipeline/stage_pictures.h"
+
+namespace frangia {
+namespace {
+
+class StageWriter {
+ public:
+  StageWriter(std::filesystem::path folder, const Run& run)
+      : folder_(std::move(folder)), run_(run) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error) {
+      throw Error(ErrorKind::File,
+                  fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+    }
+  }
+  void numbers(const std::string& name, const Image<float>& values, const std::string& what) {
+    run_.check();
+    write_float_tiff(folder_ / (name + ".tiff"), values);
+    written.push_back({name + ".tiff", what});
+  }
+  void picture(const std::string& name, const Image<Rgb>& pixels, const std::string& caption) {
+    run_.check();
+    write_png(folder_ / (name + ".png"), pixels);
+    written.push_back({name + ".png", caption});
+  }
+  void map(const std::string& name,
+           const Image<float>& values,
+           const std::string& what,
+           const std::string& unit) {
+    numbers(name, values, fmt::format("{}, {}", what, unit));
+    const ValueRange range = percentile_range(values);
+    picture(name,
+            map_picture(values, range, ColorMap::Viridis),
+            fmt::format(
+                "{}: {:.4g} (dark blue) to {:.4g} {} (yellow)", what, range.low, range.high, unit));
+  }
+
+  std::vector<StageFile> written;
+
+ private:
+  std::filesystem::path folder_;
+  const Run& run_;
+};
+
+std::string as_html(const std::string& text) {
+  std::string out;
+  for (const char letter : text) {
+    if (letter == '&' || letter == '<' || letter == '>' || letter == '"') {
+      out += fmt::format("&#{};", static_cast<int>(letter));
+    } else {
+      out += letter;
+    }
+  }
+  return out;
+}
+
+/// A page that shows the pictures side by side; a click opens one in its own size.
+void write_page(const std::filesystem::path& path, const std::vector<StageFile>& files) {
+  AtomicFile file(path);
+  file.stream()
+      << "<!doctype html><meta charset=\"utf-8\"><title>Stages of a view</title>\n"
+         "<style>body{font:14px sans-serif;margin:1em;display:flex;flex-wrap:wrap;gap:1em}"
+         "figure{margin:0;width:320px}img{width:100%}</style>\n";
+  for (const StageFile& one : files) {
+    if (std::filesystem::path(one.name).extension() != ".png") continue;
+    file.stream() << fmt::format(
+        "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{0}\"></a><figcaption><b>{0}</b><br>{1}"
+        "</figcaption></figure>\n",
+        as_html(one.name),
+        as_html(one.caption));
+  }
+  file.commit();
+}
+
+std::string mask_caption(const Image<PixelStatus>& status) {
+  std::vector<std::string> parts;
+  for (const StatusLegend& entry : status_legend()) {
+    if (std::count(status.pixels().begin(), status.pixels().end(), entry.status) > 0)
+      parts.push_back(fmt::format("{}: {}", entry.color_name, entry.meaning));
+  }
+  return fmt::format("what became of each pixel; {}", fmt::join(parts, "; "));
+}
+
+void write_wrapped(const WrappedPhase& level, StageWriter& out) {
+  const std::string& name = level.pattern.name;
+  out.numbers(name + "-wrapped", level.phase_rad, "phase modulo 2 pi, rad");
+  // As in the paper's Fig. 4: the phase modulo 2 pi, from black to white.
+  out.picture(name + "-wrapped",
+              map_picture(level.phase_rad, {-3.14159265F, 3.14159265F}, ColorMap::Gray),
+              "phase modulo 2 pi: -pi (black) to pi rad (white)");
+  out.picture(name + "-residues",
+              residue_picture(level.phase_rad),
+              "the same with its residues, loops of pixels whose phase jumps do not sum to zero: a "
+              "turn gained clockwise (red), lost (blue)");
+  out.map(name + "-modulation", level.modulation_counts, "modulation", "counts");
+  out.map(name + "-sigma", level.sigma_rad, "standard deviation of the phase", "rad");
+}
+
+void write_relative(const RelativePhase& relative, StageWriter& out) {
+  if (!relative.growth_order.pixels().empty()) {
+    out.picture("growth",
+                growth_picture(relative.growth_order),
+                "order in which the growth reaches the pixels: first (dark blue) to last (yellow)");
+  }
+  out.map("relative", relative.phase_rad, "phase unwrapped in space, region by region", "rad");
+  out.picture("regions",
+              label_picture(relative.region),
+              fmt::format("{} regions that could not be joined safely, a colour each",
+                          relative.region_count));
+}
+
+}  // namespace
+
+std::vector<StageFile> write_stages(const DecodedView& decoded,
+                                    const RangeGrid& range,
+                                    const std::filesystem::path& folder,
+                                    const Run& run) {
+  StageWriter out(folder, run);
+  for (const WrappedPhase& level : decoded.wrapped)
+    write_wrapped(level, out);
+  if (decoded.relative) write_relative(*decoded.relative, out);
+  out.picture("mask", status_picture(decoded.phase.status), mask_caption(decoded.phase.status));
+  const auto fringes = fringe_orders(decoded.wrapped.back().phase_rad, decoded.phase.phase_rad);
+  out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
+  out.map("absolute", decoded.phase.phase_rad, "final phase", "rad");
+  out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
+  out.map("sigma", range.sigma_mm, "standard deviation of the point along its ray", "mm");
+  write_page(folder / "index.html", out.written);
+  out.written.push_back({"index.html", "all pictures on one page"});
+  return std::move(out.written);
+}
+
+}  // namespace frangia

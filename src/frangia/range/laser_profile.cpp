@@ -1,0 +1,186 @@
+#include "frangia/range/laser_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+struct Peak {
+  double center_px;
+  double sigma_px;
+};
+
+/// How bright a pixel beside the line is in the line's frame, from how bright it is in the fringe
+/// frames: spill_ratio light in proportion, other light in full.
+struct StrayLight {
+  double ambient_counts = 0.0;
+  double spill_ratio = 0.0;
+  double dark_counts = 0.0;  ///< what the fringes do not light by more than this, the line does not
+
+  [[nodiscard]] double operator()(double fringe_counts) const {
+    return ambient_counts + spill_ratio * fringe_counts;
+  }
+};
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// A straight line through the medians of equal bins of brightness: the plane of light covers so
+/// little of the object that the medians do not see it.
+StrayLight estimate_stray_light(const Frame& line,
+                                const Image<float>& fringe_counts,
+                                const NoiseModel& noise) {
+  constexpr std::size_t kBins = 16;
+  StrayLight stray_light{.dark_counts = 10.0 * std::sqrt(noise.variance(0.0))};
+  const float brightest =
+      *std::max_element(fringe_counts.pixels().begin(), fringe_counts.pixels().end());
+  std::array<std::vector<double>, kBins> seen;
+  for (int y = 0; y < fringe_counts.height(); ++y) {
+    for (int x = 0; x < fringe_counts.width(); ++x) {
+      const double lit = fringe_counts(x, y);
+      if (lit <= stray_light.dark_counts) continue;
+      const auto bin = static_cast<std::size_t>(lit / brightest * kBins);
+      seen[std::min(bin, kBins - 1)].push_back(counts_at(line, x, y));
+    }
+  }
+  double n = 0.0;
+  double sx = 0.0;
+  double sy = 0.0;
+  double sxx = 0.0;
+  double sxy = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    if (seen[bin].size() < 20) continue;
+    const double weight = static_cast<double>(seen[bin].size());
+    const double x = (static_cast<double>(bin) + 0.5) * brightest / kBins;
+    const double y = median_of(seen[bin]);
+    n += weight;
+    sx += weight * x;
+    sy += weight * y;
+    sxx += weight * x * x;
+    sxy += weight * x * y;
+  }
+  if (n == 0.0) return stray_light;
+  const double spread = n * sxx - sx * sx;
+  stray_light.spill_ratio = spread > 0.0 ? std::max(0.0, (n * sxy - sx * sy) / spread) : 0.0;
+  stray_light.ambient_counts = (sy - stray_light.spill_ratio * sx) / n;
+  if (stray_light.ambient_counts < 0.0) stray_light = {0.0, sxy / sxx, stray_light.dark_counts};
+  return stray_light;
+}
+
+/// Centre of gravity of what stands above a fifth of the peak's height, so that both flanks count
+/// alike and the surroundings do not pull.
+Peak center_of(const std::vector<double>& counts,
+               std::size_t top,
+               double base,
+               const NoiseModel& noise,
+               int half_width) {
+  const double foot = base + 0.2 * (counts[top] - base);
+  std::size_t first = top;
+  std::size_t last = top;
+  const auto reach = static_cast<std::size_t>(half_width);
+  while (first > 0 && top - first < reach && counts[first - 1] > foot)
+    --first;
+  while (last + 1 < counts.size() && last - top < reach && counts[last + 1] > foot)
+    ++last;
+  double weight = 0.0;
+  double moment = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    weight += counts[i] - foot;
+    moment += (counts[i] - foot) * static_cast<double>(i);
+  }
+  const double center = moment / weight;
+  double variance = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const double lever = (static_cast<double>(i) - center) / weight;
+    variance += lever * lever * noise.variance(counts[i]);
+  }
+  return {center, std::sqrt(variance)};
+}
+
+std::vector<Peak> peaks_of(const std::vector<double>& counts,
+                           int white_level,
+                           const NoiseModel& noise,
+                           double least_height,
+                           const LaserProfileOptions& options) {
+  std::vector<Peak> peaks;
+  const auto reach = static_cast<std::size_t>(options.half_width_px);
+  for (std::size_t i = 1; i + 1 < counts.size(); ++i) {
+    // The first of equal values, and the largest within reach: a flank or a speck is no peak.
+    if (counts[i] <= counts[i - 1] || counts[i] < counts[i + 1]) continue;
+    const auto begin = counts.begin();
+    const auto first = begin + static_cast<std::ptrdiff_t>(i - std::min(i, reach));
+    const auto here = begin + static_cast<std::ptrdiff_t>(i);
+    const auto last = begin + static_cast<std::ptrdiff_t>(std::min(counts.size(), i + reach + 1));
+    if (*std::max_element(first, last) > counts[i]) continue;
+    if (std::count_if(first, last, [&](double c) { return c >= white_level; }) > 3) continue;
+    // The brighter of both sides: one of them may be the dark beyond the object's edge.
+    const double base = std::max(*std::min_element(first, here), *std::min_element(here + 1, last));
+    const double height = counts[i] - base;
+    if (height < options.min_sigmas * std::sqrt(noise.variance(counts[i])) + 2.0) continue;
+    if (height < least_height) continue;
+    // Two pixels at least share a real line's light; a hot pixel stands alone.
+    if (std::max(counts[i - 1], counts[i + 1]) < counts[i] - 0.9 * height) continue;
+    peaks.push_back(center_of(counts, i, base, noise, options.half_width_px));
+  }
+  return peaks;
+}
+
+}  // namespace
+
+std::vector<ProfilePoint> laser_profile(const FrameStack& line,
+                                        const Image<float>& fringe_counts,
+                                        const Rig& rig,
+                                        const NoiseModel& noise,
+                                        const LaserProfileOptions& options) {
+  require(rig.laser_sheet.has_value(), "laser_profile: the rig has no plane of light");
+  require(line.frames.size() == 1, "laser_profile: a line pattern has one frame");
+  const Frame& frame = line.frames.front();
+  require(fringe_counts.width() == width_of(frame) && fringe_counts.height() == height_of(frame),
+          "laser_profile: the line and the fringes differ in size");
+  const LaserSheet& plane = *rig.laser_sheet;
+  const StrayLight stray_light = estimate_stray_light(frame, fringe_counts, noise);
+  // The plane meets the image along normal . (x, y, 1) = 0 at infinity: scan across it.
+  const bool scan_rows = std::abs(plane.normal.x()) >= std::abs(plane.normal.y());
+  const int lines = scan_rows ? height_of(frame) : width_of(frame);
+  const int length = scan_rows ? width_of(frame) : height_of(frame);
+  const double least_height = options.min_contrast * stray_light(stray_light.dark_counts);
+  std::vector<ProfilePoint> profile;
+  std::vector<double> counts(static_cast<std::size_t>(length));
+  for (int across = 0; across < lines; ++across) {
+    for (int along = 0; along < length; ++along) {
+      const int x = scan_rows ? along : across;
+      const int y = scan_rows ? across : along;
+      const int seen = counts_at(frame, x, y);
+      const double lit = fringe_counts(x, y);
+      double& above = counts[static_cast<std::size_t>(along)];
+      if (seen >= line.white_level) {
+        above = seen;  // stays recognisable
+      } else {
+        above = lit > stray_light.dark_counts ? std::max(0.0, seen - stray_light(lit)) : 0.0;
+      }
+    }
+    for (const Peak& peak : peaks_of(counts, line.white_level, noise, least_height, options)) {
+      ProfilePoint found;
+      found.pixel = scan_rows ? Eigen::Vector2d(peak.center_px, across)
+                              : Eigen::Vector2d(across, peak.center_px);
+      found.sigma_px = peak.sigma_px;
+      const Eigen::Vector2d ray = rig.camera.model.ray(found.pixel);
+      const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
+      const double depth = plane.offset_mm / plane.normal.dot(direction);
+      if (!(depth > 0.0) || std::isinf(depth)) continue;
+      found.point_mm = depth * direction;
+      profile.push_back(found);
+    }
+  }
+  return profile;
+}
+
+}  // namespace frangia

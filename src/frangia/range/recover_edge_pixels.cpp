@@ -1,0 +1,92 @@
+#include "frangia/range/recover_edge_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/four_neighbors.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/range/internal/continues_surface.h"
+#include "frangia/range/internal/is_depth_step.h"
+
+namespace frangia {
+namespace {
+
+enum EdgePixelState : std::uint8_t { Removed, Recovered, BehindStep };
+using EdgePixelStates = std::vector<std::uint8_t>;
+
+/// Gives back the pixels that lie where those in the grid lead, and puts them there.
+void recover_supported(RangeGrid& grid,
+                       const ReliablePixels& reliable,
+                       const std::vector<RangePixel>& removed,
+                       EdgePixelStates& states) {
+  parallel_chunks(removed.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (states[i] == Removed && continues_surface(reliable, removed[i])) states[i] = Recovered;
+    }
+  });
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    if (states[i] != Recovered) continue;
+    grid.depth_mm(removed[i].x, removed[i].y) = removed[i].depth_mm;
+    grid.sigma_mm(removed[i].x, removed[i].y) = removed[i].sigma_mm;
+  }
+}
+
+/// Whether a pixel lies behind the one `step` beside it by more than the surfaces on both sides
+/// slope, and by more than a crease would make of them.
+bool is_behind(const ReliablePixels& seen, const Eigen::Vector2i& at, const Eigen::Vector2i& step) {
+  constexpr float kLeast = 1.5F;  // pixels
+  constexpr float kSigmas = 8.0F;
+  const auto& depth = seen.range.depth_mm;
+  const auto depth_at = [&](int k) {
+    const Eigen::Vector2i p = at + k * step;
+    const bool inside = p.minCoeff() >= 0 && p.x() < depth.width() && p.y() < depth.height();
+    return inside ? depth(p.x(), p.y()) : kMissing;
+  };
+  const float jump = depth_at(0) - depth_at(1);
+  if (!(jump > 0.0F)) return false;
+  const Eigen::Vector2i next = at + step;
+  const float pixel_mm =
+      (seen.rays(at.x(), at.y()) - seen.rays(next.x(), next.y())).norm() * depth_at(0);
+  const float noise = seen.range.sigma_mm(at.x(), at.y());
+  return is_depth_step({jump, depth_at(-1) - depth_at(0), depth_at(1) - depth_at(2)},
+                       kLeast * pixel_mm + kSigmas * noise);
+}
+
+bool is_behind_step(const ReliablePixels& seen, const RangePixel& pixel) {
+  const Eigen::Vector2i at(pixel.x, pixel.y);
+  return std::any_of(kFourNeighbors.begin(), kFourNeighbors.end(), [&](const auto& step) {
+    return is_behind(seen, at, {step[0], step[1]});
+  });
+}
+
+}  // namespace
+
+std::vector<RangePixel> recover_edge_pixels(const RangeGrid& reliable,
+                                            const Image<Eigen::Vector2f>& rays,
+                                            const std::vector<RangePixel>& removed,
+                                            const EdgePixelOptions& options) {
+  require(same_size(reliable.depth_mm, rays), "recover_edge_pixels: range and rays differ in size");
+  RangeGrid grid = reliable;
+  const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
+  const ReliablePixels seen{grid, rays, slope};
+  EdgePixelStates states(removed.size(), Removed);
+  for (int ring = 0; ring < options.depth_px; ++ring)
+    recover_supported(grid, seen, removed, states);
+  parallel_chunks(removed.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (states[i] == Recovered && is_behind_step(seen, removed[i])) states[i] = BehindStep;
+    }
+  });
+  std::vector<RangePixel> edge_pixels;
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    if (states[i] == Recovered) edge_pixels.push_back(removed[i]);
+  }
+  return edge_pixels;
+}
+
+}  // namespace frangia

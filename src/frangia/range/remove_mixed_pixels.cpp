@@ -1,0 +1,164 @@
+#include "frangia/range/remove_mixed_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/range/internal/is_connected.h"
+#include "frangia/range/internal/is_depth_step.h"
+
+namespace frangia {
+namespace {
+
+struct Grid {
+  const RangeGrid& range;
+  const Image<Eigen::Vector2f>& rays;
+  float max_slope;  ///< depth for each unit across
+
+  /// Whether a continuous surface can run from one pixel to its neighbour.
+  [[nodiscard]] bool connected(int x, int y, int u, int v) const {
+    return is_connected(range, rays, {x, y}, {u, v}, max_slope);
+  }
+};
+
+bool at_depth_step(const Grid& grid, int x, int y) {
+  const auto& depth = grid.range.depth_mm;
+  for (int v = std::max(0, y - 1); v <= std::min(depth.height() - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(depth.width() - 1, x + 1); ++u) {
+      if (!std::isnan(depth(u, v)) && !grid.connected(x, y, u, v)) return true;
+    }
+  }
+  return false;
+}
+
+/// A step too low for `at_depth_step`: between (x, y) - d and (x, y) + d the depth changes by more
+/// than it does on either side, and by more than a slope or a crease would make of those sides.
+bool is_low_step(const Grid& grid, int x, int y, int dx, int dy) {
+  const auto& depth = grid.range.depth_mm;
+  const auto at = [&](int k) {
+    const int u = x + k * dx;
+    const int v = y + k * dy;
+    const bool inside = u >= 0 && v >= 0 && u < depth.width() && v < depth.height();
+    return inside ? depth(u, v) : kMissing;
+  };
+  const float jump = at(1) - at(-1);
+  if (std::isnan(jump)) return false;
+  const float pixel_mm = (grid.rays(x, y) - grid.rays(x + dx, y + dy)).norm() * at(-1);
+  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump less what its sides expect
+  const DepthChange change{jump, at(-1) - at(-3), at(3) - at(1)};  // each over two pixels
+  return is_depth_step(change, 2.5F * pixel_mm + 4.0F * noise);
+}
+
+/// Three dark neighbours make a border; fewer are specks.
+bool at_silhouette(const Image<PixelStatus>& status, int x, int y) {
+  int dark = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(status.height() - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(status.width() - 1, x + 1); ++u)
+      dark += status(u, v) == PixelStatus::Unmodulated ? 1 : 0;
+  }
+  return dark >= 3;
+}
+
+struct Pixel {
+  int x;
+  int y;
+};
+
+/// Marks the pixels of patches with fewer than `min_px`.
+void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& remove) {
+  const auto& depth = grid.range.depth_mm;
+  Image<std::uint8_t> seen = remove;
+  std::vector<Pixel> patch;
+  for (int y = 0; y < depth.height(); ++y) {
+    for (int x = 0; x < depth.width(); ++x) {
+      if (seen(x, y) != 0 || std::isnan(depth(x, y))) continue;
+      patch.assign(1, {x, y});
+      seen(x, y) = 1;
+      for (std::size_t head = 0; head < patch.size(); ++head) {
+        const Pixel p = patch[head];
+        const auto visit = [&](int u, int v) {
+          if (u < 0 || v < 0 || u >= depth.width() || v >= depth.height()) return;
+          if (seen(u, v) != 0 || !grid.connected(p.x, p.y, u, v)) return;
+          seen(u, v) = 1;
+          patch.push_back({u, v});
+        };
+        visit(p.x - 1, p.y);
+        visit(p.x + 1, p.y);
+        visit(p.x, p.y - 1);
+        visit(p.x, p.y + 1);
+      }
+      if (patch.size() >= static_cast<std::size_t>(min_px)) continue;
+      for (const Pixel& p : patch)
+        remove(p.x, p.y) = 1;
+    }
+  }
+}
+
+/// Marks the pixel of each low step and those next to it across the step.
+void mark_low_steps(const Grid& grid, Image<std::uint8_t>& remove) {
+  enum Step : std::uint8_t { Across = 1, Down = 2 };
+  const int width = remove.width();
+  const int height = remove.height();
+  Image<std::uint8_t> steps(width, height, 0);
+  parallel_rows(height, [&](int y) {
+    const bool within = y > 0 && y + 1 < height;
+    for (int x = 0; x < width; ++x) {
+      const bool across = x > 0 && x + 1 < width && is_low_step(grid, x, y, 1, 0);
+      const bool down = within && is_low_step(grid, x, y, 0, 1);
+      steps(x, y) = static_cast<std::uint8_t>((across ? Across : 0) | (down ? Down : 0));
+    }
+  });
+  parallel_rows(height, [&](int y) {
+    const int above = std::max(0, y - 1);
+    const int below = std::min(height - 1, y + 1);
+    for (int x = 0; x < width; ++x) {
+      const int left = std::max(0, x - 1);
+      const int right = std::min(width - 1, x + 1);
+      const int across = steps(left, y) | steps(x, y) | steps(right, y);
+      const int down = steps(x, above) | steps(x, y) | steps(x, below);
+      if ((across & Across) != 0 || (down & Down) != 0) remove(x, y) = 1;
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<RangePixel> remove_mixed_pixels(RangeGrid& range,
+                                            const Image<Eigen::Vector2f>& rays,
+                                            Image<PixelStatus>& status,
+                                            const MixedPixelOptions& options) {
+  require(same_size(range.depth_mm, rays) && same_size(range.depth_mm, status),
+          "remove_mixed_pixels: range, rays and status differ in size");
+  const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
+  const Grid grid{range, rays, slope};
+  Image<std::uint8_t> remove(rays.width(), rays.height(), 0);
+  parallel_rows(rays.height(), [&](int y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      if (std::isnan(range.depth_mm(x, y))) continue;
+      remove(x, y) = at_depth_step(grid, x, y) || at_silhouette(status, x, y) ? 1 : 0;
+    }
+  });
+  mark_low_steps(grid, remove);
+  mark_small_patches(grid, options.min_patch_px, remove);
+  std::vector<RangePixel> removed;
+  for (int y = 0; y < remove.height(); ++y) {
+    for (int x = 0; x < remove.width(); ++x) {
+      float& depth = range.depth_mm(x, y);
+      float& sigma = range.sigma_mm(x, y);
+      if (remove(x, y) == 0 || std::isnan(depth)) continue;
+      removed.push_back({x, y, depth, sigma});
+      depth = kMissing;
+      sigma = kMissing;
+      status(x, y) = PixelStatus::MixedPixel;
+    }
+  }
+  return removed;
+}
+
+}  // namespace frangia

@@ -1,0 +1,125 @@
+#include "frangia/registration/find_view_poses.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/registration/join_by_shape.h"
+
+namespace frangia {
+namespace {
+
+using Members = std::vector<std::vector<ViewGroup::Member>>;
+
+std::vector<ViewGroup> groups_of(const Members& members,
+                                 std::span<const SurfelMap> maps,
+                                 double spacing_mm) {
+  std::vector<ViewGroup> groups;
+  for (const auto& group : members)
+    groups.push_back(make_group(group, maps, spacing_mm));
+  return groups;
+}
+
+/// Why a view could not be found.
+std::string reason(const JoinedGroups& joined,
+                   std::size_t view,
+                   std::span<const std::string> names) {
+  if (const auto duplicate = joined.duplicate_of[view]) {
+    return fmt::format(
+        "looks the same as {}: the part was not moved, or looks alike from two "
+        "sides, which needs poses in a .conf",
+        names[*duplicate]);
+  }
+  return joined.ambiguous[view]
+             ? "fits the others in more than one place, as parts do that look alike from several "
+               "sides"
+             : "fits none of the others in a place that their shape determines: it overlaps too "
+               "little with them, or slides on them";
+}
+
+void leave_out(std::size_t view, ViewStore& views, std::vector<SurfelMap>& maps) {
+  views.clear(view);
+  for (auto& surfel : maps[view].surfels.pixels())
+    surfel = {};
+}
+
+}  // namespace
+
+std::string FoundPoses::text() const {
+  return fmt::format(
+      "the poses of {} scans are found from their shape; where they meet, they overlap by {:.0f} % "
+      "or more",
+      found,
+      100.0 * least_overlap);
+}
+
+FoundPoses find_view_poses(ViewStore& views,
+                           std::vector<SurfelMap>& maps,
+                           const CameraModel& camera,
+                           std::span<const std::string> names,
+                           const Run& run) {
+  require(maps.size() == views.size() && names.size() == views.size(),
+          "find_view_poses: each view needs its map and its name");
+  Members members;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    members.push_back({{i, Eigen::Isometry3d::Identity()}});
+  const double spacing_mm = spacing_for(members, maps);
+  const auto groups = groups_of(members, maps, spacing_mm);
+  const FastCameraModel model(camera);
+  const JoinedGroups joined = join_by_shape(
+      groups, {maps, model}, {.spacing_mm = spacing_mm, .leave_out_duplicates = true}, run);
+  if (joined.joins.empty()) {
+    throw Error(ErrorKind::Input,
+                "no two scans fit together in just one place: they overlap too little, or look "
+                "alike from several sides; add scans between them, or give poses in a .conf");
+  }
+  FoundPoses out;
+  out.reference = joined.reference;
+  out.accuracy_mm = spacing_mm;
+  out.least_overlap = 1.0;
+  for (const GroupJoin& group_join : joined.joins)
+    out.least_overlap = std::min(out.least_overlap, group_join.fit.overlap);
+  const Eigen::Isometry3d held = views.rig_from_object(out.reference);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (const auto& pose = joined.reference_from_group[i]) {
+      views.set_rig_from_object(i, pose->inverse() * held);
+      ++out.found;
+    } else {
+      run.warn(fmt::format("{}: {}; it is left out", names[i], reason(joined, i, names)));
+      leave_out(i, views, maps);
+      out.left_out.push_back(i);
+    }
+  }
+  return out;
+}
+
+bool are_poses_plausible(const ViewStore& views,
+                         std::span<const SurfelMap> maps,
+                         const CameraModel& camera,
+                         double reach_mm) {
+  constexpr double kMaxViolation = 0.1;
+  constexpr double kNoticed = 0.03;  // of the smaller one's points: fewer are stray
+  constexpr double kWidest = 2.0;    // spacings: farther apart, poses are not nearly right
+  Members members;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    members.push_back({{i, views.rig_from_object(i)}});
+  const double spacing_mm = spacing_for(members, maps);
+  const auto groups = groups_of(members, maps, spacing_mm);
+  const double gate_mm = std::min(reach_mm, kWidest * spacing_mm);
+  const FastCameraModel model(camera);
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    for (std::size_t b = a + 1; b < groups.size(); ++b) {
+      const GroupFit fit = compare_groups(
+          groups[a], groups[b], Eigen::Isometry3d::Identity(), {maps, model}, gate_mm);
+      const double smaller =
+          static_cast<double>(std::min(groups[a].points.size(), groups[b].points.size()));
+      if (fit.free_space_violation() > kMaxViolation &&
+          static_cast<double>(fit.violations) > kNoticed * smaller)
+        return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace frangia

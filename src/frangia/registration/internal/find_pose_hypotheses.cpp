@@ -1,0 +1,94 @@
+#include "frangia/registration/internal/find_pose_hypotheses.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "frangia/registration/internal/find_motion_hypotheses.h"
+#include "frangia/registration/internal/match_features.h"
+
+namespace frangia {
+namespace {
+
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+/// Adds a place unless it is worth nothing or the same as one that is there.
+void add_new(std::vector<PoseHypothesis>& hypotheses,
+             const PoseHypothesis& hypothesis,
+             const PoseSearchScale& scale) {
+  const Eigen::Vector3d center = hypothesis.to_from.inverse() * hypothesis.fit.center_mm;
+  const bool known =
+      std::any_of(hypotheses.begin(), hypotheses.end(), [&](const PoseHypothesis& other) {
+        return is_same_motion(
+            hypothesis.to_from, other.to_from, center, hypothesis.fit.arm_mm, scale.distinct_mm());
+      });
+  if (!known && hypothesis.score(kAny) > 0.0) hypotheses.push_back(hypothesis);
+}
+
+}  // namespace
+
+double PoseHypothesis::score(double typical_mm) const {
+  constexpr double kViolationWeight = 3.0;  // a point seen through weighs as many that agree
+  const double points =
+      static_cast<double>(fit.agree) - kViolationWeight * static_cast<double>(fit.violations);
+  return fit.residual_mm > typical_mm ? points * typical_mm / fit.residual_mm : points;
+}
+
+void sort_hypotheses(std::vector<PoseHypothesis>& hypotheses, double typical_mm) {
+  std::stable_sort(
+      hypotheses.begin(), hypotheses.end(), [&](const PoseHypothesis& a, const PoseHypothesis& b) {
+        return a.score(typical_mm) > b.score(typical_mm);
+      });
+}
+
+std::vector<PoseHypothesis> refine_pose_hypotheses(const ViewGroup& to,
+                                                   const ViewGroup& from,
+                                                   std::span<const Eigen::Isometry3d> starts,
+                                                   const GroupViews& views,
+                                                   const PoseSearchScale& scale) {
+  std::vector<PoseHypothesis> hypotheses;
+  for (const Eigen::Isometry3d& start : starts) {
+    PoseHypothesis hypothesis;
+    hypothesis.to_from =
+        refine_fit(to, from, start, views, {scale.coarse_gate_mm(), scale.gate_mm()});
+    hypothesis.fit = compare_groups(to, from, hypothesis.to_from, views, scale.gate_mm());
+    add_new(hypotheses, hypothesis, scale);
+  }
+  sort_hypotheses(hypotheses, kAny);
+  return hypotheses;
+}
+
+std::vector<Eigen::Isometry3d> neighboring_poses(const PoseHypothesis& hypothesis,
+                                                 const PoseSearchScale& scale) {
+  std::vector<Eigen::Isometry3d> beside;
+  for (Eigen::Index way = 0; way < 2; ++way) {
+    for (const double spacings : {-6.0, -3.0, -1.5, 1.5, 3.0, 6.0}) {
+      const Eigen::Matrix<double, 6, 1> step =
+          spacings * scale.spacing_mm * hypothesis.fit.weakest_directions.col(way);
+      beside.push_back(hypothesis.fit.motion(step) * hypothesis.to_from);
+    }
+  }
+  return beside;
+}
+
+std::vector<PoseHypothesis> find_pose_hypotheses(const DescribedGroup& to,
+                                                 const DescribedGroup& from,
+                                                 const GroupViews& views,
+                                                 const PoseSearchScale& scale) {
+  constexpr std::size_t kRefined = 8;
+  const auto matches = match_features(from.features, to.features);
+  std::vector<PoseHypothesis> rough;
+  for (const MotionHypothesis& motion : find_motion_hypotheses(
+           from.group.points, to.group.points, matches, {.tolerance_mm = 1.5 * scale.spacing_mm})) {
+    PoseHypothesis hypothesis{motion.to_from, {}};
+    hypothesis.fit =
+        compare_groups(to.group, from.group, hypothesis.to_from, views, scale.coarse_gate_mm());
+    add_new(rough, hypothesis, scale);
+  }
+  sort_hypotheses(rough, kAny);
+  std::vector<Eigen::Isometry3d> starts;
+  for (std::size_t i = 0; i < std::min(rough.size(), kRefined); ++i)
+    starts.push_back(rough[i].to_from);
+  return refine_pose_hypotheses(to.group, from.group, starts, views, scale);
+}
+
+}  // namespace frangia

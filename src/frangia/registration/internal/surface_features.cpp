@@ -1,0 +1,131 @@
+#include "frangia/registration/internal/surface_features.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/parallel.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kBins = 11;
+constexpr int kRows = 3 * kBins;
+constexpr std::size_t kFewest = 5;
+constexpr std::size_t kChunk = 64;
+
+/// Points by cubes as wide as the radius: the neighbours of one lie in the 27 cubes about it.
+class Cubes {
+ public:
+  Cubes(const SurfacePoints& points, float radius_mm) : points_(points), radius_(radius_mm) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      cubes_[key(cell_of(points.points_mm[i]))].push_back(i);
+  }
+
+  /// All others within the radius, in the order of their cubes.
+  [[nodiscard]] std::vector<std::size_t> near(std::size_t point) const {
+    std::vector<std::size_t> found;
+    const Eigen::Vector3f& center = points_.points_mm[point];
+    const Eigen::Array3i cell = cell_of(center);
+    for (int i = 0; i < 27; ++i) {
+      const auto cube =
+          cubes_.find(key(cell + Eigen::Array3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
+      if (cube == cubes_.end()) continue;
+      for (const std::size_t other : cube->second) {
+        const float away = (points_.points_mm[other] - center).squaredNorm();
+        if (other != point && away > 0.0F && away < radius_ * radius_) found.push_back(other);
+      }
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Array3i cell_of(const Eigen::Vector3f& point) const {
+    return (point / radius_).array().floor().cast<int>();
+  }
+  static std::uint64_t key(const Eigen::Array3i& cell) {
+    constexpr std::uint64_t kMask = (1U << 21U) - 1U;
+    const auto part = [&](int i) { return static_cast<std::uint64_t>(cell[i]) & kMask; };
+    return part(0) << 42U | part(1) << 21U | part(2);
+  }
+
+  const SurfacePoints& points_;
+  float radius_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cubes_;
+};
+
+int bin_of(float value, float low, float high) {
+  const int bin = static_cast<int>(static_cast<float>(kBins) * (value - low) / (high - low));
+  return std::clamp(bin, 0, kBins - 1);
+}
+
+/// Counts the angles of one pair: that of the two with its normal more along the line is the first.
+void count_pair(const SurfacePoints& points,
+                std::size_t one,
+                std::size_t other,
+                Eigen::Ref<Eigen::VectorXf> histogram) {
+  Eigen::Vector3f line = points.points_mm[other] - points.points_mm[one];
+  line.normalize();
+  Eigen::Vector3f u = points.normals[one];
+  Eigen::Vector3f far = points.normals[other];
+  if (std::abs(u.dot(line)) < std::abs(far.dot(line))) {
+    std::swap(u, far);
+    line = -line;
+  }
+  Eigen::Vector3f v = u.cross(line);
+  if (!(v.squaredNorm() > 1e-12F)) return;
+  v.normalize();
+  const Eigen::Vector3f w = u.cross(v);
+  const auto turn = static_cast<float>(kPi);
+  histogram[bin_of(v.dot(far), -1.0F, 1.0F)] += 1.0F;
+  histogram[kBins + bin_of(u.dot(line), -1.0F, 1.0F)] += 1.0F;
+  histogram[2 * kBins + bin_of(std::atan2(w.dot(far), u.dot(far)), -turn, turn)] += 1.0F;
+}
+
+void take_hellinger_roots(Eigen::Ref<Eigen::VectorXf> column) {
+  for (Eigen::Index angle = 0; angle < 3; ++angle) {
+    auto part = column.segment<kBins>(angle * kBins);
+    const float sum = part.sum();
+    if (sum > 0.0F) part = (part / sum).cwiseSqrt().eval();
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXf surface_features(const SurfacePoints& points, double radius_mm) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  const Cubes cubes(points, static_cast<float>(radius_mm));
+  std::vector<std::vector<std::size_t>> near(points.size());
+  Eigen::MatrixXf simple = Eigen::MatrixXf::Zero(kRows, count);
+  parallel_chunks(points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      near[i] = cubes.near(i);
+      auto column = simple.col(static_cast<Eigen::Index>(i));
+      for (const std::size_t other : near[i])
+        count_pair(points, i, other, column);
+      if (!near[i].empty()) column /= static_cast<float>(near[i].size());
+    }
+  });
+  Eigen::MatrixXf features = Eigen::MatrixXf::Zero(kRows, count);
+  parallel_chunks(points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (near[i].size() < kFewest) continue;
+      auto column = features.col(static_cast<Eigen::Index>(i));
+      for (const std::size_t other : near[i]) {
+        const float away = (points.points_mm[other] - points.points_mm[i]).norm();
+        column +=
+            simple.col(static_cast<Eigen::Index>(other)) * (static_cast<float>(radius_mm) / away);
+      }
+      column /= static_cast<float>(near[i].size());
+      column += simple.col(static_cast<Eigen::Index>(i));
+      take_hellinger_roots(column);
+    }
+  });
+  return features;
+}
+
+}  // namespace frangia

@@ -1,0 +1,288 @@
+#include "frangia/registration/join_by_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "frangia/core/angles.h"
+#include "frangia/registration/internal/find_pose_hypotheses.h"
+#include "frangia/registration/internal/surface_features.h"
+
+namespace frangia {
+namespace {
+
+/// A place that was found for two groups.
+struct Candidate {
+  std::size_t to = 0;
+  std::size_t from = 0;
+  PoseHypothesis hypothesis;
+};
+
+std::vector<Candidate> all_candidates(std::span<const ViewGroup> groups,
+                                      const GroupViews& views,
+                                      const PoseSearchScale& scale,
+                                      const Run& run) {
+  constexpr double kRadius = 5.0;  // of a feature, in spacings
+  constexpr std::size_t kMost = 6;
+  std::vector<Eigen::MatrixXf> features;
+  for (const ViewGroup& group : groups)
+    features.push_back(surface_features(group.points, kRadius * scale.spacing_mm));
+  std::vector<Candidate> candidates;
+  const auto pairs = static_cast<double>(groups.size() * (groups.size() - 1)) / 2.0;
+  double done = 0.0;
+  for (std::size_t to = 0; to < groups.size(); ++to) {
+    for (std::size_t from = to + 1; from < groups.size(); ++from) {
+      run.report(done / pairs);
+      done += 1.0;
+      const auto hypotheses = find_pose_hypotheses(
+          {groups[to], features[to]}, {groups[from], features[from]}, views, scale);
+      for (std::size_t i = 0; i < std::min(hypotheses.size(), kMost); ++i)
+        candidates.push_back({to, from, hypotheses[i]});
+    }
+  }
+  return candidates;
+}
+
+bool may_be_valid(const GroupFit& fit, const JoinByShapeOptions& options) {
+  return fit.overlap >= options.min_overlap &&
+         fit.free_space_violation() <= options.max_violation &&
+         fit.smallest_eigenvalue >= options.min_eigenvalue;
+}
+
+/// How far apart surfaces that are one come to lie: the least of all that may be right.
+double typical_residual(const std::vector<Candidate>& candidates,
+                        const JoinByShapeOptions& options) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& candidate : candidates) {
+    if (may_be_valid(candidate.hypothesis.fit, options))
+      least = std::min(least, candidate.hypothesis.fit.residual_mm);
+  }
+  return least;
+}
+
+/// Whether two groups of one view each see the same, from the same place.
+bool are_duplicates(const ViewGroup& to, const ViewGroup& from, const PoseHypothesis& hypothesis) {
+  constexpr double kSame = 0.85;  // of the points: the rest are rims
+  constexpr double kTurned = rad_from_deg(3.0);
+  constexpr double kNearer = 0.05;
+  if (to.members.size() != 1 || from.members.size() != 1 || hypothesis.fit.overlap < kSame)
+    return false;
+  const Eigen::Vector3d one = to.members[0].rig_from_group.inverse().translation();
+  const Eigen::Vector3d other =
+      hypothesis.to_from * from.members[0].rig_from_group.inverse().translation();
+  const Eigen::Vector3d to_one = one - hypothesis.fit.center_mm;
+  const Eigen::Vector3d to_other = other - hypothesis.fit.center_mm;
+  const double turned = std::atan2(to_one.cross(to_other).norm(), to_one.dot(to_other));
+  return turned < kTurned && std::abs(to_other.norm() - to_one.norm()) < kNearer * to_one.norm();
+}
+
+/// Joins clusters, those that fit best first, as long as any fit together.
+class Joiner {
+ public:
+  Joiner(std::span<const ViewGroup> groups,
+         const GroupViews& views,
+         std::vector<Candidate> candidates,
+         const JoinByShapeOptions& options)
+      : views_(views),
+        options_(options),
+        typical_mm_(typical_residual(candidates, options)),
+        candidates_(std::move(candidates)),
+        clusters_(groups.begin(), groups.end()),
+        cluster_from_group_(groups.size(), Eigen::Isometry3d::Identity()) {
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      cluster_of_.push_back(i);
+    sort_candidates();
+  }
+
+  /// False when no two clusters fit together any more.
+  bool join_next(JoinedGroups& out) {
+    for (const Candidate& candidate : candidates_) {
+      const std::size_t to = std::min(cluster_of_[candidate.to], cluster_of_[candidate.from]);
+      const std::size_t from = std::max(cluster_of_[candidate.to], cluster_of_[candidate.from]);
+      if (to == from || !tried_.insert(stage_of(to, from)).second) continue;
+      const std::vector<PoseHypothesis> hypotheses = hypotheses_of(to, from);
+      if (hypotheses.empty() || !is_valid(hypotheses[0].fit, 1.0)) continue;
+      if (is_ambiguous(hypotheses)) {
+        out.ambiguous[candidate.from] = out.ambiguous[candidate.to] = true;
+        continue;
+      }
+      out.joins.push_back({from, to, hypotheses[0].fit});
+      join(to, from, hypotheses[0].to_from);
+      return true;
+    }
+    return false;
+  }
+
+  /// Leaves out the later one of two that look the same.
+  void leave_out_duplicates(JoinedGroups& out) {
+    for (const Candidate& candidate : candidates_) {
+      const auto& [to, from, hypothesis] = candidate;
+      if (out.duplicate_of[to] || out.duplicate_of[from] || !is_valid(hypothesis.fit, 1.0))
+        continue;
+      if (are_duplicates(clusters_[to], clusters_[from], hypothesis)) out.duplicate_of[from] = to;
+    }
+    const auto is_left_out = [&](const Candidate& candidate) {
+      return out.duplicate_of[candidate.to] || out.duplicate_of[candidate.from];
+    };
+    std::erase_if(candidates_, is_left_out);
+    for (std::size_t i = 0; i < clusters_.size(); ++i)
+      if (out.duplicate_of[i]) clusters_[i] = {};
+  }
+
+  /// Looks for hypotheses of whole clusters on each other, which have more in common than their
+  /// groups.
+  void search_clusters(const Run& run) {
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < clusters_.size(); ++i) {
+      if (!clusters_[i].members.empty()) left.push_back(i);
+    }
+    std::vector<ViewGroup> thinned;
+    thinned.reserve(left.size());
+    for (const std::size_t i : left) {
+      thinned.push_back(
+          {clusters_[i].members, voxel_downsample(clusters_[i].points, options_.spacing_mm)});
+    }
+    for (Candidate& found : all_candidates(thinned, views_, {options_.spacing_mm}, run)) {
+      found.to = first_of(left[found.to]);
+      found.from = first_of(left[found.from]);
+      found.hypothesis.to_from = cluster_from_group_[found.to].inverse() *
+                                 found.hypothesis.to_from * cluster_from_group_[found.from];
+      candidates_.push_back(found);
+    }
+    sort_candidates();
+    tried_.clear();
+  }
+
+  /// The frame of the largest cluster's first group becomes that of all in it.
+  void write_poses(JoinedGroups& out) const {
+    const auto main =
+        static_cast<std::size_t>(std::max_element(clusters_.begin(),
+                                                  clusters_.end(),
+                                                  [](const ViewGroup& a, const ViewGroup& b) {
+                                                    return a.members.size() < b.members.size();
+                                                  }) -
+                                 clusters_.begin());
+    out.reference = first_of(main);
+    const Eigen::Isometry3d reference_from_cluster = cluster_from_group_[out.reference].inverse();
+    out.reference_from_group.resize(cluster_of_.size());
+    for (std::size_t i = 0; i < cluster_of_.size(); ++i) {
+      if (cluster_of_[i] == main)
+        out.reference_from_group[i] = reference_from_cluster * cluster_from_group_[i];
+    }
+  }
+
+ private:
+  /// Two clusters as they are now: what does not fit is looked at again only when one has grown.
+  using Stage = std::array<std::size_t, 4>;
+  [[nodiscard]] Stage stage_of(std::size_t a, std::size_t b) const {
+    return {a, clusters_[a].members.size(), b, clusters_[b].members.size()};
+  }
+
+  void sort_candidates() {
+    std::stable_sort(
+        candidates_.begin(), candidates_.end(), [&](const Candidate& a, const Candidate& b) {
+          return a.hypothesis.score(typical_mm_) > b.hypothesis.score(typical_mm_);
+        });
+  }
+  /// Of the groups of a cluster.
+  [[nodiscard]] std::size_t first_of(std::size_t cluster) const {
+    return static_cast<std::size_t>(std::find(cluster_of_.begin(), cluster_of_.end(), cluster) -
+                                    cluster_of_.begin());
+  }
+
+  /// `slack` 1 as the options say, more is easier; but what is seen through is so in any case.
+  [[nodiscard]] bool is_valid(const GroupFit& fit, double slack) const {
+    return fit.smallest_eigenvalue >= options_.min_eigenvalue / slack && fits(fit, slack);
+  }
+  [[nodiscard]] bool fits(const GroupFit& fit, double slack) const {
+    return fit.overlap >= options_.min_overlap / slack &&
+           fit.free_space_violation() <= options_.max_violation &&
+           fit.residual_mm <= slack * options_.max_residual * typical_mm_;
+  }
+  /// Whether another place would nearly do as well as the first, be it one that slides.
+  [[nodiscard]] bool is_ambiguous(const std::vector<PoseHypothesis>& hypotheses) const {
+    constexpr double kSlack = 3.0;
+    return std::any_of(hypotheses.begin() + 1, hypotheses.end(), [&](const PoseHypothesis& other) {
+      return fits(other.fit, kSlack) &&
+             other.score(typical_mm_) > options_.max_runner_up * hypotheses[0].score(typical_mm_);
+    });
+  }
+
+  /// Places of one cluster on another: where the candidates of their groups put it, refined by all
+  /// their views.
+  [[nodiscard]] std::vector<PoseHypothesis> hypotheses_of(std::size_t to, std::size_t from) const {
+    constexpr std::size_t kMost = 30;
+    std::vector<Eigen::Isometry3d> starts;
+    for (const Candidate& candidate : candidates_) {
+      const std::size_t a = cluster_of_[candidate.to];
+      const std::size_t b = cluster_of_[candidate.from];
+      if (std::min(a, b) != to || std::max(a, b) != from || starts.size() == kMost) continue;
+      const Eigen::Isometry3d a_from_b = cluster_from_group_[candidate.to] *
+                                         candidate.hypothesis.to_from *
+                                         cluster_from_group_[candidate.from].inverse();
+      starts.push_back(a == to ? a_from_b : a_from_b.inverse());
+    }
+    const PoseSearchScale scale{options_.spacing_mm};
+    auto hypotheses = refine_pose_hypotheses(clusters_[to], clusters_[from], starts, views_, scale);
+    if (hypotheses.empty()) return hypotheses;
+    sort_hypotheses(hypotheses, typical_mm_);
+    constexpr double kWellConstrained = 0.02;
+    if (hypotheses[0].fit.smallest_eigenvalue < kWellConstrained) {
+      for (const Eigen::Isometry3d& start : neighboring_poses(hypotheses[0], scale))
+        starts.push_back(start);
+    }
+    hypotheses = refine_pose_hypotheses(clusters_[to], clusters_[from], starts, views_, scale);
+    sort_hypotheses(hypotheses, typical_mm_);
+    std::stable_partition(
+        hypotheses.begin(), hypotheses.end(), [&](const PoseHypothesis& hypothesis) {
+          return is_valid(hypothesis.fit, 1.0);
+        });
+    return hypotheses;
+  }
+
+  void join(std::size_t to, std::size_t from, const Eigen::Isometry3d& to_from) {
+    clusters_[to] = join_groups(clusters_[to], clusters_[from], to_from);
+    clusters_[from] = {};
+    for (std::size_t group = 0; group < cluster_of_.size(); ++group) {
+      if (cluster_of_[group] != from) continue;
+      cluster_of_[group] = to;
+      cluster_from_group_[group] = to_from * cluster_from_group_[group];
+    }
+  }
+
+  GroupViews views_;
+  JoinByShapeOptions options_;
+  double typical_mm_;
+  std::vector<Candidate> candidates_;
+  std::vector<ViewGroup> clusters_;
+  std::vector<std::size_t> cluster_of_;
+  std::vector<Eigen::Isometry3d> cluster_from_group_;
+  std::set<Stage> tried_;
+};
+
+}  // namespace
+
+JoinedGroups join_by_shape(std::span<const ViewGroup> groups,
+                           const GroupViews& views,
+                           const JoinByShapeOptions& options,
+                           const Run& run) {
+  JoinedGroups out;
+  out.ambiguous.assign(groups.size(), false);
+  out.duplicate_of.assign(groups.size(), std::nullopt);
+  Joiner joiner(groups, views, all_candidates(groups, views, {options.spacing_mm}, run), options);
+  if (options.leave_out_duplicates) joiner.leave_out_duplicates(out);
+  for (bool again = true; again;) {
+    const std::size_t joins = out.joins.size();
+    while (joiner.join_next(out))
+      run.check();
+    again = out.joins.size() > joins && out.joins.size() + 1 < groups.size();
+    if (again) joiner.search_clusters(run);
+  }
+  joiner.write_poses(out);
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,119 @@
+#include "frangia/simulate/internal/light_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/random.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How far a shadow ray starts off the surface, mm: more than the rounding of single precision.
+constexpr double kStepOff = 2e-3;
+
+double lattice_value(const Eigen::Vector3i& cell) {
+  std::uint64_t stream = 0x7E47;
+  for (const int coordinate : cell)
+    stream = hash(stream, static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinate)));
+  return uniform_from(stream);
+}
+
+/// Smooth patches between 0 and 1, about `size_mm` across (value noise).
+double value_noise(const Vector3d& position_mm, double size_mm) {
+  const Vector3d p = position_mm / size_mm;
+  const Vector3d low = p.array().floor();
+  const Vector3d f = p - low;
+  const Vector3d s = f.array().square() * (3.0 - 2.0 * f.array());
+  double value = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3i step(i & 1, (i >> 1) & 1, i >> 2);
+    double weight = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+      weight *= step[axis] == 1 ? s[axis] : 1.0 - s[axis];
+    value += weight * lattice_value(low.cast<int>() + step);
+  }
+  return value;
+}
+
+double albedo_at(const Vector3d& position_mm, double texture) {
+  if (texture == 0.0) return 1.0;
+  return 1.0 -
+         texture * (0.65 * value_noise(position_mm, 14.0) + 0.35 * value_noise(position_mm, 5.0));
+}
+
+/// Where a point of the rig frame is on the projector; false when it is outside of what it lights.
+bool project_to_projector(const Projector& projector, const Vector3d& point, LightSample& sample) {
+  const Vector3d p = projector.from_rig(point);
+  if (const auto* pinhole = std::get_if<PinholeModel>(&projector.model)) {
+    if (p.z() <= 0.0) return false;
+    const Eigen::Vector2d pixel = pinhole->project(p);
+    sample.u = static_cast<float>(pixel.x());
+    sample.v = static_cast<float>(pixel.y());
+    return pixel.minCoeff() >= -0.5 && pixel.x() <= pinhole->width_px - 0.5 &&
+           pixel.y() <= pinhole->height_px - 0.5;
+  }
+  const auto& field = std::get<AngularModel>(projector.model);
+  const double psi = std::atan2(p.x(), p.z());
+  sample.u = static_cast<float>(deg_from_rad(psi));
+  return psi >= field.field_min_rad && psi <= field.field_max_rad;
+}
+
+Vector3d shading_normal(const SimulatedScene& scene, const RayHit& hit) {
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    normal += hit.barycentric[static_cast<Eigen::Index>(corner)] *
+              scene.normals[hit.triangle][corner].cast<double>();
+  }
+  return normal.squaredNorm() > 0.0 ? normal.normalized() : hit.normal;
+}
+
+}  // namespace
+
+LightSample sample_light(const SimulatedScene& scene,
+                         const Eigen::Isometry3d& rig_from_object,
+                         const Eigen::Vector2d& ray) {
+  LightSample sample;
+  const Eigen::Isometry3d object_from_rig = rig_from_object.inverse();
+  const Vector3d camera = object_from_rig.translation();
+  const Vector3d direction = object_from_rig.linear() * ray.homogeneous();
+  const auto hit = scene.surface.first_hit(camera, direction);
+  if (!hit) return sample;
+  const Vector3d point = camera + hit->distance * direction;
+  const Vector3d seen = hit->distance * ray.homogeneous();  // the same in the rig frame, exactly
+  sample.albedo = static_cast<float>(albedo_at(point, scene.options.texture));
+  if (!project_to_projector(scene.rig.projector, seen, sample)) return sample;
+
+  // An open mesh is a thin shell: it shows the side that is looked at.
+  const double side = hit->normal.dot(direction) > 0.0 ? -1.0 : 1.0;
+  const Vector3d light = object_from_rig * scene.rig.projector.position_mm;
+  const Vector3d to_light = light - point;
+  const double distance = to_light.norm();
+  const Vector3d light_direction = to_light / distance;
+  const Vector3d normal = side * shading_normal(scene, *hit);
+  const double cosine = normal.dot(light_direction);
+  if (cosine <= 0.0 || side * hit->normal.dot(light_direction) <= 0.0) return sample;
+  if (scene.surface.occluded(point + side * kStepOff * hit->normal, light)) return sample;
+
+  const double nearness = scene.working_distance_mm / distance;
+  const double irradiance = nearness * nearness;
+  sample.diffuse = static_cast<float>(irradiance * cosine) * sample.albedo;
+  if (scene.options.gloss > 0.0) {
+    const Vector3d halfway = (light_direction - direction.normalized()).normalized();
+    sample.glossy =
+        static_cast<float>(irradiance * scene.options.gloss *
+                           std::pow(std::max(normal.dot(halfway), 0.0), scene.options.shininess));
+  }
+  if (scene.rig.laser_sheet) {
+    const double off =
+        (scene.rig.laser_sheet->normal.dot(seen) - scene.rig.laser_sheet->offset_mm) /
+        scene.options.line_sigma_mm;
+    sample.line = static_cast<float>(std::exp(-0.5 * off * off));
+  }
+  return sample;
+}
+
+}  // namespace frangia

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "frangia/simulate/internal/simulated_scene.h"
+
+namespace frangia {
+
+/// What one camera ray brings home.
+struct LightSample {
+  float u = 0.0F;        ///< where the light left the projector: psi in degrees, or its column
+  float v = 0.0F;        ///< its row; pinhole only
+  float diffuse = 0.0F;  ///< light of the fully lit projector, 1 on a white surface that faces it
+  float glossy = 0.0F;   ///< the highlight on top of it
+  float line = 0.0F;     ///< share of the laser sheet's peak that falls here
+  float albedo = 0.0F;   ///< 0 where the ray meets nothing
+
+  [[nodiscard]] float reflected() const { return diffuse + glossy; }
+};
+
+/// The light along one ray of the camera.
+///
+/// missing  a ray that meets nothing brings nothing; in shadow or outside the projector's field
+///          there is the albedo only
+[[nodiscard]] LightSample sample_light(const SimulatedScene& scene,
+                                       const Eigen::Isometry3d& rig_from_object,
+                                       const Eigen::Vector2d& ray);
+
+}  // namespace frangia

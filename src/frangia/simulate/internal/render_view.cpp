@@ -1,0 +1,109 @@
+#include "frangia/simulate/internal/render_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/random.h"
+#include "frangia/simulate/internal/view_renderer.h"
+
+namespace frangia {
+namespace {
+
+void check(const Pattern& pattern, const Rig& rig) {
+  const auto fail = [&](const char* why) {
+    throw Error(ErrorKind::Input, fmt::format("pattern \"{}\" {}", pattern.name, why));
+  };
+  if (pattern.kind == PatternKind::Line) {
+    if (!rig.laser_sheet) fail("is a line, but the rig has no [line]");
+    return;
+  }
+  if (pattern.kind == PatternKind::Ramp) return;
+  if (pattern.kind == PatternKind::Gray) {
+    if (rig.projector.is_angular()) fail("is Gray code, which an angular projector cannot show");
+    if (pattern.bits < 1 || !(pattern.stripe_px > 0.0)) fail("needs bits and stripes above 0");
+    return;
+  }
+  if (rig.projector.is_angular()) {
+    if (!(pattern.fringes_per_degree > 0.0)) fail("needs fringes_per_degree above 0");
+    if (pattern.direction == FringeDirection::Horizontal) {
+      fail("is horizontal, but an angular projector's fringes are vertical");
+    }
+  } else if (!(pattern.period_px > 0.0)) {
+    fail("needs a period_px above 0");
+  }
+}
+
+std::vector<Shot> shots_of(const Pattern& pattern,
+                           const SimulatedView& view,
+                           const SimulateOptions& options) {
+  std::vector<Shot> shots(static_cast<std::size_t>(pattern.frame_count()));
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    shots[i].stream = noise_stream(options.seed, view.index, pattern.name, i);
+    if (pattern.kind != PatternKind::Fringe) continue;
+    const double shift = pattern.shifts_rad[i] * (1.0 + options.step_error) +
+                         options.step_jitter_rad * normal_from(hash(shots[i].stream, 1));
+    shots[i].cos_shift = std::cos(shift);
+    shots[i].sin_shift = std::sin(shift);
+  }
+  return shots;
+}
+
+FrameStack empty_stack(const Pattern& pattern, int exposure, const SimulatedScene& scene) {
+  FrameStack stack{pattern, {}, scene.known_rig.camera.white_level, exposure};
+  const int width = scene.rays.width();
+  const int height = scene.rays.height();
+  for (int i = 0; i < pattern.frame_count(); ++i) {
+    if (scene.options.bits == 8) {
+      stack.frames.emplace_back(Image<std::uint8_t>(width, height));
+    } else {
+      stack.frames.emplace_back(Image<std::uint16_t>(width, height));
+    }
+  }
+  return stack;
+}
+
+}  // namespace
+
+std::vector<FrameStack> render_view(const SimulatedScene& scene,
+                                    std::span<const Pattern> patterns,
+                                    const SimulatedView& view,
+                                    const Run& run) {
+  std::vector<FrameStack> stacks;
+  std::vector<std::vector<Shot>> shots;
+  for (const Pattern& pattern : patterns) {
+    check(pattern, scene.rig);
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      stacks.push_back(empty_stack(pattern, exposure, scene));
+      shots.push_back(shots_of(pattern, view, scene.options));
+      for (Shot& shot : shots.back()) {
+        if (exposure > 0) shot.stream = hash(shot.stream, static_cast<std::uint64_t>(exposure));
+        shot.light = stacks.back().gain();
+      }
+    }
+  }
+  const ViewRenderer renderer(scene, true_pose(scene, view), view.index);
+  constexpr int kBand = 64;  // rows between two looks at whether to stop
+  for (int done = 0; done < scene.rays.height(); done += kBand) {
+    const int size = std::min(kBand, scene.rays.height() - done);
+    parallel_rows(size, [&](int row) {
+      const int y = done + row;
+      const std::vector<LightSample> samples = renderer.sample_row(y);
+      for (std::size_t i = 0; i < stacks.size(); ++i) {
+        if (scene.options.bits == 8) {
+          renderer.fill_row<std::uint8_t>(y, samples, shots[i], stacks[i]);
+        } else {
+          renderer.fill_row<std::uint16_t>(y, samples, shots[i], stacks[i]);
+        }
+      }
+    });
+    run.report(static_cast<double>(done + size) / scene.rays.height());
+  }
+  return stacks;
+}
+
+}  // namespace frangia

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/files/read_mesh.h"
+#include "frangia/simulate/internal/fault_script.h"
+#include "frangia/simulate/internal/simulated_devices.h"
+#include "frangia/simulate/parts.h"
+
+namespace frangia {
+namespace {
+
+SimulateOptions read_options(DeviceSettings& settings, const Rig& rig) {
+  SimulateOptions options;
+  options.seed = static_cast<std::uint64_t>(settings.integer_or("seed", 1, 0, 1'000'000'000));
+  options.samples_per_px = settings.integer_or("samples", 1, 1, 64);
+  options.bits = static_cast<int>(std::lround(std::log2(rig.camera.white_level + 1)));
+  if (rig.camera.noise) {
+    const double e_per_count = 1.0 / rig.camera.noise->slope_counts;
+    const double read2_counts = std::max(0.0, rig.camera.noise->floor_counts2 - 1.0 / 12.0);
+    options.full_well_e = e_per_count * rig.camera.white_level;
+    options.read_e = e_per_count * std::sqrt(read2_counts);
+  }
+  options.ambient = settings.number_or("ambient", options.ambient);
+  options.contrast = settings.number_or("contrast", options.contrast);
+  options.gloss = settings.number_or("gloss", options.gloss);
+  options.shininess = settings.number_or("shininess", options.shininess);
+  options.texture = settings.number_or("texture", options.texture);
+  options.speckle = settings.number_or("speckle", options.speckle);
+  options.turntable_top_radius_mm =
+      settings.number_or("turntable_top_radius_mm", options.turntable_top_radius_mm);
+  if (!rig.projector.is_angular())
+    options.display_gamma = settings.number_or("display_gamma", options.display_gamma);
+  return options;
+}
+
+Mesh read_part(DeviceSettings& settings) {
+  const std::string part = settings.text_or("part", "bracket");
+  const auto known = part_names();
+  if (std::find(known.begin(), known.end(), part) != known.end()) return make_part(part);
+  const std::filesystem::path file = settings.path("part");
+  if (!std::filesystem::exists(file)) {
+    settings.fail("part",
+                  fmt::format("is \"{}\"; it must be one of {}, or a .stl, .ply or .obj file",
+                              part,
+                              fmt::join(known, ", ")));
+  }
+  return read_mesh(file);
+}
+
+std::shared_ptr<const SimulatedScene> make_scene(DeviceSettings& settings, const Rig& rig) {
+  // The brightest of a whole turn sets the exposure, whatever views are asked for.
+  constexpr std::size_t kStations = 8;
+  std::vector<SimulatedView> views;
+  for (std::size_t i = 0; i < kStations; ++i)
+    views.push_back({i, kTwoPi * static_cast<double>(i) / kStations});
+  return std::make_shared<const SimulatedScene>(
+      make_simulated_scene(read_part(settings), rig, views, read_options(settings, rig)));
+}
+
+class SimulatedCamera final : public CameraDevice {
+ public:
+  SimulatedCamera(DeviceSettings& settings, const Rig& rig, BenchPtr bench)
+      : bench_(std::move(bench)),
+        faults_(read_faults(settings, {"lost", "incomplete", "saturated", "motion", "unplugged"})),
+        real_time_(settings.flag_or("real_time", false)) {
+    bench_->reference_exposure_ms = settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5);
+    bench_->scene = make_scene(settings, rig);
+    info_.width_px = rig.camera.model.width_px;
+    info_.height_px = rig.camera.model.height_px;
+    info_.white_level = bench_->scene->known_rig.camera.white_level;
+    info_.min_exposure_ms = 1e-3;
+    info_.max_gain_db = 24.0;
+  }
+
+  [[nodiscard]] std::string name() const override { return "simulated camera"; }
+  [[nodiscard]] const CameraInfo& info() const override { return info_; }
+  void make_safe() noexcept override {}
+
+  [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
+    if (unplugged_) fail_device(*this, "is unplugged; plug it in and scan again");
+    return fmt::format("{} x {} pixels, white at {}, exposure {:.3g} ms",
+                       info_.width_px,
+                       info_.height_px,
+                       info_.white_level,
+                       bench_->camera.exposure_ms);
+  }
+
+  CameraSettings configure(const CameraSettings& settings, const Deadline& /*deadline*/) override {
+    check_exposure(settings.exposure_ms);
+    bench_->camera = settings;
+    bench_->camera.gain_db = std::clamp(settings.gain_db, 0.0, info_.max_gain_db);
+    return bench_->camera;
+  }
+
+  [[nodiscard]] CapturedFrame capture(const FrameLabel& label, const Deadline& deadline) override {
+    deadline.check();
+    const auto words = [&](const char* kind) {
+      return std::vector<std::string>{
+          kind, std::to_string(label.view), label.pattern, std::to_string(label.frame)};
+    };
+    unplugged_ = unplugged_ || faults_.triggers(words("unplugged"));
+    if (unplugged_) fail_device(*this, "is unplugged; plug it in and scan again");
+    if (faults_.triggers(words("lost"))) fail_device(*this, "no frame came; check its cable");
+    CapturedFrame captured;
+    captured.settings = bench_->camera;
+    captured.id = ++taken_;
+    if (real_time_) Deadline(deadline).sleep(1e-3 * bench_->camera.exposure_ms);
+    captured.timestamp_s =
+        std::chrono::duration<double>(Deadline::Clock::now().time_since_epoch()).count();
+    if (faults_.triggers(words("incomplete"))) {
+      captured.complete = false;
+      captured.incomplete_cause = "packets of it were lost";
+      return captured;
+    }
+    FrameFaults faults;
+    if (faults_.matches(words("saturated"))) faults.light = 8.0;
+    if (label.attempt == 0 && faults_.matches(words("motion"))) faults.motion_rad = 0.5;
+    captured.frame = camera_.capture(*bench_, label, faults);
+    return captured;
+  }
+
+ private:
+  BenchPtr bench_;
+  FaultScript faults_;
+  bool real_time_;  ///< an exposure takes as long as it says
+  CameraInfo info_;
+  BenchCamera camera_;
+  std::uint64_t taken_ = 0;
+  bool unplugged_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<CameraDevice> open_simulated_camera(DeviceSettings& settings,
+                                                    const Rig& rig,
+                                                    BenchPtr bench) {
+  return std::make_unique<SimulatedCamera>(settings, rig, std::move(bench));
+}
+
+}  // namespace frangia

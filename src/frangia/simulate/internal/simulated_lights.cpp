@@ -1,0 +1,70 @@
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/simulate/internal/simulated_devices.h"
+
+namespace frangia {
+namespace {
+
+class SimulatedDisplay final : public PatternDisplay {
+ public:
+  SimulatedDisplay(DeviceSettings& settings, const Rig& rig, BenchPtr bench)
+      : bench_(std::move(bench)) {
+    const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
+    if (pinhole == nullptr) settings.fail("driver", "is a digital projector, but the rig has none");
+    info_.width_px = pinhole->width_px;
+    info_.height_px = pinhole->height_px;
+  }
+
+  [[nodiscard]] std::string name() const override { return "simulated display"; }
+  [[nodiscard]] const DisplayInfo& info() const override { return info_; }
+  [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
+    return fmt::format("{} x {} pixels", info_.width_px, info_.height_px);
+  }
+  void make_safe() noexcept override { bench_->picture = {}; }
+  void show(const Image<float>& light, const Deadline& deadline) override {
+    deadline.check();
+    bench_->picture = light;
+  }
+  void show_dark(const Deadline& /*deadline*/) override { bench_->picture = {}; }
+
+ private:
+  BenchPtr bench_;
+  DisplayInfo info_;
+};
+
+class SimulatedSwitch final : public SwitchDevice {
+ public:
+  SimulatedSwitch(BenchPtr bench, bool SimulatedBench::*light)
+      : bench_(std::move(bench)), light_(light) {
+    (*bench_).*light_ = false;
+  }
+  [[nodiscard]] std::string name() const override {
+    return light_ == &SimulatedBench::line_light ? "simulated laser sheet" : "simulated light";
+  }
+  [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
+    return is_on() ? "on" : "off";
+  }
+  void make_safe() noexcept override { (*bench_).*light_ = false; }
+  void set(bool on, const Deadline& /*deadline*/) override { (*bench_).*light_ = on; }
+  [[nodiscard]] bool is_on() const override { return (*bench_).*light_; }
+
+ private:
+  BenchPtr bench_;
+  bool SimulatedBench::*light_;
+};
+
+}  // namespace
+
+std::unique_ptr<PatternDisplay> open_simulated_display(DeviceSettings& settings,
+                                                       const Rig& rig,
+                                                       BenchPtr bench) {
+  return std::make_unique<SimulatedDisplay>(settings, rig, std::move(bench));
+}
+
+std::unique_ptr<SwitchDevice> open_simulated_switch(BenchPtr bench, bool SimulatedBench::*light) {
+  return std::make_unique<SimulatedSwitch>(std::move(bench), light);
+}
+
+}  // namespace frangia

@@ -1,0 +1,141 @@
+#include "frangia/simulate/simulate_scan.h"
+
+#include <map>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/parallel.h"
+#include "frangia/files/ply.h"
+#include "frangia/frames/png.h"
+#include "frangia/geometry/transform_mesh.h"
+#include "frangia/simulate/internal/render_view.h"
+#include "frangia/simulate/internal/simulated_scene.h"
+
+namespace frangia {
+namespace {
+
+/// Says in the folder that a simulation is under way, or was interrupted: only then are images that
+/// lie there already ours to replace.
+std::filesystem::path claim(const std::filesystem::path& folder) {
+  std::filesystem::path mark = folder / "simulation-not-finished";
+  make_folder(folder);
+  if (!std::filesystem::is_empty(folder) && !std::filesystem::exists(mark)) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: is not empty; name a new folder, or empty this one", folder.string()));
+  }
+  AtomicFile(mark).commit();
+  std::filesystem::remove(folder / "scan.toml");
+  return mark;
+}
+
+struct FrameFile {
+  std::filesystem::path path;
+  const Frame* frame;
+};
+
+/// Packing a PNG takes longer than rendering it: all frames of a view at once.
+void write_frames(const std::filesystem::path& folder, const std::vector<FrameStack>& stacks) {
+  std::vector<FrameFile> files;
+  for (const FrameStack& stack : stacks) {
+    for (std::size_t i = 0; i < stack.frames.size(); ++i) {
+      files.push_back({folder / frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure),
+                       &stack.frames[i]});
+    }
+  }
+  parallel_chunks(files.size(), 1, [&](std::size_t begin, std::size_t) {
+    write_png(files[begin].path, *files[begin].frame);
+  });
+}
+
+/// Progress of one view as a part of the whole.
+Run part_of(const Run& run, std::size_t index, std::size_t count) {
+  Run part = run;
+  if (run.progress) {
+    part.progress = [&run, index, count](double done) {
+      run.progress((static_cast<double>(index) + done) / static_cast<double>(count));
+    };
+  }
+  return part;
+}
+
+/// The views of one setup, and the part as it stands in it.
+struct SimulatedSetup {
+  std::vector<SimulatedView> views;
+  SimulatedScene scene;
+};
+
+std::vector<SimulatedSetup> make_setups(const Mesh& part,
+                                        const Scan& plan,
+                                        const SimulateOptions& options) {
+  std::map<int, std::vector<SimulatedView>> views;
+  for (std::size_t i = 0; i < plan.views.size(); ++i)
+    views[plan.views[i].setup].push_back({i, plan.views[i].angle_rad});
+  std::vector<SimulatedSetup> setups;
+  for (auto& [setup, stations] : views) {
+    const auto part_pose = plan.part_poses.find(setup);
+    const Mesh posed_part =
+        part_pose == plan.part_poses.end() ? part : transform_mesh(part, part_pose->second);
+    SimulatedScene scene = make_simulated_scene(posed_part, plan.rig, stations, options);
+    setups.push_back({std::move(stations), std::move(scene)});
+  }
+  return setups;
+}
+
+void render_setup(const SimulatedSetup& setup, const Scan& plan, const Run& run) {
+  for (const SimulatedView& view : setup.views) {
+    const Run view_run = part_of(run, view.index, plan.views.size());
+    const std::filesystem::path folder = plan.folder / plan.views[view.index].folder;
+    const auto stacks = render_view(setup.scene, plan.patterns, view, view_run);
+    std::filesystem::remove_all(folder);
+    make_folder(folder);
+    write_frames(folder, stacks);
+    run.check();
+  }
+}
+
+}  // namespace
+
+Eigen::Isometry3d pose_on_table(const Mesh& part, double tilt_rad, double turn_rad) {
+  Eigen::Isometry3d part_pose = Eigen::Isometry3d::Identity();
+  part_pose.linear() = (Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()) *
+                        Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitX()))
+                           .toRotationMatrix();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : part.vertices_mm)
+    box.extend(part_pose * vertex.cast<double>());
+  part_pose.translation() = -box.center();
+  part_pose.translation().z() = -box.min().z();
+  return part_pose;
+}
+
+Scan simulate_scan(const Mesh& part,
+                   const Scan& plan,
+                   const SimulateOptions& options,
+                   const Run& run) {
+  require(!plan.patterns.empty() && !plan.views.empty(),
+          "simulate_scan: a scan needs at least one pattern and one view");
+  const std::vector<SimulatedSetup> setups = make_setups(part, plan, options);
+  const std::filesystem::path mark = claim(plan.folder);
+  for (const SimulatedSetup& setup : setups)
+    render_setup(setup, plan, run);
+  write_ply(plan.folder / "truth.ply", part);
+  if (!plan.part_poses.empty()) {
+    AtomicFile truth(plan.folder / "truth-setups.toml");
+    truth.stream() << toml_of(plan.part_poses);
+    truth.commit();
+  }
+  Scan scan = plan;
+  scan.rig = setups.front().scene.known_rig;
+  scan.part_poses.clear();
+  write_scan(scan);
+  std::filesystem::remove(mark);
+  return scan;
+}
+
+}  // namespace frangia

@@ -1,0 +1,136 @@
+#include "frangia/devices/internal/instrument_shifter.h"
+
+#include <gtest/gtest.h>
+
+#include "frangia/devices/internal/open_transport.h"
+#include "frangia/devices/internal/prologix_transport.h"
+
+#include "support/emulated_boards.h"
+#include "support/error_of.h"
+#include "support/soon.h"
+
+namespace frangia {
+namespace {
+
+using testing::EmulatedGcs2;
+using testing::EmulatedPort;
+using testing::EmulatedPrologix;
+using testing::EmulatedScpi;
+using testing::error_of;
+using testing::soon;
+
+ShifterInfo up_to(double most) {
+  ShifterInfo info;
+  info.max_command = most;
+  info.curve = {{0.0, most}, {0.0, 7.0}};
+  return info;
+}
+
+InstrumentShifter shifter_at(const EmulatedPort& port,
+                             const ActuatorProtocol& protocol,
+                             double most) {
+  return {open_serial({port.path()}), protocol, up_to(most), 0.0, soon()};
+}
+
+TEST(ScpiShifter, BringsItsCommandsOutAndSwitchesTheOutputOffAtTheEnd) {
+  EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
+  {
+    InstrumentShifter piezo(
+        open_tcp("127.0.0.1", port.tcp_port(), soon()), scpi_protocol(), up_to(4.0), 0.0, soon());
+    EXPECT_EQ(piezo.test(soon()), "Frangia,Emulated generator,0,1");
+    piezo.drive(1.5, soon());
+    piezo.drive(0.25, soon());
+    port.with<EmulatedScpi>([](auto& generator) {
+      EXPECT_TRUE(generator.output);
+      EXPECT_EQ(generator.set, (std::vector<double>{1.5, 0.25}));
+    });
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  port.with<EmulatedScpi>([](auto& generator) { EXPECT_FALSE(generator.output); });
+}
+
+TEST(ScpiShifter, BeyondItsRangeNothingIsSent) {
+  EmulatedPort port(std::make_unique<EmulatedScpi>());
+  InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 4.0);
+  const std::string sentence = error_of([&] { piezo.drive(4.5, soon()); });
+  EXPECT_NE(sentence.find("outside its range, 0 to 4"), std::string::npos) << sentence;
+  port.with<EmulatedScpi>([](auto& generator) { EXPECT_TRUE(generator.set.empty()); });
+}
+
+TEST(ScpiShifter, WhatTheInstrumentSaysOfAnErrorIsToldWithTheCommand) {
+  EmulatedPort port(std::make_unique<EmulatedScpi>());
+  InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 10.0);
+  const std::string sentence = error_of([&] { piezo.drive(9.0, soon()); });
+  EXPECT_NE(sentence.find("Data out of range"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("VOLT:OFFS 9"), std::string::npos) << sentence;
+}
+
+TEST(ScpiShifter, ASilentOrRestlessInstrumentEndsWithTheDeadline) {
+  for (const bool silent : {true, false}) {
+    EmulatedPort port(std::make_unique<EmulatedScpi>());
+    InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 4.0);
+    port.with<EmulatedScpi>([&](auto& generator) {
+      generator.silent = silent;
+      generator.never_settles = true;
+    });
+    const auto begun = Deadline::Clock::now();
+    const std::string sentence = error_of([&] { piezo.drive(1.0, Deadline::in(0.2)); });
+    EXPECT_NE(sentence.find(silent ? "no answer within 0.2 s" : "not settled within 0.2 s"),
+              std::string::npos)
+        << sentence;
+    EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(1));
+  }
+}
+
+TEST(Gcs2Shifter, AMoveReturnsOnTarget) {
+  EmulatedPort port(std::make_unique<EmulatedGcs2>());
+  InstrumentShifter stage = shifter_at(port, gcs2_protocol(), 200.0);
+  stage.drive(12.5, soon());
+  port.with<EmulatedGcs2>([](auto& controller) {
+    EXPECT_DOUBLE_EQ(controller.target, 12.5);
+    EXPECT_EQ(controller.answer("ONT? 1"), "1=1\n");
+  });
+  EXPECT_NE(error_of([&] { stage.drive(150.0, soon()); }).find("says 7"), std::string::npos);
+}
+
+TEST(PrologixShifter, AnInstrumentOnGpibIsSpokenToAsOnALineOfItsOwn) {
+  EmulatedPort port(std::make_unique<EmulatedPrologix>(std::make_unique<EmulatedScpi>(), 9),
+                    EmulatedPort::Kind::Tcp);
+  InstrumentShifter piezo(open_prologix(open_tcp("127.0.0.1", port.tcp_port(), soon()), 9, soon()),
+                          scpi_protocol(),
+                          up_to(4.0),
+                          0.0,
+                          soon());
+  piezo.drive(1.25, soon());
+  port.with<EmulatedPrologix>([](auto& adapter) {
+    EXPECT_DOUBLE_EQ(dynamic_cast<EmulatedScpi&>(adapter.instrument()).volts, 1.25);
+  });
+}
+
+TEST(PrologixShifter, AnAddressWithNobodyAndALineWithoutAdapterAreNamed) {
+  EmulatedPort port(std::make_unique<EmulatedPrologix>(std::make_unique<EmulatedScpi>(), 9),
+                    EmulatedPort::Kind::Tcp);
+  const std::string sentence = error_of([&] {
+    const InstrumentShifter nobody(
+        open_prologix(open_tcp("127.0.0.1", port.tcp_port(), soon()), 8, soon()),
+        scpi_protocol(),
+        up_to(4.0),
+        0.0,
+        Deadline::in(0.2));
+  });
+  EXPECT_NE(sentence.find("GPIB 8: no answer"), std::string::npos) << sentence;
+  EmulatedPort other(std::make_unique<EmulatedGcs2>());
+  EXPECT_THROW(static_cast<void>(open_prologix(open_serial({other.path()}), 9, Deadline::in(0.2))),
+               Error);
+}
+
+TEST(ActuatorProtocol, ACommandOfOnesOwnIsFilledAndAWrongOneNamed) {
+  EXPECT_EQ(fill_command("1 VOLT {value:.2f}", 3.14159), "1 VOLT 3.14");
+  EXPECT_NE(error_of([] { static_cast<void>(fill_command("VOLT", 1.0)); }).find("has no {value}"),
+            std::string::npos);
+  EXPECT_NE(error_of([] { static_cast<void>(fill_command("V {value:q}", 1.0)); }).find("filled"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia

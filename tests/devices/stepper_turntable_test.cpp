@@ -1,0 +1,267 @@
+#include "frangia/devices/internal/stepper_turntable.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/devices/internal/board_switch.h"
+#include "frangia/devices/internal/open_transport.h"
+
+#include "support/emulated_boards.h"
+#include "support/emulated_grbl.h"
+#include "support/error_of.h"
+#include "support/soon.h"
+
+namespace frangia {
+namespace {
+
+using testing::EmulatedGrbl;
+using testing::EmulatedHorus;
+using testing::EmulatedMarlin;
+using testing::EmulatedPort;
+using testing::error_of;
+using testing::soon;
+
+MotionControllerSettings quick() {
+  MotionControllerSettings settings;
+  settings.boot_s = 0.3;
+  return settings;
+}
+
+/// A board that has greeted.
+std::shared_ptr<MotionController> ready(std::unique_ptr<MotionController> board) {
+  board->connect(soon());
+  return board;
+}
+
+void start(StepperTurntable& table) {
+  table.enable(true, soon());
+  table.home(soon());
+}
+
+StepperTurntableOptions options_with(double backlash_deg) {
+  StepperTurntableOptions options;
+  options.backlash_deg = backlash_deg;
+  options.speed_deg_per_s = 90.0;
+  return options;
+}
+
+std::unique_ptr<MotionController> grbl_at(const EmulatedPort& port) {
+  return make_grbl(open_serial({port.path()}), quick());
+}
+
+TEST(GrblTurntable, StandsStillAtTheAngleWhenAMoveReturns) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 10.0; });
+  StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
+  table.move_to(rad_from_deg(45.0), soon());
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    EXPECT_FALSE(grbl.moving());
+    EXPECT_NEAR(grbl.position(), 45.0, 1e-3);
+  });
+  EXPECT_NEAR(table.angle_rad().value(), rad_from_deg(45.0), 1e-12);
+}
+
+TEST(GrblTurntable, EveryTargetIsReachedFromBelow) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  StepperTurntable table(ready(grbl_at(port)), options_with(2.0));
+  start(table);
+  for (const double angle_deg : {0.0, 30.0, 31.0, 10.0}) {
+    table.move_to(rad_from_deg(angle_deg), soon());
+  }
+  const auto targets = port.with<EmulatedGrbl>([](auto& grbl) { return grbl.targets; });
+  EXPECT_EQ(targets, (std::vector<double>{-2.0, 0.0, 30.0, 31.0, 8.0, 10.0}));
+}
+
+TEST(GrblTurntable, AResetInMotionLosesTheAngleAndItDoesNotGoOnUntilHomed) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.reset_in_next_move = true; });
+  EXPECT_NE(error_of([&] { table.move_to(1.0, soon()); }).find("home the table again"),
+            std::string::npos);
+  EXPECT_FALSE(table.angle_rad().has_value());
+  const auto moves = port.with<EmulatedGrbl>([](auto& grbl) { return grbl.targets.size(); });
+  EXPECT_NE(error_of([&] { table.move_to(1.0, soon()); }).find("home it first"), std::string::npos);
+  EXPECT_EQ(port.with<EmulatedGrbl>([](auto& grbl) { return grbl.targets.size(); }), moves);
+  table.home(soon());
+  table.move_to(rad_from_deg(20.0), soon());
+  EXPECT_TRUE(table.angle_rad().has_value());
+}
+
+TEST(GrblTurntable, BoundsTheTurnByItsOwnLimitsAndByTheBoards) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.travel = 100.0; });
+  StepperTurntableOptions options = options_with(0.0);
+  options.info.min_rad = 0.0;
+  options.info.max_rad = rad_from_deg(170.0);
+  StepperTurntable table(ready(grbl_at(port)), options);
+  start(table);
+  EXPECT_NE(error_of([&] { table.move_to(rad_from_deg(171.0), soon()); }).find("0 to 170"),
+            std::string::npos);
+  EXPECT_THROW(table.move_to(std::nan(""), soon()), Error);
+  EXPECT_TRUE(table.angle_rad().has_value()) << "nothing has moved";
+  EXPECT_NE(error_of([&] { table.move_to(rad_from_deg(120.0), soon()); }).find("ALARM:2"),
+            std::string::npos);
+  EXPECT_FALSE(table.angle_rad().has_value());
+}
+
+TEST(GrblTurntable, AMoveThatOutlastsItsDeadlineIsStopped) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
+  StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
+  const auto begun = Deadline::Clock::now();
+  EXPECT_NE(error_of([&] { table.move_to(1.0, Deadline::in(0.2)); }).find("no answer within 0.2 s"),
+            std::string::npos);
+  EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::milliseconds(1500));
+  port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.moving()); });
+}
+
+TEST(GrblTurntable, AStopFromOutsideEndsTheWait) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
+  StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
+  start(table);
+  std::stop_source stop;
+  const std::jthread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop.request_stop();
+  });
+  const auto begun = Deadline::Clock::now();
+  EXPECT_THROW(table.move_to(1.0, Deadline::in(60.0, stop.get_token())), Error);
+  EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(3));
+}
+
+TEST(GrblTurntable, LampsAndLasersAreOffAfterwards) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  {
+    const auto board = ready(grbl_at(port));
+    BoardSwitch laser(board, "M3 S1000", "M5");
+    BoardSwitch lamp(board, "M8", "M9");
+    laser.set(true, soon());
+    lamp.set(true, soon());
+    port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_TRUE(grbl.spindle && grbl.coolant); });
+  }
+  port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle || grbl.coolant); });
+}
+
+TEST(GrblTurntable, AFaultOfTheTablePutsTheLaserOutAndItKnows) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  const auto board = ready(grbl_at(port));
+  StepperTurntable table(board, options_with(0.0));
+  BoardSwitch laser(board, "M3 S1000", "M5");
+  start(table);
+  laser.set(true, soon());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.reset_in_next_move = true; });
+  EXPECT_THROW(table.move_to(1.0, soon()), Error);
+  EXPECT_FALSE(laser.is_on());
+  port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle); });
+}
+
+TEST(GrblTurntable, StepsAreWrittenWhereTheyDifferAndNothingIsLostMeanwhile) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  MotionControllerSettings settings = quick();
+  settings.steps_per_unit = 88.889;
+  for (int time = 0; time < 2; ++time) {
+    const auto firmware = make_grbl(open_serial({port.path()}), settings);
+    firmware->connect(soon());
+    firmware->command("M5", soon());
+    firmware->stop();
+  }
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    EXPECT_NEAR(grbl.settings[100], 88.889, 1e-6);
+    EXPECT_EQ(grbl.settings_written, 1);
+  });
+}
+
+TEST(GrblTurntable, ALockedBoardSaysThatItWantsToBeHomed) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  const auto firmware = grbl_at(port);
+  firmware->connect(soon());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.alarm = true; });
+  EXPECT_NE(error_of([&] { firmware->command("G1 X1 F100", soon()); }).find("error:9"),
+            std::string::npos);
+}
+
+TEST(GrblTurntable, SilenceAndGarbageAreOneSentenceWithinTheDeadline) {
+  for (const bool garbage : {false, true}) {
+    auto board = std::make_unique<EmulatedGrbl>();
+    board->silent = true;
+    EmulatedPort port(std::move(board));
+    port.with<EmulatedGrbl>([&](auto& grbl) {
+      grbl.silent = !garbage;
+      grbl.garbage = garbage;
+    });
+    const auto firmware = grbl_at(port);
+    const auto begun = Deadline::Clock::now();
+    const std::string sentence = error_of([&] { firmware->connect(Deadline::in(0.6)); });
+    EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(1));
+    EXPECT_EQ(sentence.find(port.path()), 0U) << sentence;
+    EXPECT_NE(sentence.find(garbage ? "does not speak GRBL" : "no greeting"), std::string::npos);
+  }
+}
+
+TEST(MarlinTurntable, BusyIsWaitedForAndBrokenLinesAreSentAgain) {
+  EmulatedPort port(std::make_unique<EmulatedMarlin>());
+  StepperTurntable table(ready(make_marlin(open_serial({port.path()}), quick())),
+                         options_with(0.0));
+  start(table);
+  port.with<EmulatedMarlin>([](auto& marlin) { marlin.lines_to_break = 2; });
+  table.move_to(rad_from_deg(90.0), soon());
+  port.with<EmulatedMarlin>([](auto& marlin) {
+    EXPECT_DOUBLE_EQ(marlin.position, 90.0);
+    EXPECT_EQ(marlin.commands.back(), "M400");
+  });
+}
+
+TEST(MarlinTurntable, ABoardThatHaltsItselfLosesTheAngle) {
+  EmulatedPort port(std::make_unique<EmulatedMarlin>());
+  StepperTurntable table(ready(make_marlin(open_serial({port.path()}), quick())),
+                         options_with(0.0));
+  start(table);
+  port.with<EmulatedMarlin>([](auto& marlin) { marlin.kill_in_next_move = true; });
+  EXPECT_NE(error_of([&] { table.move_to(1.0, soon()); }).find("halted"), std::string::npos);
+  EXPECT_FALSE(table.angle_rad().has_value());
+}
+
+TEST(MarlinTurntable, ALineThatNeverArrivesWholeIsGivenUp) {
+  EmulatedPort port(std::make_unique<EmulatedMarlin>());
+  const auto firmware = make_marlin(open_serial({port.path()}), quick());
+  firmware->connect(soon());
+  port.with<EmulatedMarlin>([](auto& marlin) { marlin.lines_to_break = 100; });
+  EXPECT_NE(error_of([&] { firmware->command("M5", soon()); }).find("again"), std::string::npos);
+}
+
+TEST(HorusTurntable, TurnsAndSwitchesItsLasersOff) {
+  EmulatedPort port(std::make_unique<EmulatedHorus>());
+  {
+    const auto board = ready(make_horus(open_serial({port.path()}), quick()));
+    StepperTurntable table(board, options_with(0.0));
+    port.with<EmulatedHorus>([](auto& horus) { EXPECT_FALSE(horus.lasers[0] || horus.lasers[1]); });
+    start(table);
+    const auto begun = Deadline::Clock::now();
+    table.move_to(rad_from_deg(-9.0), soon());
+    EXPECT_GE(Deadline::Clock::now() - begun, std::chrono::milliseconds(100))
+        << "the way takes that";
+    board->command("M71T1", soon());
+    port.with<EmulatedHorus>([](auto& horus) { EXPECT_DOUBLE_EQ(horus.position, -9.0); });
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  port.with<EmulatedHorus>([](auto& horus) { EXPECT_FALSE(horus.lasers[0] || horus.motor); });
+}
+
+TEST(HorusTurntable, AnotherFirmwareIsNamed) {
+  auto board = std::make_unique<EmulatedHorus>();
+  board->version = "Horus 0.1 ['$' for help]";
+  EmulatedPort port(std::move(board));
+  const auto firmware = make_horus(open_serial({port.path()}), quick());
+  EXPECT_NE(error_of([&] { firmware->connect(Deadline::in(0.5)); }).find("Horus 0.2"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia

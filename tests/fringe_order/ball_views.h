@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
+#include "frangia/fringe_order/resolve_by_views.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/rig/paper_rig.h"
+
+namespace frangia::testing {
+
+inline const Pattern kBallPattern{.name = "fringe", .fringes_per_degree = 1.0};
+
+/// A ball on the turntable's axis, seen from several angles; what one view has of it may be
+/// unresolved.
+struct Ball {
+  Rig rig = make_paper_rig({.columns = 160, .rows = 160});
+  Image<Eigen::Vector2f> rays;
+  double radius_mm = 45.0;
+
+  Ball() {
+    rig.camera.model.focal_px.setConstant(600.0);
+    rig.camera.model.principal_point_px = {80.0, 80.0};
+    rig.turntable = Turntable{.point_mm = {0.0, 0.0, 490.0}, .axis = {0.0, -1.0, 0.0}};
+    rays = rays_of(rig.camera.model);
+  }
+  [[nodiscard]] View view(double angle_rad) const {
+    View out;
+    out.rig_from_object = rig.rig_from_object(angle_rad);
+    out.range = {Image<float>(160, 160, kMissing), Image<float>(160, 160, kMissing)};
+    const Eigen::Vector3d center = rig.turntable->point_mm;
+    for (std::size_t i = 0; i < rays.pixels().size(); ++i) {
+      const Eigen::Vector3d d(rays.pixels()[i].x(), rays.pixels()[i].y(), 1.0);
+      const double b = d.dot(center) / d.squaredNorm();
+      const double c = (center.squaredNorm() - radius_mm * radius_mm) / d.squaredNorm();
+      if (b * b < c * 1.0005) continue;
+      out.range.depth_mm.pixels()[i] = static_cast<float>(b - std::sqrt(b * b - c));
+      out.range.sigma_mm.pixels()[i] = 0.05F;
+    }
+    return out;
+  }
+  /// The whole of a view as a region with `fringes` too few, and an empty view in its place.
+  UnresolvedViewRegion make_unresolved(View& view, std::size_t index, int fringes) const {
+    UnresolvedViewRegion part{.view = index};
+    for (std::size_t i = 0; i < rays.pixels().size(); ++i) {
+      float& depth = view.range.depth_mm.pixels()[i];
+      if (std::isnan(depth)) continue;
+      const Eigen::Vector3d point =
+          depth * Eigen::Vector3d(rays.pixels()[i].x(), rays.pixels()[i].y(), 1.0);
+      part.region.pixel.push_back(static_cast<std::uint32_t>(i));
+      part.region.phase_rad.push_back(
+          static_cast<float>(phase_at(point, kBallPattern, rig.projector) - kTwoPi * fringes));
+      part.region.sigma_rad.push_back(0.02F);
+      depth = kMissing;
+    }
+    return part;
+  }
+};
+
+}  // namespace frangia::testing

@@ -1,0 +1,77 @@
+#include "frangia/fusion/internal/remove_foldovers.h"
+
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace frangia {
+namespace {
+
+constexpr std::uint32_t kSide = 5;
+
+/// A level grid of vertices one apart.
+Mesh level() {
+  Mesh mesh;
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x)
+      mesh.vertices_mm.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
+  }
+  for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
+    for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+      const std::uint32_t a = y * kSide + x;
+      mesh.triangles.push_back({a, a + 1, a + kSide + 1});
+      mesh.triangles.push_back({a, a + kSide + 1, a + kSide});
+    }
+  }
+  mesh.normals.assign(mesh.vertices_mm.size(), Eigen::Vector3f::UnitZ());
+  return mesh;
+}
+
+int folded(const Mesh& mesh) {
+  int count = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3f cross = (mesh.vertices_mm[b] - mesh.vertices_mm[a])
+                                      .cross(mesh.vertices_mm[c] - mesh.vertices_mm[a]);
+    count += cross.z() < 0.0F ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(RemoveFoldovers, RelaxesAVertexBeyondItsNeighbors) {
+  Mesh mesh = level();
+  mesh.vertices_mm[12] = {3.3F, 2.2F, 0.1F};
+  ASSERT_GT(folded(mesh), 0);
+  remove_foldovers(mesh, {});
+  EXPECT_EQ(folded(mesh), 0);
+  EXPECT_EQ(mesh.triangles.size(), level().triangles.size());
+  EXPECT_EQ(mesh.vertices_mm[12].z(), 0.1F);  // along the surface alone
+}
+
+TEST(RemoveFoldovers, RemovesFoldoversAtTheBoundary) {
+  Mesh mesh = level();
+  mesh.vertices_mm[2] = {2.0F, 1.5F, 0.0F};
+  ASSERT_GT(folded(mesh), 0);
+  remove_foldovers(mesh, {});
+  EXPECT_EQ(folded(mesh), 0);
+  EXPECT_LT(mesh.triangles.size(), level().triangles.size());
+}
+
+TEST(RemoveFoldovers, NeverLeavesAFoldoverWhereNothingMayMove) {
+  Mesh mesh = level();
+  mesh.vertices_mm[12] = {3.3F, 2.2F, 0.0F};
+  const std::vector<std::uint8_t> sharp(mesh.vertices_mm.size(), 1);
+  remove_foldovers(mesh, sharp);
+  EXPECT_EQ(folded(mesh), 0);
+  EXPECT_EQ(mesh.vertices_mm[12].x(), 3.3F);
+}
+
+TEST(RemoveFoldovers, LeavesASoundMeshAsItIs) {
+  Mesh mesh = level();
+  remove_foldovers(mesh, {});
+  EXPECT_EQ(mesh.triangles, level().triangles);
+  EXPECT_EQ(mesh.vertices_mm, level().vertices_mm);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,122 @@
+#include "frangia/geometry/ray_scene.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/random.h"
+
+#include "support/test_meshes.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+using testing::box;
+using testing::sphere;
+
+RayScene unit_cube() {
+  return RayScene(box({-1, -1, -1}, {1, 1, 1}));
+}
+
+TEST(RayScene, HitsAPlaneExactlyFromFarAway) {
+  const RayScene scene = unit_cube();
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const Vector3d eye(700.0, 80.0 * uniform_from(hash(1, i)), 90.0 * uniform_from(hash(2, i)));
+    const Vector3d target(
+        1.0, 1.8 * uniform_from(hash(3, i)) - 0.9, 1.8 * uniform_from(hash(4, i)) - 0.9);
+    const auto hit = scene.first_hit(eye, (target - eye) / 3.0);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->distance, 3.0, 1e-12);
+    EXPECT_NEAR(hit->normal.x(), 1.0, 1e-12);
+  }
+}
+
+TEST(RayScene, BarycentricWeightsRebuildThePointThatWasHit) {
+  const Mesh mesh = sphere({1, 2, 3}, 20.0);
+  const RayScene scene(mesh);
+  const Vector3d eye(90, -70, 50);
+  const Vector3d direction = Vector3d(2.3, 1.1, 4.0) - eye;
+  const auto hit = scene.first_hit(eye, direction);
+  ASSERT_TRUE(hit);
+  Vector3d rebuilt = Vector3d::Zero();
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto vertex = mesh.triangles[hit->triangle][corner];
+    rebuilt += hit->barycentric[static_cast<Eigen::Index>(corner)] *
+               mesh.vertices_mm[vertex].cast<double>();
+  }
+  EXPECT_NEAR((rebuilt - eye - hit->distance * direction).norm(), 0.0, 1e-9);
+  EXPECT_GT(hit->barycentric.minCoeff(), -1e-4);
+}
+
+TEST(RayScene, SeesNothingBesideBehindOrBeyondTheReach) {
+  const RayScene scene = unit_cube();
+  EXPECT_FALSE(scene.first_hit({5, 1.01, 0}, {-1, 0, 0}));
+  EXPECT_FALSE(scene.first_hit({5, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(scene.first_hit({5, 0, 0}, {-1, 0, 0}, 3.9));
+  EXPECT_TRUE(scene.first_hit({5, 0, 0}, {-1, 0, 0}, 4.1));
+  EXPECT_FALSE(RayScene(Mesh{}).first_hit({0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(RayScene(Mesh{}).nearest({0, 0, 0}));
+}
+
+TEST(RayScene, OccludedMeansSomethingBetweenTheTwoPoints) {
+  const RayScene scene = unit_cube();
+  EXPECT_TRUE(scene.occluded({5, 0, 0}, {-5, 0, 0}));
+  EXPECT_FALSE(scene.occluded({5, 0, 0}, {2, 0, 0}));
+  EXPECT_FALSE(scene.occluded({5, 2, 0}, {-5, 2, 0}));
+}
+
+TEST(RayScene, NearestIsThatOfASearchThroughAllTriangles) {
+  const Vector3d center(1, 2, 3);
+  const RayScene scene(sphere(center, 20.0, 60));
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const Vector3d p =
+        center +
+        30.0 * Vector3d(normal_from(hash(1, i)), normal_from(hash(2, i)), normal_from(hash(3, i)));
+    const auto nearest = scene.nearest(p);
+    ASSERT_TRUE(nearest);
+    const double expected = (p - center).norm() - 20.0;
+    // The facets lie up to 0.014 mm inside the sphere.
+    EXPECT_NEAR(nearest->signed_distance_mm, expected, 0.02);
+    EXPECT_NEAR((nearest->point_mm - p).norm(), nearest->distance_mm, 1e-12);
+  }
+}
+
+TEST(RayScene, NearestKnowsInsideFromOutsideAtEdgesAndCorners) {
+  const RayScene scene = unit_cube();
+  EXPECT_NEAR(scene.nearest({2, 2, 2})->signed_distance_mm, std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(scene.nearest({1.3, 1.4, 0.2})->signed_distance_mm, 0.5, 1e-7);
+  EXPECT_NEAR(scene.nearest({0.9, 0.95, 0.2})->signed_distance_mm, -0.05, 1e-7);
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const Vector3d p(3.0 * uniform_from(hash(1, i)) - 1.5,
+                     3.0 * uniform_from(hash(2, i)) - 1.5,
+                     3.0 * uniform_from(hash(3, i)) - 1.5);
+    const bool inside = p.cwiseAbs().maxCoeff() < 1.0;
+    EXPECT_EQ(scene.nearest(p)->signed_distance_mm < 0.0, inside) << p.transpose();
+  }
+}
+
+TEST(RayScene, NearestKeepsToItsReach) {
+  const RayScene scene = unit_cube();
+  EXPECT_FALSE(scene.nearest({3, 0, 0}, 1.999));
+  EXPECT_TRUE(scene.nearest({3, 0, 0}, 2.001));
+}
+
+TEST(RayScene, LeavesOutTrianglesWithoutArea) {
+  Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
+  mesh.vertices_mm.emplace_back(0, 0, 9);
+  mesh.triangles.push_back({8, 8, 8});
+  const auto nearest = RayScene(mesh).nearest({0, 0, 10});
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->distance_mm, 9.0, 1e-9);
+}
+
+TEST(RayScene, RefusesATriangleOfAVertexThatIsNotThere) {
+  Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
+  mesh.triangles.push_back({0, 1, 8});
+  EXPECT_THROW(RayScene{mesh}, Error);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,77 @@
+#include "frangia/local_fit/local_planes.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+
+#include "support/analytic_views.h"
+
+namespace frangia {
+namespace {
+
+using testing::look_from;
+using testing::small_camera_model;
+
+constexpr double kStandOff = 650.0;
+
+/// How far a point of the object frame lies in front of what the view saw.
+float in_front(const LocalPlanes& view, const CameraModel& model, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d seen = view.rig_from_object * point;
+  const Eigen::Vector2f pixel = model.project(seen).cast<float>();
+  const LocalPlanes::Quad* quad = view.quad_at(pixel.x(), pixel.y());
+  if (quad == nullptr) return kMissing;
+  if (quad->kind != LocalPlanes::Kind::Smooth) {
+    return view.nearest_face(pixel.x(), pixel.y(), seen.cast<float>())
+        .in_front_mm(seen.cast<float>());
+  }
+  return (1.0F - static_cast<float>(seen.z()) * view.inverse_depth_at(pixel.x(), pixel.y())) *
+         quad->distance_mm;
+}
+
+TEST(LocalPlanes, MeasureTheDistanceFromAPlaneSeenObliquely) {
+  const CameraRays camera(small_camera_model());
+  const LocalPlanes view = local_planes(
+      testing::snapshot(
+          testing::floor_at(0.0), camera.model, look_from(0.4, 0.5, kStandOff), {.noise_mm = 0.0}),
+      camera);
+  for (const double height : {-1.0, 0.0, 0.7}) {
+    EXPECT_NEAR(in_front(view, camera.model, {10.0, -20.0, height}), height, 2e-3);
+  }
+}
+
+TEST(LocalPlanes, KeepBothFacesOfARidge) {
+  const CameraRays camera(small_camera_model());
+  const LocalPlanes view = local_planes(
+      testing::snapshot(
+          testing::box({20.0, 20.0, 20.0}), camera.model, look_from(0.6, 0.5, kStandOff)),
+      camera);
+  // On the edge between the faces x = 20 and y = 20, and a little off it.
+  EXPECT_NEAR(in_front(view, camera.model, {20.0, 20.0, 3.0}), 0.0, 0.05);
+  EXPECT_NEAR(in_front(view, camera.model, {20.3, 20.0, 3.0}), 0.3, 0.06);
+  EXPECT_NEAR(in_front(view, camera.model, {20.0, 20.3, 3.0}), 0.3, 0.06);
+  EXPECT_NEAR(in_front(view, camera.model, {19.7, 19.7, 3.0}), -0.3, 0.06);
+}
+
+TEST(LocalPlanes, SeeNothingAcrossADepthStep) {
+  const CameraRays camera(small_camera_model());
+  const auto scene = testing::both(testing::sphere(12.0, {0.0, 0.0, 40.0}), testing::floor_at(0.0));
+  const View view = testing::snapshot(scene, camera.model, look_from(0.0, 1.2, kStandOff));
+  const LocalPlanes planes = local_planes(view, camera);
+  for (int y = 0; y < planes.quads.height(); ++y) {
+    for (int x = 0; x < planes.quads.width(); ++x) {
+      if (planes.quads(x, y).kind == LocalPlanes::Kind::Unseen) continue;
+      EXPECT_LT(std::abs(view.range.depth_mm(x, y) - view.range.depth_mm(x + 1, y + 1)), 10.0F);
+    }
+  }
+}
+
+TEST(LocalPlanes, RefuseAViewOfAnotherSize) {
+  const View view = testing::snapshot(
+      testing::floor_at(0.0), small_camera_model(100), look_from(0.0, 1.0, kStandOff));
+  EXPECT_THROW(static_cast<void>(local_planes(view, CameraRays(small_camera_model(90)))), Error);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,151 @@
+#include "frangia/pipeline/merge_scans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/geometry/ray_scene.h"
+#include "frangia/inspect/surface_error.h"
+#include "frangia/simulate/parts.h"
+
+namespace frangia {
+namespace {
+
+Eigen::Isometry3d turned(double angle_rad, const Eigen::Vector3d& axis, const Eigen::Vector3d& by) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::AngleAxisd(angle_rad, axis.normalized()).toRotationMatrix();
+  pose.translation() = by;
+  return pose;
+}
+
+/// What a scanner that looks along -z sees of a part that was turned about z: a grid of points with
+/// noise, joined to triangles, in the scanner's own frame.
+RangeScan scan_of(
+    const RayScene& part, double turn_rad, unsigned seed, bool joined, double above_rad = 0.0) {
+  constexpr int kSide = 160;
+  constexpr int kHalf = kSide / 2;
+  constexpr double kStep_mm = 0.7;
+  constexpr double kNoise_mm = 0.02;
+  // The scanner's y is the part's z: it looks at the part from the side.
+  Eigen::Isometry3d scan_from_part = turned(-M_PI / 2.0, Eigen::Vector3d::UnitX(), {0, -35, 0});
+  scan_from_part = turned(above_rad, Eigen::Vector3d::UnitX(), {0, 0, 0}) * scan_from_part *
+                   turned(turn_rad, Eigen::Vector3d::UnitZ(), {0, 0, 0});
+  const Eigen::Isometry3d part_from_scan = scan_from_part.inverse();
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, kNoise_mm);
+  RangeScan scan;
+  scan.world_from_scan = part_from_scan;
+  std::vector<std::int64_t> number(std::size_t{kSide} * kSide, -1);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const int row = i / kSide;
+    const Eigen::Vector3d from((i % kSide - kHalf) * kStep_mm, (row - kHalf) * kStep_mm, 300.0);
+    const auto hit =
+        part.first_hit(part_from_scan * from, part_from_scan.linear() * -Eigen::Vector3d::UnitZ());
+    if (!hit) continue;
+    number[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(scan.mesh.vertices_mm.size());
+    scan.mesh.vertices_mm.emplace_back(
+        Eigen::Vector3d(from.x(), from.y(), from.z() - hit->distance + noise(random))
+            .cast<float>());
+  }
+  for (int i = 0; joined && i + kSide + 1 < kSide * kSide; ++i) {
+    const auto at = [&](int j) { return number[static_cast<std::size_t>(j)]; };
+    const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+      if (a < 0 || b < 0 || c < 0 || i % kSide + 1 == kSide) return;
+      const auto z = [&](std::int64_t k) {
+        return scan.mesh.vertices_mm[static_cast<std::size_t>(k)].z();
+      };
+      if (std::max({z(a), z(b), z(c)}) - std::min({z(a), z(b), z(c)}) > 3.0F) return;
+      scan.mesh.triangles.push_back({static_cast<std::uint32_t>(a),
+                                     static_cast<std::uint32_t>(b),
+                                     static_cast<std::uint32_t>(c)});
+    };
+    add(at(i), at(i + 1), at(i + kSide + 1));
+    add(at(i), at(i + kSide + 1), at(i + kSide));
+  }
+  return scan;
+}
+
+std::vector<RangeScan> scans_of(const RayScene& part, bool joined) {
+  std::vector<RangeScan> scans;
+  for (unsigned i = 0; i < 6; ++i)
+    scans.push_back(scan_of(part, i * M_PI / 3.0, i + 1, joined));
+  return scans;
+}
+
+TEST(MergeScans, MakesOneSurfaceOfScansThatFit) {
+  const RayScene part(make_part("bust"));
+  const MergedScans pasted = merge_scans(scans_of(part, true), {.register_poses = false});
+  ASSERT_FALSE(pasted.mesh.empty());
+  EXPECT_LT(surface_error(pasted.mesh, part).rms_mm, 0.06);
+}
+
+TEST(MergeScans, PutsPosesRightThatAreOff) {
+  const RayScene part(make_part("bust"));
+  std::vector<RangeScan> scans = scans_of(part, true);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const Eigen::Vector3d axis(any(random), any(random), any(random));
+    const Eigen::Vector3d by(any(random), any(random), any(random));
+    scans[i].world_from_scan = turned(0.01, axis, by) * scans[i].world_from_scan;
+  }
+  const double off_mm =
+      surface_error(merge_scans(scans, {.register_poses = false}).mesh, part).rms_mm;
+  const MergedScans pasted = merge_scans(scans);
+  EXPECT_GT(off_mm, 0.2);
+  EXPECT_LT(surface_error(pasted.mesh, part).rms_mm, 0.07);
+  ASSERT_TRUE(pasted.registration.has_value());
+  EXPECT_LT(pasted.registration->rms_after_mm, 0.3 * pasted.registration->rms_before_mm);
+}
+
+/// Scans from all sides and a little above, each in a frame of its own that nobody knows.
+std::vector<RangeScan> lost_scans(const RayScene& part, unsigned count) {
+  std::vector<RangeScan> scans;
+  for (unsigned i = 0; i < count; ++i) {
+    RangeScan scan = scan_of(part, 2.0 * M_PI * i / count, i + 1, true, 0.6);
+    const Eigen::Isometry3d anyhow = turned(1.0 + i, {1.0, 0.3 * i, -0.5}, {10.0 * i, 30.0, -5.0});
+    for (Eigen::Vector3f& point : scan.mesh.vertices_mm)
+      point = (anyhow * point.cast<double>()).cast<float>();
+    scan.world_from_scan = Eigen::Isometry3d::Identity();
+    scan.path = "scan-" + std::to_string(i) + ".ply";
+    scans.push_back(std::move(scan));
+  }
+  return scans;
+}
+
+TEST(MergeScans, FindsUnknownPoses) {
+  const RayScene part(make_part("bust"));
+  const MergedScans pasted = merge_scans(lost_scans(part, 6));
+  ASSERT_TRUE(pasted.found_poses.has_value());
+  EXPECT_TRUE(pasted.found_poses->left_out.empty());
+  // The mesh is in the frame of the first scan: bring it back into the part's.
+  ASSERT_EQ(pasted.found_poses->reference, 0U);
+  const Eigen::Isometry3d anyhow = turned(1.0, {1.0, 0.0, -0.5}, {0.0, 30.0, -5.0});
+  const Eigen::Isometry3d part_from_mesh =
+      scan_of(part, 0.0, 1, true, 0.6).world_from_scan * anyhow.inverse();
+  Mesh mesh = pasted.mesh;
+  for (Eigen::Vector3f& point : mesh.vertices_mm)
+    point = (part_from_mesh * point.cast<double>()).cast<float>();
+  EXPECT_LT(surface_error(mesh, part).rms_mm, 0.07);
+}
+
+TEST(MergeScans, TakesPointsWithoutTriangles) {
+  const RayScene part(make_part("bust"));
+  const MergedScans pasted = merge_scans(scans_of(part, false), {.register_poses = false});
+  ASSERT_FALSE(pasted.mesh.empty());
+  EXPECT_LT(surface_error(pasted.mesh, part).p95_mm, 0.4);
+}
+
+TEST(MergeScans, RefusesAScanWithoutASurface) {
+  RangeScan empty;
+  empty.path = "empty.ply";
+  EXPECT_THROW(static_cast<void>(merge_scans({empty})), Error);
+}
+
+}  // namespace
+}  // namespace frangia

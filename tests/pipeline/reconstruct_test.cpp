@@ -1,0 +1,207 @@
+#include "frangia/pipeline/reconstruct.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "frangia/frames/png.h"
+#include "frangia/geometry/fit_sphere.h"
+#include "frangia/inspect/surface_error.h"
+
+#include "support/small_scan.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::small_scan;
+using testing::TemporaryFolder;
+
+SurfaceError error_of(const Reconstruction& result, const std::string& part) {
+  return surface_error(result.mesh, RayScene(make_part(part)));
+}
+
+TEST(Reconstruct, MeasuresABustWithADigitalProjector) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bust", "digital", 6);
+  const Reconstruction result = reconstruct(scan);
+  const SurfaceError error = error_of(result, "bust");
+  EXPECT_EQ(result.views, 6U);
+  EXPECT_GT(result.points, 50000U);
+  EXPECT_LT(error.rms_mm, 0.06);
+  EXPECT_LT(error.p99_mm, 0.3);
+}
+
+TEST(Reconstruct, ResolvesEveryFringeOrderOfThePapersRigByTheLaserSheet) {
+  // Half a fringe is 14 mm here: a single view off by one would show.
+  for (const char* part : {"shaft", "bracket", "blade"}) {
+    const TemporaryFolder folder;
+    const Scan scan = small_scan(folder.path(), part, "angular", 6);
+    const SurfaceError error = error_of(reconstruct(scan), part);
+    EXPECT_LT(error.rms_mm, 0.4) << part;
+    EXPECT_LT(error.max_mm, 4.0) << part;
+  }
+}
+
+TEST(Reconstruct, GivesTheSameBytesOnOneThreadAndOnTwo) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "angular", 4);
+  std::vector<Mesh> meshes;
+  for (const std::size_t threads : {1U, 2U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    meshes.push_back(reconstruct(scan).mesh);
+  }
+  ASSERT_EQ(meshes[0].vertices_mm.size(), meshes[1].vertices_mm.size());
+  EXPECT_EQ(meshes[0].vertices_mm, meshes[1].vertices_mm);
+  EXPECT_EQ(meshes[0].triangles, meshes[1].triangles);
+  EXPECT_EQ(meshes[0].sigma_mm, meshes[1].sigma_mm);
+}
+
+TEST(Reconstruct, MeasuresAsWellWithTheAxisAndTheAnglesOff) {
+  const TemporaryFolder exact;
+  const TemporaryFolder off;
+  SimulateOptions faults{.samples_per_px = 4};
+  faults.axis_offset_mm = 0.5;
+  faults.axis_tilt_rad = rad_from_deg(0.3);
+  faults.angle_error_rad = rad_from_deg(0.15);
+  const Reconstruction wanted = reconstruct(small_scan(exact.path(), "bracket", "digital", 6));
+  const Reconstruction found = reconstruct(small_scan(off.path(), "bracket", "digital", 6, faults));
+  EXPECT_LT(error_of(found, "bracket").rms_mm, 1.15 * error_of(wanted, "bracket").rms_mm);
+  ASSERT_TRUE(found.registration);
+  EXPECT_NEAR(found.registration->axis_moved_mm(), 0.5, 0.01);
+  EXPECT_NEAR(found.registration->axis_turned_rad(), rad_from_deg(0.3), rad_from_deg(0.02));
+}
+
+TEST(Reconstruct, LeavesTheTurntableTopOut) {
+  const TemporaryFolder folder;
+  SimulateOptions faults{.samples_per_px = 4};
+  faults.turntable_top_radius_mm = 70.0;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 4, faults);
+  const Reconstruction result = reconstruct(scan);
+  EXPECT_NEAR(result.turntable_top_height_mm, 0.0, 0.1);
+  EXPECT_LT(error_of(result, "bracket").max_mm, 2.0);
+  ReconstructOptions keep;
+  keep.keep_turntable_top = true;
+  EXPECT_GT(error_of(reconstruct(scan, keep), "bracket").max_mm, 10.0);
+}
+
+TEST(Reconstruct, ClipsBelowAHeightAndBeyondARadius) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 3);
+  ReconstructOptions options;
+  options.clip_below_mm = 10.0;
+  options.clip_radius_mm = 30.0;
+  for (const auto& vertex : reconstruct(scan, options).mesh.vertices_mm) {
+    EXPECT_GT(vertex.z(), 9.0F);
+    EXPECT_LT(vertex.head<2>().norm(), 31.0F);
+  }
+  options.clip_below_mm = 1000.0;
+  EXPECT_THROW(static_cast<void>(reconstruct(scan, options)), Error);
+}
+
+TEST(Reconstruct, NamesAViewOfAMovedPartAndLeavesItOut) {
+  const TemporaryFolder folder;
+  const TemporaryFolder moved_folder;
+  const Scan scan = small_scan(folder.path(), "bust", "digital", 8);
+  Scan plan = scan;
+  plan.folder = moved_folder.path();
+  plan.views = {scan.views[3]};
+  Mesh moved = make_part("bust");
+  for (Eigen::Vector3f& vertex : moved.vertices_mm)
+    vertex += Eigen::Vector3f(4.0F, -3.0F, 0.0F);
+  static_cast<void>(simulate_scan(moved, plan, {.samples_per_px = 4}));
+  for (const auto& entry : std::filesystem::directory_iterator(moved_folder.path() / "views/3")) {
+    std::filesystem::copy_file(entry.path(),
+                               folder.path() / "views/3" / entry.path().filename(),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("views/3 fits no other view"), std::string::npos) << warnings[0];
+  EXPECT_LT(error_of(result, "bust").rms_mm, 0.06);
+}
+
+void darken(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    Frame frame = read_png(entry.path());
+    std::visit([](auto& image) { std::fill(image.pixels().begin(), image.pixels().end(), 0); },
+               frame);
+    write_png(entry.path(), frame);
+  }
+}
+
+TEST(Reconstruct, LeavesADarkViewOutWithAWarningAndGoesOn) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "ball-bar", "digital", 4);
+  darken(folder.path() / "views/2");
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_EQ(result.views, 3U);
+  EXPECT_FALSE(result.mesh.empty());
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("views/2"), std::string::npos);
+}
+
+TEST(Reconstruct, RefusesAScanWithoutALitPixel) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "plate", "digital", 1);
+  darken(folder.path() / "views/0");
+  EXPECT_THROW(static_cast<void>(reconstruct(scan)), Error);
+}
+
+TEST(Reconstruct, IsRelativeWithAWarningWhenNothingFixesTheFringeOrder) {
+  const TemporaryFolder folder;
+  Scan scan = small_scan(folder.path(), "bust", "angular", 1);
+  scan.patterns.pop_back();  // the plane of light
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_FALSE(result.mesh.empty());
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("relative"), std::string::npos);
+}
+
+TEST(Reconstruct, StopsWhenAsked) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "plate", "digital", 1);
+  std::stop_source source;
+  source.request_stop();
+  frangia::Run run;
+  run.stop = source.get_token();
+  try {
+    static_cast<void>(reconstruct(scan, {}, run));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Cancelled);
+  }
+}
+
+TEST(Reconstruct, MeasuresTheBallBarOfTheSharedScans) {
+  const std::filesystem::path shared =
+      std::filesystem::path(FRANGIA_SOURCE_DIR) / "../shared/scans/balls";
+  if (!std::filesystem::exists(shared)) GTEST_SKIP() << "the shared scans are not on this machine";
+  const Reconstruction result = reconstruct(read_scan(shared));
+  for (const double y : {-35.0, 35.0}) {
+    std::vector<Eigen::Vector3d> near;
+    for (const auto& vertex : result.mesh.vertices_mm) {
+      const double from_centre = (vertex.cast<double>() - Eigen::Vector3d(0.0, y, 60.0)).norm();
+      if (vertex.z() > 47.0F && std::abs(from_centre - 20.0) < 0.5)
+        near.emplace_back(vertex.cast<double>());
+    }
+    const auto sphere = fit_sphere(near);
+    EXPECT_NEAR(2.0 * sphere.radius_mm, 40.0, 0.02);
+    EXPECT_LT(sphere.rms_mm, 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace frangia

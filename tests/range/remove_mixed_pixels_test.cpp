@@ -1,0 +1,82 @@
+#include "frangia/range/remove_mixed_pixels.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/missing.h"
+
+#include "range/flat_view.h"
+
+namespace frangia {
+namespace {
+
+struct Scene : FlatView {
+  std::size_t drop() { return remove_mixed_pixels(range, rays, status).size(); }
+};
+
+TEST(RemoveMixedPixels, KeepsEveryPointOfASlopedSurface) {
+  Scene scene;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x)
+      scene.range.depth_mm(x, y) = 480.0F + 1.5F * static_cast<float>(x);  // 72 degrees
+  }
+  EXPECT_EQ(scene.drop(), 0U);
+}
+
+TEST(RemoveMixedPixels, KeepsACrease) {
+  Scene scene;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x)
+      scene.range.depth_mm(x, y) = 480.0F + std::abs(static_cast<float>(x) - 40.0F);
+  }
+  EXPECT_EQ(scene.drop(), 0U);
+}
+
+TEST(RemoveMixedPixels, RemovesThePixelsBetweenTwoSurfaces) {
+  for (const float step_mm : {3.0F, 30.0F}) {
+    Scene scene;
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 41; x < 80; ++x)
+        scene.range.depth_mm(x, y) = 500.0F + step_mm;
+      scene.range.depth_mm(40, y) = 500.0F + 0.3F * step_mm;  // sees both
+    }
+    EXPECT_GT(scene.drop(), 0U);
+    for (int y = 0; y < 60; ++y) {
+      EXPECT_EQ(scene.status(40, y), PixelStatus::MixedPixel) << step_mm;
+      EXPECT_TRUE(std::isnan(scene.range.depth_mm(40, y)));
+      EXPECT_EQ(scene.status(36, y), PixelStatus::Measured);
+      EXPECT_EQ(scene.status(44, y), PixelStatus::Measured);
+    }
+  }
+}
+
+TEST(RemoveMixedPixels, RemovesTheOutermostPixelOfASilhouetteButNotAtASpeck) {
+  Scene scene;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 60; x < 80; ++x) {
+      scene.range.depth_mm(x, y) = kMissing;
+      scene.status(x, y) = PixelStatus::Unmodulated;
+    }
+  }
+  scene.range.depth_mm(20, 20) = kMissing;
+  scene.status(20, 20) = PixelStatus::Unmodulated;
+  scene.drop();
+  EXPECT_EQ(scene.status(59, 30), PixelStatus::MixedPixel);
+  EXPECT_EQ(scene.status(58, 30), PixelStatus::Measured);
+  EXPECT_EQ(scene.status(21, 20), PixelStatus::Measured);
+}
+
+TEST(RemoveMixedPixels, RemovesPatchesTooSmallToBeASurface) {
+  Scene scene;
+  for (float& depth : scene.range.depth_mm.pixels())
+    depth = kMissing;
+  for (int y = 20; y < 23; ++y) {
+    for (int x = 20; x < 23; ++x)
+      scene.range.depth_mm(x, y) = 500.0F;
+  }
+  EXPECT_EQ(scene.drop(), 9U);
+}
+
+}  // namespace
+}  // namespace frangia

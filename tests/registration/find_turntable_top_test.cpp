@@ -1,0 +1,78 @@
+#include "frangia/registration/find_turntable_top.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/analytic_views.h"
+
+namespace frangia {
+namespace {
+
+using testing::Shape;
+using testing::small_camera_model;
+
+constexpr double kDistance = 650.0;
+
+/// A turntable with its rim.
+Shape disc(double radius_mm, double top_mm) {
+  return [=](const Eigen::Vector3d& p) {
+    return std::max(p.head<2>().norm() - radius_mm, std::max(p.z() - top_mm, top_mm - 4.0 - p.z()));
+  };
+}
+
+ViewStore look_at(const Shape& scene) {
+  return testing::snapshots(scene, small_camera_model(), testing::around_table(6, 0.6, kDistance));
+}
+
+TEST(FindTurntableTop, FindsTheDiscThatThePartStandsOn) {
+  const Shape part = testing::box({15.0, 10.0, 12.0}, {3.0, 0.0, 10.0});
+  const auto turntable_top =
+      find_turntable_top(look_at(testing::both(part, disc(45.0, -2.0))), small_camera_model());
+  ASSERT_TRUE(turntable_top);
+  EXPECT_NEAR(turntable_top->normal().z(), 1.0, 1e-4);
+  EXPECT_NEAR(-turntable_top->offset(), -2.0, 0.02);
+}
+
+TEST(FindTurntableTop, FindsATiltedOne) {
+  const Eigen::Matrix3d tilt =
+      Eigen::AngleAxisd(rad_from_deg(1.0), Eigen::Vector3d::UnitX()).matrix();
+  const Shape scene = [=, flat = disc(45.0, 0.0)](const Eigen::Vector3d& p) {
+    return flat(tilt.transpose() * p);
+  };
+  const auto turntable_top = find_turntable_top(
+      look_at(testing::both(scene, testing::sphere(15.0, {0.0, 0.0, 14.0}))), small_camera_model());
+  ASSERT_TRUE(turntable_top);
+  EXPECT_GT(turntable_top->normal().dot(tilt.col(2)), std::cos(rad_from_deg(0.05)));
+}
+
+TEST(FindTurntableTop, IgnoresAFlatPart) {
+  const Shape foot = testing::box({30.0, 22.0, 4.0});  // level and at the bottom, but not round
+  const Shape post = testing::box({8.0, 8.0, 15.0}, {0.0, 0.0, 15.0});
+  EXPECT_FALSE(find_turntable_top(look_at(testing::both(foot, post)), small_camera_model()));
+}
+
+TEST(FindTurntableTop, IgnoresARoundShelf) {
+  const Shape post = testing::box({10.0, 10.0, 20.0});
+  EXPECT_FALSE(
+      find_turntable_top(look_at(testing::both(disc(30.0, 10.0), post)), small_camera_model()));
+}
+
+TEST(FindTurntableTop, IgnoresTheBaseOfABust) {
+  const Shape head = testing::sphere(24.0, {0.0, 0.0, 34.0});
+  EXPECT_FALSE(
+      find_turntable_top(look_at(testing::both(disc(30.0, 8.0), head)), small_camera_model()));
+}
+
+TEST(FindTurntableTop, FindsAHighOneThatIsMuchWiderThanThePart) {
+  const Shape ball = testing::sphere(12.0, {0.0, 0.0, 20.0});
+  EXPECT_TRUE(
+      find_turntable_top(look_at(testing::both(disc(45.0, 8.0), ball)), small_camera_model()));
+}
+
+TEST(FindTurntableTop, FindsNoneUnderASphere) {
+  EXPECT_FALSE(find_turntable_top(look_at(testing::sphere(30.0)), small_camera_model()));
+}
+
+}  // namespace
+}  // namespace frangia
