@@ -1,9 +1,11 @@
-# frangia_module(<name> [USES <module>...] [LIBS <target>...] [PRIVATE_LIBS <target>...])
+# frangia_module(<name> [USES <module>...] [LIBS <target>...] [PRIVATE_LIBS <target>...]
+#   [PRIVATE_HEADERS <target>...])
 #
 # Static library frangia::<name> from src/frangia/<name>/{,internal/}*.cpp; header-only when there is none.
 # USES names exactly the modules whose headers the module includes: tools/check_layers.py reads the same statement.
 # Headers directly in the folder are public and installed; those in internal/ are for the module and its tests.
-# PRIVATE_LIBS are included by sources only, so that their headers stay out of ours.
+# PRIVATE_LIBS are included by sources only, so that their headers stay out of ours; PRIVATE_HEADERS likewise, and hold
+# nothing to link: a program that uses the installed library does not need them.
 
 # What nearly every source includes is precompiled once, with the first module.
 set(FRANGIA_COMMON_HEADERS
@@ -11,11 +13,12 @@ set(FRANGIA_COMMON_HEADERS
   <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
 
 function(frangia_module name)
-  cmake_parse_arguments(ARG "" "" "USES;LIBS;PRIVATE_LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "USES;LIBS;PRIVATE_LIBS;PRIVATE_HEADERS" ${ARGN})
   set(dir ${PROJECT_SOURCE_DIR}/src/frangia/${name})
   file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/internal/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${dir}/*.h)
   list(TRANSFORM ARG_USES PREPEND "frangia::")
+  list(TRANSFORM ARG_PRIVATE_HEADERS REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
   if(sources)
     add_library(frangia_${name} STATIC ${sources})
     set(scope PUBLIC)
@@ -24,7 +27,8 @@ function(frangia_module name)
     else()
       target_precompile_headers(frangia_${name} REUSE_FROM frangia_core)
     endif()
-    target_link_libraries(frangia_${name} PRIVATE $<BUILD_INTERFACE:frangia::build_flags> ${ARG_PRIVATE_LIBS})
+    target_link_libraries(frangia_${name} PRIVATE
+      $<BUILD_INTERFACE:frangia::build_flags> ${ARG_PRIVATE_LIBS} ${ARG_PRIVATE_HEADERS})
   else()
     add_library(frangia_${name} INTERFACE)
     set(scope INTERFACE)

@@ -11,7 +11,7 @@ for statement in statements:
     name, *words = statement.split()
     keyword, allowed = None, []
     for word in words:
-        if word in ("USES", "LIBS", "PRIVATE_LIBS"):
+        if word in ("USES", "LIBS", "PRIVATE_LIBS", "PRIVATE_HEADERS"):
             keyword = word
         elif keyword == "USES":
             allowed.append(word)
