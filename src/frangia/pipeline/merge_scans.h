@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "frangia/core/run.h"
@@ -34,6 +35,8 @@ struct MergedScans {
   std::size_t points = 0;                 ///< of all scans, as they are looked at
   std::optional<FoundPoses> found_poses;  ///< when poses were found from the shape
   std::optional<PosesReport> registration;
+  /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
+  std::string untrusted_reason{};
 };
 
 /// Range scans of other programs, registered and pasted as views are.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
@@ -43,6 +44,8 @@ struct Reconstruction {
   std::optional<RegistrationReport> registration;  ///< none when it was not asked for or impossible
   double turntable_top_height_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was left out
+  /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
+  std::string untrusted_reason{};
 };
 
 /// The whole path of light: frames, phase, range, views, surface.
