@@ -15,7 +15,9 @@ inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
   return rad * (180.0 / kPi);
 }
 
-/// The same angle in (-pi, pi].
+/// Returns the equivalent angle in (-pi, pi].
+///
+/// units    rad
 [[nodiscard]] inline double wrap_rad(double angle_rad) {
   return angle_rad - kTwoPi * std::ceil((angle_rad - kPi) / kTwoPi);
 }

@@ -5,16 +5,18 @@
 
 namespace frangia {
 
-/// Whether a file must outlive a power cut from the moment it has its name.
+/// How strongly a committed file is protected against a power failure.
 enum class Durability {
-  Buffered,  ///< the system writes it when it likes
-  Synced     ///< it and its folder's entry are on the disk: tens of milliseconds
+  Buffered,  ///< the operating system chooses when to write to the disk
+  Synced     ///< the file and its folder entry are on the disk when `commit` returns; takes tens of
+             ///< milliseconds
 };
 
-/// A file that appears under its name only when it is whole.
+/// A file that appears under its final name only when it is complete.
 ///
-/// Bytes go to a temporary file in the same folder; `commit` flushes, checks and renames it. A file
-/// that is not committed leaves nothing behind.
+/// Bytes go to a temporary file in the same folder. `commit` flushes, checks and renames it. The
+/// destructor removes a temporary file that was not committed.
+///
 /// errors   Error(File) when the folder cannot be written or the disk is full
 class AtomicFile {
  public:
@@ -26,7 +28,7 @@ class AtomicFile {
   ~AtomicFile();
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
-  /// The temporary file's path, for a library that insists on opening it by name.
+  /// Path of the temporary file, for libraries that open files by name.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   void commit();
 

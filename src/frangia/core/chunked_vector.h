@@ -8,11 +8,11 @@
 
 namespace frangia {
 
-/// Many values in pieces of one size on huge pages. They stay where they are while others are
-/// added, and the memory that one kind gives back is what the next kind takes: to touch memory for
-/// the first time costs as much as to compute what it holds.
+/// A growing array stored in chunks of equal size on huge pages. Appending never moves existing
+/// elements. The pixel allocator reuses released chunks, because touching new memory for the first
+/// time costs as much as computing its content.
 ///
-/// missing  new values hold nothing yet, not even zeros
+/// missing  new elements are uninitialized
 template <typename T>
 class ChunkedVector {
  public:
@@ -39,7 +39,7 @@ class ChunkedVector {
   static constexpr std::size_t kBytes = std::size_t{4} << 20U;
   static constexpr std::size_t kChunkCapacity = kBytes / sizeof(T);
   static constexpr std::size_t kChunkSize =
-      std::bit_floor(kChunkCapacity);  ///< used: a shift finds it
+      std::bit_floor(kChunkCapacity);  ///< a power of two: the index of a chunk is a shift
   std::vector<LargeVector<T>> chunks_;
   std::size_t size_ = 0;
 };

@@ -9,7 +9,7 @@
 
 namespace frangia {
 
-/// Disjoint sets of the numbers below a count; each is known by its smallest member.
+/// Union-find over the integers below a count. The smallest member represents each set.
 ///
 /// source   Tarjan 1975, Efficiency of a Good But Not Linear Set Union Algorithm (path halving)
 class DisjointSets {

@@ -5,10 +5,10 @@
 
 namespace frangia {
 
-/// A text file that grows by whole lines, each on the disk when `append` returns. Opening it cuts
-/// off what an interrupted `append` left behind the last whole line.
+/// A text file that grows by whole lines. A line is on the disk when `append` returns. Opening the
+/// file removes an incomplete last line that an interrupted `append` left.
 ///
-/// errors   Error(File) that names the file, such as when the disk is full
+/// errors   Error(File) that names the file, for example when the disk is full
 class DurableLog {
  public:
   explicit DurableLog(std::filesystem::path path);
@@ -18,7 +18,7 @@ class DurableLog {
   DurableLog& operator=(DurableLog&&) = delete;
   ~DurableLog();
 
-  /// All that was there when it was opened: whole lines.
+  /// The lines that the file held when it was opened.
   [[nodiscard]] const std::string& text() const { return text_; }
   void append(const std::string& line);
 

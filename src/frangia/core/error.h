@@ -5,11 +5,11 @@
 
 namespace frangia {
 
-/// The reader of an error wants to know whose turn it is: theirs, the disk's, the device's.
+/// The cause of an error, which decides the exit code of the program.
 enum class ErrorKind { Input, File, Device, Numeric, Cancelled };
 
-/// The one exception type of the library. `what()` is one sentence that names the file, key or
-/// value and says what to do.
+/// The only exception type of the library. `what()` is one sentence that names the file, key or
+/// value and states what to do.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
@@ -19,7 +19,7 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// Throws Error(Input) unless `condition`. Use at the door of public functions.
+/// Throws Error(Input) unless `condition` holds. Public functions validate their arguments with it.
 inline void require(bool condition, const char* message) {
   if (!condition) throw Error(ErrorKind::Input, message);
 }

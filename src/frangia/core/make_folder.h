@@ -4,9 +4,9 @@
 
 namespace frangia {
 
-/// Makes a folder, and those above it.
+/// Creates a folder and its missing parents.
 ///
-/// errors   Error(File) that names it
+/// errors   Error(File) that names the folder
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace frangia

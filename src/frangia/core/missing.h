@@ -4,7 +4,7 @@
 
 namespace frangia {
 
-/// What stands where nothing was measured.
+/// The value of a missing measurement.
 inline constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace frangia

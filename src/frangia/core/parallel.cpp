@@ -14,8 +14,8 @@ namespace frangia {
 namespace {
 
 #ifdef __SANITIZE_THREAD__
-/// Debian's TBB is not built for the thread sanitizer, which sees races in it where there are none.
-/// Threads of the standard library find the races of our own work.
+/// Debian's TBB is not built for the thread sanitizer, which then reports false races. Standard
+/// threads let the sanitizer check the library's own code.
 template <typename Work>
 void parallel_indices(std::size_t count, const Work& work) {
   std::atomic<std::size_t> next = 0;

@@ -5,10 +5,11 @@
 
 namespace frangia {
 
-/// Calls `work(begin, end)` for [0, count) cut into chunks of `chunk`, on all cores.
+/// Calls `work(begin, end)` for consecutive chunks of [0, count), on all cores.
 ///
-/// The cuts depend on `count` and `chunk` only, never on the number of threads: work that writes
-/// its own chunk, and sums that are kept per chunk and added in order, give the same bytes always.
+/// The chunks depend on `count` and `chunk` only, not on the number of threads. Results are
+/// therefore identical for any number of threads if `work` writes its own chunk only and the caller
+/// adds per-chunk sums in order.
 void parallel_chunks(std::size_t count,
                      std::size_t chunk,
                      const std::function<void(std::size_t, std::size_t)>& work);

@@ -29,9 +29,8 @@ std::size_t rounded(std::size_t bytes) {
   return whole;
 }
 
-/// Large blocks that were given back, for the next image of that size: the images of one view are
-/// those of the view before. Part of the allocator, as malloc's own lists are: no result depends
-/// on it.
+/// Free large blocks, kept for the next image of the same size; consecutive views need the same
+/// images. Like the free lists of malloc it is part of the allocator, and no result depends on it.
 class BlockCache {
  public:
   void* take(std::size_t whole) {
@@ -45,7 +44,7 @@ class BlockCache {
     return memory;
   }
 
-  /// False where the block should be freed.
+  /// Returns false when the caller must free the block.
   bool put(void* memory, std::size_t whole) noexcept {
     if (whole > kMaxCachedBytes) return false;
     const std::scoped_lock lock(mutex_);
@@ -80,18 +79,18 @@ class BlockCache {
   }
 
   std::mutex mutex_;
-  std::vector<Block> blocks_;     ///< the last given back comes last
-  std::size_t cached_bytes_ = 0;  ///< bytes
+  std::vector<Block> blocks_;  ///< the most recently freed block is the last
+  std::size_t cached_bytes_ = 0;
 };
 
 BlockCache& block_cache() {
-  // Never destroyed: an image of static duration may outlive it.
+  // Never destroyed, because an image of static storage duration may outlive it.
   static BlockCache* const block_cache = new BlockCache;  // NOLINT(cppcoreguidelines-owning-memory)
   return *block_cache;
 }
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr bool kCacheBlocks = false;  // so that a use after free shows
+constexpr bool kCacheBlocks = false;  // keeps use-after-free errors detectable
 #else
 constexpr bool kCacheBlocks = true;
 #endif
@@ -103,11 +102,11 @@ void* allocate_pixels(std::size_t bytes) {
   if (kCacheBlocks && is_large(bytes)) {
     if (void* memory = block_cache().take(whole)) return memory;
   }
-  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): free_pixels gives it back
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): free_pixels frees it
   void* memory = std::aligned_alloc(is_large(bytes) ? kHugePage : kCacheLine, whole);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-  // A wish: without huge pages everything works as before.
+  // Advice only: the memory works without huge pages, too.
   if (is_large(bytes)) static_cast<void>(::madvise(memory, whole, MADV_HUGEPAGE));
 #endif
   return memory;

@@ -7,14 +7,16 @@
 
 namespace frangia {
 
-/// Memory for `bytes`, never null; large ones on huge pages where the system has them, and used
-/// again once they are given back, because touching 20 million pixels for the first time costs more
-/// than computing them. At most 768 MB are kept for that.
+/// Allocates `bytes`; never returns null. Blocks of 4 MB or more lie on huge pages where the system
+/// has them, and `free_pixels` keeps up to 768 MB of them for reuse: touching 20 million pixels for
+/// the first time costs more than computing them.
+///
+/// errors   std::bad_alloc
 [[nodiscard]] void* allocate_pixels(std::size_t bytes);
-/// Gives back what `allocate_pixels(bytes)` gave.
+/// Frees memory that `allocate_pixels(bytes)` returned. `bytes` must be the same.
 void free_pixels(void* memory, std::size_t bytes) noexcept;
 
-/// The allocator of an Image: elements made without a value stay uninitialised.
+/// The allocator of Image. Elements constructed without a value stay uninitialized.
 template <typename T>
 struct PixelAllocator {
   using value_type = T;
@@ -42,7 +44,7 @@ struct PixelAllocator {
   }
 };
 
-/// For millions of values; those made without a value stay uninitialised.
+/// A vector for millions of values. Elements constructed without a value stay uninitialized.
 template <typename T>
 using LargeVector = std::vector<T, PixelAllocator<T>>;
 

@@ -7,8 +7,8 @@
 
 namespace frangia {
 
-/// Numbers that depend on their index only, not on the order in which they are asked for: the same
-/// for any number of threads.
+/// Hashes a counter to 64 random bits. The result depends on the index only, not on the order of
+/// the calls, so it is the same for any number of threads.
 ///
 /// source   splitmix64 (Steele, Lea & Flood 2014)
 [[nodiscard]] constexpr std::uint64_t hash(std::uint64_t value) {
@@ -18,17 +18,19 @@ namespace frangia {
   return value ^ (value >> 31U);
 }
 
-/// A stream of its own for each index below another: hash(hash(seed, view), pattern) ...
+/// Derives an independent stream for each index: hash(hash(seed, view), pattern), and so on.
 [[nodiscard]] constexpr std::uint64_t hash(std::uint64_t stream, std::uint64_t index) {
   return hash(stream ^ hash(index));
 }
 
-/// Even in [0, 1).
+/// Returns a uniform number in [0, 1).
 [[nodiscard]] constexpr double uniform_from(std::uint64_t bits) {
   return static_cast<double>(bits >> 11U) * 0x1.0p-53;
 }
 
-/// Normal with mean 0 and variance 1 (Box & Muller 1958).
+/// Returns a normal number with mean 0 and variance 1.
+///
+/// source   Box & Muller 1958
 [[nodiscard]] inline double normal_from(std::uint64_t bits) {
   const double u = uniform_from(bits) + 0x1.0p-54;
   return std::sqrt(-2.0 * std::log(u)) * std::cos(kTwoPi * uniform_from(hash(bits)));

@@ -2,8 +2,8 @@
 
 namespace frangia {
 
-/// Gives the memory that is kept for the next image back to the system: at the end of a stage whose
-/// images the next one does not have.
+/// Returns the pixel allocator's cached blocks to the system. Call it at the end of a stage when
+/// the next stage needs images of other sizes.
 void release_cached_pixels() noexcept;
 
 }  // namespace frangia

@@ -8,17 +8,17 @@
 
 namespace frangia {
 
-/// How a long task is watched and stopped from outside, and where it says what the user should
-/// know: the library itself never prints. Cheap to copy; the default does none of it.
-/// All functions are called from the thread that started the task.
+/// Progress, cancellation and messages of a long task. The library itself never prints. Copies are
+/// cheap; a default-constructed Run ignores everything. All functions are called from the thread
+/// that started the task.
 struct Run {
   std::stop_token stop;
   std::function<void(double)> progress;                ///< called with 0..1
   std::function<void(const std::string&)> on_stage;    ///< a stage begins: "phase", "surface", ...
-  std::function<void(const std::string&)> on_warning;  ///< a sentence: goes on, but tell the user
-  std::function<void(const std::string&)> on_note;     ///< a sentence: what was chosen and why
+  std::function<void(const std::string&)> on_warning;  ///< a warning sentence
+  std::function<void(const std::string&)> on_note;     ///< a sentence of information
 
-  /// Call between units of work. Throws Error(Cancelled) once a stop was asked for.
+  /// Throws Error(Cancelled) once a stop is requested. Call it between units of work.
   void check() const {
     if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "stopped by the user");
   }

@@ -4,10 +4,10 @@
 
 namespace frangia {
 
-/// x of `matrix` x = `right`, as normal equations want it.
+/// Solves `matrix` x = `right` for symmetric positive definite normal equations.
 ///
-/// shape    n x n, symmetric and positive definite; its lower triangle alone is read
-/// source   Cholesky's L D L^T with pivots, by Eigen; compiled once, for it takes long
+/// shape    n x n; only the lower triangle is read
+/// source   pivoted Cholesky L D L^T of Eigen, compiled once because its templates compile slowly
 [[nodiscard]] Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix,
                                               const Eigen::VectorXd& right);
 

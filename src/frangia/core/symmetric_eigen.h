@@ -4,16 +4,17 @@
 
 namespace frangia {
 
-/// Eigenvalues, rising, and the eigenvector of each in the column of its number.
+/// Eigenvalues in ascending order. Column i of `vectors` is the eigenvector of `values(i)`.
 template <int n>
 struct SymmetricEigen {
   Eigen::Matrix<double, n, 1> values;
   Eigen::Matrix<double, n, n> vectors;
 };
 
-/// Of a symmetric matrix, whose lower triangle alone is read.
+/// Computes the eigendecomposition of a symmetric matrix.
 ///
-/// source   tridiagonal QR, by Eigen; compiled once, for it takes long
+/// shape    n x n; only the lower triangle is read
+/// source   tridiagonal QR of Eigen, compiled once because its templates compile slowly
 [[nodiscard]] SymmetricEigen<3> symmetric_eigen(const Eigen::Matrix3d& matrix);
 [[nodiscard]] SymmetricEigen<Eigen::Dynamic> symmetric_eigen(const Eigen::MatrixXd& matrix);
 

@@ -10,7 +10,7 @@ namespace {
 
 using ColorStops = std::array<Eigen::Vector3f, 9>;
 
-/// Viridis of matplotlib (Smith & van der Walt 2015) at every eighth.
+/// Viridis of matplotlib (Smith & van der Walt 2015), sampled at multiples of 1/8.
 const ColorStops& viridis() {
   static const ColorStops stops{{{0.267F, 0.005F, 0.329F},
                                  {0.279F, 0.175F, 0.483F},
@@ -24,7 +24,7 @@ const ColorStops& viridis() {
   return stops;
 }
 
-/// Moreland's smooth cool-warm map (2009) at every eighth, its middle a light grey.
+/// Moreland's smooth cool-warm map (2009), sampled at multiples of 1/8; the centre is light grey.
 const ColorStops& cool_warm() {
   static const ColorStops stops{{{0.230F, 0.299F, 0.754F},
                                  {0.384F, 0.510F, 0.918F},

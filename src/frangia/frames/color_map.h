@@ -5,12 +5,13 @@
 namespace frangia {
 
 enum class ColorMap {
-  Gray,      ///< black to white: the saw-tooth of a wrapped phase reads best so
-  Viridis,   ///< from dark blue to yellow: sizes
-  Diverging  ///< from blue over white to red: deviations about zero
+  Gray,      ///< black to white, for wrapped phase
+  Viridis,   ///< dark blue to yellow, for magnitudes
+  Diverging  ///< blue over white to red, for signed deviations
 };
 
-/// The colour of a value between 0 and 1; beyond, the end's colour.
+/// Returns the colour of a value between 0 and 1. Values outside this range get the colour of the
+/// nearer end.
 ///
 /// units    red, green, blue from 0 to 1
 /// missing  NaN is grey

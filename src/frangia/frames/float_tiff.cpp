@@ -28,7 +28,7 @@ void write_float_tiff(const std::filesystem::path& path, const Image<float>& ima
     TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(tiff.get(), 0));
-    Image<float> copy = image;  // libtiff takes the row without const
+    Image<float> copy = image;  // libtiff takes a non-const row
     for (int y = 0; y < image.height() && written; ++y) {
       written = TIFFWriteScanline(tiff.get(), &copy(0, y), static_cast<std::uint32_t>(y), 0) == 1;
     }

@@ -6,10 +6,10 @@
 
 namespace frangia {
 
-/// Writes numbers as a 32-bit floating point TIFF (ImageJ, Fiji, GIMP and OpenCV read it).
+/// Writes an image as a 32-bit floating-point TIFF, which ImageJ, Fiji, GIMP and OpenCV read.
 ///
 /// missing  NaN stays NaN
-/// errors   Error(File) when it cannot be written
+/// errors   Error(File) when the file cannot be written
 void write_float_tiff(const std::filesystem::path& path, const Image<float>& image);
 
 }  // namespace frangia

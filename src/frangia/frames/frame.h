@@ -7,8 +7,8 @@
 
 namespace frangia {
 
-/// One grey image as the camera gave it. Eight-bit frames stay eight-bit: memory traffic is what
-/// decoding costs.
+/// A grey image as recorded by the camera. Eight-bit frames stay eight-bit, because memory traffic
+/// limits the speed of decoding.
 using Frame = std::variant<Image<std::uint8_t>, Image<std::uint16_t>>;
 
 [[nodiscard]] inline int width_of(const Frame& frame) {
@@ -17,7 +17,7 @@ using Frame = std::variant<Image<std::uint8_t>, Image<std::uint16_t>>;
 [[nodiscard]] inline int height_of(const Frame& frame) {
   return std::visit([](const auto& image) { return image.height(); }, frame);
 }
-/// The value of one pixel in counts, whatever the depth. For loops over pixels, visit instead.
+/// Returns the value of one pixel in counts. In loops over pixels, visit the variant once instead.
 [[nodiscard]] inline int counts_at(const Frame& frame, int x, int y) {
   return std::visit([&](const auto& image) { return static_cast<int>(image(x, y)); }, frame);
 }

@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// `color_of` as a pixel.
+/// Returns `color_of` as an 8-bit pixel.
 [[nodiscard]] Rgb pixel_of(ColorMap map, float value);
 
 struct ValueRange {
@@ -14,11 +14,14 @@ struct ValueRange {
   float high = 1.0F;
 };
 
-/// From the 1st to the 99th percentile of what is not missing, so that a few strays do not take the
-/// whole scale.
+/// Returns the 1st and 99th percentiles, so that a few outliers do not determine the scale.
+///
+/// missing  NaN values are ignored
 [[nodiscard]] ValueRange percentile_range(const Image<float>& values);
 
-/// A map as a picture. Missing values are a dark blue-grey that no color map holds.
+/// Renders a map of values as a picture.
+///
+/// missing  NaN becomes a dark blue-grey that occurs in no color map
 [[nodiscard]] Image<Rgb> map_picture(const Image<float>& values, ValueRange range, ColorMap map);
 
 }  // namespace frangia

@@ -4,10 +4,13 @@
 
 namespace frangia {
 
-/// Camera noise: variance of one pixel that reads `counts`, in counts squared.
+/// Camera noise: the variance of a pixel as a linear function of its counts.
 ///
-/// var = floor + slope * counts, with floor = (read noise / gain)^2 + 1/12 of quantisation and
-/// slope = 1 / gain of the shot noise, gain in electrons per count.
+/// var = floor + slope * counts, where floor = (read noise / gain)^2 + 1/12 (quantization) and
+/// slope = 1 / gain (shot noise). The gain is in electrons per count.
+///
+/// units    counts squared
+/// source   EMVA 1288, photon transfer
 struct NoiseModel {
   double floor_counts2 = 1.0 / 12.0;
   double slope_counts = 0.0;

@@ -10,20 +10,20 @@
 
 namespace frangia {
 
-/// A grey PNG of up to 8 bits, or of 16.
+/// Reads a grey PNG. Depths up to 8 bits give an 8-bit frame, 16 bits a 16-bit frame.
 ///
-/// errors   Error(Input) that names the file: missing, not a PNG, truncated, in colour, or larger
-///          than 65 535 pixels a side
+/// errors   Error(Input) that names the file when it is missing, not a PNG, truncated, in colour,
+///          or larger than 65 535 pixels a side
 [[nodiscard]] Frame read_png(const std::filesystem::path& path);
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// The bytes of a grey PNG, for whoever keeps them with a checksum.
+/// Encodes a frame as the bytes of a grey PNG.
 ///
 /// errors   Error(File) when it cannot be encoded
 [[nodiscard]] std::vector<char> encode_png(const Frame& frame);
 
-/// Writes a PNG whole or not at all.
+/// Writes a PNG atomically.
 ///
 /// errors   Error(File) when it cannot be written
 void write_png(const std::filesystem::path& path, const Frame& frame);

@@ -32,7 +32,7 @@ std::vector<double> fringe_sequence(const std::string& name, double fringes) {
       less *= 2.0;
     }
   } else if (name == "heterodyne") {
-    // Beats of one fringe, and of as many as lie halfway to the finest.
+    // The beats have one fringe and about sqrt(N) fringes, the geometric mean of 1 and N.
     all.push_back(std::max(1.0, fringes - 1.0));
     all.push_back(std::max(1.0, fringes - std::max(2.0, std::round(std::sqrt(fringes)))));
   } else {

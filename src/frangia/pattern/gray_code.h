@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-/// The reflected binary code: neighbouring numbers differ in one bit, so that a pixel on the edge
-/// between two stripes reads one of the two, never a third.
+/// The reflected binary code. Neighbouring numbers differ in one bit, so a pixel on the edge
+/// between two stripes reads one of the two numbers.
 ///
 /// source   Gray 1953, US patent 2 632 058
 [[nodiscard]] constexpr std::uint32_t binary_to_gray(std::uint32_t number) {
@@ -19,14 +19,14 @@ namespace frangia {
   return gray;
 }
 
-/// Whether a frame of a Gray code pattern lights the stripe at this column (or row) of the
-/// projector; columns have their number in their centre.
+/// Returns whether a frame of a Gray code pattern lights the stripe at `column` (or row) of the
+/// projector. Column k has its centre at k.
 [[nodiscard]] bool is_stripe_bright(const Pattern& gray, int frame, double column);
 
-/// Gray code whose stripes are half a fringe wide, over `columns` of the projector: a stripe read
-/// as its neighbour still tells the fringe.
+/// Returns a Gray code over `columns` projector pixels with stripes half a fringe wide. A stripe
+/// misread as its neighbour then still gives the correct fringe order.
 ///
-/// errors   Error(Input) when the stripes are not finite and at least a pixel wide
+/// errors   Error(Input) unless half a fringe is finite and at least one pixel wide
 [[nodiscard]] Pattern gray_code_for_fringes(const Pattern& fringes, double columns, bool inverted);
 
 }  // namespace frangia

@@ -6,34 +6,34 @@
 namespace frangia {
 
 enum class PatternKind {
-  Fringe,  ///< sinusoidal fringes, one frame a shift
-  Line,    ///< the single plane of light, one frame
-  Gray,    ///< Gray code of the projector's columns or rows, one frame a bit
-  Ramp     ///< the whole field evenly lit, one frame a level
+  Fringe,  ///< sinusoidal fringes, one frame per shift
+  Line,    ///< the laser sheet, one frame
+  Gray,    ///< Gray code of the projector's columns or rows, one frame per bit
+  Ramp     ///< a uniformly lit field, one frame per level
 };
 
-/// Which way the fringes run. Vertical fringes number the projector's columns.
+/// Orientation of the fringes. The phase of vertical fringes varies along the projector's columns.
 enum class FringeDirection { Vertical, Horizontal };
 
-/// One thing the projector shows, in one or more frames: a [[pattern]] of scan.toml.
+/// A pattern that the projector shows in one or more frames; a [[pattern]] table of scan.toml.
 struct Pattern {
-  std::string name;  ///< also the beginning of its files' names
+  std::string name;  ///< also the prefix of its file names
   PatternKind kind = PatternKind::Fringe;
   FringeDirection direction = FringeDirection::Vertical;
-  double fringes_per_degree = 0.0;   ///< angular projector; 0 for a pinhole one
-  double period_px = 0.0;            ///< pinhole projector; 0 for an angular one
-  std::vector<double> shifts_rad;    ///< sigma_i of the paper's equation (1), one a frame
-  int bits = 0;                      ///< of Gray code, the most significant shown first
-  double stripe_px = 1.0;            ///< Gray code: columns that share a number
-  bool inverted = false;             ///< Gray code: all frames follow once more, inverted
-  std::vector<double> levels;        ///< of a ramp, as shares of full light
-  std::vector<double> exposures_ms;  ///< each frame is taken at each; empty: at one, not told
+  double fringes_per_degree = 0.0;   ///< for an angular projector; 0 for a pinhole one
+  double period_px = 0.0;            ///< for a pinhole projector; 0 for an angular one
+  std::vector<double> shifts_rad;    ///< sigma_i of the paper's equation (1), one per frame
+  int bits = 0;                      ///< Gray code: number of bits, most significant first
+  double stripe_px = 1.0;            ///< Gray code: width of a stripe
+  bool inverted = false;             ///< Gray code: the inverted frames follow the frames
+  std::vector<double> levels;        ///< ramp: projector levels from 0 to 1
+  std::vector<double> exposures_ms;  ///< exposures of each frame; empty: one, of unknown length
 
-  /// Fringes per degree, or per projector pixel.
+  /// Spatial frequency in fringes per degree (angular) or per projector pixel (pinhole).
   [[nodiscard]] double fringes_per_unit() const {
     return fringes_per_degree > 0.0 ? fringes_per_degree : 1.0 / period_px;
   }
-  /// Frames at one exposure.
+  /// Number of frames at one exposure.
   [[nodiscard]] int frame_count() const {
     switch (kind) {
       case PatternKind::Line:

@@ -17,7 +17,7 @@ namespace {
   throw Error(ErrorKind::Input, fmt::format("pattern \"{}\" {}", pattern.name, why));
 }
 
-/// The light at a position across the fringes, in pixels.
+/// Light from 0 to 1 at a position across the fringes, in pixels.
 float light_at(const Pattern& pattern, int frame, int position) {
   const auto index = static_cast<std::size_t>(frame);
   if (pattern.kind == PatternKind::Ramp) return static_cast<float>(pattern.levels[index]);

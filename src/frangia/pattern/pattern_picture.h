@@ -5,11 +5,12 @@
 
 namespace frangia {
 
-/// What a digital projector must show for one frame of a pattern.
+/// Renders one frame of a pattern for a digital projector.
 ///
-/// shape    width x height pixels of the projector
-/// units    light, linear: 0 dark, 1 as bright as can be
-/// errors   Error(Input) for a line, for fringes without a period, or a frame that there is not
+/// shape    width x height projector pixels
+/// units    linear light from 0 (dark) to 1 (full)
+/// errors   Error(Input) for a pattern of kind line, for fringes without a period, or for a frame
+///          number out of range
 [[nodiscard]] Image<float> pattern_picture(const Pattern& pattern,
                                            int frame,
                                            int width,

@@ -13,7 +13,7 @@ constexpr double kSmall = 1e-5;
 
 struct Wave {
   int harmonic = 2;
-  double share = 0.0;  ///< of the harmonic, in units of B
+  double share = 0.0;  ///< amplitude of the harmonic relative to B
 };
 
 std::vector<double> frames_of(double phi, const std::vector<double>& shifts, Wave wave = {}) {
@@ -23,7 +23,7 @@ std::vector<double> frames_of(double phi, const std::vector<double>& shifts, Wav
   return counts;
 }
 
-/// Calls `use(phi)` for phases all over the fringe, none of them where a formula divides by zero.
+/// Calls `use(phi)` for phases over one fringe, offset so that no formula divides by zero.
 template <typename Use>
 void for_each_phase(const Use& use) {
   for (int i = 0; i < kPhases; ++i)

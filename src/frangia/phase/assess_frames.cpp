@@ -16,7 +16,8 @@ constexpr std::size_t kSamples = 100'000;
 /// Beyond this the residual is no noise: a noise model is good to some 10 %.
 constexpr double kMaxResidualRatio = 1.6;
 
-/// What each frame holds beyond the waves of `shifts`, as weights of the frames: a row a frame.
+/// Weights that give each frame's residual from the least-squares fringe of `shifts`; one row per
+/// frame.
 std::vector<std::vector<double>> residual_weights(const std::vector<double>& shifts) {
   const PhaseAlgorithm fit = least_squares(shifts);
   std::vector<std::vector<double>> rows;
@@ -31,8 +32,8 @@ std::vector<std::vector<double>> residual_weights(const std::vector<double>& shi
   return rows;
 }
 
-/// Median, over measured pixels, of the residual's square over its expectation, scaled to be 1 for
-/// Gaussian noise of one degree of freedom or more.
+/// Mean over the measured pixels of the squared residual over its expectation; 1 for camera noise
+/// alone.
 double residual_ratio(const FrameStack& stack,
                       const std::vector<double>& shifts,
                       const WrappedPhase& map,

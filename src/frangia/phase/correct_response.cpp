@@ -11,10 +11,11 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kPhases = 2880;          ///< of the projector, over a fringe
-constexpr std::size_t kTableIntervals = 1024;  ///< of the table
+constexpr std::size_t kPhases =
+    2880;  ///< projected phases per fringe at which the error is computed
+constexpr std::size_t kTableIntervals = 1024;  ///< intervals of the table
 
-/// What the algorithm finds of a phase.
+/// The phase that the algorithm measures for a projected phase.
 double measured_phase(double phase,
                       const ResponseCurve& response,
                       const PhaseAlgorithm& algorithm,
@@ -31,7 +32,7 @@ double measured_phase(double phase,
 ResponseTable response_table(const ResponseCurve& response,
                              const PhaseAlgorithm& algorithm,
                              const std::vector<double>& shifts_rad) {
-  // Unwrapped from the first on, so that it rises over the whole fringe.
+  // The measured phase is unwrapped, so that it rises over the whole fringe.
   std::vector<double> true_phase;
   std::vector<double> found;
   for (std::size_t i = 0; i <= kPhases; ++i) {

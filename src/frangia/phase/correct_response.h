@@ -8,22 +8,24 @@
 
 namespace frangia {
 
-/// What a projector that is not linear adds to the phase that an algorithm finds. It depends on
-/// that phase alone: the light and the reflectance of a pixel scale all frames alike.
+/// The phase error that a nonlinear projector response causes in an algorithm. It depends on the
+/// measured phase only, because the light and the reflectance of a pixel scale all frames alike.
 struct ResponseTable {
-  /// rad, to be added; at evenly spaced phases from -pi to pi, both ends.
+  /// Correction to add, at evenly spaced phases from -pi to pi inclusive.
   std::vector<float> correction_rad;
 };
 
-/// The table of fringes of full contrast shown without a look-up table.
+/// Computes the correction for fringes of full contrast that are shown without a look-up table.
 ///
-/// errors   Error(Input) when the response is so bent that two phases look alike
+/// errors   Error(Input) when the response is so nonlinear that two phases measure alike
 /// source   Zhang and Yau 2007
 [[nodiscard]] ResponseTable response_table(const ResponseCurve& response,
                                            const PhaseAlgorithm& algorithm,
                                            const std::vector<double>& shifts_rad);
 
-/// Takes the projector's response off a wrapped phase, and what it stretches off its sigma.
+/// Corrects a wrapped phase and scales its sigma by the slope of the correction.
+///
+/// missing  NaN stays NaN
 void correct_response(const ResponseTable& table, WrappedPhase& phase);
 
 }  // namespace frangia

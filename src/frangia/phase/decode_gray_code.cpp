@@ -47,10 +47,10 @@ void check(std::span<const FrameStack> gray, const WrappedPhase& fringes) {
   }
 }
 
-/// A bit as read, by how many of its own sigmas it stands off the threshold.
+/// One decoded bit.
 struct Bit {
   bool bright = false;
-  double chance = 0.5;  ///< that it was misread
+  double chance = 0.5;  ///< probability that the bit is misread
 };
 
 class GrayCodeReader {
@@ -60,7 +60,7 @@ class GrayCodeReader {
                  const NoiseModel& noise)
       : gray_(gray), fringes_(fringes), noise_(noise), code_(gray.front().pattern) {}
 
-  /// Phase, sigma and chance of a wrong order of one measured pixel.
+  /// The absolute phase of a measured pixel and the probability of a wrong order.
   struct DecodedPixel {
     double rad;
     double chance;
@@ -76,7 +76,8 @@ class GrayCodeReader {
     const double sigma = fringes_.sigma_rad(x, y);
     const double expected = expected_rad(code);
     const double order = std::round((expected - wrapped) / kTwoPi);
-    // The stripe's own half width is no noise: what is left to half a fringe beyond it is margin.
+    // The distance from the stripe's centre is geometry, not noise; the rest of the half fringe is
+    // margin.
     const double off = std::abs(wrapped + kTwoPi * order - expected);
     double chance = 0.5 * std::erfc((kPi - off) / (sigma * std::numbers::sqrt2));
     for (int i = 0; i < code_.bits; ++i) {
@@ -88,13 +89,13 @@ class GrayCodeReader {
   }
 
  private:
-  /// Phase in the middle of the stripe that a code names.
+  /// Phase at the centre of the stripe with this code.
   [[nodiscard]] double expected_rad(std::uint32_t code) const {
     const double column = (gray_to_binary(code) + 0.5) * code_.stripe_px - 0.5;
     return kTwoPi * column / fringes_.pattern.period_px;
   }
   [[nodiscard]] Bit read(int i, int x, int y) const {
-    double best = 0.0;  // of the exposure that tells most
+    double best = 0.0;  // of the exposure with the largest margin
     for (const FrameStack& stack : gray_) {
       const double counts = counts_at(stack.frames[static_cast<std::size_t>(i)], x, y);
       double threshold = 0.0;

@@ -9,18 +9,19 @@
 
 namespace frangia {
 
-/// Absolute phase of fringes whose numbers Gray code tells.
+/// Computes the absolute phase of fringes whose orders a Gray code gives.
 ///
-/// A bit is read from a frame and its inverse, or from the frame and the fringes' own mean. The
-/// stripe only has to lie within half a fringe of the phase: with stripes of half a fringe, one
-/// that is read as its neighbour at an edge makes no difference. The chance of a wrong order is the
-/// sum, over the bits that would change it, of the chance that the bit was misread, and of the
-/// phase being that far off.
+/// Each bit is the comparison of a frame with its inverse, or with the mean of the fringes. The
+/// stripe only has to lie within half a fringe of the phase. With stripes half a fringe wide,
+/// misreading a stripe as its neighbour therefore does not change the order. The probability of a
+/// wrong order sums, over the bits that would change the order, the probability that the bit is
+/// misread, and adds the probability that the phase is wrong by the remaining margin.
 ///
-/// shape    `gray` holds the code, a stack an exposure, each w x h as `fringes`
-/// missing  a pixel missing in `fringes`, or whose chance of a wrong order is over the limit
-/// errors   Error(Input) when stripes are wider than a fringe, or of another size or direction
-/// source   Sansoni, Carocci and Rodella 1999 for the half fringe
+/// shape    `gray` has one stack per exposure; all frames w x h as `fringes`
+/// missing  a pixel missing in `fringes`, or whose probability of a wrong order exceeds
+///          `options.max_wrong_order`, is NaN; its status states the reason
+/// errors   Error(Input) when stripes are wider than a fringe, or when size or direction differ
+/// source   Sansoni, Carocci and Rodella 1999 for the stripes of half a fringe
 [[nodiscard]] AbsolutePhase decode_gray_code(std::span<const FrameStack> gray,
                                              const WrappedPhase& fringes,
                                              const NoiseModel& noise,

@@ -21,13 +21,13 @@
 namespace frangia {
 namespace {
 
-/// Not a power of two: lanes that are a power of two apart share one set of the cache's lines.
+/// Not a power of two: lanes whose distance is a power of two share one cache set.
 constexpr std::size_t kLane = kTilePixels + 16;
 constexpr std::size_t kChunk = 64 * kTilePixels;
 
 using TileInts = std::array<std::int32_t, kTilePixels>;
 
-/// One over the variance of the phase of one map, and the least of it so far.
+/// The inverse variance of one map's phase, and its minimum over the maps so far.
 FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
                                        std::size_t n,
                                        TileNoise f,
@@ -46,7 +46,7 @@ FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
   }
 }
 
-/// Beyond which a pixel is lost.
+/// Limits beyond which a pixel has no phase.
 struct Limits {
   float min_precision;
   std::int32_t white;
@@ -93,7 +93,7 @@ FRANGIA_VECTORIZED void narrow(const std::int32_t* __restrict status,
     out[i] = static_cast<PixelStatus>(status[i]);
 }
 
-/// The work of one thread: tile by tile, all maps of each.
+/// Decodes all maps, tile by tile, in one thread.
 class TileDecoder {
  public:
   TileDecoder(std::span<const SequenceFrames> maps,
@@ -153,7 +153,7 @@ class TileDecoder {
   std::vector<float> lanes_;  ///< phase and precision of each map
   std::vector<const float*> phase_;
   std::vector<const float*> precision_;
-  std::vector<bool> is_four_step_;  ///< whether each map's frames are a quarter turn apart
+  std::vector<bool> is_four_step_;  ///< whether each map's frames are 90 degrees apart
   alignas(64) Lane lowest_precision_{};
   TileInts status_{};
   TileInts uncertain_{};

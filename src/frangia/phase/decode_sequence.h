@@ -12,7 +12,7 @@
 
 namespace frangia {
 
-/// The frames of one map of a sequence, and the algorithm for them.
+/// The frames of one map of a sequence and the algorithm that decodes them.
 struct SequenceFrames {
   const FrameStack* stack = nullptr;
   PhaseAlgorithm algorithm;
@@ -23,13 +23,14 @@ struct SequenceOptions {
   TemporalUnwrapOptions temporal;
 };
 
-/// `wrap_phase` of every map and `unwrap_sequence` in one pass over the frames: the maps between
-/// live in the cache only, which is what the time goes into.
+/// Performs `wrap_phase` on every map and `unwrap_sequence` on the result in one pass over the
+/// frames. Intermediate maps stay in the cache, because memory traffic dominates the time.
 ///
-/// `recycled` is a phase that is no longer needed: of the same size, its memory is written over.
+/// `recycled` is a phase that is no longer needed; its memory is reused if the size matches.
+///
 /// shape    coarse to fine, all frames w x h
 /// missing  as `wrap_phase` and `unwrap_sequence`
-/// errors   Error(Input) as theirs
+/// errors   Error(Input) as `wrap_phase` and `unwrap_sequence`
 [[nodiscard]] AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
                                             const NoiseModel& noise,
                                             const Projector& projector,

@@ -15,14 +15,15 @@ namespace frangia {
 namespace {
 
 constexpr int kBins = NoiseSamples::kBins;
-constexpr std::size_t kMinSamples = 200;      ///< samples that make a bin's median trustworthy
-constexpr std::size_t kRowSamples = 400'000;  ///< pixels looked at in a stack, about
+constexpr std::size_t kMinSamples =
+    200;  ///< fewest samples of a bin; the variance then has a standard error of 10 %
+constexpr std::size_t kRowSamples = 400'000;  ///< approximate number of pixels sampled per stack
 
 using Bins = std::array<std::vector<float>, kBins>;
 
 using Weights = std::vector<double>;
 
-/// Combinations of the frames, of unit length, that hold noise only.
+/// Linear combinations of the frames, of unit norm, that contain noise only.
 std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
   const std::size_t count = shifts_rad.size();
   std::vector<Weights> combinations;
@@ -33,8 +34,8 @@ std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
     }
     return combinations;
   }
-  // What is left of one frame when mean, cosine and sine of all are taken out; of the frame of
-  // which most is left.
+  // The residual of one frame after the fit of mean, cosine and sine; the frame with the largest
+  // residual is used.
   const PhaseAlgorithm fit = least_squares(shifts_rad);
   Weights best;
   double best_square = 0.0;
@@ -57,7 +58,7 @@ std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
   return combinations;
 }
 
-/// |second differences| along one row, each in the bin of its brightness.
+/// Absolute second differences along one row, binned by brightness.
 void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bins) {
   const int width = width_of(stack.frames.front());
   std::vector<double> sum(static_cast<std::size_t>(width), 0.0);
@@ -79,7 +80,7 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
   }
   for (std::size_t i = 1; i + 1 < sum.size(); ++i) {
     if (std::max({brightest[i - 1], brightest[i], brightest[i + 1]}) >= stack.white_level) continue;
-    // Cut off at black, noise looks smaller than it is.
+    // Clipping at 0 counts would reduce the apparent noise.
     if (std::min({darkest[i - 1], darkest[i], darkest[i + 1]}) <= 0) continue;
     const double difference = (sum[i - 1] - 2.0 * sum[i] + sum[i + 1]) / std::sqrt(6.0);
     const double share = mean[i] / stack.white_level;
@@ -88,8 +89,8 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
   }
 }
 
-/// Variance of Gaussian noise from its absolute values, blind to the few that are no noise. A
-/// median alone would move in steps where the counts are few.
+/// Robust variance of Gaussian noise from absolute values: a median, refined by three rounds of
+/// 3-sigma clipping because the median of whole counts moves in steps.
 double robust_variance(std::vector<float> magnitudes) {
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
@@ -102,7 +103,8 @@ double robust_variance(std::vector<float> magnitudes) {
       sum += static_cast<double>(magnitude) * magnitude;
       count += 1.0;
     }
-    sigma = std::sqrt(sum / std::max(count, 1.0) / 0.9733);  // what 3 sigmas cut off a Gaussian
+    sigma = std::sqrt(sum / std::max(count, 1.0) /
+                      0.9733);  // 0.9733: variance of a Gaussian truncated at 3 sigma
   }
   return sigma * sigma;
 }
@@ -123,7 +125,7 @@ void NoiseSamples::add(const FrameStack& stack) {
 }
 
 NoiseModel NoiseSamples::model() const {
-  // Straight line through the bins, each weighted by its samples over its variance squared.
+  // Weighted straight line through the bins; the weight is samples / variance^2.
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (int bin = 0; bin < kBins; ++bin) {

@@ -9,20 +9,21 @@
 
 namespace frangia {
 
-/// The camera's noise, measured from fringe frames; of one view, or pooled over several.
+/// Estimates the camera noise from the fringe frames of one or more views.
 ///
-/// Four or more frames overdetermine the three unknowns of a pixel: what is left over is noise, but
-/// for step errors and motion, which are smooth across the image and go with a second difference
-/// along the rows. Of three frames that difference is taken of the frames themselves, and the
-/// object's texture is kept out by medians. A line through the variance against the brightness
-/// gives floor and slope.
+/// Four or more frames overdetermine the three unknowns of a pixel. The residual is noise, except
+/// for step errors and motion, which are smooth across the image and cancel in a second difference
+/// along the rows. For three frames the second difference is taken of the frames themselves, and a
+/// robust variance suppresses the texture of the object. A straight line fitted to the variance
+/// over the brightness gives the floor and the slope.
 ///
-/// missing  saturated pixels are left out; with too few pixels the floor of quantisation remains
-/// source   Immerkaer 1996 for the differences; the photon transfer curve, EMVA 1288, for the line
+/// units    counts
+/// missing  saturated pixels are ignored; with too few pixels the model is quantization noise
+/// source   Immerkaer 1996 for the differences; EMVA 1288, photon transfer curve, for the line
 class NoiseSamples {
  public:
-  static constexpr int kBins = 24;  ///< of brightness
-  /// Takes the samples of one stack; other than fringes are passed over.
+  static constexpr int kBins = 24;  ///< bins of brightness
+  /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
   [[nodiscard]] NoiseModel model() const;
 
@@ -31,7 +32,7 @@ class NoiseSamples {
   int white_ = 255;
 };
 
-/// The noise of all stacks together.
+/// Estimates one noise model from all stacks.
 [[nodiscard]] NoiseModel estimate_noise(std::span<const FrameStack> stacks);
 
 }  // namespace frangia

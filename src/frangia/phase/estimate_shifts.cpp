@@ -19,11 +19,11 @@ constexpr Eigen::Index kMinSamples = 100;
 constexpr int kIterations = 100;
 constexpr double kConverged_rad = 1e-9;
 
-/// The residual may exceed the noise by this factor: noise itself is known no better.
+/// Largest ratio of residual to noise variance; the noise model is no more accurate than that.
 constexpr double kMaxExcess = 1.5;
 
-/// What waves of these shifts do not explain in the frames, whose products are `root * root^T`: all
-/// that the pixels say, so that an iteration costs nothing, however many pixels there are.
+/// Residuals of the fringe model with these shifts. `root * root^T` are the inner products of the
+/// frames over all pixels, so an iteration does not depend on the number of pixels.
 Eigen::VectorXd residuals_of(const Eigen::MatrixXd& root, const std::vector<double>& shifts) {
   const PhaseAlgorithm fit = least_squares(shifts);
   const auto frames = static_cast<Eigen::Index>(shifts.size());
@@ -40,8 +40,8 @@ Eigen::VectorXd residuals_of(const Eigen::MatrixXd& root, const std::vector<doub
   return residual.reshaped();
 }
 
-/// One step of Levenberg and Marquardt in all shifts but the first. Alternating between phases and
-/// shifts, as published, creeps along a valley.
+/// One Levenberg-Marquardt step in all shifts but the first. The published alternation between
+/// phases and shifts converges too slowly.
 std::vector<double> levenberg_marquardt_step(const Eigen::MatrixXd& root,
                                              const std::vector<double>& shifts,
                                              double& damping) {
@@ -65,7 +65,7 @@ std::vector<double> levenberg_marquardt_step(const Eigen::MatrixXd& root,
   return better ? trial : shifts;
 }
 
-/// Places the shifts as a whole so that the nominal ones, scaled, fit them best.
+/// Chooses the common offset of the shifts such that the scaled nominal shifts fit best.
 void align_to_nominal(const std::vector<double>& nominal, std::vector<double>& shifts) {
   const auto n = static_cast<double>(nominal.size());
   double x = 0.0;

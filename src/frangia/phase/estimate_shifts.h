@@ -7,23 +7,23 @@
 
 namespace frangia {
 
-/// The shift that each frame really has.
+/// The actual shift of each frame.
 struct ShiftEstimate {
-  std::vector<double> shifts_rad;  ///< the pattern's own when not `found`
-  double residual_counts2 = 0.0;   ///< variance left over, for each degree of freedom
-  double expected_counts2 = 0.0;   ///< that of the camera's noise at the same brightness
-  /// Whether the frames fit the shifts to within the noise. With few fringes or too much else going
-  /// on they do not, and the shifts are not to be trusted.
+  std::vector<double> shifts_rad;  ///< nominal shifts unless `found`
+  double residual_counts2 = 0.0;   ///< residual variance per degree of freedom
+  double expected_counts2 = 0.0;   ///< variance of the camera noise at the mean brightness
+  /// Whether the residual is consistent with noise. It is not with too few fringes, motion or
+  /// flicker; the shifts are then unreliable.
   bool found = false;
 };
 
-/// Unequal unknown shifts, by least squares in the phases of all pixels and the shifts of all
-/// frames at once. Mean and modulation are each pixel's own, so that an uneven envelope does no
-/// harm. Only differences of shifts can be seen: as a whole they are placed so that the pattern's,
-/// scaled, fit them best, which is exact for a shifter whose gain is off.
+/// Estimates unequal unknown shifts by least squares in the phases of all pixels and the shifts of
+/// all frames jointly. Each pixel has its own mean and modulation, so uneven illumination does not
+/// matter. Only differences of shifts are observable; the common offset is chosen such that the
+/// scaled nominal shifts fit best, which is exact for a phase shifter with a gain error.
 ///
 /// errors   Error(Input) for fewer than six frames
-/// source   AIA, Wang and Han 2004, whose iteration is replaced by one that converges
+/// source   AIA, Wang and Han 2004; a Levenberg-Marquardt iteration replaces the alternation
 [[nodiscard]] ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise);
 
 }  // namespace frangia

@@ -16,14 +16,14 @@ namespace {
 constexpr std::size_t kSamples = 400'000;
 constexpr Eigen::Index kMinSamples = 100;
 
-/// The scatter along the line must stand out from that across it by this factor.
+/// Least ratio of the variance along the fitted line to the variance across it.
 constexpr double kMinSignal = 4.0;
 
-/// A phase shifter is never off by more; what says so is no step.
+/// Largest plausible gain error of a phase shifter. A larger estimate is rejected.
 constexpr double kMaxGainError = 0.25;
 
-/// The step between the shifts as they are asked for, not wrapped: a shifter makes 270 degrees as
-/// 270, and is off in proportion. 0 when they are not equally spaced.
+/// The nominal step, not wrapped: a shifter moves by 270 degrees for 270, and its error is
+/// proportional. 0 when the shifts are not equally spaced.
 double nominal_step(const std::vector<double>& shifts_rad) {
   const double step = shifts_rad[1] - shifts_rad[0];
   for (std::size_t k = 2; k < shifts_rad.size(); ++k) {
@@ -32,7 +32,7 @@ double nominal_step(const std::vector<double>& shifts_rad) {
   return step;
 }
 
-/// The angle nearest to `nominal` whose cosine is `cosine`.
+/// Returns the angle nearest to `nominal` with this cosine.
 double nearest_angle(double cosine, double nominal) {
   const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double up = nominal + wrap_rad(angle - nominal);
@@ -40,9 +40,9 @@ double nearest_angle(double cosine, double nominal) {
   return std::abs(up - nominal) < std::abs(down - nominal) ? up : down;
 }
 
-/// The angle by which I1 - I4 is turned against I2 - I3: the mean error of the shifts 1 and 4 less
-/// that of 2 and 3. The relation between the four frames has it, as the share b of
-/// I2 + I3 - I1 - I4 in I1 - I4 = a (I2 - I3) + b (I2 + I3 - I1 - I4).
+/// The phase shift of I1 - I4 relative to I2 - I3: the mean error of shifts 1 and 4 less that of
+/// shifts 2 and 3. It follows from the coefficient b in I1 - I4 = a (I2 - I3) + b (I2 + I3 - I1 -
+/// I4).
 double shift_error_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, double step) {
   const double outer = std::sin(1.5 * step);
   if (std::abs(outer) < 0.1) return 0.0;
@@ -63,7 +63,7 @@ double shift_error_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, doub
   return b * (std::cos(0.5 * step) - std::cos(1.5 * step)) / outer;
 }
 
-/// Rms error of single shifts, as the turns of all windows of four frames show it.
+/// Rms error of single shifts, from all windows of four frames.
 double jitter_of(const Eigen::ArrayXXf& counts, double step) {
   double sum = 0.0;
   for (Eigen::Index k = 0; k + 3 < counts.cols(); ++k) {
@@ -98,7 +98,7 @@ StepEstimate estimate_step(const FrameStack& stack) {
   const double half_spread = 0.5 * std::hypot(xx - yy, 2.0 * xy);
   const double along = 0.5 * (xx + yy) + half_spread;
   const double across = std::max(0.5 * (xx + yy) - half_spread, 0.0);
-  out.residual_counts2 = across / n / 2.0;  // each difference holds two frames' noise
+  out.residual_counts2 = across / n / 2.0;  // each difference contains the noise of two frames
   if (!(along > kMinSignal * across)) return out;
 
   const double line = 0.5 * std::atan2(2.0 * xy, xx - yy);

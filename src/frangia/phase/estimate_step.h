@@ -4,33 +4,33 @@
 
 namespace frangia {
 
-/// The step that was really made between the frames, one for the whole image.
+/// The actual step between the frames, one for the whole image.
 struct StepEstimate {
-  double nominal_rad = 0.0;  ///< what the pattern asks for
-  double step_rad = 0.0;     ///< what the frames show
+  double nominal_rad = 0.0;  ///< nominal step of the pattern
+  double step_rad = 0.0;     ///< estimated step; nominal unless `found`
   double sigma_rad = 0.0;    ///< standard deviation of `step_rad`
-  /// Variance of a frame's pixel about equal steps, in counts squared: camera noise, when nothing
-  /// moved and nothing clipped.
+  /// Residual variance of a pixel about equal steps, in counts squared; camera noise if nothing
+  /// moved or clipped.
   double residual_counts2 = 0.0;
-  double mean_counts = 0.0;  ///< of the pixels looked at
-  /// Error of a single shift that makes the steps unequal, rms; 0 where none shows.
+  double mean_counts = 0.0;  ///< mean of the sampled pixels
+  /// Rms error of single shifts; 0 if none is detected.
   double jitter_rad = 0.0;
-  /// Whether the frames hold enough of a fringe to tell. If not, `step_rad` is the nominal one.
+  /// Whether the fringes determine the step. If not, `step_rad` is the nominal step.
   bool found = false;
 
-  /// The shifts made are those of the pattern times one plus this.
+  /// Relative error of the shifts: actual = nominal * (1 + gain_error).
   [[nodiscard]] double gain_error() const { return found ? step_rad / nominal_rad - 1.0 : 0.0; }
 };
 
-/// The global Carré: four successive frames of equal steps obey
-/// I1 - I4 = (1 + 2 cos step) (I2 - I3) at every pixel, whatever its phase, mean and modulation.
-/// Shifts that are off each by itself look like another step too. But they also turn I1 - I4
-/// against I2 - I3 by an angle as large as they are, which a wrong step alone does not: the jitter,
-/// by which `pooled_gain_error` judges how far the step is the shifter's gain.
+/// Estimates the step by global Carré: four successive frames of equal steps satisfy I1 - I4 = (1 +
+/// 2 cos step) (I2 - I3) at every pixel, for any phase, mean and modulation. Independent errors of
+/// the shifts also change the apparent step. In addition they shift the phase of I1 - I4 relative
+/// to I2 - I3 by an angle of their own size, which a wrong common step does not. This jitter lets
+/// `pooled_gain_error` decide how much of the step error is the gain of the shifter.
 ///
-/// missing  saturated pixels are left out; `found` is false for frames that are too few, not
-///          equally spaced, or without fringes
-/// source   Carré 1966, the step by total least squares over the image
+/// missing  saturated pixels are ignored; `found` is false for fewer than four frames, unequal
+///          nominal steps, or too weak fringes
+/// source   Carré 1966; the step by total least squares over the image
 [[nodiscard]] StepEstimate estimate_step(const FrameStack& stack);
 
 }  // namespace frangia

@@ -19,9 +19,9 @@ struct Pixel {
 
 struct Hole {
   std::vector<Pixel> inside;
-  std::vector<Pixel> boundary;  ///< measured pixels beside it, some more than once
+  std::vector<Pixel> boundary;  ///< adjacent measured pixels, possibly repeated
   std::size_t unmodulated = 0;
-  bool open = false;  ///< reaches the image's border
+  bool open = false;  ///< reaches the border of the image or a pixel of another status
 };
 
 bool is_discarded(PixelStatus status) {
@@ -37,7 +37,7 @@ void visit_neighbors(const Image<PixelStatus>& status, Pixel p, const Visit& vis
   if (p.y + 1 < status.height()) visit(Pixel{p.x, p.y + 1});
 }
 
-/// The discarded pixels connected to `start`, at most `limit` of them beyond which it is open.
+/// Collects the discarded pixels that are connected to `start`.
 Hole collect(const Image<PixelStatus>& status, Pixel start, Image<std::uint8_t>& seen) {
   Hole hole;
   hole.inside.push_back(start);
@@ -63,7 +63,7 @@ Hole collect(const Image<PixelStatus>& status, Pixel start, Image<std::uint8_t>&
 
 struct Plane {
   Eigen::Vector3d coefficients =
-      Eigen::Vector3d::Zero();  ///< of 1, x, y from the first boundary pixel
+      Eigen::Vector3d::Zero();  ///< of 1, x, y relative to the first boundary pixel
   double rms = 0.0;
   double largest = 0.0;
 };

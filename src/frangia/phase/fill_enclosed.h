@@ -7,17 +7,18 @@
 namespace frangia {
 
 struct FillOptions {
-  std::size_t max_px = 100;  ///< a larger hole stays open
+  std::size_t max_px = 100;  ///< largest hole that is filled
   double max_plane_deviation_rad =
-      0.5;  ///< measured pixels around it must lie on a plane to within this
+      0.5;  ///< largest deviation of the surrounding measured pixels from a plane
 };
 
-/// Interpolates discarded pixels that measured ones enclose: saturated highlights, residues, and
-/// dark specks of a few pixels. A larger unmodulated patch may be a true hole and stays one. Filled
-/// pixels are marked, and their sigma holds how far those around them depart from a plane.
-/// Returns how many were filled.
+/// Interpolates discarded pixels that measured pixels enclose: saturated highlights, residues, and
+/// dark specks of a few pixels. A larger unmodulated patch may be a real hole and is not filled.
+/// Filled pixels get the status Filled, and their sigma includes the deviation of the surrounding
+/// pixels from a plane. Returns the number of filled pixels.
 ///
-/// source   the paper, section 2; a membrane (Laplace) over the hole
+/// units    px, rad
+/// source   the paper, section 2; Laplace's equation over the hole
 std::size_t fill_enclosed(AbsolutePhase& phase, const FillOptions& options = {});
 
 }  // namespace frangia

@@ -9,14 +9,14 @@
 namespace frangia {
 namespace {
 
-/// Whole turns in the jump from `a` to `b`: what wrapping it takes away.
+/// Whole turns that wrapping removes from the difference between `a` and `b`.
 [[gnu::always_inline]] inline std::int32_t turns(float a, float b) {
   const float difference = b - a;
   return (difference > 3.14159265F ? 1 : 0) - (difference < -3.14159265F ? 1 : 0);
 }
 
-/// Loops between two rows. The jumps themselves sum to zero; the turns taken away must do so too.
-/// A loop with a missing pixel is none.
+/// Finds the residues between two rows. The unwrapped differences around a loop sum to zero, so the
+/// sum of the removed turns is the charge. The charge is 0 for a loop with a missing pixel.
 FRANGIA_VECTORIZED void find_loops(const float* __restrict above,
                                    const float* __restrict below,
                                    int count,

@@ -6,14 +6,15 @@
 
 namespace frangia {
 
-/// A loop of 2 x 2 pixels around which the wrapped phase jumps do not sum to zero.
+/// A 2 x 2 loop around which the wrapped phase differences do not sum to zero.
 struct Residue {
-  int x = 0;  ///< of the loop's top left pixel
+  int x = 0;  ///< top left pixel of the loop
   int y = 0;
-  int turns = 0;  ///< whole turns gained clockwise around it: 1 or -1
+  int turns = 0;  ///< charge: whole turns gained clockwise, 1 or -1
 };
 
-/// The residues of a wrapped phase, in the order of the image. A loop with a missing pixel is none.
+/// Finds the residues of a wrapped phase, in raster order. A loop with a missing pixel is not a
+/// residue.
 ///
 /// source   the paper's reference [34], Huntley 1989
 [[nodiscard]] std::vector<Residue> find_residues(const Image<float>& phase_rad);

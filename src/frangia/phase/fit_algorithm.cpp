@@ -18,7 +18,8 @@ double mean_of(const std::vector<double>& values) {
 FittedAlgorithm fit_advanced_iterative(const FrameStack& stack,
                                        const NoiseModel& noise,
                                        const Run& run) {
-  static_cast<void>(make_algorithm("aia", stack.pattern.shifts_rad));  // refuses too few frames
+  static_cast<void>(
+      make_algorithm("aia", stack.pattern.shifts_rad));  // checks the number of frames
   const ShiftEstimate shifts = estimate_shifts(stack, noise);
   if (!shifts.found) {
     run.warn(fmt::format(
@@ -57,7 +58,7 @@ FittedAlgorithm fit_algorithm(const std::string& name,
     out.step = estimate_step(stack);
     out.gain_error = angular && gain_error ? *gain_error : pooled_gain_error({&out.step, 1});
   }
-  // Ripple comes of the step that these frames have, the constant of the shifter's gain.
+  // The step of these frames determines the ripple, the gain of the shifter the constant.
   const double own = out.step.found ? out.step.gain_error() : out.gain_error;
   const double constant = (out.gain_error - own) * mean_of(pattern.shifts_rad);
   out.algorithm = make_algorithm(chosen, pattern.shifts_rad, own);

@@ -12,21 +12,24 @@
 
 namespace frangia {
 
-/// The algorithm for the frames at hand, and the step that they show.
+/// The algorithm for the given frames and the step that they show.
 struct FittedAlgorithm {
   PhaseAlgorithm algorithm;
   StepEstimate step;
-  double gain_error = 0.0;         ///< of the phase shifter, as the algorithm takes it
-  std::vector<double> shifts_rad;  ///< of the frames, as really made
+  double gain_error = 0.0;         ///< gain error of the phase shifter that `algorithm` assumes
+  std::vector<double> shifts_rad;  ///< actual shifts of the frames
 };
 
-/// An algorithm by its name, or for "auto" the one that suits the projector and the frames.
+/// Returns the algorithm `name`, or for "auto" the one that suits the projector and the number of
+/// frames.
 ///
-/// A phase shifter's steps are as long as the frames say, and the constant that its gain adds to
-/// the phase is taken off: `gain_error`, where it is known from all views, or what these frames
-/// alone say of it. A digital projector's shifts are exact and not looked at, but for
-/// "global-carre", "carre" and "aia", which ask for it.
-/// errors   Error(Input) for an unknown name, or shifts that do not fit, naming those that do
+/// For a phase shifter the step is estimated from the frames, and the constant phase that a gain
+/// error adds is subtracted. `gain_error` is the gain error pooled over all views; without it the
+/// frames alone determine it. The shifts of a digital projector are exact and are estimated only
+/// for "global-carre", "carre" and "aia".
+///
+/// errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept; the
+///          message names algorithms that do
 [[nodiscard]] FittedAlgorithm fit_algorithm(const std::string& name,
                                             const FrameStack& stack,
                                             const NoiseModel& noise,

@@ -12,7 +12,7 @@ Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted) {
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
   const double all = static_cast<double>(width) * height;
-  // A stride along both, so that no direction of the fringes is preferred.
+  // The same stride along x and y, so that no fringe direction is preferred.
   const int stride = std::max(
       1, static_cast<int>(std::sqrt(all / static_cast<double>(std::max<std::size_t>(wanted, 1)))));
   const auto frames = static_cast<Eigen::Index>(stack.frames.size());

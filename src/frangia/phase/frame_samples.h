@@ -8,14 +8,15 @@
 
 namespace frangia {
 
-/// Pixels of a stack for fits over the whole image: about `wanted` of them, evenly over it, none
-/// saturated in any frame.
+/// Samples about `wanted` pixels of a stack on a regular grid, for fits over the whole image.
+/// Pixels that are saturated in any frame are omitted.
 ///
-/// shape    a row a pixel, a column a frame
+/// shape    one row per pixel, one column per frame
+/// units    counts
 [[nodiscard]] Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted);
 
-/// Some rows of a stack, evenly over it, that hold about `wanted` pixels: for a judgement that
-/// needs no more.
+/// Samples evenly spaced rows that hold about `wanted` pixels, for estimates that do not need all
+/// rows.
 [[nodiscard]] FrameStack sample_rows(const FrameStack& stack, std::size_t wanted);
 
 }  // namespace frangia

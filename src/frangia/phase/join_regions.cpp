@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kTwoPiRad = 6.283185307179586;
 
-/// What the border between two regions says: how often each whole number of fringes is asked for.
+/// The border between two regions: how often each whole number of fringes is implied.
 struct Border {
   int length = 0;
   std::map<int, int> votes;
 };
 using Borders = std::map<std::pair<int, int>, Border>;
 
-/// Regions merged so far, each with the fringes that it lies above its root.
+/// A forest of joined regions; each region stores its fringe offset from its parent.
 class Forest {
  public:
   explicit Forest(int count)
@@ -30,7 +30,7 @@ class Forest {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   [[nodiscard]] int count() const { return static_cast<int>(parent_.size()); }
-  /// The root of `region`, and the fringes to add to `region` to be level with it.
+  /// Returns the root of `region` and the fringes to add to `region` to be level with it.
   [[nodiscard]] std::pair<int, int> root(int region) const {
     int fringes = 0;
     while (parent_[static_cast<std::size_t>(region)] != region) {
@@ -39,7 +39,7 @@ class Forest {
     }
     return {region, fringes};
   }
-  /// Hangs root `child` below root `parent`, `fringes` to be added to it.
+  /// Makes the root `child` a child of the root `parent`; `fringes` is added to it.
   void attach(int child, int parent, int fringes) {
     parent_[static_cast<std::size_t>(child)] = parent;
     fringes_[static_cast<std::size_t>(child)] = fringes;
@@ -52,13 +52,14 @@ class Forest {
 
 /// Two neighbouring pixels of different regions.
 struct Contact {
-  int a;        ///< region of the left or upper one
-  int b;        ///< region of the other
-  int fringes;  ///< to add to b for the smallest jump
+  int a;        ///< region of the left or upper pixel
+  int b;        ///< region of the right or lower pixel
+  int fringes;  ///< fringes to add to b for the smallest difference
   bool smooth;
 };
 
-/// Row by row; a border is a small part of an image, and is walked several times.
+/// Collects the contacts row by row, once, because borders are a small part of an image and are
+/// traversed several times.
 std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& regions) {
   const int width = phase.region.width();
   const int height = phase.region.height();
@@ -72,7 +73,7 @@ std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& reg
       const int fringes = static_cast<int>(std::lround(jump / kTwoPiRad));
       rows[static_cast<std::size_t>(y)].push_back({a, b, fringes, smooth});
     };
-    // Most blocks lie within one region, and so do the pixels to their right and below.
+    // Most blocks lie within one region, together with the pixels to their right and below.
     const std::int32_t* here = &phase.region(0, y);
     const std::int32_t* below = y + 1 < height ? here + width : here;
     constexpr int kBlock = 32;
@@ -112,7 +113,7 @@ Borders all_borders(const std::vector<Contact>& contacts, const Forest& forest) 
   return borders;
 }
 
-/// Merges across the safe borders, longest first; returns how many.
+/// Joins across the safe borders, longest first; returns the number of joins.
 int merge_safe(const Borders& borders, double min_agreement, Forest& forest) {
   struct Merge {
     int votes;
@@ -136,7 +137,7 @@ int merge_safe(const Borders& borders, double min_agreement, Forest& forest) {
   int merged = 0;
   std::vector<bool> touched(static_cast<std::size_t>(forest.count()), false);
   for (const Merge& merge : merges) {
-    // A region that has just changed is looked at again in the next round, with its new border.
+    // A region that has just changed is considered again in the next pass, with its new border.
     if (touched[static_cast<std::size_t>(merge.keep)]) continue;
     if (touched[static_cast<std::size_t>(merge.give)]) continue;
     forest.attach(merge.give, merge.keep, merge.fringes);

@@ -15,11 +15,11 @@
 namespace frangia {
 namespace {
 
-constexpr int kKnots = 17;               ///< of the curve, evenly spaced levels from 0 to 1
-constexpr double kMinAmplitude = 0.075;  ///< of white: amplitude of the fringes
-constexpr int kMinPixels = 1000;         ///< pixels
+constexpr int kKnots = 17;               ///< knots of the curve at evenly spaced levels from 0 to 1
+constexpr double kMinAmplitude = 0.075;  ///< least amplitude of the fringes as a fraction of white
+constexpr int kMinPixels = 1000;         ///< least number of pixels
 
-/// Least squares of a curve that is straight between knots.
+/// Least-squares fit of a piecewise linear curve.
 class CurveFit {
  public:
   void add(double level, double light, double weight) {
@@ -41,7 +41,7 @@ class CurveFit {
   Eigen::VectorXd right_ = Eigen::VectorXd::Zero(kKnots);
 };
 
-/// Adds the pixels of one stack; returns how many there were.
+/// Adds the pixels of one stack; returns their number.
 int add_pixels(const FrameStack& stack, CurveFit& fit) {
   const std::vector<double>& shifts = stack.pattern.shifts_rad;
   const PhaseAlgorithm algorithm = least_squares(shifts);
@@ -62,7 +62,8 @@ int add_pixels(const FrameStack& stack, CurveFit& fit) {
       const double mean = sum(algorithm.mean);
       ++used;
       for (std::size_t k = 0; k < counts.size(); ++k) {
-        // A fringe's light in units of its own amplitude: noise goes with one over that.
+        // Light is in units of the fringe amplitude, so noise is inversely proportional to the
+        // amplitude.
         fit.add(0.5 + 0.5 * std::cos(phase + shifts[k]), (counts[k] - mean) / size, size * size);
       }
     }

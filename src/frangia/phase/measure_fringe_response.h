@@ -8,19 +8,18 @@
 
 namespace frangia {
 
-/// Frames a fringe from which its shape is known: the harmonics that a response makes then hardly
-/// reach the phase.
+/// Least number of frames per fringe. The harmonics of a response then hardly affect the phase.
 inline constexpr std::size_t kMinResponseFrames = 6;
 
-/// A projector's response from the fringes themselves: the light of every frame against the level
-/// that the pixel was shown, which its phase tells, summed over all well-modulated pixels that do
-/// not saturate.
+/// Measures a projector's response from fringes: the light of every frame against the level that
+/// the pixel was shown, which follows from its phase. Well-modulated unsaturated pixels of all
+/// stacks contribute.
 ///
-/// shape    stacks of kMinResponseFrames frames or more, of equal steps over a whole turn
-/// errors   Error(Input) when there is none, or when too few pixels are lit
+/// shape    stacks of at least kMinResponseFrames frames with equal steps over a whole turn
+/// errors   Error(Input) when there is no such stack, or when too few pixels are illuminated
 [[nodiscard]] ResponseCurve measure_fringe_response(std::span<const FrameStack> stacks);
 
-/// Whether the shifts of a pattern are evenly spread over a turn, and enough.
+/// Returns whether a pattern has enough shifts, evenly spaced over a turn.
 [[nodiscard]] bool determines_response(const Pattern& pattern);
 
 }  // namespace frangia

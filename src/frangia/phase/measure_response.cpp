@@ -8,11 +8,12 @@
 namespace frangia {
 namespace {
 
-constexpr double kMinContrast = 0.15;    ///< of white, between the darkest and the brightest frame
-constexpr std::size_t kMinPixels = 100;  ///< pixels
+constexpr double kMinContrast =
+    0.15;  ///< least contrast between the darkest and the brightest frame, as a fraction of white
+constexpr std::size_t kMinPixels = 100;  ///< least number of pixels
 
-/// Adds the counts of one view's illuminated pixels to the sum of each level; returns how many
-/// there were.
+/// Adds the counts of one view's illuminated pixels to the sum of each level; returns the number of
+/// these pixels.
 std::size_t add_illuminated(const FrameStack& ramp, std::vector<double>& sums) {
   const Frame& dark = ramp.frames.front();
   const Frame& full = ramp.frames.back();

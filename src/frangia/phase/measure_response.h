@@ -7,11 +7,12 @@
 
 namespace frangia {
 
-/// A projector's response from a grey ramp, summed over the pixels that it lights: those whose
-/// brightest frame stands well above the darkest, and does not saturate.
+/// Measures a projector's response from a grey ramp, averaged over the illuminated pixels: those
+/// with sufficient contrast between the darkest and the brightest frame and without saturation.
 ///
-/// shape    ramps of the same levels, one a view
-/// errors   Error(Input) when there is none, when they differ, or when too few pixels are lit
+/// shape    ramps of the same levels, one per view
+/// errors   Error(Input) when there is no ramp, when the ramps differ, or when too few pixels are
+///          illuminated
 [[nodiscard]] ResponseCurve measure_response(std::span<const FrameStack> ramps);
 
 }  // namespace frangia

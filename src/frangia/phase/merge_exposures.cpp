@@ -13,10 +13,11 @@
 namespace frangia {
 namespace {
 
-/// The inverse of the largest number that a normal matrix may be ill-conditioned by.
+/// Least ratio of the smallest to the largest pivot of a normal matrix; below it the phase is
+/// undetermined.
 constexpr double kMinPivot = 1e-4;
 
-/// One frame of one exposure: counts are row . (mean, cosine, sine of the fringe).
+/// One frame of one exposure. Its counts are row . (mean, cosine, sine of the fringe).
 struct Shot {
   const Frame* frame;
   Eigen::Vector3d row;
@@ -42,7 +43,7 @@ std::vector<Shot> shots_of(std::span<const FrameStack> exposures,
   return shots;
 }
 
-/// Mean, cosine and sine of one pixel's fringe, and their covariance.
+/// Mean, cosine and sine of one pixel's fringe and their covariance.
 struct Fit {
   bool determined = false;
   Eigen::Vector3d fringe = Eigen::Vector3d::Zero();
@@ -54,7 +55,8 @@ class Fitter {
   Fitter(std::vector<Shot> shots, const NoiseModel& noise)
       : shots_(std::move(shots)), noise_(noise) {}
 
-  /// Twice: variances of counts at first, which their own noise biases, then of the counts fitted.
+  /// Solves twice. The first solution weights by the measured counts, whose noise biases it; the
+  /// second by the fitted counts.
   [[nodiscard]] Fit fit(int x, int y) const {
     Fit found = solve(x, y, nullptr);
     if (!found.determined) return found;
@@ -98,8 +100,8 @@ void write_pixel(const Fit& fit, const WrapOptions& options, int x, int y, Wrapp
     out.status(x, y) = PixelStatus::Saturated;
     return;
   }
-  if (!(square > 0.0)) return;  // all black, such as a background without any light
-  const Eigen::Vector3d slope(0.0, -sine / square, cosine / square);  // of phi in the fringe
+  if (!(square > 0.0)) return;  // completely dark, for example a background without light
+  const Eigen::Vector3d slope(0.0, -sine / square, cosine / square);  // d(phi) / d(fringe)
   const double sigma = std::sqrt(slope.dot(fit.covariance * slope));
   if (!(sigma <= static_cast<double>(options.max_sigma_rad))) return;
   out.status(x, y) = PixelStatus::Measured;

@@ -10,14 +10,15 @@
 
 namespace frangia {
 
-/// Phase of fringes taken at several exposures: least squares over the unsaturated samples of all
-/// of them, each weighted by one over its variance. A highlight is measured by the short exposures,
-/// a dark part by the long ones, and what several tell by all; phases are never averaged.
+/// Computes the phase of fringes taken at several exposures by least squares over all unsaturated
+/// samples, weighted by their inverse variance. Short exposures measure highlights, long exposures
+/// dark parts; phases are never averaged.
 ///
-/// shape    a stack an exposure, of one pattern; `shifts_rad` as really made
+/// shape    one stack per exposure, of one pattern; `shifts_rad` are the actual shifts
 /// units    modulation and mean in counts of the first exposure
-/// missing  Saturated where the samples left do not determine the phase, else as `wrap_phase`
-/// errors   Error(Input) when empty, or the stacks differ in size or number of frames
+/// missing  Saturated where the remaining samples do not determine the phase; otherwise as
+///          `wrap_phase`
+/// errors   Error(Input) when empty, or when the stacks differ in size or number of frames
 [[nodiscard]] WrappedPhase merge_exposures(std::span<const FrameStack> exposures,
                                            const std::vector<double>& shifts_rad,
                                            const NoiseModel& noise,

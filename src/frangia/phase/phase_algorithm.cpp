@@ -17,14 +17,14 @@
 namespace frangia {
 namespace {
 
-/// Below this the shifts are as good as singular: noise would be amplified a thousandfold.
+/// Least ratio of eigenvalues of the normal matrix. At 1e-6 the noise is amplified a thousandfold.
 constexpr double kMinEigenvalueRatio = 1e-6;
 
 double weighted_sum(const std::vector<double>& weights, std::span<const double> counts) {
   return std::inner_product(weights.begin(), weights.end(), counts.begin(), 0.0);
 }
 
-/// Larkin and Oreb's: N + 1 frames over a whole turn, the ends at half weight.
+/// Larkin and Oreb: N + 1 frames over a whole turn, the end frames with half weight.
 void larkin_oreb(std::size_t frames, PhaseAlgorithm& out) {
   const double step = kTwoPi / static_cast<double>(frames - 1);
   for (std::size_t j = 0; j < frames; ++j) {
@@ -35,7 +35,7 @@ void larkin_oreb(std::size_t frames, PhaseAlgorithm& out) {
   }
 }
 
-/// Surrel's: a triangular window over two turns less one frame.
+/// Surrel: a triangular window over two turns less one frame.
 void surrel(std::size_t frames, PhaseAlgorithm& out) {
   const double n = static_cast<double>(frames + 1) / 2.0;
   for (std::size_t k = 0; k < frames; ++k) {
@@ -46,7 +46,7 @@ void surrel(std::size_t frames, PhaseAlgorithm& out) {
   }
 }
 
-/// Numerator and denominator as printed, for shifts 0, step, 2 step ...
+/// Numerator and denominator as published, for shifts 0, step, 2 step, ...
 PhaseAlgorithm published_coefficients(const std::string& name, std::size_t frames) {
   PhaseAlgorithm out{.name = name};
   const auto set = [&](std::vector<double> sine, std::vector<double> cosine) {
@@ -73,7 +73,7 @@ struct Wave {
   double cosine;
 };
 
-/// B sin(phi), B cos(phi) of a pixel, before the turn.
+/// B sin(phi) and B cos(phi) of a pixel, before the phase offset is subtracted.
 Wave wave_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
   Wave wave{weighted_sum(algorithm.sine, counts), weighted_sum(algorithm.cosine, counts)};
   if (!algorithm.outer.empty()) {
@@ -84,8 +84,8 @@ Wave wave_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
   return wave;
 }
 
-/// From the printed formula to B sin and B cos of the phase at shift zero: what the formula makes
-/// of a known phase says by how much its own is off, and how large it comes out.
+/// Normalizes a published formula to B sin and B cos of the phase at shift zero. Offset and scale
+/// follow from the result for a known phase.
 void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& algorithm) {
   constexpr double kProbe_rad = 0.5;
   const double step = common_step(shifts_rad);
@@ -99,7 +99,7 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
       weight /= size;
   }
   subtract_phase_offset(std::atan2(wave.sine, wave.cosine) - kProbe_rad, algorithm);
-  if (step < 0.0) {  // the frames of falling shifts are those of -phi
+  if (step < 0.0) {  // descending shifts measure -phi
     for (auto* weights : {&algorithm.sine, &algorithm.outer}) {
       for (double& weight : *weights)
         weight = -weight;
@@ -151,7 +151,7 @@ PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
         ErrorKind::Input,
         fmt::format("{} shifts do not determine a phase; give at least 3", shifts_rad.size()));
   }
-  // I = A + B cos(phi) cos(shift) - B sin(phi) sin(shift), in the three unknowns.
+  // I = A + B cos(phi) cos(shift) - B sin(phi) sin(shift), linear in three unknowns.
   const auto row = [](double shift) {
     return Eigen::Vector3d(1.0, std::cos(shift), -std::sin(shift));
   };
@@ -196,7 +196,7 @@ PhaseAlgorithm make_algorithm(const std::string& name,
   PhaseAlgorithm algorithm = published_coefficients(name, shifts_rad.size());
   const double mean_shift = std::accumulate(shifts_rad.begin(), shifts_rad.end(), 0.0) /
                             static_cast<double>(shifts_rad.size());
-  if (name == "global-carre" || name == "aia") {  // the shifts themselves are put right
+  if (name == "global-carre" || name == "aia") {  // these algorithms use the actual shifts
     std::vector<double> made = shifts_rad;
     for (double& shift : made)
       shift *= 1.0 + gain_error;

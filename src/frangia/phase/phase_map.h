@@ -7,30 +7,31 @@
 
 namespace frangia {
 
-/// What became of a pixel, and why it went.
+/// Status of a pixel, and the reason if it has no phase.
 enum class PixelStatus : std::uint8_t {
-  Measured,        ///< holds a phase
-  Filled,          ///< discarded, then interpolated from the measured pixels around it
-  Unmodulated,     ///< its fringes do not rise above its noise: background or shadow
-  Saturated,       ///< at the white level in a frame
-  Residue,         ///< in a 2 x 2 loop whose phase jumps do not sum to zero
-  UncertainOrder,  ///< the chance of a wrong fringe order is too high
-  Unresolved,      ///< its region's whole number of fringes is not known
+  Measured,        ///< has a phase
+  Filled,          ///< discarded, then interpolated from the surrounding measured pixels
+  Unmodulated,     ///< modulation too low for its noise: background or shadow
+  Saturated,       ///< at the white level in at least one frame
+  Residue,         ///< in a 2 x 2 loop whose phase differences do not sum to zero
+  UncertainOrder,  ///< probability of a wrong fringe order too high
+  Unresolved,      ///< fringe order of its region unknown
   MixedPixel,      ///< sees two surfaces at a depth edge
   OutOfField       ///< no point in front of camera and projector has this phase
 };
 
-/// Phase within one fringe, of all pixels.
+/// The phase modulo 2 pi of all pixels.
 struct WrappedPhase {
   Pattern pattern;
   Image<float> phase_rad;          ///< (-pi, pi]; NaN where not measured
   Image<float> sigma_rad;          ///< standard deviation of `phase_rad`; NaN where not measured
   Image<float> modulation_counts;  ///< I0 gamma0 of the paper's equation (1), at every pixel
-  Image<float> mean_counts;        ///< I0 plus light that is not the projector's, at every pixel
+  Image<float> mean_counts;        ///< I0 plus ambient light, at every pixel
   Image<PixelStatus> status;
 };
 
-/// Phase that is continuous within a region, known there but for a whole number of fringes.
+/// A phase that is continuous within each region and known up to a whole number of fringes per
+/// region.
 struct RelativePhase {
   Pattern pattern;
   Image<float> phase_rad;  ///< NaN where not measured
@@ -38,13 +39,13 @@ struct RelativePhase {
   Image<std::int32_t> region;  ///< 0, 1, ... from the largest; -1 where not measured
   int region_count = 0;
   Image<PixelStatus> status;
-  /// Which pixel of its region the growth reached first (0), second (1), ...; -1 where not
-  /// measured. Empty unless it was asked for.
+  /// Order in which quality-guided growth reached the pixels of a region, from 0; -1 where not
+  /// measured. Empty unless requested.
   Image<std::int32_t> growth_order;
 };
 
-/// Phase counted from the projection axis or the projector's first column. Its own type, so that a
-/// wrapped or a relative phase can never reach triangulation.
+/// The phase relative to the projection axis or the projector's first column. It is a separate type
+/// so that a wrapped or a relative phase cannot be triangulated.
 struct AbsolutePhase {
   Pattern pattern;
   Image<float> phase_rad;  ///< NaN where not measured

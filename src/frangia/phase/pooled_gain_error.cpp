@@ -14,8 +14,8 @@ double pooled_gain_error(std::span<const StepEstimate> views) {
   }
   if (count == 0.0) return 0.0;
   mean /= count;
-  // Independent shifts that jitter by sigma turn a window of four by sigma, and make its step look
-  // off by half of that.
+  // Independent shift errors of standard deviation sigma shift the phase of a window of four frames
+  // by sigma, and change its apparent step by half of that.
   double square = 0.0;
   double noise = 0.0;
   for (const StepEstimate& view : views) {

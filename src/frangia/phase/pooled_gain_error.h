@@ -6,16 +6,16 @@
 
 namespace frangia {
 
-/// The share by which a phase shifter's steps are too long, by what one or more views show of it.
+/// Estimates the relative gain error of a phase shifter from one or more views; 0 when no step was
+/// found.
 ///
-/// A shifter's gain is the same in all views. Shifts that are each off by themselves look like
-/// another step as well, and differ from view to view: how unequal they are within a view, and how
-/// far the views scatter, says how much of the mean is to be believed. The rest is taken off it, so
-/// that jitter alone leaves the nominal step, and a true gain stands.
+/// The gain is the same in all views. Independent errors of single shifts also change the apparent
+/// step, differently in each view. The unevenness of the shifts within the views and the scatter
+/// between views therefore determine by how much the mean is shrunk towards 0: pure jitter gives
+/// almost 0, a true gain error is kept.
 ///
-/// shape    an estimate a view, of one pattern; those not `found` count for nothing
-/// returns  0 when no step was found
-/// source   James and Stein 1961, positive part; a factor as large as Student's for few views
+/// shape    one estimate per view, of one pattern; estimates that are not `found` are ignored
+/// source   James and Stein 1961, positive part, with a factor similar to Student's for few views
 [[nodiscard]] double pooled_gain_error(std::span<const StepEstimate> views);
 
 }  // namespace frangia

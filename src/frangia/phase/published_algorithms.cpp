@@ -10,12 +10,12 @@
 namespace frangia {
 namespace {
 
-/// How far a shift may lie from its place before an algorithm made for equal steps is refused.
+/// Largest deviation from equal steps that an algorithm for equal steps accepts.
 constexpr double kTolerance_rad = 1e-3;
 
 constexpr int kExampleSteps = 6;
 
-/// The N of 360 / N degrees that an algorithm of `frames` frames works with; 0 for none.
+/// Returns N for an algorithm of `frames` frames 360 / N degrees apart; 0 if there is none.
 int steps_per_period(ShiftRule rule, int frames) {
   if (rule == ShiftRule::PlusOne) return frames >= 5 ? frames - 1 : 0;
   return frames >= 5 && frames % 2 == 1 ? (frames + 1) / 2 : 0;
@@ -82,7 +82,7 @@ bool fits(const PublishedAlgorithm& algorithm, const std::vector<double>& shifts
   if (algorithm.rule == ShiftRule::Any) return frames >= 3;
   if (algorithm.rule == ShiftRule::ManyUneven) return frames >= 6;
   const double step = common_step(shifts_rad);
-  // Steps of 0 or 180 degrees tell no two of the unknowns apart.
+  // Steps of 0 or 180 degrees do not determine the phase.
   if (!(std::abs(std::sin(step)) > 0.01)) return false;
   if (algorithm.rule == ShiftRule::ManyEqual) return frames >= 4;
   if (algorithm.rule == ShiftRule::Listed) {

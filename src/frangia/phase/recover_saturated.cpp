@@ -49,7 +49,7 @@ std::size_t recover_saturated(FrameStack& stack) {
       which = k;
     }
     if (saturated == 0) continue;
-    // The other frame half a turn away, and the pair between.
+    // The two neighbours of the saturated frame minus the frame half a turn away.
     const int found = counts[(which + 1) % 4] + counts[(which + 3) % 4] - counts[(which + 2) % 4];
     const bool one = saturated == 1 && found < kWhite;
     if (one) ++recovered;

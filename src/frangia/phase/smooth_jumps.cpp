@@ -12,7 +12,8 @@
 namespace frangia {
 namespace {
 
-/// Wrapped jumps between two rows, or a row and itself one pixel on; NaN where an end is missing.
+/// Wrapped differences between two rows, or between a row and itself shifted by one pixel; NaN
+/// where a pixel is missing.
 FRANGIA_VECTORIZED void find_jumps(const float* from, const float* to, int count, float* jump) {
   for (int x = 0; x < count; ++x) {
     const float difference = to[x] - from[x];
@@ -23,19 +24,19 @@ FRANGIA_VECTORIZED void find_jumps(const float* from, const float* to, int count
 }
 
 struct Limits {
-  float departure;  ///< from the jumps before and behind
+  float departure;  ///< from the previous and the next difference
   float jump;
 };
 
-/// Jumps, and those before and behind them.
+/// A row of differences and those before and after it.
 struct JumpRows {
   const float* before;
   const float* here;
   const float* behind;
 };
 
-/// Whether each jump is smooth: small, and not far outside the ones before and behind it. One that
-/// is missing is passed over, and a lone jump has no departure.
+/// Classifies differences. A missing adjacent difference is ignored; an isolated difference has no
+/// deviation.
 FRANGIA_VECTORIZED void classify_jumps(JumpRows rows,
                                        int count,
                                        Limits limits,
@@ -55,8 +56,8 @@ FRANGIA_VECTORIZED void classify_jumps(JumpRows rows,
   }
 }
 
-/// Standard deviation of the jumps' noise along x (dx = 1) or y, from the differences of
-/// neighbouring ones, in some rows of the image.
+/// Standard deviation of the differences along x (dx = 1) or y, from second differences in a sample
+/// of rows.
 float jump_noise(const Image<float>& phase, int dx, int dy) {
   constexpr int kSamples = 400'000;
   std::vector<float> differences;
@@ -73,7 +74,8 @@ float jump_noise(const Image<float>& phase, int dx, int dy) {
   if (differences.empty()) return 0.0F;
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
-  // a - 2b + c has variance 6 sigma^2, a jump has 2 sigma^2.
+  // a - 2b + c has variance 6 sigma^2, a first difference 2 sigma^2; 0.6745 sigma is the median of
+  // |noise|.
   return *middle / 0.6745F / std::sqrt(3.0F);
 }
 
@@ -86,7 +88,7 @@ Image<std::uint8_t> smooth_right(const Image<float>& phase_rad, const JumpOption
                       options.max_jump_rad};
   Image<std::uint8_t> smooth(width, phase_rad.height(), Uninitialized{});
   parallel_rows(phase_rad.height(), [&](int y) {
-    std::vector<float> jump(row + 2, kMissing);  // one more at each end
+    std::vector<float> jump(row + 2, kMissing);  // one more element at each end
     const float* from = phase_rad.pixels().data() + static_cast<std::size_t>(y) * row;
     find_jumps(from, from + 1, width - 1, jump.data() + 1);
     classify_jumps({jump.data(), jump.data() + 1, jump.data() + 2}, width, limits, &smooth(0, y));
@@ -95,7 +97,7 @@ Image<std::uint8_t> smooth_right(const Image<float>& phase_rad, const JumpOption
 }
 
 Image<std::uint8_t> smooth_below(const Image<float>& phase_rad, const JumpOptions& options) {
-  constexpr int kBand = 32;  // rows that share their jumps
+  constexpr int kBand = 32;  // rows processed together, so that each difference is computed once
   const int width = phase_rad.width();
   const int height = phase_rad.height();
   const auto row = static_cast<std::size_t>(width);

@@ -17,7 +17,7 @@ namespace {
 
 using Mask = Image<std::uint8_t>;
 
-/// 1 where a pixel and its neighbour are both measured but their jump is not smooth.
+/// Marks pairs of measured pixels whose difference is not smooth.
 FRANGIA_VECTORIZED void mark_broken(const float* __restrict a,
                                     const float* __restrict b,
                                     const std::uint8_t* __restrict smooth,
@@ -30,7 +30,7 @@ FRANGIA_VECTORIZED void mark_broken(const float* __restrict a,
   }
 }
 
-/// Pixels with a measured neighbour across a jump that is not smooth.
+/// Marks pixels with a measured neighbour across a difference that is not smooth.
 Mask broken_pixels(const Image<float>& phase, const Regions& regions) {
   const int width = phase.width();
   const int height = phase.height();
@@ -58,7 +58,7 @@ FRANGIA_VECTORIZED void widen(std::uint8_t* __restrict into,
     into[i] = into[i] > from[i] ? into[i] : from[i];
 }
 
-/// 1 within `radius` of a 1, both across and down: a square, one direction at a time.
+/// Dilates a mask by a square of this radius, one direction at a time.
 void dilate(int radius, Mask& mask) {
   const int width = mask.width();
   const int height = mask.height();
@@ -84,10 +84,10 @@ void dilate(int radius, Mask& mask) {
   });
 }
 
-/// Pixels in raster order, as their index.
+/// Indices of pixels in the order of their visit.
 using PixelQueue = LargeVector<std::uint32_t>;
 
-/// Spreads labels over smooth jumps, breadth first, into pixels that `allowed` admits.
+/// Grows labels across smooth differences, breadth first, into pixels that `allowed` admits.
 template <typename Allowed>
 void grow_labels(PixelQueue& queue, Regions& regions, const Allowed& allowed) {
   const auto width = static_cast<std::uint32_t>(regions.label.width());
@@ -111,7 +111,7 @@ void grow_labels(PixelQueue& queue, Regions& regions, const Allowed& allowed) {
   }
 }
 
-/// Runs of pixels that hang together over smooth jumps, and the set that each belongs to.
+/// Runs of pixels connected by smooth differences and the set of each run.
 struct RunSets {
   PixelRuns all;
   RunForest forest;
@@ -136,7 +136,7 @@ RunSets connect_runs(const Regions& regions, const Allowed& allowed) {
   return {std::move(all), std::move(forest)};
 }
 
-/// Writes a label into each run that has one.
+/// Writes the label of each run that has one.
 void label_runs(const PixelRuns& all, const std::vector<std::int32_t>& label, Regions& regions) {
   parallel_rows(regions.label.height(), [&](int y) {
     const auto row = static_cast<std::size_t>(y);
@@ -148,11 +148,11 @@ void label_runs(const PixelRuns& all, const std::vector<std::int32_t>& label, Re
   });
 }
 
-/// Gives each connected set of admitted, unlabelled pixels the next label.
+/// Assigns a new label to each connected set of admitted, unlabelled pixels.
 template <typename Allowed>
 void label_all(Regions& regions, const Allowed& allowed) {
   RunSets sets = connect_runs(regions, allowed);
-  // A root is the first run of its set.
+  // The root is the first run of its set.
   std::vector<std::int32_t> label(sets.all.runs.size());
   for (std::size_t i = 0; i < label.size(); ++i) {
     const std::size_t root = sets.forest.root(i).run;
@@ -164,7 +164,7 @@ void label_all(Regions& regions, const Allowed& allowed) {
 constexpr std::int32_t kNoLabel = -1;
 constexpr std::int32_t kSeveral = -2;
 
-/// The one label that smooth jumps lead to from a run, kNoLabel or kSeveral.
+/// The only label adjacent to a run across smooth differences; kNoLabel or kSeveral otherwise.
 std::int32_t label_adjacent_to(const Regions& regions, int y, PixelRun run) {
   std::int32_t found = kNoLabel;
   const auto visit = [&](int x, int v, std::uint8_t smooth) {
@@ -181,8 +181,8 @@ std::int32_t label_adjacent_to(const Regions& regions, int y, PixelRun run) {
   return found;
 }
 
-/// Labels at once the sets of unlabelled pixels that border on a single label: what `grow_labels`
-/// would do a pixel at a time.
+/// Labels sets of unlabelled pixels that are adjacent to a single label; equivalent to
+/// `grow_labels`, without a queue.
 template <typename Allowed>
 void label_sets_with_one_neighbor(Regions& regions, const Allowed& allowed) {
   RunSets sets = connect_runs(regions, allowed);
@@ -203,7 +203,8 @@ void label_sets_with_one_neighbor(Regions& regions, const Allowed& allowed) {
   label_runs(sets.all, adjacent, regions);
 }
 
-/// 1 where a pixel or one beside it is near a cut: elsewhere no pixel waits for a label.
+/// Marks pixels that are near a cut, or above or below such a pixel. All unlabelled pixels are near
+/// a cut.
 FRANGIA_VECTORIZED void mark_near(const std::uint8_t* above,
                                   const std::uint8_t* here,
                                   const std::uint8_t* below,
@@ -213,7 +214,7 @@ FRANGIA_VECTORIZED void mark_near(const std::uint8_t* above,
     near[x] = static_cast<std::uint8_t>(above[x] | here[x] | below[x]);
 }
 
-/// Labelled pixels beside measured ones that have no label yet, which are near a cut.
+/// Labelled pixels adjacent to measured pixels without a label, all of which are near a cut.
 PixelQueue growth_seeds(const Image<float>& phase,
                         const Image<std::int32_t>& label,
                         const Mask& near_cut) {
@@ -263,12 +264,13 @@ Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options) 
   dilate(options.neck_radius_px, near_cut);
   const auto measured = [&](int x, int y) { return !std::isnan(phase(x, y)); };
   label_all(regions, [&](int x, int y) { return measured(x, y) && near_cut(x, y) == 0; });
-  // The rims around the cores: most belong to one, for the others the nearest one is sought.
+  // Most margins around the cores belong to one core; the others are divided among the nearest
+  // cores.
   label_sets_with_one_neighbor(regions,
                                [&](int x, int y) { return near_cut(x, y) != 0 && measured(x, y); });
   PixelQueue queue = growth_seeds(phase, regions.label, near_cut);
   grow_labels(queue, regions, [&](std::uint32_t at) { return !std::isnan(phase.pixels()[at]); });
-  label_all(regions, measured);  // what no core reaches
+  label_all(regions, measured);  // pixels that no core reaches
   return regions;
 }
 

@@ -9,21 +9,24 @@ namespace frangia {
 
 struct SplitOptions {
   JumpOptions jumps;
-  /// Regions that only hang together through a neck of twice this width beside a cut are two: a
-  /// depth step whose height varies looks smooth where it passes a whole number of fringes.
+  /// A connection narrower than twice this radius beside a cut does not join two regions. A depth
+  /// step of varying height looks smooth where it crosses a whole number of fringes.
   int neck_radius_px = 12;
 };
 
-/// Regions within which the phase is smooth, so that unwrapping cannot go wrong there.
+/// Regions within which the phase is smooth and unwrapping is unambiguous.
 struct Regions {
   Image<std::int32_t> label;  ///< 0, 1, ...; -1 where not measured
   int count = 0;
-  Image<std::uint8_t> smooth_right;  ///< the jump to the right-hand neighbour is smooth
-  Image<std::uint8_t> smooth_below;  ///< the jump to the neighbour below is smooth
+  Image<std::uint8_t> smooth_right;  ///< as `smooth_right` of smooth_jumps.h
+  Image<std::uint8_t> smooth_below;  ///< as `smooth_below` of smooth_jumps.h
 };
 
-/// Cuts the phase wherever it may hide a step of more than half a fringe. It cuts too much rather
-/// than too little: `join_regions` mends what is safe.
+/// Cuts the phase wherever it may hide a step of more than half a fringe. The cut is conservative;
+/// `join_regions` rejoins regions where that is safe.
+///
+/// shape    w x h in and out
+/// missing  NaN pixels get the label -1
 [[nodiscard]] Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options = {});
 
 }  // namespace frangia

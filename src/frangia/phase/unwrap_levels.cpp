@@ -11,10 +11,11 @@
 namespace frangia {
 namespace {
 
-/// A step of a ladder is planned for this chance; what each pixel really has is computed for it.
+/// Planned probability of a wrong order per level. The actual probability is computed for each
+/// pixel.
 constexpr double kPlannedProbability = 1e-6;
 
-/// Fringes that the whole field may hold and still be one, by rounding.
+/// Rounding tolerance for one fringe over the field.
 constexpr double kOneFringe = 1.0 + 1e-6;
 
 /// Maps and beats, coarse to fine.
@@ -39,7 +40,7 @@ double level_sigma(const UnwrapLevel& candidate, double sigma_rad) {
   return candidate.subtracted < 0 ? sigma_rad : sigma_rad * std::numbers::sqrt2;
 }
 
-/// Noise of a step's comparison, coarse lifted to fine.
+/// Noise of the comparison of a scaled coarse level with the next finer one.
 double transition_sigma(const UnwrapLevel& coarse, const UnwrapLevel& fine, double sigma_rad) {
   const double ratio = fine.per_unit / coarse.per_unit;
   return std::hypot(ratio * level_sigma(coarse, sigma_rad), level_sigma(fine, sigma_rad));
@@ -55,7 +56,7 @@ std::vector<UnwrapLevel> find_unwrap_levels(std::span<const Pattern> patterns,
   const PhaseRange field = phase_range(patterns.back(), projector);
   const double units = field.width_rad() / kTwoPi / patterns.back().fringes_per_unit();
   std::vector<UnwrapLevel> levels;
-  for (const UnwrapLevel& candidate : candidates) {  // the finest that is still one fringe
+  for (const UnwrapLevel& candidate : candidates) {  // the finest level of at most one fringe
     if (candidate.per_unit * units <= kOneFringe) levels.assign(1, candidate);
   }
   if (levels.empty()) return {};
@@ -68,7 +69,7 @@ std::vector<UnwrapLevel> find_unwrap_levels(std::span<const Pattern> patterns,
       if (candidate.per_unit == here.per_unit && (candidate.subtracted >= 0 || here.subtracted < 0))
         continue;
       const double sigma = transition_sigma(here, candidate, sigma_rad);
-      // The finest that is safe, or else the very next one.
+      // The finest safe level, or the next finer one if none is safe.
       if (next == nullptr || wrong_order_probability(sigma) < kPlannedProbability)
         next = &candidate;
     }

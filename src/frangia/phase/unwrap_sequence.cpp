@@ -25,7 +25,8 @@ FRANGIA_VECTORIZED void precision_of(const float* __restrict from,
     into[i] = 1.0F / (from[i] * from[i]);
 }
 
-/// Why a pixel is missing in some map; saturation first, which a shorter exposure would mend.
+/// Status of a pixel over all maps. Saturation takes precedence, because a shorter exposure avoids
+/// it.
 PixelStatus status_of(std::span<const WrappedPhase> maps, std::size_t i) {
   PixelStatus status = PixelStatus::Measured;
   for (const WrappedPhase& map : maps) {

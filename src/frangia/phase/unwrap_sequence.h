@@ -10,15 +10,15 @@
 
 namespace frangia {
 
-/// Absolute phase of the finest fringes from maps of any ratios: doubling, heterodyne, negative
-/// exponential. All maps take part in the result, by the least-squares slope of phase over
-/// frequency, each weighted by its own sigma.
+/// Computes the absolute phase of the finest fringes from maps of arbitrary frequency ratios:
+/// doubling, heterodyne, negative exponential. All maps contribute through the weighted
+/// least-squares slope of phase over frequency.
 ///
 /// shape    coarse to fine, all w x h
-/// missing  a pixel missing in any map, or whose chance of a wrong order, summed over the steps, is
-///          over the limit, is NaN and says why
-/// errors   Error(Input) when empty, of different size, or when no map and no beat of two holds one
-///          fringe or less over the field
+/// missing  a pixel missing in any map, or whose probability of a wrong order, summed over the
+///          levels, exceeds the limit, is NaN; its status states the reason
+/// errors   Error(Input) when empty, of different size, or when no map and no beat of two maps has
+///          at most one fringe over the field
 /// source   Huntley and Saldner 1997 for the slope; Reich, Ritter and Thesing 1997 for beats
 [[nodiscard]] AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
                                             const Projector& projector,

@@ -6,10 +6,10 @@
 
 namespace frangia {
 
-/// How the pixels of a region are put in order.
+/// The order in which the pixels of a region are unwrapped.
 enum class SpatialMethod {
-  RunMerging,        ///< runs of rows, see `unwrap_run_merging`: the fast one
-  QualityGuided,     ///< growth along the largest product of modulations, the paper's, see
+  RunMerging,        ///< runs of rows; the fastest, see `unwrap_run_merging`
+  QualityGuided,     ///< growth along the largest product of modulations, as in the paper; see
                      ///< `unwrap_quality_guided`
   ReliabilitySorted  ///< edges sorted by reliability, see `unwrap_reliability_sorted`
 };
@@ -18,16 +18,17 @@ struct SpatialUnwrapOptions {
   SpatialMethod method = SpatialMethod::RunMerging;
   SplitOptions split;
   JoinOptions join;
-  /// Keep the order in which the paper's growth reaches the pixels, to be looked at; where another
-  /// method unwraps, it is that of the same regions by the growth.
+  /// Record the order in which quality-guided growth reaches the pixels, also when another method
+  /// unwraps.
   bool keep_growth_order = false;
 };
 
-/// Phase that is continuous within each region: residues discarded, regions split where a step may
-/// hide, each unwrapped, and joined again where that is safe.
+/// Computes a phase that is continuous within each region: discards residues, splits regions where
+/// a step may hide, unwraps each region, and joins regions where that is safe.
 ///
 /// shape    w x h in and out
-/// missing  pixels that were missing, and residues
+/// units    rad
+/// missing  missing pixels and residues are NaN
 [[nodiscard]] RelativePhase unwrap_spatially(WrappedPhase phase,
                                              const SpatialUnwrapOptions& options = {});
 

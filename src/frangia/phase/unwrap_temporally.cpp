@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
 
-/// A phase near the ends of the fringe may have slipped over to the other end by noise: uncertain.
+/// Near the ends of the single fringe, noise may wrap the phase to the other end; such pixels are
+/// uncertain.
 AbsolutePhase from_single_fringe(const WrappedPhase& level,
                                  const Projector& projector,
                                  double min_sigmas) {
@@ -38,9 +39,8 @@ AbsolutePhase from_single_fringe(const WrappedPhase& level,
   return out;
 }
 
-/// Mean over the neighbours that agree with the pixel within three sigmas of their difference. A
-/// window that is not symmetric would follow the slope of the phase, so both of a pair count or
-/// neither.
+/// Mean over the neighbours that agree within three sigmas of their difference. Opposite neighbours
+/// count in pairs, because an asymmetric window would be biased by the slope of the phase.
 void smooth_row(const AbsolutePhase& in, int radius, int y, AbsolutePhase& out) {
   const int width = in.phase_rad.width();
   const int height = in.phase_rad.height();

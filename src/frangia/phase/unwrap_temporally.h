@@ -9,28 +9,34 @@
 namespace frangia {
 
 struct TemporalUnwrapOptions {
-  /// A pixel goes when the chance that one of its fringe orders is wrong is above this.
+  /// Largest probability that one of a pixel's fringe orders is wrong; a pixel above it is
+  /// discarded.
   double max_wrong_order = 1e-4;
-  /// A coarse phase only chooses the fringe of a finer one, so it may be smoothed: the mean over
-  /// the neighbours this far that agree with it within their noise. 0 leaves it as it is.
+  /// Radius of the mean filter on coarse levels, px; 0 for none. A coarse phase only selects the
+  /// fringe of a finer one, so smoothing it loses no detail. Only neighbours that agree within
+  /// their noise contribute.
   int smooth_radius_px = 2;
 };
 
-/// Absolute phase of the finest fringes, each level lifted by the coarser one before it.
+/// Computes the absolute phase of the finest fringes; each level is unwrapped by the next coarser
+/// one.
 ///
-/// shape    coarse to fine, all w x h; the first absolute: one fringe or less over the field
+/// shape    coarse to fine, all w x h; the first has at most one fringe over the field
 /// units    rad
-/// missing  a pixel missing at any level, or whose fringe order is in doubt, is NaN and says why
+/// missing  a pixel missing at any level, or with an uncertain fringe order, is NaN; its status
+///          states the reason
 /// errors   Error(Input) when empty, not coarse to fine, or of different size
 /// source   the paper's reference [36], Müller 1995
 [[nodiscard]] AbsolutePhase unwrap_temporally(std::span<const WrappedPhase> coarse_to_fine,
                                               const Projector& projector,
                                               const TemporalUnwrapOptions& options = {});
 
-/// The same from an absolute phase that is already there, such as one that the plane of light
-/// fixed.
+/// Unwraps finer levels by an existing absolute phase, for example one that the laser sheet fixed.
 ///
 /// shape    `absolute` and every level w x h, coarse to fine
+/// units    rad
+/// missing  as `unwrap_temporally`
+/// errors   Error(Input) when not coarse to fine, or of different size
 [[nodiscard]] AbsolutePhase unwrap_finer_levels(AbsolutePhase absolute,
                                                 std::span<const WrappedPhase> finer,
                                                 const TemporalUnwrapOptions& options = {});

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kChunk = 64 * kTilePixels;
 
-/// Beyond which a pixel is lost.
+/// Limits beyond which a pixel has no phase.
 struct Limits {
   std::int32_t white;
   float max_sigma;
@@ -31,7 +31,7 @@ struct Output {
   PixelStatus* status;
 };
 
-/// Modulation, mean and sigma: d phi = (cos phi dS - sin phi dC) / B, with S and C sums over frames
+/// Modulation and sigma: d phi = (cos phi dS - sin phi dC) / B, where S and C are sums over frames
 /// of equal variance.
 FRANGIA_VECTORIZED void find_noise(const WrapTile& __restrict tile,
                                    std::size_t n,

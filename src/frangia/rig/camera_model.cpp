@@ -15,16 +15,17 @@ namespace frangia {
 namespace {
 
 constexpr int kMaxIterations = 20;        // of Newton's method
-constexpr double kConverged = 1e-28;      // squared error that is rounding
-constexpr double kAcceptable = 1e-20;     // and that is good enough
-constexpr double kMinDeterminant = 1e-3;  // least determinant: beyond it the model folds back
+constexpr double kConverged = 1e-28;      // squared normalized distance at rounding level
+constexpr double kAcceptable = 1e-20;     // largest squared distance accepted as a solution
+constexpr double kMinDeterminant = 1e-3;  // below it the model is about to fold back
 
-/// Normalised points of a row, each coordinate in a row of its own: vector code.
+/// The normalized points of an image row, in separate arrays per coordinate so that loops
+/// vectorize.
 struct RayRow {
   std::vector<double> x, y, distorted_x, distorted_y;
 };
 
-/// One step of Newton's method for all of them; returns the largest squared error before it.
+/// Performs one Newton step for a whole row; returns the largest squared error before the step.
 FRANGIA_VECTORIZED_WIDE double newton_step(const CameraModel& model, RayRow& row) {
   const auto [k1, k2, p1, p2, k3] = model.distortion;
   double* to_x = row.x.data();
@@ -74,7 +75,7 @@ Eigen::Matrix2d CameraModel::distort_jacobian(const Eigen::Vector2d& normalized)
   const double y = normalized.y();
   const double r2 = x * x + y * y;
   const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // d radial / d r2, times 2
+  const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // 2 d(radial) / d(r^2)
   Eigen::Matrix2d jacobian;
   jacobian << radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x,
       slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y,  //

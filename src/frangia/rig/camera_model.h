@@ -8,8 +8,8 @@
 
 namespace frangia {
 
-/// Pinhole with Brown-Conrady distortion, as in OpenCV. A digital projector is an inverse camera
-/// and uses the same model. Pixel (0, 0) is the centre of the top-left one.
+/// A pinhole camera with Brown-Conrady distortion, as in OpenCV. A digital projector is an inverse
+/// camera and uses the same model. Pixel (0, 0) has its centre at (0, 0).
 struct CameraModel {
   int width_px = 0;
   int height_px = 0;
@@ -17,21 +17,27 @@ struct CameraModel {
   Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();
   std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3
 
-  /// Where the lens bends the normalized point (x/z, y/z) to.
+  /// Applies the distortion to the normalized point (x/z, y/z).
   [[nodiscard]] Eigen::Vector2d distort(const Eigen::Vector2d& normalized) const;
-  /// How `distort` moves with its argument.
+  /// Returns the derivative of `distort` with respect to its argument.
   [[nodiscard]] Eigen::Matrix2d distort_jacobian(const Eigen::Vector2d& normalized) const;
-  /// The normalized point that `distort` sends to this one, by Newton's method; NaN where the
-  /// model folds back and has no inverse.
+  /// Inverts `distort` by Newton's method.
+  ///
+  /// missing  NaN where the model folds back and has no inverse
   [[nodiscard]] Eigen::Vector2d undistort(const Eigen::Vector2d& distorted) const;
 
-  /// Pixel that sees the point, given in the lens's own frame; z > 0.
+  /// Projects a point of the camera frame, with z > 0, to a pixel.
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& point) const;
-  /// Normalised point (x/z, y/z) that the pixel looks at.
+  /// Returns the normalized point (x/z, y/z) on the ray of a pixel.
+  ///
+  /// missing  NaN as `undistort`
   [[nodiscard]] Eigen::Vector2d ray(const Eigen::Vector2d& pixel) const;
 };
 
-/// `model.ray` of every pixel.
+/// Returns `model.ray` of every pixel, computed a row at a time.
+///
+/// shape    height_px x width_px
+/// missing  NaN as `CameraModel::undistort`
 [[nodiscard]] Image<Eigen::Vector2f> rays_of(const CameraModel& model);
 
 }  // namespace frangia

@@ -4,7 +4,7 @@
 
 namespace frangia {
 
-/// `CameraModel::project` in single precision, written so that the compiler takes 8 points at once.
+/// Single-precision `CameraModel::project`, written so that the compiler vectorizes it.
 struct FastCameraModel {
   explicit FastCameraModel(const CameraModel& model)
       : fx(static_cast<float>(model.focal_px.x())),
@@ -17,7 +17,7 @@ struct FastCameraModel {
         p2(static_cast<float>(model.distortion[3])),
         k3(static_cast<float>(model.distortion[4])) {}
 
-  /// Pixel of a point with z > 0; others come out anywhere.
+  /// Projects a point with z > 0. The result for any other point is meaningless.
   void project(float px, float py, float pz, float& u, float& v) const {
     const float inverse = 1.0F / pz;
     const float x = px * inverse;
@@ -28,9 +28,9 @@ struct FastCameraModel {
     v = cy + fy * (y * radial + p1 * (r2 + 2.0F * y * y) + 2.0F * p2 * x * y);
   }
 
-  /// How the pixel (u, v) moves with the normalized point (x, y) = (X/Z, Y/Z).
+  /// Derivatives of the pixel (u, v) with respect to the normalized point (x, y) = (X/Z, Y/Z).
   struct Jacobian {
-    float ux, uy, vx, vy;  ///< of u by x, u by y, v by x, v by y
+    float ux, uy, vx, vy;  ///< du/dx, du/dy, dv/dx, dv/dy
   };
   [[nodiscard]] Jacobian jacobian(float x, float y) const {
     const float r2 = x * x + y * y;

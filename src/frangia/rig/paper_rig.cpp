@@ -20,13 +20,13 @@ Rig make_paper_rig(const PaperGeometry& g) {
   model.width_px = g.columns;
   model.height_px = g.rows;
   model.focal_px.setConstant(g.focal_mm / g.pixel_mm);
-  // Equation (2) counts pixels from ncol / 2, and y to the left: the paper's y is our -x.
+  // Equation (2) counts pixels from ncol / 2. The paper's y points left and is -x of the rig frame.
   model.principal_point_px = {0.5 * g.columns, 0.5 * g.rows};
   const double c = std::cos(g.theta0_rad);
   const double s = std::sin(g.theta0_rad);
   rig.projector.model = AngularModel{-0.5 * g.field_rad, 0.5 * g.field_rad};
   rig.projector.position_mm = {-g.yp_mm(), 0.0, g.xp_mm};
-  // The ray of psi leaves under theta0 - psi, equation (6): psi grows towards the paper's +y.
+  // By equation (6) the ray of psi leaves at theta0 - psi, so psi increases towards the paper's +y.
   rig.projector.rotation << -c, 0.0, s,  //
       0.0, -1.0, 0.0,                    //
       s, 0.0, c;

@@ -13,8 +13,7 @@ PhaseRange phase_range(const Pattern& pattern, const Projector& projector) {
   const bool rows = pattern.direction == FringeDirection::Horizontal;
   const double size_px = rows ? pinhole.height_px : pinhole.width_px;
   const double rad_per_px = kTwoPi / pattern.period_px;
-  return {-0.5 * rad_per_px,
-          (size_px - 0.5) * rad_per_px};  // pixels have their number in the centre
+  return {-0.5 * rad_per_px, (size_px - 0.5) * rad_per_px};  // the centre of pixel k is at k
 }
 
 bool is_absolute(const Pattern& pattern, const Projector& projector) {

@@ -5,7 +5,7 @@
 
 namespace frangia {
 
-/// The absolute phases that a pattern has over the lit field.
+/// The range of absolute phases over the illuminated field.
 struct PhaseRange {
   double min_rad = 0.0;
   double max_rad = 0.0;
@@ -15,7 +15,8 @@ struct PhaseRange {
 
 [[nodiscard]] PhaseRange phase_range(const Pattern& pattern, const Projector& projector);
 
-/// Whether the whole field holds one fringe or less, so that the wrapped phase is the absolute one.
+/// Returns whether the field spans at most one fringe, so that the wrapped phase is the absolute
+/// phase.
 [[nodiscard]] bool is_absolute(const Pattern& pattern, const Projector& projector);
 
 }  // namespace frangia

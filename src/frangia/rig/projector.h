@@ -10,13 +10,13 @@
 
 namespace frangia {
 
-/// Interference fringes, evenly spaced in the angle psi = atan2(p.x, p.z).
+/// An interferometric projector. Its fringes are evenly spaced in the angle psi = atan2(p.x, p.z).
 struct AngularModel {
-  double field_min_rad = 0.0;  ///< the lit range of psi
+  double field_min_rad = 0.0;  ///< illuminated range of psi
   double field_max_rad = 0.0;
 };
 
-/// A digital projector, evenly spaced in its own pixels.
+/// A digital projector. Its fringes are evenly spaced in projector pixels.
 using PinholeModel = CameraModel;
 
 struct Projector {
@@ -24,11 +24,12 @@ struct Projector {
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();   ///< in the rig frame
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< projector_from_rig
 
-  /// What patterns are corrected for before they are shown; none is shown as it is.
+  /// Response that a look-up table corrects before patterns are shown; none: patterns are shown
+  /// uncorrected.
   std::optional<ResponseCurve> response = std::nullopt;
 
   [[nodiscard]] bool is_angular() const { return std::holds_alternative<AngularModel>(model); }
-  /// A point of the rig frame in the projector's own.
+  /// Transforms a point from the rig frame to the projector frame.
   [[nodiscard]] Eigen::Vector3d from_rig(const Eigen::Vector3d& point_mm) const {
     return rotation * (point_mm - position_mm);
   }

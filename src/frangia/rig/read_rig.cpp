@@ -14,7 +14,8 @@
 namespace frangia {
 namespace {
 
-/// How far a rotation or a direction may be from exact: files carry nine digits, people type four.
+/// Largest deviation of a rotation or a unit vector from exact. Files carry nine digits; people
+/// type four.
 constexpr double kUnitTolerance = 2e-3;
 constexpr int kMaxSide = 65535;
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kSamples = 65;
 
-/// Averages values that fall into steps that do not.
+/// Replaces falling sequences by their mean (pool adjacent violators).
 void make_monotone(std::vector<double>& values) {
   struct Pool {
     double sum;
@@ -31,8 +31,8 @@ void make_monotone(std::vector<double>& values) {
     next = std::fill_n(next, static_cast<std::ptrdiff_t>(pool.count), pool.sum / pool.count);
 }
 
-/// Slopes of the cubic through the points that stays as monotone as they are (Fritsch and Carlson
-/// 1980, by harmonic means).
+/// Slopes of the monotone cubic interpolant: harmonic means of the chord slopes (Fritsch and
+/// Carlson 1980; Fritsch and Butland 1984).
 std::vector<double> slopes_of(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   std::vector<double> chord(n - 1);

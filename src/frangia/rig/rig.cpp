@@ -3,7 +3,7 @@
 namespace frangia {
 
 Eigen::Isometry3d Turntable::rig_from_object(double angle_rad) const {
-  // x from the origin towards the camera's centre, made perpendicular to the axis; y = z cross x.
+  // x points from the origin to the camera's centre, made perpendicular to the axis; y = z cross x.
   const Eigen::Vector3d to_camera = -point_mm;
   const Eigen::Vector3d x = (to_camera - axis * axis.dot(to_camera)).normalized();
   Eigen::Matrix3d basis;

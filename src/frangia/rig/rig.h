@@ -12,33 +12,34 @@ namespace frangia {
 
 struct Camera {
   CameraModel model;
-  int white_level = 255;            ///< the value at which a pixel is saturated
-  std::optional<NoiseModel> noise;  ///< estimated from the frames where it is not given
+  int white_level = 255;            ///< a pixel at or above this level is saturated
+  std::optional<NoiseModel> noise;  ///< estimated from the frames if absent
 };
 
-/// The single plane of light: normal . X = offset_mm, in the rig frame.
+/// The laser sheet: the plane normal . X = offset_mm in the rig frame.
 struct LaserSheet {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit
   double offset_mm = 0.0;
 };
 
-/// The axis of rotation, in the rig frame.
+/// The axis of rotation in the rig frame.
 struct Turntable {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d axis = -Eigen::Vector3d::UnitY();  ///< unit, up, away from the platter
+  Eigen::Vector3d axis =
+      -Eigen::Vector3d::UnitY();  ///< unit vector that points up from the turntable top
 
-  /// Where an object point is seen at table angle `angle_rad`: point + [x y z] Rz(a) p.
+  /// Returns the pose of the object at table angle `angle_rad`: point + [x y z] Rz(angle) p.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;
 };
 
-/// Everything the light meets. Rig frame = camera frame: x right, y down, z forward; mm.
+/// The calibrated scanner. The rig frame is the camera frame: x right, y down, z forward, in mm.
 struct Rig {
   Camera camera;
   Projector projector;
   std::optional<LaserSheet> laser_sheet;
   std::optional<Turntable> turntable;
 
-  /// `Turntable::rig_from_object`, or the identity for a rig without a turntable.
+  /// Returns `Turntable::rig_from_object`, or the identity for a rig without a turntable.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;
 };
 

@@ -15,8 +15,8 @@
 
 namespace frangia {
 
-/// One table of a TOML file, read with sentences that name the file and the key.
-/// For sources only: it brings toml++ along.
+/// Reads one table of a TOML file. Error messages name the file and the key. Include it in sources
+/// only, because it includes toml++.
 class TomlReader {
  public:
   TomlReader(std::filesystem::path file, std::string table_name, const toml::table& table)
@@ -54,7 +54,7 @@ class TomlReader {
     if (!value) fail(key, "must be a text in quotes");
     return *value;
   }
-  /// A list of numbers; of `count` numbers, unless that is 0.
+  /// Returns a list of numbers, of exactly `count` numbers unless `count` is 0.
   [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count = 0) {
     const toml::array* list = node(key).as_array();
     if (list == nullptr || (count != 0 && list->size() != count)) {
@@ -67,7 +67,7 @@ class TomlReader {
       values.push_back(finite(key, item));
     return values;
   }
-  /// A list of `count` lists of `length` numbers each.
+  /// Returns `count` lists of `length` numbers each.
   [[nodiscard]] std::vector<std::vector<double>> rows(std::string_view key,
                                                       std::size_t count,
                                                       std::size_t length) {
@@ -91,7 +91,7 @@ class TomlReader {
             table_name_.empty() ? std::string(key) : fmt::format("{}.{}", table_name_, key),
             *inner};
   }
-  /// The tables of [[key]]; empty when there are none.
+  /// Returns the tables of [[key]]; empty if the key is absent.
   [[nodiscard]] std::vector<TomlReader> tables(std::string_view key) {
     std::vector<TomlReader> readers;
     if (!has(key)) return readers;
@@ -104,10 +104,10 @@ class TomlReader {
     }
     return readers;
   }
-  /// A key of the format that this version does not use: no warning for it.
+  /// Accepts a key without reading it, so that no warning follows.
   void ignore(std::string_view key) { used_.insert(std::string(key)); }
 
-  /// Warns of each key that nothing has asked for.
+  /// Warns about each key that was not read.
   void warn_of_unused_keys(const Run& run) const {
     for (const auto& [key, value] : *table_) {
       if (!used_.contains(std::string(key.str()))) {
@@ -139,7 +139,9 @@ class TomlReader {
   std::set<std::string> used_;
 };
 
-/// Parses a file whose `format` key must be `format`, in version 1.
+/// Parses a file whose `format` key must equal `format` and whose version must be 1.
+///
+/// errors   Error(Input) that names the file and the line or key
 [[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
                                             const std::string& format) {
   if (!std::filesystem::is_regular_file(file)) {

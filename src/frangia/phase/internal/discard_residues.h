@@ -6,8 +6,7 @@
 
 namespace frangia {
 
-/// Discards every pixel of each 2 x 2 loop whose wrapped phase jumps do not sum to zero.
-/// Returns how many pixels went.
+/// Discards the four pixels of each residue and returns the number of discarded pixels.
 ///
 /// source   the paper's reference [34], Huntley 1989
 std::size_t discard_residues(WrappedPhase& phase);

@@ -18,14 +18,14 @@ namespace {
 constexpr float kTwoPiRad = 6.28318531F;
 constexpr float kPerTwoPi = 0.159154943F;
 
-/// To the nearest whole number, of numbers below four million; vectorises without an instruction
-/// for it.
+/// Rounds numbers below four million to the nearest integer; vectorizes without a rounding
+/// instruction.
 [[gnu::always_inline]] inline float nearest(float value) {
   constexpr float kShift = 12582912.0F;  // 1.5 * 2^23
   return (value + kShift) - kShift;
 }
 
-/// A map, or a beat of two.
+/// The data of a level: a map or the beat of two maps.
 struct LevelLanes {
   const float* phase;
   const float* subtracted;
@@ -33,8 +33,8 @@ struct LevelLanes {
   const float* subtracted_precision;
 };
 
-/// Wrapped phase of a level, and its variance as a fraction: a division takes longer than all the
-/// rest.
+/// Wrapped phase of a level and its variance as a fraction, because a division takes longer than
+/// the rest.
 struct LevelPhase {
   float phase;
   float variance_numerator;
@@ -53,14 +53,14 @@ template <bool IsBeat>
   }
 }
 
-// What is known of a pixel's order: a set of these.
-constexpr std::int32_t kUnsafe = 1;     ///< to be looked at exactly
-constexpr std::int32_t kUncertain = 2;  ///< one step alone is over the limit
+// Bits of the state of a pixel's order.
+constexpr std::int32_t kUnsafe = 1;     ///< needs the exact probability
+constexpr std::int32_t kUncertain = 2;  ///< a single level exceeds the limit
 
-/// Squares of the sigmas that half a fringe must be away.
+/// Squared margins in sigmas, compared with half a fringe.
 struct Margins {
-  float safe;     ///< so that all steps together are under the limit
-  float minimum;  ///< so that one step alone is
+  float safe;     ///< all levels together are within the limit
+  float minimum;  ///< a single level is within the limit
 };
 
 [[gnu::always_inline]] inline std::int32_t classify_margin(float margin,
@@ -70,14 +70,15 @@ struct Margins {
          (margin < margins.minimum * variance_numerator ? kUncertain : 0);
 }
 
-/// The first step, and its phase in the middle of the field.
+/// The first level and its phase at the centre of the field.
 struct FirstLevel {
   LevelLanes level;
   float center;
   Margins margins;
 };
 
-/// The first step: nothing to lift, but noise slips over at the ends of the single fringe.
+/// Unwraps the first level: no coarser level exists, but noise can wrap phases near the ends of the
+/// single fringe.
 template <bool IsBeat>
 FRANGIA_VECTORIZED void unwrap_first_level(const FirstLevel& first,
                                            std::size_t n,
@@ -95,15 +96,15 @@ FRANGIA_VECTORIZED void unwrap_first_level(const FirstLevel& first,
   }
 }
 
-/// A step and the next finer one.
+/// A level and the next finer one.
 struct LevelPair {
   LevelLanes coarse;
   LevelLanes fine;
-  float ratio;  ///< of their fringes
+  float ratio;  ///< ratio of their frequencies
   Margins margins;
 };
 
-/// The next finer step, lifted to where the coarse one expects it.
+/// Unwraps the next finer level by the scaled coarse one.
 template <bool CoarseIsBeat, bool FineIsBeat>
 FRANGIA_VECTORIZED void unwrap_next_level(const LevelPair& step,
                                           std::size_t n,
@@ -125,21 +126,21 @@ FRANGIA_VECTORIZED void unwrap_next_level(const LevelPair& step,
   }
 }
 
-/// A map's part in the slope of phase over frequency.
+/// The contribution of a map to the slope of phase over frequency.
 struct MapTerm {
   const float* phase;
   const float* precision;
-  float ratio;  ///< of its fringes to the finest one's
+  float ratio;  ///< frequency relative to the finest map
 };
 
-/// Sums over the maps for the least-squares slope of phase over frequency.
+/// Sums of the least-squares slope of phase over frequency.
 struct Slope {
   alignas(64) Lane sum;
   alignas(64) Lane weights;
 };
 
-/// Two maps' share in the slope of phase over frequency: how far they lie from the finest one's.
-/// The first two set the sums.
+/// Adds two maps to the sums, as deviations from the finest map's phase. The first two maps
+/// initialize the sums.
 template <bool IsFirst>
 FRANGIA_VECTORIZED void add_to_slope(const MapTerm& first,
                                      const MapTerm& second,
@@ -173,7 +174,7 @@ FRANGIA_VECTORIZED void finish_slope(const float* __restrict at,
   }
 }
 
-/// Whether any of them is not 0.
+/// Returns whether any element is nonzero.
 FRANGIA_VECTORIZED bool any_of(const std::int32_t* state, std::size_t n) {
   std::int32_t all = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -181,7 +182,7 @@ FRANGIA_VECTORIZED bool any_of(const std::int32_t* state, std::size_t n) {
   return all != 0;
 }
 
-/// The lanes of a step; a map that stands alone is less nothing.
+/// The data of a level; `subtracted` is null for a single map.
 LevelLanes lanes_of(const UnwrapLevel& step, const HierarchicalUnwrapper::Input& maps) {
   if (step.subtracted < 0)
     return {maps.phase_rad[step.map], nullptr, maps.precision[step.map], nullptr};
@@ -253,7 +254,7 @@ void HierarchicalUnwrapper::unwrap(const Input& maps,
     coarse = fine;
   }
   fit_slope(maps, lanes[(levels_.size() - 1) % 2].data(), n, absolute_rad, sigma_rad);
-  // What is not safe by a margin is looked at again, exactly.
+  // Pixels that the margins do not classify as safe get the exact probability.
   constexpr std::size_t kBlock = 64;
   for (std::size_t begin = 0; begin < n; begin += kBlock) {
     const std::size_t end = std::min(n, begin + kBlock);
@@ -271,9 +272,9 @@ void HierarchicalUnwrapper::fit_slope(const Input& maps,
                                       std::size_t n,
                                       float* absolute_rad,
                                       float* sigma_rad) const {
-  Slope slope;  // NOLINT(cppcoreguidelines-pro-type-member-init): set by the first two maps
+  Slope slope;  // NOLINT(cppcoreguidelines-pro-type-member-init): initialized by the first two maps
   for (std::size_t m = 0; m < ratios_.size(); m += 2) {
-    // An odd last one goes with itself at no weight.
+    // The last map of an odd number is paired with itself at weight zero.
     const bool pair = m + 1 < ratios_.size();
     const std::size_t other = pair ? m + 1 : m;
     const MapTerm one{maps.phase_rad[m], maps.precision[m], static_cast<float>(ratios_[m])};

@@ -11,24 +11,27 @@
 
 namespace frangia {
 
-/// The way up from one fringe over the field to the finest map, for many pixels at once.
+/// Hierarchical temporal unwrapping from one fringe over the field to the finest map, for many
+/// pixels at once.
 class HierarchicalUnwrapper {
  public:
-  /// errors   Error(Input) when empty, not coarse to fine, or without a common meaning
+  /// errors   Error(Input) when empty, not coarse to fine, or when the maps do not determine an
+  ///          absolute phase
   HierarchicalUnwrapper(std::span<const Pattern> coarse_to_fine,
                         const Projector& projector,
                         double max_wrong_order);
 
-  /// Wrapped phases and one over their variances, a pointer a map; `invalid` is not 0 where one is
-  /// missing.
+  /// Wrapped phases and their inverse variances, one pointer per map. `invalid` is nonzero where a
+  /// phase is missing.
   struct Input {
     std::span<const float* const> phase_rad;
     std::span<const float* const> precision;
     const std::int32_t* invalid = nullptr;
   };
-  /// Absolute phase of the finest map by the least-squares slope through all of them, and its
-  /// sigma, of n pixels, at most kTilePixels; without meaning where invalid. `uncertain` is 1 where
-  /// the chance of a wrong order, summed over the steps, is above the limit, and 0 elsewhere.
+  /// Computes the absolute phase of the finest map by the least-squares slope through all maps, and
+  /// its sigma, for n <= kTilePixels pixels. Results are meaningless where `invalid` is set.
+  /// `uncertain` is 1 where the probability of a wrong order, summed over the levels, exceeds the
+  /// limit, and 0 elsewhere.
   void unwrap(const Input& maps,
               std::size_t n,
               float* absolute_rad,
@@ -36,21 +39,22 @@ class HierarchicalUnwrapper {
               std::int32_t* uncertain) const;
 
  private:
-  /// The least-squares slope of phase over frequency through all maps, the finest being `at`.
+  /// Fits the least-squares slope of phase over frequency through all maps; `at` is the absolute
+  /// phase of the finest map.
   void fit_slope(const Input& maps,
                  const float* at,
                  std::size_t n,
                  float* absolute_rad,
                  float* sigma_rad) const;
-  /// The chance that one of pixel i's orders is wrong.
+  /// Probability that one of pixel i's orders is wrong.
   [[nodiscard]] double pixel_wrong_order_probability(const Input& maps, std::size_t i) const;
 
   std::vector<UnwrapLevel> levels_;
-  std::vector<double> ratios_;  ///< of each map's fringes to the finest one's
+  std::vector<double> ratios_;  ///< frequency of each map relative to the finest one
   double max_wrong_order_;
-  double safe_sigmas_ = 0.0;  ///< half a fringe away by so many sigmas is safe at each step
-  double min_sigmas_;         ///< and by fewer than these is not, at any single one
-  double center_rad_ = 0.0;   ///< phase of the first step in the middle of the field
+  double safe_sigmas_ = 0.0;  ///< a margin of this many sigmas is safe at every level
+  double min_sigmas_;         ///< a margin of fewer sigmas is unsafe at a single level
+  double center_rad_ = 0.0;   ///< phase of the first level at the centre of the field
 };
 
 }  // namespace frangia

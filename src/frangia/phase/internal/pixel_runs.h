@@ -8,20 +8,21 @@
 
 namespace frangia {
 
-/// Pixels [begin, end) of one row that hang together.
+/// Connected pixels [begin, end) of one row.
 struct PixelRun {
   std::int32_t begin;
   std::int32_t end;
 };
 
-/// The runs of an image, row by row: those of row y are first[y] to first[y + 1].
+/// The runs of an image, row by row. The runs of row y have the indices first[y] to first[y + 1] -
+/// 1.
 struct PixelRuns {
   std::vector<PixelRun> runs;
   std::vector<std::size_t> first;
 };
 
-/// Cuts every row into runs: of pixels that `inside(x, y)` admits, broken where `joined(x, y)` says
-/// that pixel and right-hand neighbour are not one.
+/// Cuts every row into runs of pixels that `inside(x, y)` admits. A run also ends where `joined(x,
+/// y)` is false for a pixel and its right-hand neighbour.
 template <typename Inside, typename Joined>
 [[nodiscard]] PixelRuns find_runs(int width,
                                   int height,
@@ -47,8 +48,8 @@ template <typename Inside, typename Joined>
   return out;
 }
 
-/// Calls `visit(a, b, begin, end)` for each run `a` of row y - 1 that lies above a run `b` of row
-/// y, with the columns that they share.
+/// Calls `visit(a, b, begin, end)` for each pair of a run `a` of row y - 1 and a run `b` of row y
+/// that share the columns [begin, end).
 template <typename Visit>
 void for_each_overlap_above(const PixelRuns& all, int y, const Visit& visit) {
   if (y == 0) return;
@@ -64,7 +65,7 @@ void for_each_overlap_above(const PixelRuns& all, int y, const Visit& visit) {
   }
 }
 
-/// Sets of runs, each run some whole fringes above the root of its set.
+/// Union-find over runs; each run stores its fringe offset from its parent.
 class RunForest {
  public:
   explicit RunForest(std::size_t count) : parent_(count), fringes_(count, 0) {
@@ -73,13 +74,13 @@ class RunForest {
   }
   struct Root {
     std::uint32_t run;
-    std::int32_t fringes;  ///< to add to the run to be level with its root
+    std::int32_t fringes;  ///< fringes to add to the run to be level with its root
   };
   [[nodiscard]] Root root(std::size_t run) {
     auto at = static_cast<std::uint32_t>(run);
     std::int32_t fringes = 0;
     while (parent_[at] != at) {
-      // Each step hangs a run below its grandparent: paths stay short.
+      // Path halving.
       const std::uint32_t up = parent_[at];
       fringes_[at] += fringes_[up];
       parent_[at] = parent_[up];
@@ -88,8 +89,8 @@ class RunForest {
     }
     return {at, fringes};
   }
-  /// Joins the sets of `a` and `b`, where `b` needs `fringes` to be level with `a`. The earlier
-  /// root stays one. Nothing happens to runs that are in one set already.
+  /// Joins the sets of `a` and `b`; `fringes` is added to `b` to be level with `a`. The root with
+  /// the smaller index stays a root. Runs that are already in one set are unchanged.
   void join(std::size_t a, std::size_t b, std::int32_t fringes) {
     const Root above = root(a);
     const Root below = root(b);

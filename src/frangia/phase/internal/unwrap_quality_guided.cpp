@@ -13,17 +13,18 @@
 namespace frangia {
 namespace {
 
-/// Levels of quality: enough to keep the order of growth, few enough to stay in the cache.
+/// Number of quality levels: enough to preserve the order of growth, few enough to stay in the
+/// cache.
 constexpr std::size_t kLevels = 256;
 
-/// Pixels waiting to be reached, best quality first.
+/// A priority queue of pixels by quality level.
 class Frontier {
  public:
   void push(std::size_t level, std::uint32_t pixel) {
     buckets_[level].push_back(pixel);
     best_ = std::max(best_, level);
   }
-  /// False when nothing waits.
+  /// Returns false when the queue is empty.
   bool pop(std::uint32_t& pixel) {
     while (buckets_[best_].empty()) {
       if (best_ == 0) return false;
@@ -39,7 +40,8 @@ class Frontier {
   std::size_t best_ = 0;
 };
 
-/// An unwrapped phase is its wrapped one and whole turns: no rounding piles up along the path.
+/// Replaces each unwrapped phase by its wrapped phase plus whole turns, which removes rounding
+/// errors that accumulate along the path.
 void snap_to_whole_fringes(std::span<const float> wrapped, std::span<float> unwrapped) {
   for (std::size_t i = 0; i < unwrapped.size(); ++i) {
     if (std::isnan(unwrapped[i])) continue;
@@ -80,7 +82,7 @@ RelativePhase unwrap_quality_guided(const WrappedPhase& phase,
     if (labels[to] != labels[from] || !std::isnan(unwrapped[to])) return;
     const float jump = wrapped[to] - wrapped[from];
     const float short_way = jump - 6.28318531F * std::round(jump / 6.28318531F);
-    // Written on arrival, so that the one who pushes with the largest product is the one followed.
+    // Pixels are unwrapped when they are pushed, from the neighbour that reaches them first.
     unwrapped[to] = unwrapped[from] + short_way;
     if (keep_growth_order) out.growth_order.pixels()[to] = ++reached;
     const float product = std::sqrt(std::max(0.0F, modulation[from] * modulation[to]));

@@ -6,8 +6,8 @@
 namespace frangia {
 
 /// Unwraps each region by growth from its best pixel to the neighbour with the largest product of
-/// modulations. The fringe of the best pixel is called 0. With `keep_growth_order` the order in
-/// which the pixels were reached is kept, too.
+/// modulations. The best pixel has fringe order 0. With `keep_growth_order` the order of growth is
+/// recorded.
 ///
 /// source   the paper's reference [35], Takeda & Abe 1996
 [[nodiscard]] RelativePhase unwrap_quality_guided(const WrappedPhase& phase,

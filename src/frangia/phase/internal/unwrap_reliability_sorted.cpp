@@ -20,8 +20,8 @@ float wrapped(float jump) {
   return jump - kTwoPiRad * std::round(jump / kTwoPiRad);
 }
 
-/// How much the phase bends at each pixel, along rows, columns and both diagonals; infinite at a
-/// pixel without all its neighbours.
+/// Sum of squared second differences along rows, columns and both diagonals; infinite where a
+/// neighbour is missing.
 Image<float> second_differences_of(const Image<float>& phase) {
   Image<float> second_difference(
       phase.width(), phase.height(), std::numeric_limits<float>::infinity());
@@ -47,7 +47,7 @@ struct Edge {
   std::uint32_t to;
 };
 
-/// Smooth edges within regions, the most reliable first; equals in the order of the image.
+/// Smooth edges within regions, the most reliable first; ties in raster order.
 std::vector<Edge> sorted_edges(const Image<float>& phase, const Regions& regions) {
   const Image<float> second_difference = second_differences_of(phase);
   const auto width = static_cast<std::uint32_t>(phase.width());

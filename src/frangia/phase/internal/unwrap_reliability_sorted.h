@@ -5,8 +5,8 @@
 
 namespace frangia {
 
-/// Unwraps each region by joining pixels along their edges, the most reliable first: those where
-/// the phase bends least. The fringe of the best pixel of a region is called 0.
+/// Unwraps each region by joining pixels along their edges, the most reliable first: those with the
+/// smallest second differences. The best pixel of a region has fringe order 0.
 ///
 /// source   Herráez, Burton, Lalor and Gdeisat 2002
 [[nodiscard]] RelativePhase unwrap_reliability_sorted(const WrappedPhase& phase,

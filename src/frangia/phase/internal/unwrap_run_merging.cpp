@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kTwoPiRad = 6.28318531F;
 
-/// Fewer shared pixels than these may all be wrong.
+/// Least number of unanimous votes of a safe join. Fewer pixels may all be wrong.
 constexpr std::int32_t kSafe = 8;
 
 struct Link {
@@ -23,7 +23,7 @@ struct Link {
   std::int32_t votes;
 };
 
-/// Whole turns of each pixel above its run's first one.
+/// Whole turns of each pixel relative to the first pixel of its run.
 void count_turns(const float* phase, PixelRun run, std::int16_t* turns) {
   std::int32_t turn = 0;
   turns[run.begin] = 0;
@@ -34,8 +34,8 @@ void count_turns(const float* phase, PixelRun run, std::int16_t* turns) {
   }
 }
 
-/// What two runs ask for where they share columns: the number asked most often, how often, and
-/// whether all agree.
+/// The vote of the shared columns of two runs: the majority number of fringes, its margin, and
+/// whether all pixels agree.
 struct Vote {
   std::int32_t fringes = 0;
   std::int32_t votes = 0;
@@ -55,7 +55,7 @@ class OverlapVotes {
       const std::int32_t fringes = turns_(x, y - 1) - turns_(x, y) +
                                    (jump < -0.5F * kTwoPiRad ? 1 : 0) -
                                    (jump > 0.5F * kTwoPiRad ? 1 : 0);
-      // Boyer and Moore's majority: exact when one number has more than half of the votes.
+      // Boyer-Moore majority vote; exact when one number has more than half of the votes.
       if (vote.votes == 0) vote.fringes = fringes;
       const bool agrees = vote.fringes == fringes;
       vote.unanimous = vote.unanimous && agrees;
@@ -70,7 +70,7 @@ class OverlapVotes {
   const Image<std::int16_t>& turns_;
 };
 
-/// Joins what is safe at once; returns the links that are not, best first.
+/// Joins the safe overlaps; returns the other links by descending votes.
 std::vector<Link> join_safe(const PixelRuns& all,
                             const OverlapVotes& overlap,
                             int height,
@@ -149,7 +149,7 @@ RelativePhase unwrap_run_merging(WrappedPhase&& phase, Regions& regions) {
   std::vector<std::int32_t> level(all.runs.size());
   for (std::size_t i = 0; i < level.size(); ++i)
     level[i] = forest.root(i).fringes;
-  // The best pixel's own fringe is taken off all of its region.
+  // Subtract the order of the best pixel from its whole region.
   const auto best = best_pixels(phase.modulation_counts, label, regions.count);
   std::vector<std::int32_t> zero(best.size(), 0);
   for (std::size_t region = 0; region < best.size(); ++region) {

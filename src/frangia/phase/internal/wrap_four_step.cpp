@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-/// The four frames, ordered such that the sine goes with d - b and the cosine with a - c.
+/// The four frames, ordered such that the sine is proportional to d - b and the cosine to a - c.
 template <typename T>
 struct FourFrames {
   const T* a;
@@ -22,18 +22,18 @@ struct FourFrames {
   const T* d;
 };
 
-/// Variance of the phase times the square of its modulation, both in whole differences of counts.
+/// Variance of the phase times the squared modulation, both from unscaled differences of counts.
 struct FourStepNoise {
   float floor;
-  float slope;  ///< a count of all four frames' sum
+  float slope;  ///< per count of the sum of all four frames
 };
 
-/// Differences and sum of the four: whole numbers twice as wide as the counts, so that two vectors
-/// of pixels go through the arithmetic side by side.
+/// Differences and sum of the four frames, as integers twice as wide as the counts, which vectorize
+/// better than float.
 template <typename T>
 struct Sums {
   using Whole = std::conditional_t<sizeof(T) == 1, std::int16_t, std::int32_t>;
-  /// Not a power of two: lanes that are a power of two apart share one set of the cache's lines.
+  /// Not a power of two: lanes whose distance is a power of two share one cache set.
   using Counts = std::array<Whole, kTilePixels + 32>;
   alignas(64) Counts sine;
   alignas(64) Counts cosine;
@@ -74,8 +74,8 @@ FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
     const float ay = std::fabs(y);
     const float larger = ax > ay ? ax : ay;
     const float smaller = ax > ay ? ay : ax;
-    const float large = larger > 0.5F ? larger : 0.5F;  // a whole number otherwise
-    const float inverse = 1.0F / (large * variance);    // one division for both quotients
+    const float large = larger > 0.5F ? larger : 0.5F;  // otherwise an integer of at least 1
+    const float inverse = 1.0F / (large * variance);    // one division serves both quotients
     const float found = (x * x + y * y) * (large * inverse);
     phase[i] = restore_octant(fast_atan(smaller * (variance * inverse)), y, x);
     precision[i] = found;
@@ -83,7 +83,7 @@ FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
   }
 }
 
-/// The brightest of the frames, in their own narrow numbers: many at once.
+/// Maximum over the frames in their own integer type, which gives the widest vectors.
 template <typename T>
 FRANGIA_VECTORIZED void update_brightest(FourFrames<T> frames,
                                          std::size_t n,
@@ -129,7 +129,8 @@ void wrap_four_step(const FourStepFrames& frames,
   const PhaseAlgorithm& algorithm = frames.algorithm;
   const TileNoise& noise = frames.noise;
   const std::vector<Frame>& images = frames.stack.frames;
-  // Differences are taken as they are; their scale goes into the noise, their sign into the order.
+  // The differences are not scaled: their scale enters the noise, their sign the order of the
+  // frames.
   const double scale = algorithm.sine[3] * algorithm.sine[3];
   const double gain = static_cast<double>(noise.sine_gain) / scale;
   const FourStepNoise of_counts{

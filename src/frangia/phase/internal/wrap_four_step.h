@@ -9,27 +9,27 @@
 
 namespace frangia {
 
-/// Whether the algorithm is that of four frames a quarter turn apart: its sine of the second and
-/// fourth only, its cosine of the others, its mean of all alike.
+/// Returns whether an algorithm is the four-step algorithm: its sine uses the second and fourth
+/// frame, its cosine the first and third, and its mean all four equally.
 [[nodiscard]] bool is_four_step(const PhaseAlgorithm& algorithm);
 
-/// Frames for which `is_four_step` holds, and the noise of their sums.
+/// Frames for which `is_four_step` holds, and the noise of their weighted sums.
 struct FourStepFrames {
   const FrameStack& stack;
   const PhaseAlgorithm& algorithm;
   const TileNoise& noise;
 };
 
-/// Where the phases of a tile go.
+/// Output of a tile.
 struct TilePhase {
   float* phase_rad;
-  float* precision;          ///< one over the variance of the phase
-  float* lowest_precision;   ///< of all maps so far; infinite before the first
-  std::uint16_t* brightest;  ///< brightest of all frames so far; 0 before the first
+  float* precision;          ///< inverse variance of the phase
+  float* lowest_precision;   ///< minimum over all maps so far; initialize with a large number
+  std::uint16_t* brightest;  ///< maximum over all frames so far; initialize with 0
 };
 
-/// Phase and precision of the pixels [at, at + n), n at most kTilePixels, in one pass: no sum is
-/// ever stored.
+/// Computes phase and precision of the pixels [at, at + n), n <= kTilePixels, without storing the
+/// weighted sums.
 void wrap_four_step(const FourStepFrames& frames,
                     std::size_t at,
                     std::size_t n,

@@ -27,10 +27,9 @@ Weights weights_of(const PhaseAlgorithm& algorithm, std::size_t frame) {
           static_cast<float>(algorithm.mean[frame])};
 }
 
-// One small loop a step, its values in the first-level cache: a single large one does not
-// vectorise.
+// Several small loops with data in the first-level cache: a single large loop does not vectorize.
 
-/// Writes the sums of the first three frames.
+/// Initializes the sums with three frames.
 template <typename T>
 FRANGIA_VECTORIZED void set_three(std::array<const T*, 3> frames,
                                   std::size_t n,
@@ -49,7 +48,7 @@ FRANGIA_VECTORIZED void set_three(std::array<const T*, 3> frames,
   }
 }
 
-/// Writes the sums of the first four frames: at once, so that no sum is loaded and stored again.
+/// Initializes the sums with four frames in one pass, so that no sum is stored and reloaded.
 template <typename T>
 FRANGIA_VECTORIZED void set_four(std::array<const T*, 4> frames,
                                  std::size_t n,
@@ -71,8 +70,8 @@ FRANGIA_VECTORIZED void set_four(std::array<const T*, 4> frames,
   }
 }
 
-/// The same of four frames whose sine is of the second and fourth only, and whose cosine is of the
-/// others: a quarter turn apart. Half of the work.
+/// Initializes the sums of the four-step algorithm, whose sine and cosine use two frames each: half
+/// the work of `set_four`.
 template <typename T>
 FRANGIA_VECTORIZED void set_four_step(std::array<const T*, 4> frames,
                                       std::size_t n,
@@ -96,7 +95,7 @@ FRANGIA_VECTORIZED void set_four_step(std::array<const T*, 4> frames,
   }
 }
 
-/// The brightest of the frames, in their own narrow numbers: many at once.
+/// Maximum over the frames in their own integer type, which gives the widest vectors.
 template <typename T>
 FRANGIA_VECTORIZED void raise_brightest(const T* __restrict a,
                                         std::size_t n,
@@ -107,7 +106,7 @@ FRANGIA_VECTORIZED void raise_brightest(const T* __restrict a,
   }
 }
 
-/// Adds two more frames.
+/// Adds two more frames to the sums.
 template <typename T>
 FRANGIA_VECTORIZED void add_frames(const T* __restrict a,
                                    const T* __restrict b,
@@ -129,7 +128,8 @@ FRANGIA_VECTORIZED void add_outer(const T* counts, std::size_t n, float weight, 
     tile.outer[i] += weight * static_cast<float>(counts[i]);
 }
 
-/// Carré's sine from its two differences, and both turned back by the angle of `c` and `s`.
+/// Computes Carré's sine from its two differences and rotates both sums by the phase offset, given
+/// as `c` and `s`.
 FRANGIA_VECTORIZED void finish_carre(std::size_t n, float c, float s, WrapTile& tile) {
   for (std::size_t i = 0; i < n; ++i) {
     const float u = tile.sine[i];
@@ -158,7 +158,7 @@ void add_carre(const FrameStack& stack,
                tile);
 }
 
-/// Frames of one depth.
+/// Sums frames of one depth.
 template <typename T>
 void sum_all(const FrameStack& stack,
              const PhaseAlgorithm& algorithm,
@@ -185,7 +185,8 @@ void sum_all(const FrameStack& stack,
   for (std::size_t k = 0; k < count; ++k)
     raise_brightest<T>(pixels(k), n, tile.brightest.data());
   for (std::size_t k = first; k < count; k += 2) {
-    const bool pair = k + 1 < count;  // an odd last one goes with itself at no weight
+    const bool pair =
+        k + 1 < count;  // the last frame of an odd number is paired with itself at weight zero
     add_frames<T>(pixels(k),
                   pixels(pair ? k + 1 : k),
                   n,
@@ -224,7 +225,7 @@ TileNoise tile_noise(const FrameStack& stack,
     cosine_gain += algorithm.cosine[k] * algorithm.cosine[k];
     cross_gain += algorithm.sine[k] * algorithm.cosine[k];
   }
-  if (!algorithm.outer.empty()) {  // not linear: the mean over the fringe
+  if (!algorithm.outer.empty()) {  // nonlinear algorithm: mean over the fringe
     sine_gain = cosine_gain = algorithm.noise_gain * algorithm.noise_gain;
     cross_gain = 0.0;
   }
