@@ -16,7 +16,7 @@ namespace {
 
 using testing::text_of;
 
-TEST(AtomicFile, AppearsWholeWhenCommitted) {
+TEST(AtomicFile, AppearsCompleteWhenCommitted) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "a.txt";
   AtomicFile file(path);
@@ -26,7 +26,7 @@ TEST(AtomicFile, AppearsWholeWhenCommitted) {
   EXPECT_EQ(text_of(path), "whole");
 }
 
-TEST(AtomicFile, LeavesTheOldFileAndNoTraceWhenNotCommitted) {
+TEST(AtomicFile, KeepsTheOldFileAndLeavesNoTemporaryFileWhenNotCommitted) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "a.txt";
   std::ofstream(path) << "old";
@@ -38,7 +38,7 @@ TEST(AtomicFile, LeavesTheOldFileAndNoTraceWhenNotCommitted) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
-TEST(AtomicFile, NamesAFolderThatIsNotThere) {
+TEST(AtomicFile, NamesAMissingFolder) {
   try {
     const AtomicFile file("/nowhere/a.txt");
     FAIL();
@@ -48,11 +48,11 @@ TEST(AtomicFile, NamesAFolderThatIsNotThere) {
   }
 }
 
-TEST(AtomicFile, DoesNotCommitWhatCouldNotBeWritten) {
+TEST(AtomicFile, DoesNotCommitAfterAWriteError) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "a.txt";
   AtomicFile file(path);
-  file.stream().setstate(std::ios::badbit);  // as a full disk would
+  file.stream().setstate(std::ios::badbit);  // like a full disk
   EXPECT_THROW(file.commit(), Error);
   EXPECT_FALSE(std::filesystem::exists(path));
 }

@@ -7,9 +7,9 @@
 namespace frangia {
 namespace {
 
-using Triple = std::array<double, 3>;  // 24 bytes: no power of two
+using Triple = std::array<double, 3>;  // 24 bytes, not a power of two
 
-TEST(ChunkedVector, KeepsWhatWasWrittenOverSeveralChunks) {
+TEST(ChunkedVector, KeepsValuesAcrossChunks) {
   constexpr std::size_t kCount = 500'000;  // 12 MB
   ChunkedVector<Triple> values(kCount);
   ASSERT_EQ(values.size(), kCount);

@@ -5,13 +5,13 @@
 namespace frangia {
 namespace {
 
-TEST(DisjointSets, EachNumberIsASetAtFirst) {
+TEST(DisjointSets, StartsWithOneSetPerNumber) {
   DisjointSets sets(3);
   for (std::uint32_t i = 0; i < 3; ++i)
     EXPECT_EQ(sets.find(i), i);
 }
 
-TEST(DisjointSets, ASetIsKnownByItsSmallestMemberInWhateverOrderItIsJoined) {
+TEST(DisjointSets, TheSmallestMemberRepresentsASetForAnyOrderOfJoins) {
   DisjointSets up(6);
   up.join(1, 2);
   up.join(2, 5);

@@ -20,7 +20,7 @@ namespace {
 
 using testing::text_of;
 
-TEST(DurableLog, GrowsByWholeLinesAndIsReadBack) {
+TEST(DurableLog, ReadsBackAppendedLines) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "log.txt";
   DurableLog(path).append("one");
@@ -30,7 +30,7 @@ TEST(DurableLog, GrowsByWholeLinesAndIsReadBack) {
   EXPECT_EQ(text_of(path), "one\ntwo\n");
 }
 
-TEST(DurableLog, HalfALineOfAKilledWriterIsCutOff) {
+TEST(DurableLog, RemovesAnIncompleteLastLine) {
   const testing::TemporaryFolder folder;
   const auto path = folder.path() / "log.txt";
   std::ofstream(path) << "one\ntw";
@@ -40,7 +40,7 @@ TEST(DurableLog, HalfALineOfAKilledWriterIsCutOff) {
   EXPECT_EQ(text_of(path), "one\nthree\n");
 }
 
-TEST(DurableLog, AFullDiskIsOneSentence) {
+TEST(DurableLog, ReportsAFullDiskInOneSentence) {
   const testing::TemporaryFolder folder;
   DurableLog log(folder.path() / "log.txt");
   std::signal(SIGXFSZ, SIG_IGN);
@@ -53,7 +53,7 @@ TEST(DurableLog, AFullDiskIsOneSentence) {
   EXPECT_NE(sentence.find("log.txt: cannot be written"), std::string::npos) << sentence;
 }
 
-TEST(AtomicFileSynced, HasItsNameAndBytes) {
+TEST(AtomicFileSynced, WritesAllBytesUnderItsName) {
   const testing::TemporaryFolder folder;
   AtomicFile file(folder.path() / "a.txt", Durability::Synced);
   file.stream() << "whole";
@@ -61,7 +61,7 @@ TEST(AtomicFileSynced, HasItsNameAndBytes) {
   EXPECT_EQ(text_of(folder.path() / "a.txt"), "whole");
 }
 
-TEST(Crc32, IsThatOfZip) {
+TEST(Crc32, EqualsThePublishedCheckValue) {
   const std::string digits = "123456789";
   EXPECT_EQ(crc32(digits), 0xCBF43926U);
 }

@@ -5,14 +5,14 @@
 namespace frangia {
 namespace {
 
-TEST(SolveSymmetric, FindsWhatTheMatrixMakesIntoTheRightSide) {
+TEST(SolveSymmetric, RecoversAKnownSolution) {
   const Eigen::MatrixXd matrix{{4.0, 1.0, -2.0}, {1.0, 3.0, 0.5}, {-2.0, 0.5, 6.0}};
   const Eigen::VectorXd x{{1.0, -2.0, 0.25}};
   const Eigen::VectorXd right{{1.5, -4.875, -1.5}};
   EXPECT_LT((solve_symmetric(matrix, right) - x).norm(), 1e-12);
 }
 
-TEST(SolveSymmetric, ReadsTheLowerTriangleAlone) {
+TEST(SolveSymmetric, ReadsTheLowerTriangleOnly) {
   const Eigen::MatrixXd lower{{2.0, 99.0}, {1.0, 2.0}};
   const Eigen::VectorXd x = solve_symmetric(lower, Eigen::VectorXd{{3.0, 3.0}});
   EXPECT_NEAR(x[0], 1.0, 1e-12);

@@ -7,7 +7,7 @@
 namespace frangia {
 namespace {
 
-TEST(SymmetricEigen, OfThreeRowsRiseAndBelongToTheirVectors) {
+TEST(SymmetricEigen, EigenvaluesOfA3x3MatrixAscendAndMatchTheirVectors) {
   // Eigenvalues 2 - sqrt 2, 2 and 2 + sqrt 2.
   const Eigen::Matrix3d matrix{{2.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 2.0}};
   const SymmetricEigen<3> eigen = symmetric_eigen(matrix);
@@ -21,7 +21,7 @@ TEST(SymmetricEigen, OfThreeRowsRiseAndBelongToTheirVectors) {
   }
 }
 
-TEST(SymmetricEigen, OfAnySizeReadTheLowerTriangleAlone) {
+TEST(SymmetricEigen, ReadsTheLowerTriangleOnlyForAnySize) {
   const Eigen::MatrixXd lower{{1.0, 99.0}, {2.0, 1.0}};
   const auto eigen = symmetric_eigen(lower);
   ASSERT_EQ(eigen.values.size(), 2);

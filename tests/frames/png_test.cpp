@@ -23,7 +23,7 @@ Image<T> ramp(int width, int height, int step) {
   return image;
 }
 
-std::string complaint(const std::filesystem::path& path) {
+std::string error_message(const std::filesystem::path& path) {
   try {
     static_cast<void>(read_png(path));
   } catch (const Error& error) {
@@ -34,7 +34,7 @@ std::string complaint(const std::filesystem::path& path) {
   return "accepted";
 }
 
-TEST(Png, GivesBackEightAndSixteenBitsAsWritten) {
+TEST(Png, ReadsBackEightAndSixteenBitFrames) {
   const TemporaryFolder folder;
   const auto eight = ramp<std::uint8_t>(37, 21, 1);
   const auto sixteen = ramp<std::uint16_t>(37, 21, 83);
@@ -53,26 +53,26 @@ TEST(Png, GivesBackEightAndSixteenBitsAsWritten) {
 TEST(Png, RefusesColour) {
   const TemporaryFolder folder;
   write_png(folder.path() / "rgb.png", Image<Rgb>(5, 5));
-  EXPECT_NE(complaint(folder.path() / "rgb.png").find("colour"), std::string::npos);
+  EXPECT_NE(error_message(folder.path() / "rgb.png").find("colour"), std::string::npos);
 }
 
-TEST(Png, RefusesATruncatedFileWhereverItEnds) {
+TEST(Png, RefusesAFileTruncatedAtAnyLength) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "cut.png";
   write_png(path, Frame(ramp<std::uint8_t>(64, 64, 7)));
   for (auto size = std::filesystem::file_size(path) - 20; size > 0; size = size * 2 / 3) {
     std::filesystem::resize_file(path, size);
-    EXPECT_NE(complaint(path), "accepted") << size;
+    EXPECT_NE(error_message(path), "accepted") << size;
   }
 }
 
-TEST(Png, RefusesWhatIsNoPngOrNotThere) {
+TEST(Png, RefusesMissingEmptyAndForeignFiles) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "text.png") << "not a picture";
   std::ofstream(folder.path() / "empty.png") << "";
-  EXPECT_NE(complaint(folder.path() / "text.png"), "accepted");
-  EXPECT_NE(complaint(folder.path() / "empty.png"), "accepted");
-  EXPECT_NE(complaint(folder.path() / "none.png").find("missing"), std::string::npos);
+  EXPECT_NE(error_message(folder.path() / "text.png"), "accepted");
+  EXPECT_NE(error_message(folder.path() / "empty.png").find("is empty"), std::string::npos);
+  EXPECT_NE(error_message(folder.path() / "none.png").find("does not exist"), std::string::npos);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-TEST(FringeSequence, IsThePublishedOneForSixtyFourFringes) {
+TEST(FringeSequence, MatchesThePublishedSequencesForSixtyFourFringes) {
   EXPECT_EQ(fringe_sequence("doubling", 64.0), (Numbers{1, 2, 4, 8, 16, 32, 64}));
   EXPECT_EQ(fringe_sequence("negative-exponential", 64.0), (Numbers{32, 48, 56, 60, 62, 63, 64}));
   EXPECT_EQ(fringe_sequence("heterodyne", 64.0), (Numbers{56, 63, 64}));
@@ -24,8 +24,8 @@ TEST(FringeSequence, RefusesAnUnknownNameAndNoFringes) {
   EXPECT_THROW(static_cast<void>(fringe_sequence("doubling", std::nan(""))), Error);
 }
 
-TEST(WrongOrderProbability, IsThatOfSimulatedNoise) {
-  // The published limits of sigma for a chance of 1e-6, and rates that can be counted.
+TEST(WrongOrderProbability, MatchesSimulatedNoise) {
+  // The published limits of sigma for a probability of 1e-6, and rates large enough to count.
   for (const auto& [ratio, sigma] :
        {std::pair{2.0, 0.287}, {4.0, 0.156}, {8.0, 0.080}, {16.0, 0.040}})
     EXPECT_NEAR(std::log10(wrong_order_probability(sigma * std::hypot(1.0, ratio))), -6.0, 0.2)
@@ -44,17 +44,17 @@ TEST(WrongOrderProbability, IsThatOfSimulatedNoise) {
   }
 }
 
-TEST(PlanSequence, IsTheShortestThatKeepsTheChanceBelowTheLimit) {
+TEST(PlanSequence, IsTheShortestSequenceWithinTheLimit) {
   const SequencePlan plan = plan_sequence(64.0, 0.1);
   EXPECT_EQ(plan.fringes.size(), 4U);
   EXPECT_NEAR(plan.fringes[1], 4.0, 1e-9);
   EXPECT_LT(plan.wrong_order, 1e-6);
-  // One map less would not do: ratio 8 in two steps.
+  // One map less is not enough: ratio 8 in two steps.
   EXPECT_GT(2.0 * wrong_order_probability(0.1 * std::sqrt(65.0)), 1e-6);
   EXPECT_EQ(plan_sequence(1.0, 0.1).fringes, Numbers{1.0});
 }
 
-TEST(PlanSequence, RefusesNoiseThatNoSequenceOvercomes) {
+TEST(PlanSequence, RefusesNoiseTooLargeForAnySequence) {
   EXPECT_THROW(static_cast<void>(plan_sequence(64.0, 2.0)), Error);
   EXPECT_THROW(static_cast<void>(plan_sequence(64.0, std::nan(""))), Error);
 }

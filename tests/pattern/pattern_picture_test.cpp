@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-TEST(PatternPicture, FringesHaveTheirPhaseInTheMiddleOfTheColumn) {
+TEST(PatternPicture, FringePhaseRefersToTheCentreOfAColumn) {
   const Pattern pattern{.name = "f", .period_px = 16.0, .shifts_rad = {0.0, kTwoPi / 4.0}};
   for (int frame = 0; frame < 2; ++frame) {
     const Image<float> picture = pattern_picture(pattern, frame, 40, 3);
@@ -22,7 +22,7 @@ TEST(PatternPicture, FringesHaveTheirPhaseInTheMiddleOfTheColumn) {
   }
 }
 
-TEST(PatternPicture, HorizontalFringesRunAcrossTheRows) {
+TEST(PatternPicture, HorizontalFringesVaryFromRowToRow) {
   const Pattern pattern{
       .name = "f", .direction = FringeDirection::Horizontal, .period_px = 8.0, .shifts_rad = {0.0}};
   const Image<float> picture = pattern_picture(pattern, 0, 5, 20);
@@ -32,7 +32,7 @@ TEST(PatternPicture, HorizontalFringesRunAcrossTheRows) {
   }
 }
 
-TEST(PatternPicture, GrayCodeTellsEveryColumnItsNumber) {
+TEST(PatternPicture, GrayCodeIdentifiesEveryColumn) {
   Pattern gray{.name = "g", .kind = PatternKind::Gray, .bits = 5};
   std::vector<std::uint32_t> code(32, 0);
   for (int bit = 0; bit < 5; ++bit) {
@@ -46,7 +46,7 @@ TEST(PatternPicture, GrayCodeTellsEveryColumnItsNumber) {
     EXPECT_EQ(gray_to_binary(code[x]), x);
 }
 
-TEST(PatternPicture, WhatNoProjectorShowsIsRefused) {
+TEST(PatternPicture, RefusesPatternsThatAProjectorCannotShow) {
   EXPECT_THROW(
       static_cast<void>(pattern_picture({.name = "l", .kind = PatternKind::Line}, 0, 8, 8)), Error);
   EXPECT_THROW(static_cast<void>(pattern_picture({.name = "f", .shifts_rad = {0.0}}, 0, 8, 8)),

@@ -15,7 +15,7 @@ namespace {
 
 using testing::equal_shifts;
 
-/// A row of the published table, in the digits it is printed with.
+/// A row of the published table, in the published digits.
 struct Row {
   const char* name;
   int frames;
@@ -26,7 +26,7 @@ struct Row {
   const char* third;
 };
 
-/// `value` with as many decimals as `printed` has.
+/// Formats `value` with as many decimals as `printed`.
 std::string in_digits_of(const std::string& printed, double value) {
   const std::size_t point = printed.find('.');
   const std::size_t decimals = point == std::string::npos ? 0 : printed.size() - point - 1;
@@ -34,7 +34,7 @@ std::string in_digits_of(const std::string& printed, double value) {
   return text == "-0" ? "0" : text;
 }
 
-TEST(AlgorithmErrors, AreThePublishedOnesToTheLastDigit) {
+TEST(AlgorithmErrors, MatchThePublishedTableToTheLastDigit) {
   const double quarter = 0.5 * kPi;
   const std::vector<Row> table = {{"3-step-120", 3, kTwoPi / 3.0, "0.12", "0.816", "1", "0"},
                                   {"3-step-90", 3, quarter, "0.079", "1.00", "2", "1"},
@@ -56,7 +56,7 @@ TEST(AlgorithmErrors, AreThePublishedOnesToTheLastDigit) {
   }
 }
 
-TEST(AlgorithmErrors, LeastSquaresOfAnyNumberOfFramesIsAtTheNoiseLimitAndRipplesAsPublished) {
+TEST(AlgorithmErrors, LeastSquaresReachesTheNoiseLimitForAnyNumberOfFrames) {
   for (int frames = 5; frames <= 16; ++frames) {
     const auto shifts = equal_shifts(frames, kTwoPi / frames);
     const AlgorithmErrors errors =
@@ -68,7 +68,7 @@ TEST(AlgorithmErrors, LeastSquaresOfAnyNumberOfFramesIsAtTheNoiseLimitAndRipples
   }
 }
 
-TEST(AlgorithmErrors, AStepThatIsFoundLeavesNoRipple) {
+TEST(AlgorithmErrors, AKnownStepLeavesNoRipple) {
   const auto shifts = equal_shifts(4, 0.5 * kPi);
   const PhaseAlgorithm global = make_algorithm("global-carre", shifts);
   EXPECT_LT(algorithm_errors(global, shifts, true).ripple_rad, 1e-9);

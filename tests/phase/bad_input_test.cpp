@@ -1,4 +1,4 @@
-// Images that are tiny, huge or without a measurement, through every step from frames to phase.
+// Tiny, huge and completely saturated images through every stage from frames to phase.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -32,7 +32,7 @@ double ramp(int x, int y) {
   return 0.05 * x + 0.03 * y;
 }
 
-TEST(SmallImages, OfOnePixelRowOrColumnAreDecodedRightByEveryStep) {
+TEST(SmallImages, OfOnePixelRowOrColumnAreDecodedByEveryStage) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 300}, {300, 1}, {2, 2}}) {
     const FrameStack stack =
         render_frames({.width = width, .height = height}, quarter_steps(), ramp);
@@ -59,7 +59,7 @@ TEST(SmallImages, OfOnePixelRowOrColumnAreDecodedRightByEveryStep) {
   }
 }
 
-TEST(SmallImages, OfASequenceAreDecodedToo) {
+TEST(SmallImages, OfASequenceAreDecoded) {
   Projector projector;
   projector.model = CameraModel{.width_px = 640, .height_px = 4, .focal_px = {800.0, 800.0}};
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 300}}) {
@@ -79,21 +79,21 @@ TEST(SmallImages, OfASequenceAreDecodedToo) {
     }
     const double truth = kTwoPi * 16.0 * 200.0 / 640.0;
     const AbsolutePhase once = decode_sequence(maps, {}, projector);
-    const AbsolutePhase lifted = unwrap_temporally(wrapped, projector);
+    const AbsolutePhase unwrapped = unwrap_temporally(wrapped, projector);
     EXPECT_NEAR(once.phase_rad(0, height - 1), truth, 1e-3);
-    EXPECT_NEAR(lifted.phase_rad(0, height - 1), truth, 1e-3);
+    EXPECT_NEAR(unwrapped.phase_rad(0, height - 1), truth, 1e-3);
   }
 }
 
-TEST(SaturatedImages, AreMissingThroughoutAndSaySo) {
+TEST(SaturatedImages, HaveTheStatusSaturatedEverywhere) {
   FrameStack stack = render_frames({.mean_counts = 1e7}, quarter_steps(), ramp);
   const NoiseModel noise = estimate_noise({&stack, 1});
   EXPECT_DOUBLE_EQ(noise.variance(1000.0), 1.0 / 12.0);
   const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
   EXPECT_FALSE(fitted.step.found);
   const WrappedPhase map = wrap_phase(stack, fitted.algorithm, noise);
-  const auto fates = map.status.pixels();
-  EXPECT_TRUE(std::all_of(fates.begin(), fates.end(), [](PixelStatus status) {
+  const auto statuses = map.status.pixels();
+  EXPECT_TRUE(std::all_of(statuses.begin(), statuses.end(), [](PixelStatus status) {
     return status == PixelStatus::Saturated;
   }));
   const FrameAssessment assessment = assess_frames(stack, fitted, map, noise);
@@ -108,9 +108,9 @@ double peak_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-TEST(HugeImages, Of100MegapixelsTakeNoMemoryBesidesFramesAndResult) {
+TEST(HugeImages, Of100MegapixelsUseMemoryForFramesAndResultOnly) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer keeps memory of its own";
+  GTEST_SKIP() << "sanitizers allocate memory of their own";
 #endif
   constexpr int kSide = 10'000;
   Projector projector;

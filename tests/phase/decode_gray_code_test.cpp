@@ -21,7 +21,7 @@ constexpr int kColumns = 640;
 constexpr int kRows = 40;
 constexpr double kPeriod_px = 20.0;
 
-/// Where the projector's column lies that a camera column sees: a slope that is not whole.
+/// The projector column that a camera column sees; the scale is not an integer.
 double column_of(int x) {
   return 0.93 * x + 3.2;
 }
@@ -32,7 +32,7 @@ struct Shown {
   NoiseModel noise;
 };
 
-/// Fringes and Gray code as seen by a camera whose pixels blur the stripes' edges.
+/// Fringes and Gray code of a camera whose pixels blur the edges of the stripes.
 Shown show(bool inverted, double noise_counts) {
   Pattern pattern{.name = "f", .period_px = kPeriod_px};
   pattern.shifts_rad = testing::equal_shifts(4, 0.5 * kPi);
@@ -65,7 +65,7 @@ Shown show(bool inverted, double noise_counts) {
 
 struct Orders {
   double wrong = 0.0;
-  double kept = 0.0;  ///< both as shares of all pixels
+  double kept = 0.0;  ///< fractions of all pixels
 };
 
 Orders orders_of(const AbsolutePhase& phase) {
@@ -81,7 +81,7 @@ Orders orders_of(const AbsolutePhase& phase) {
   return out;
 }
 
-TEST(GrayCode, NeighboursDifferInOneBitAndItReadsBack) {
+TEST(GrayCode, NeighboursDifferInOneBitAndDecodingInvertsEncoding) {
   for (std::uint32_t number = 0; number < 4096; ++number) {
     EXPECT_EQ(gray_to_binary(binary_to_gray(number)), number);
     const std::uint32_t change = binary_to_gray(number) ^ binary_to_gray(number + 1);
@@ -89,7 +89,7 @@ TEST(GrayCode, NeighboursDifferInOneBitAndItReadsBack) {
   }
 }
 
-TEST(DecodeGrayCode, NumbersEveryPixelWithAndWithoutInvertedFramesAlsoAtTheEdgesOfStripes) {
+TEST(DecodeGrayCode, FindsEveryOrderWithAndWithoutInvertedFrames) {
   for (const bool inverted : {true, false}) {
     const Shown shown = show(inverted, 300.0);
     const Orders orders = orders_of(decode_gray_code({&shown.gray, 1}, shown.fringes, shown.noise));
@@ -98,7 +98,7 @@ TEST(DecodeGrayCode, NumbersEveryPixelWithAndWithoutInvertedFramesAlsoAtTheEdges
   }
 }
 
-TEST(DecodeGrayCode, RemovesPixelsOverTheLimitAndWrongOnesAreNoMoreThanTheReportedProbabilities) {
+TEST(DecodeGrayCode, WrongOrdersStayWithinTheReportedProbability) {
   const Shown shown = show(true, 8000.0);
   const Orders all = orders_of(
       decode_gray_code({&shown.gray, 1}, shown.fringes, shown.noise, {.max_wrong_order = 1.0}));

@@ -45,7 +45,7 @@ std::vector<FrameStack> frames_of(const std::string& sequence, int shifts) {
     stacks.push_back(
         render_frames(scene, pattern, [&](int x, int) { return kTwoPi * fringes * x / kWidth; }));
   }
-  // A highlight in one frame, and a shadow in all of one map.
+  // A highlight in one frame and a shadow in all frames of one map.
   std::get<Image<std::uint16_t>>(stacks[2].frames[1])(300, 7) = 65535;
   for (Frame& frame : stacks[1].frames)
     std::get<Image<std::uint16_t>>(frame)(301, 8) = 900;
@@ -60,7 +60,7 @@ std::vector<SequenceFrames> maps_of(const std::vector<FrameStack>& stacks) {
   return maps;
 }
 
-TEST(DecodeSequence, FindsWhatWrappingEachMapAndUnwrappingFind) {
+TEST(DecodeSequence, EqualsWrappingEachMapAndUnwrapping) {
   for (const char* name : {"doubling", "negative-exponential", "heterodyne"}) {
     for (const int shifts : {3, 4, 5, 6}) {
       const auto stacks = frames_of(name, shifts);
@@ -82,7 +82,7 @@ TEST(DecodeSequence, FindsWhatWrappingEachMapAndUnwrappingFind) {
   }
 }
 
-TEST(DecodeSequence, IsTrueToItsSigmaAndSaysWhyPixelsWent) {
+TEST(DecodeSequence, MatchesItsSigmaAndReportsWhyPixelsAreMissing) {
   const auto stacks = frames_of("negative-exponential", 4);
   const AbsolutePhase phase = decode_sequence(maps_of(stacks), kNoise, display());
   double chi_square = 0.0;
@@ -114,7 +114,7 @@ TEST(DecodeSequence, ReusesTheMemoryOfARecycledPhase) {
   EXPECT_EQ(again.phase_rad(200, 20), kept.phase_rad(200, 20));
 }
 
-TEST(DecodeSequence, RefusesFramesWithoutACommonMeaning) {
+TEST(DecodeSequence, RefusesFramesThatDetermineNoAbsolutePhase) {
   auto stacks = frames_of("doubling", 4);
   EXPECT_THROW(static_cast<void>(decode_sequence({}, kNoise, display())), Error);
   const auto finest = maps_of(stacks);

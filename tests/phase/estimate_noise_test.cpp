@@ -17,7 +17,7 @@ using testing::quarter_steps;
 using testing::render_frames;
 using testing::Scene;
 
-/// Frames of a scene that darkens to one side, with shot and read noise of an 8-bit camera.
+/// Frames of a scene that darkens to one side, with the shot and read noise of an 8-bit camera.
 FrameStack shot_noise_frames(const Pattern& pattern,
                              double step_error = 0.0,
                              int height = 400,
@@ -55,25 +55,25 @@ TEST(EstimateNoise, FindsShotAndReadNoiseFromFourFrames) {
     EXPECT_NEAR(noise.variance(counts) / true_variance(counts), 1.0, 0.06) << counts;
 }
 
-TEST(EstimateNoise, IsNotFooledByAStepError) {
+TEST(EstimateNoise, IgnoresAStepError) {
   const std::vector<FrameStack> stacks = {shot_noise_frames(quarter_steps(), 0.05)};
   EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.1);
 }
 
-TEST(EstimateNoise, FindsItFromThreeFramesToo) {
+TEST(EstimateNoise, FindsShotAndReadNoiseFromThreeFrames) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = equal_shifts(3, kTwoPi / 3.0);
   const std::vector<FrameStack> stacks = {shot_noise_frames(pattern)};
   EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.15);
 }
 
-TEST(EstimateNoise, KeepsTheNoiseOfQuantisationForPerfectFrames) {
+TEST(EstimateNoise, IsQuantizationNoiseForPerfectFrames) {
   const std::vector<FrameStack> stacks = {
       render_frames({.height = 200}, quarter_steps(), [](int x, int) { return 0.05 * x; })};
   EXPECT_GE(estimate_noise(stacks).variance(30000.0), 1.0 / 12.0);
 }
 
-TEST(NoiseSamples, PooledOverViewsTellWhatFewPixelsOfOneCannot) {
+TEST(NoiseSamples, PoolingOverViewsReducesTheScatter) {
   constexpr int kTrials = 12;
   constexpr int kViews = 8;
   double alone = 0.0;
@@ -95,7 +95,7 @@ TEST(NoiseSamples, PooledOverViewsTellWhatFewPixelsOfOneCannot) {
   EXPECT_LT(pooled, 0.02);
 }
 
-TEST(EstimateNoise, OfNothingIsTheNoiseOfQuantisation) {
+TEST(EstimateNoise, IsQuantizationNoiseWithoutFrames) {
   EXPECT_DOUBLE_EQ(estimate_noise({}).variance(100.0), 1.0 / 12.0);
 }
 

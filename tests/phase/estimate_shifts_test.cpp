@@ -32,7 +32,7 @@ TEST(EstimateShifts, FindsUnequalShiftsBetweenTheFrames) {
     EXPECT_NEAR(found.shifts_rad[k] - found.shifts_rad[0], made.shifts_rad[k], 2e-3) << k;
 }
 
-TEST(EstimateShifts, PlacesShiftsOfAWrongGainWithoutAConstant) {
+TEST(EstimateShifts, RecoversShiftsOfAWrongGainWithoutAnOffset) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = equal_shifts(8, 0.25 * kPi);
   Scene scene = kScene;
@@ -44,11 +44,11 @@ TEST(EstimateShifts, PlacesShiftsOfAWrongGainWithoutAConstant) {
     EXPECT_NEAR(found.shifts_rad[k], 1.05 * pattern.shifts_rad[k], 2e-3) << k;
 }
 
-TEST(EstimateShifts, IsNotTrustedWhenTheFramesDoNotFitAnyShifts) {
+TEST(EstimateShifts, IsNotFoundWhenNoShiftsFitTheFrames) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = equal_shifts(8, 0.25 * kPi);
   FrameStack stack = render_frames(kScene, pattern, tilted_plane);
-  // In one frame half the image has moved on.
+  // Half of the image has moved in one frame.
   const FrameStack moved = render_frames(
       kScene, pattern, [](int x, int y) { return tilted_plane(x, y) + (x > 300 ? 0.5 : 0.0); });
   stack.frames[3] = moved.frames[3];
@@ -58,7 +58,7 @@ TEST(EstimateShifts, IsNotTrustedWhenTheFramesDoNotFitAnyShifts) {
   EXPECT_GT(found.residual_counts2, 1.5 * found.expected_counts2);
 }
 
-TEST(EstimateShifts, AsksForSixFrames) {
+TEST(EstimateShifts, NeedsSixFrames) {
   EXPECT_THROW(static_cast<void>(
                    estimate_shifts(render_frames({}, quarter_steps(), tilted_plane), kStrongNoise)),
                Error);

@@ -20,7 +20,7 @@ double steeply_aslant(int x, int y) {
   return 0.09 * x + 0.31 * y;
 }
 
-TEST(EstimateStep, RecoversTheStepToTheNoiseThatItTellsItself) {
+TEST(EstimateStep, RecoversTheStepWithinItsSigma) {
   for (const double error : {-0.05, 0.0, 0.05}) {
     const Scene scene{
         .height = 200, .modulation_counts = 9000.0, .noise_counts = 300.0, .step_error = error};
@@ -32,7 +32,7 @@ TEST(EstimateStep, RecoversTheStepToTheNoiseThatItTellsItself) {
   }
 }
 
-TEST(EstimateStep, TakesMoreFramesFallingStepsAndStepsPastHalfATurn) {
+TEST(EstimateStep, AcceptsMoreFramesDescendingStepsAndStepsBeyond180Degrees) {
   for (const double nominal : {kTwoPi / 5.0, -0.5 * kPi, 1.5 * kPi}) {
     Pattern pattern = quarter_steps();
     pattern.shifts_rad = equal_shifts(6, nominal);
@@ -43,7 +43,7 @@ TEST(EstimateStep, TakesMoreFramesFallingStepsAndStepsPastHalfATurn) {
   }
 }
 
-TEST(EstimateStep, FindsNoneWhereThereAreNoFringesNoEqualStepsOrTooFewFrames) {
+TEST(EstimateStep, FindsNothingWithoutFringesEqualStepsOrEnoughFrames) {
   const Scene dark{.height = 100, .modulation_counts = 0.0, .noise_counts = 100.0};
   EXPECT_FALSE(estimate_step(render_frames(dark, quarter_steps(), steeply_aslant)).found);
   Pattern uneven = quarter_steps();

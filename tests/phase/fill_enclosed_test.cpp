@@ -28,7 +28,7 @@ AbsolutePhase measured(int width, int height) {
 
 using Corner = std::array<int, 2>;  ///< x and y, in pixels
 
-/// Loses the pixels from one corner up to the other, that one left out.
+/// Removes the pixels from one corner up to, but excluding, the other.
 void punch(AbsolutePhase& phase, Corner from, Corner to, PixelStatus status) {
   for (int y = from[1]; y < to[1]; ++y) {
     for (int x = from[0]; x < to[0]; ++x) {
@@ -52,13 +52,13 @@ TEST(FillEnclosed, InterpolatesASaturatedHighlightAndMarksIt) {
   }
 }
 
-TEST(FillEnclosed, LeavesATrueHoleOpen) {
+TEST(FillEnclosed, KeepsALargeUnmodulatedHole) {
   AbsolutePhase phase = measured(40, 30);
   punch(phase, {10, 10}, {16, 16}, PixelStatus::Unmodulated);
   EXPECT_EQ(fill_enclosed(phase), 0U);
 }
 
-TEST(FillEnclosed, LeavesAHoleOpenThatReachesTheBorder) {
+TEST(FillEnclosed, KeepsAHoleThatReachesTheBorder) {
   AbsolutePhase phase = measured(40, 30);
   punch(phase, {0, 10}, {5, 14}, PixelStatus::Saturated);
   EXPECT_EQ(fill_enclosed(phase), 0U);

@@ -19,7 +19,7 @@ using testing::render_frames;
 using testing::Scene;
 using testing::tilted_plane;
 
-/// Error of every pixel of a map: its mean, and its spread about it.
+/// Mean and standard deviation of the phase error of a map.
 struct Offset {
   double mean = 0.0;
   double rms = 0.0;
@@ -38,11 +38,11 @@ Offset offset_of(const WrappedPhase& map) {
   return {sum / n, std::sqrt(square / n)};
 }
 
-TEST(FitAlgorithm, SwappingAlgorithmsLeavesNoConstantWhenTheShiftersGainIsOff) {
+TEST(FitAlgorithm, AllAlgorithmsAgreeForAShifterGainError) {
   for (const PublishedAlgorithm& published : published_algorithms()) {
     Pattern pattern = quarter_steps();
     pattern.shifts_rad = example_shifts(published);
-    // Three frames do not show their step: those of a true shifter.
+    // Three frames do not determine their step, so they come from a shifter without a gain error.
     const double error = pattern.shifts_rad.size() > 3 ? 0.05 : 0.0;
     const Scene scene{.height = 300, .noise_counts = 100.0, .step_error = error};
     const FrameStack stack = render_frames(scene, pattern, tilted_plane);
@@ -54,26 +54,26 @@ TEST(FitAlgorithm, SwappingAlgorithmsLeavesNoConstantWhenTheShiftersGainIsOff) {
   }
 }
 
-TEST(FitAlgorithm, TellsWhatItChose) {
-  std::string told;
+TEST(FitAlgorithm, NotesTheChosenAlgorithm) {
+  std::string message;
   frangia::Run run;
-  run.on_note = [&](const std::string& sentence) { told = sentence; };
+  run.on_note = [&](const std::string& sentence) { message = sentence; };
   const FrameStack stack = render_frames({}, quarter_steps(), tilted_plane);
   EXPECT_EQ(fit_algorithm("auto", stack, {}, run).algorithm.name, "schwider");
-  EXPECT_EQ(told, "pattern \"fringe\": algorithm schwider, for 4 frames of an interferometer");
+  EXPECT_EQ(message, "pattern \"fringe\": algorithm schwider, for 4 frames of an interferometer");
 }
 
-TEST(FitAlgorithm, WarnsWhenIteratedShiftsDoNotExplainTheFrames) {
+TEST(FitAlgorithm, WarnsWhenNoShiftsFitTheFrames) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = testing::equal_shifts(8, 0.25 * kPi);
   const FrameStack stack =
       render_frames({.height = 50, .noise_counts = 2000.0}, pattern, tilted_plane);
-  std::string told;
+  std::string message;
   frangia::Run run;
-  run.on_warning = [&](const std::string& sentence) { told = sentence; };
+  run.on_warning = [&](const std::string& sentence) { message = sentence; };
   const NoiseModel far_too_small{.floor_counts2 = 1e4};
   const PhaseAlgorithm algorithm = fit_algorithm("aia", stack, far_too_small, run).algorithm;
-  EXPECT_NE(told.find("no set of shifts explains the frames"), std::string::npos);
+  EXPECT_NE(message.find("no set of shifts fits the frames"), std::string::npos);
   EXPECT_EQ(algorithm.sine, least_squares(pattern.shifts_rad).sine);
 }
 

@@ -21,7 +21,7 @@ using testing::tilted_plane;
 constexpr int kSide = 200;
 const NoiseModel kCamera = NoiseModel::from_camera(40.0, 30.0);
 
-/// Four 8-bit frames at each exposure; `light` counts on average at the first.
+/// Four 8-bit frames per exposure; `light` is the mean in counts at the first exposure.
 std::vector<FrameStack> taken(double light, const std::vector<double>& exposures_ms) {
   std::vector<FrameStack> stacks;
   Pattern pattern = testing::quarter_steps();
@@ -50,8 +50,8 @@ std::vector<FrameStack> taken(double light, const std::vector<double>& exposures
 
 struct Quality {
   double rms_rad = 0.0;
-  double sigma_rad = 0.0;  ///< rms of those told
-  double measured = 0.0;   ///< share
+  double sigma_rad = 0.0;  ///< rms of the reported values
+  double measured = 0.0;   ///< fraction of all pixels
 };
 
 Quality quality_of(const WrappedPhase& map) {
@@ -71,11 +71,12 @@ Quality quality_of(const WrappedPhase& map) {
   return out;
 }
 
-/// Least sigma that any unbiased estimate has, from the frames of exposures that do not saturate.
+/// Cramér-Rao bound of the phase, from the exposures that do not saturate.
 double bound_rad(double light, const std::vector<double>& gains) {
   double square = 0.0;
   for (int i = 0; i < 360; ++i) {
-    double information = 0.0;  // of the phase; mean and modulation decouple over four equal steps
+    double information =
+        0.0;  // of the phase; mean and modulation are uncorrelated with it over four equal steps
     for (const double gain : gains) {
       for (int k = 0; k < 4; ++k) {
         const double angle = rad_from_deg(i) + 0.5 * kPi * k;
@@ -88,8 +89,8 @@ double bound_rad(double light, const std::vector<double>& gains) {
   return std::sqrt(square);
 }
 
-TEST(MergeExposures, APartTooBrightForTheLongExposureIsRecoveredAtTheBound) {
-  // Four times 100 counts saturate every frame's mean; the first exposure alone is left.
+TEST(MergeExposures, RecoversABrightPartAtTheCramerRaoBound) {
+  // At four times 100 counts every frame saturates; only the first exposure remains.
   const auto stacks = taken(100.0, {1.0, 40.0});
   const Quality found = quality_of(merge_exposures(stacks, stacks[0].pattern.shifts_rad, kCamera));
   EXPECT_GT(found.measured, 0.999);
@@ -97,7 +98,7 @@ TEST(MergeExposures, APartTooBrightForTheLongExposureIsRecoveredAtTheBound) {
   EXPECT_NEAR(found.rms_rad / found.sigma_rad, 1.0, 0.05);
 }
 
-TEST(MergeExposures, ADarkPartGainsFromAllExposuresUpToTheBound) {
+TEST(MergeExposures, UsesAllExposuresOfADarkPartUpToTheBound) {
   const auto stacks = taken(10.0, {1.0, 2.0, 8.0});
   const Quality found = quality_of(
       merge_exposures(stacks, stacks[0].pattern.shifts_rad, kCamera, {.max_sigma_rad = 1.0F}));
@@ -105,8 +106,8 @@ TEST(MergeExposures, ADarkPartGainsFromAllExposuresUpToTheBound) {
   EXPECT_NEAR(found.rms_rad / found.sigma_rad, 1.0, 0.05);
 }
 
-TEST(MergeExposures, TakesTheUnsaturatedSamplesOfAPixelThatSaturatesInSomeFrames) {
-  const auto stacks = taken(70.0, {1.0, 2.5});  // the long one's crests are above white
+TEST(MergeExposures, UsesTheUnsaturatedSamplesOfAPartlySaturatedPixel) {
+  const auto stacks = taken(70.0, {1.0, 2.5});  // the maxima of the long exposure saturate
   const Quality found = quality_of(merge_exposures(stacks, stacks[0].pattern.shifts_rad, kCamera));
   EXPECT_GT(found.measured, 0.999);
   EXPECT_LT(found.rms_rad, bound_rad(70.0, {1.0}));
@@ -120,7 +121,7 @@ TEST(MergeExposures, IsSaturatedWhereNoExposureIsShortEnough) {
   EXPECT_TRUE(std::isnan(map.phase_rad(50, 50)));
 }
 
-TEST(MergeExposures, RefusesStacksThatDoNotBelongTogether) {
+TEST(MergeExposures, RefusesStacksOfDifferentSize) {
   auto stacks = taken(50.0, {1.0, 2.0});
   const auto shifts = stacks[0].pattern.shifts_rad;
   stacks[1].frames.pop_back();

@@ -24,7 +24,7 @@ constexpr int kColumnsSeen = 640;
 constexpr int kRowsSeen = 300;
 const NoiseModel kShotNoise = NoiseModel::from_camera(40.0, 30.0);
 
-/// Frames with shot and read noise of an 8-bit camera.
+/// Frames with the shot and read noise of an 8-bit camera.
 FrameStack noisy_frames(double exposure, double step_error, double flicker_rad = 0.0) {
   FrameStack stack{.pattern = quarter_steps(), .frames = {}, .white_level = 255};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -49,7 +49,7 @@ FrameStack noisy_frames(double exposure, double step_error, double flicker_rad =
 struct Decoded {
   double rms_rad = 0.0;
   double chi_square = 0.0;
-  double limit_rad = 0.0;  ///< Cramér and Rao's, for a frame's mean variance
+  double limit_rad = 0.0;  ///< Cramér-Rao bound for the mean variance of a frame
 };
 
 Decoded decode(const std::string& name, double exposure, double step_error, NoiseModel noise) {
@@ -69,7 +69,7 @@ Decoded decode(const std::string& name, double exposure, double step_error, Nois
   return out;
 }
 
-TEST(NoiseLimit, LeastSquaresAndGlobalCarreReachItWithAndWithoutAStepError) {
+TEST(NoiseLimit, LeastSquaresAndGlobalCarreReachTheBoundWithAndWithoutAStepError) {
   for (const double error : {-0.05, 0.0, 0.05}) {
     const Decoded global = decode("global-carre", 0.9, error, kShotNoise);
     EXPECT_NEAR(global.rms_rad / global.limit_rad, 1.0, 0.05) << error;
@@ -79,7 +79,7 @@ TEST(NoiseLimit, LeastSquaresAndGlobalCarreReachItWithAndWithoutAStepError) {
   EXPECT_GT(decode("least-squares", 0.9, 0.05, kShotNoise).rms_rad, 0.025);
 }
 
-TEST(NoiseLimit, SigmaIsTrueOverExposures) {
+TEST(NoiseLimit, SigmaMatchesTheErrorsAtAllExposures) {
   for (const double exposure : {0.15, 0.3, 0.6, 1.0}) {
     for (const auto* name : {"least-squares", "schwider", "carre", "global-carre"}) {
       const double chi_square = decode(name, exposure, 0.0, kShotNoise).chi_square;
@@ -89,7 +89,7 @@ TEST(NoiseLimit, SigmaIsTrueOverExposures) {
   }
 }
 
-TEST(NoiseLimit, SigmaIsTrueWhenTheNoiseIsEstimatedFromTheFrames) {
+TEST(NoiseLimit, SigmaMatchesTheErrorsForEstimatedNoise) {
   for (const double exposure : {0.15, 0.3, 0.6, 1.0}) {
     const FrameStack stack = noisy_frames(exposure, 0.0);
     const NoiseModel noise = estimate_noise({&stack, 1});
@@ -105,7 +105,7 @@ FrameAssessment assessment_of(const FrameStack& stack) {
   return assess_frames(stack, fitted, map, kShotNoise);
 }
 
-TEST(AssessFrames, FindsStepAndContrastAndNothingWrongInGoodFrames) {
+TEST(AssessFrames, ReportsStepAndContrastOfGoodFrames) {
   const FrameAssessment assessment = assessment_of(noisy_frames(0.9, 0.03));
   EXPECT_NEAR(assessment.step_deg, 92.7, 5.0 * assessment.step_sigma_deg);
   EXPECT_NEAR(assessment.contrast, 0.8, 0.02);
@@ -120,7 +120,7 @@ TEST(AssessFrames, SuspectsVibrationWhenAFrameMoved) {
   EXPECT_GT(assessment.residual_ratio, 2.0);
 }
 
-TEST(AssessFrames, OfSaturatedFramesIsThatNothingWasMeasured) {
+TEST(AssessFrames, ReportsNoMeasuredPixelsForSaturatedFrames) {
   const FrameAssessment assessment = assessment_of(noisy_frames(30.0, 0.0));
   EXPECT_GT(assessment.saturated_fraction, 0.9);
   EXPECT_LT(assessment.measured_fraction, 0.05);

@@ -32,7 +32,7 @@ std::vector<double> scaled(std::vector<double> shifts, double factor, double fir
   return shifts;
 }
 
-TEST(PhaseAlgorithm, EveryOneFindsThePhaseAtShiftZeroForRisingFallingAndLateStartingSteps) {
+TEST(PhaseAlgorithm, EveryAlgorithmRefersThePhaseToShiftZero) {
   for (const PublishedAlgorithm& published : published_algorithms()) {
     for (const double first : {0.0, 0.4, -2.0}) {
       for (const double direction : {1.0, -1.0}) {
@@ -47,8 +47,8 @@ TEST(PhaseAlgorithm, EveryOneFindsThePhaseAtShiftZeroForRisingFallingAndLateStar
   }
 }
 
-TEST(PhaseAlgorithm, AKnownGainErrorLeavesNoConstantInAnyOfThem) {
-  // 5 % of four 90 degree steps would move the phase by 0.118 rad.
+TEST(PhaseAlgorithm, AKnownGainErrorLeavesNoConstantInAnyAlgorithm) {
+  // A gain error of 5 % moves the phase of four 90 degree steps by 0.118 rad.
   for (const PublishedAlgorithm& published : published_algorithms()) {
     const auto shifts = example_shifts(published);
     const PhaseAlgorithm algorithm = make_algorithm(published.name, shifts, 0.05);
@@ -61,7 +61,7 @@ TEST(PhaseAlgorithm, AKnownGainErrorLeavesNoConstantInAnyOfThem) {
   }
 }
 
-TEST(PhaseAlgorithm, LeastSquaresFindsThePhaseOfUnequalShifts) {
+TEST(PhaseAlgorithm, LeastSquaresRecoversThePhaseOfUnequalShifts) {
   const std::vector<double> shifts = {0.0, 1.1, 1.9, 4.0, 5.2};
   for (const double phi : testing::linspace(17, -3.0, 2.9)) {
     EXPECT_NEAR(
@@ -69,7 +69,7 @@ TEST(PhaseAlgorithm, LeastSquaresFindsThePhaseOfUnequalShifts) {
   }
 }
 
-TEST(PhaseAlgorithm, CarreFindsThePhaseInTheMiddleForAnyStep) {
+TEST(PhaseAlgorithm, CarreRecoversThePhaseForAnyStep) {
   const auto shifts = equal_shifts(4, 0.5 * kPi);
   for (const double error : {-0.2, 0.1, 0.3}) {
     const PhaseAlgorithm algorithm = make_algorithm("carre", shifts, error);
@@ -97,14 +97,15 @@ TEST(PhaseAlgorithm, DefaultCompensatesStepsForAnInterferometerAndHarmonicsForAD
     EXPECT_EQ(chosen(frames, 0.5 * kPi, false), "least-squares");
 }
 
-TEST(PhaseAlgorithm, AWrongNumberOfFramesNamesTheAlgorithmsThatFit) {
+TEST(PhaseAlgorithm, NamesMatchingAlgorithmsForAWrongNumberOfFrames) {
   try {
     static_cast<void>(make_algorithm("de-groot", equal_shifts(4, 0.5 * kPi)));
     FAIL() << "seven frames are needed";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "the algorithm \"de-groot\" takes 7 frames 90 degrees apart, which these 4 shifts "
-                 "are not; use 4-step, schwider, carre, least-squares, global-carre");
+    EXPECT_STREQ(
+        error.what(),
+        "the algorithm \"de-groot\" takes 7 frames 90 degrees apart, which the 4 shifts "
+        "of the pattern do not match; use 4-step, schwider, carre, least-squares, global-carre");
   }
 }
 

@@ -23,7 +23,7 @@ using testing::tilted_plane;
 constexpr double kFrameNoise_counts = 300.0;
 const NoiseModel kFrameNoise{.floor_counts2 = kFrameNoise_counts * kFrameNoise_counts};
 
-/// A view's frames, by a shifter of this gain whose shifts are each off by a random error, too.
+/// Frames of one view, from a shifter with this gain error and random errors of each shift.
 FrameStack jittered(double gain_error, double jitter_deg, std::mt19937& generator) {
   std::normal_distribution<double> error(0.0, rad_from_deg(jitter_deg));
   Pattern made = quarter_steps();
@@ -38,7 +38,7 @@ FrameStack jittered(double gain_error, double jitter_deg, std::mt19937& generato
   return stack;
 }
 
-/// The constant that a view's phase is off by when the shifter's gain is taken to be this.
+/// The constant phase error of a view when this gain error is assumed.
 double constant_of(const FrameStack& stack, double gain_error) {
   const FittedAlgorithm fitted = fit_algorithm("schwider", stack, kFrameNoise, {}, gain_error);
   const WrappedPhase map = wrap_phase(stack, fitted.algorithm, kFrameNoise);
@@ -48,7 +48,7 @@ double constant_of(const FrameStack& stack, double gain_error) {
   return sum;
 }
 
-/// RMS constant of the views of some scans: with the steps of scan.toml, and as decoded.
+/// RMS constant phase error of the views of several scans: with the nominal steps, and as decoded.
 struct Constants {
   double nominal_rad = 0.0;
   double pooled_rad = 0.0;
@@ -72,26 +72,26 @@ Constants constants_of(double gain_error, double jitter_deg, int views) {
   return {std::sqrt(out.nominal_rad), std::sqrt(out.pooled_rad)};
 }
 
-TEST(PooledGainError, MakesJitterOfSingleShiftsNoWorseThanTheNominalSteps) {
+TEST(PooledGainError, IsNoWorseThanTheNominalStepsUnderJitter) {
   const Constants found = constants_of(0.0, 2.0, 8);
-  EXPECT_NEAR(found.nominal_rad, 0.0195, 0.004);  // a half of the jitter
+  EXPECT_NEAR(found.nominal_rad, 0.0195, 0.004);  // half of the jitter
   EXPECT_LT(found.pooled_rad, 1.02 * found.nominal_rad);
 }
 
-TEST(PooledGainError, TakesATrueGainOffAlsoUnderJitter) {
+TEST(PooledGainError, CorrectsATrueGainErrorUnderJitter) {
   EXPECT_LT(constants_of(0.05, 0.0, 8).pooled_rad, 0.001);
   const Constants both = constants_of(0.05, 2.0, 8);
   EXPECT_GT(both.nominal_rad, 0.11);
   EXPECT_LT(both.pooled_rad, 0.026);
 }
 
-TEST(PooledGainError, OfASingleViewStandsUnlessItsStepsAreUneven) {
+TEST(PooledGainError, TrustsASingleViewUnlessItsStepsAreUneven) {
   EXPECT_LT(constants_of(0.05, 0.0, 1).pooled_rad, 0.0015);
   const Constants uneven = constants_of(0.0, 2.0, 1);
   EXPECT_LT(uneven.pooled_rad, 1.3 * uneven.nominal_rad);
 }
 
-TEST(PooledGainError, IsNoneWhereNoStepWasFound) {
+TEST(PooledGainError, IsZeroWithoutAStep) {
   EXPECT_EQ(pooled_gain_error({}), 0.0);
   const StepEstimate none{.nominal_rad = 1.5, .step_rad = 1.6};
   EXPECT_EQ(pooled_gain_error({&none, 1}), 0.0);
@@ -100,7 +100,7 @@ TEST(PooledGainError, IsNoneWhereNoStepWasFound) {
   EXPECT_EQ(pooled_gain_error({&exact, 1}), 0.0);
 }
 
-TEST(EstimateStep, TellsHowUnevenTheStepsAre) {
+TEST(EstimateStep, MeasuresTheJitterOfTheSteps) {
   std::mt19937 generator(3);
   double square = 0.0;
   constexpr int kViews = 60;

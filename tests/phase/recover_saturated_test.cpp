@@ -20,8 +20,8 @@ double even_ramp(int x, int /*y*/) {
   return 0.05 * x;
 }
 
-TEST(RecoverSaturated, FindsTheOneSaturatedFrameFromTheThreeOthers) {
-  // The crests are cut off at 45000 of 50000 counts.
+TEST(RecoverSaturated, RecoversOneSaturatedFrameFromTheOtherThree) {
+  // Counts saturate at 45000 of 50000.
   FrameStack stack = render_frames({.white_level = 45000}, quarter_steps(), even_ramp);
   const FrameStack cut = stack;
   const PhaseAlgorithm algorithm = make_algorithm("4-step", stack.pattern.shifts_rad);
@@ -47,7 +47,7 @@ TEST(RecoverSaturated, LeavesPixelsWithTwoSaturatedFramesSaturated) {
   EXPECT_EQ(map.status(3, 1), PixelStatus::Saturated);
 }
 
-TEST(RecoverSaturated, IsForFourQuarterStepsOnly) {
+TEST(RecoverSaturated, RefusesOtherShiftsThanFourQuarterSteps) {
   Pattern three = quarter_steps();
   three.shifts_rad = testing::equal_shifts(3, 0.5 * kPi);
   FrameStack stack = render_frames({}, three, even_ramp);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMapWidth = 640;
 constexpr int kMapHeight = 300;
-constexpr int kMargin = 110;  ///< at the ends of the field noise slips over to the other end
+constexpr int kMargin = 110;  ///< columns at both ends of the field, where noise can wrap the phase
 
 Projector wide_display() {
   Projector projector;
@@ -48,7 +48,7 @@ std::vector<WrappedPhase> maps_of(const std::vector<double>& sequence, double si
 }
 
 struct Errors {
-  double rms_rad = 0.0;  ///< of pixels of the right order
+  double rms_rad = 0.0;  ///< over pixels of the correct order
   double wrong_share = 0.0;
   double kept_share = 0.0;
 };
@@ -69,7 +69,7 @@ Errors errors_of(const AbsolutePhase& phase, double fringes) {
   return {std::sqrt(square / right), wrong / (right + wrong), (right + wrong) / all};
 }
 
-TEST(UnwrapSequence, SlopeOfAllMapsBeatsTheFinestByThePublishedFactors) {
+TEST(UnwrapSequence, SlopeOfAllMapsReducesNoiseByThePublishedFactors) {
   const double sigma = 0.05;
   for (const auto& [name, factor] :
        {std::pair{"negative-exponential", 0.43}, std::pair{"doubling", 0.87}}) {
@@ -87,7 +87,7 @@ TEST(UnwrapSequence, PredictsTheSigmaOfTheSlope) {
   EXPECT_NEAR(phase.sigma_rad(300, 5), 0.4318 * 0.05, 1e-4);
 }
 
-TEST(UnwrapSequence, TakesHeterodyneAndRatiosThatAreNotWhole) {
+TEST(UnwrapSequence, AcceptsHeterodyneAndNonIntegerRatios) {
   for (const auto& sequence :
        {fringe_sequence("heterodyne", 64.0), std::vector<double>{1.0, 3.7, 11.9, 40.3}}) {
     const Errors errors =
@@ -97,8 +97,9 @@ TEST(UnwrapSequence, TakesHeterodyneAndRatiosThatAreNotWhole) {
   }
 }
 
-TEST(UnwrapSequence, WrongOrdersComeAsOftenAsPredictedAndAreDroppedOverTheLimit) {
-  // Two maps of ratio 8: sigma 0.15 rad is wrong in erfc(pi / (0.15 sqrt 2 sqrt 65)) of all pixels.
+TEST(UnwrapSequence, WrongOrdersOccurAsPredictedAndAreDiscardedAboveTheLimit) {
+  // Two maps of ratio 8: at sigma 0.15 rad the order of erfc(pi / (0.15 sqrt 2 sqrt 65)) of all
+  // pixels is wrong.
   const double sigma = 0.15;
   const auto maps = maps_of({1.0, 8.0}, sigma);
   const double expected = wrong_order_probability(sigma * std::sqrt(65.0));
@@ -111,7 +112,7 @@ TEST(UnwrapSequence, WrongOrdersComeAsOftenAsPredictedAndAreDroppedOverTheLimit)
   EXPECT_EQ(strict.status(300, 5), PixelStatus::UncertainOrder);
 }
 
-TEST(UnwrapSequence, RefusesMapsWithoutACommonMeaning) {
+TEST(UnwrapSequence, RefusesMapsThatDetermineNoAbsolutePhase) {
   const auto refuses = [](const std::vector<WrappedPhase>& maps) {
     EXPECT_THROW(static_cast<void>(unwrap_sequence(maps, wide_display())), Error);
   };

@@ -17,7 +17,7 @@
 namespace frangia {
 namespace {
 
-/// A wrapped map of `phase(x, y)`; NaN there is missing.
+/// A wrapped map of `phase(x, y)`; NaN is missing.
 template <typename PhaseOf>
 WrappedPhase wrapped_map(int width, int height, const PhaseOf& phase, double noise_rad = 0.0) {
   std::mt19937 generator(9);
@@ -40,7 +40,7 @@ WrappedPhase wrapped_map(int width, int height, const PhaseOf& phase, double noi
   return map;
 }
 
-/// Whether the phase differs from the truth by one whole number of turns within each region.
+/// Whether the phase differs from the truth by one whole number of turns per region.
 template <typename PhaseOf>
 ::testing::AssertionResult is_true_but_for_turns(const RelativePhase& found,
                                                  const PhaseOf& truth,
@@ -79,21 +79,21 @@ TEST(UnwrapSpatially, KeepsACreaseInOneRegion) {
 }
 
 TEST(UnwrapSpatially, NeverJoinsAcrossAStepOfMoreThanHalfAFringe) {
-  // The step's height runs from 2 to 9 rad: it wraps to nothing on its way, where it looks smooth.
+  // The step varies from 2 to 9 rad; where it is 2 pi, the wrapped phase looks smooth.
   const auto step = [](int x, int y) { return 0.1 * x + (x < 100 ? 0.0 : 2.0 + 0.05 * y); };
   const RelativePhase found = unwrap_spatially(wrapped_map(200, 140, step, 0.03));
   EXPECT_GE(found.region_count, 2);
   EXPECT_TRUE(is_true_but_for_turns(found, step, 0.3));
 }
 
-TEST(UnwrapSpatially, GivesEveryConnectedPieceItsOwnRegion) {
+TEST(UnwrapSpatially, GivesEveryConnectedComponentItsOwnRegion) {
   const auto islands = [](int x, int) { return x / 50 % 2 == 0 ? 0.2 * x : std::nan(""); };
   const RelativePhase found = unwrap_spatially(wrapped_map(250, 60, islands));
   EXPECT_EQ(found.region_count, 3);
   EXPECT_TRUE(is_true_but_for_turns(found, islands, 1e-4));
 }
 
-/// Share of the measured pixels whose fringe is not that of most of their region.
+/// Fraction of the measured pixels whose order differs from the majority of their region.
 template <typename PhaseOf>
 double wrong_share(const RelativePhase& found, const PhaseOf& truth) {
   std::map<int, std::map<int, int>> votes;
@@ -117,8 +117,8 @@ double wrong_share(const RelativePhase& found, const PhaseOf& truth) {
   return 1.0 - right / all;
 }
 
-TEST(UnwrapSpatially, TheDefaultErrsNoMoreThanTheBetterOfThePublishedMethods) {
-  // Noise with which one jump in some hundreds is of more than half a fringe.
+TEST(UnwrapSpatially, TheDefaultIsAtLeastAsAccurateAsThePublishedMethods) {
+  // Noise with which about one difference in several hundred exceeds half a fringe.
   const auto truth = [](int x, int y) {
     return 0.0006 * ((x - 300) * (x - 300) + (y - 200) * (y - 200));
   };
@@ -153,7 +153,7 @@ TEST(UnwrapSpatially, NumbersRegionsFromTheLargest) {
   EXPECT_EQ(found.region(100, 5), 0);
 }
 
-TEST(UnwrapSpatially, TakesMapsOfOnePixelAndOfOneRow) {
+TEST(UnwrapSpatially, AcceptsMapsOfOnePixelAndOfOneRow) {
   const auto flat = [](int x, int) { return 0.3 * x; };
   EXPECT_EQ(unwrap_spatially(wrapped_map(1, 1, flat)).region_count, 1);
   const RelativePhase row = unwrap_spatially(wrapped_map(100, 1, flat));
@@ -164,9 +164,9 @@ TEST(UnwrapSpatially, TakesMapsOfOnePixelAndOfOneRow) {
   EXPECT_EQ(column.region_count, 1);
 }
 
-TEST(UnwrapSpatially, KeepsTheGrowthOrderWhenAsked) {
+TEST(UnwrapSpatially, RecordsTheGrowthOrderOnRequest) {
   WrappedPhase map = wrapped_map(60, 50, dome);
-  map.modulation_counts(40, 30) = 90.0F;  // the best pixel: where it begins
+  map.modulation_counts(40, 30) = 90.0F;  // the best pixel, from which the growth starts
   EXPECT_TRUE(unwrap_spatially(map).growth_order.pixels().empty());
   for (const SpatialMethod method : {SpatialMethod::RunMerging, SpatialMethod::QualityGuided}) {
     const auto order =
@@ -176,7 +176,7 @@ TEST(UnwrapSpatially, KeepsTheGrowthOrderWhenAsked) {
     std::sort(places.begin(), places.end());
     for (std::size_t i = 0; i < places.size(); ++i)
       ASSERT_EQ(places[i], static_cast<std::int32_t>(i));
-    // Each pixel but the first hangs on a neighbour that was there before it.
+    // Each pixel except the first has a neighbour that was reached earlier.
     for (int y = 1; y < 49; ++y) {
       for (int x = 1; x < 59; ++x) {
         const int earliest =
@@ -189,7 +189,7 @@ TEST(UnwrapSpatially, KeepsTheGrowthOrderWhenAsked) {
   }
 }
 
-TEST(FindResidues, TellsTheSenseOfASpiralAndPassesMissingPixelsOver) {
+TEST(FindResidues, FindsTheSignOfASpiralAndIgnoresMissingPixels) {
   const auto spiral = [](double sense) {
     return wrapped_map(
         41, 41, [=](int x, int y) { return sense * std::atan2(y - 20.5, x - 20.5); });
@@ -206,7 +206,7 @@ TEST(FindResidues, TellsTheSenseOfASpiralAndPassesMissingPixelsOver) {
   EXPECT_TRUE(find_residues(holed.phase_rad).empty());
 }
 
-TEST(DiscardResidues, FindsTheCoreOfASpiralAndNothingInASmoothMap) {
+TEST(DiscardResidues, DiscardsTheCoreOfASpiralAndNothingInASmoothMap) {
   WrappedPhase smooth = wrapped_map(180, 140, dome);
   EXPECT_EQ(discard_residues(smooth), 0U);
   WrappedPhase spiral =

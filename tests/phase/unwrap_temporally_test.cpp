@@ -19,7 +19,7 @@ using testing::equal_shifts;
 using testing::render_frames;
 using testing::Scene;
 
-/// A projector of 640 columns that lights a wall, one column for each camera column.
+/// A projector of 640 columns that illuminates a wall, one column per camera column.
 Projector wall_display() {
   Projector projector;
   projector.model = CameraModel{.width_px = 640, .height_px = 4, .focal_px = {800.0, 800.0}};
@@ -64,8 +64,8 @@ TEST(UnwrapTemporally, LeavesUncertainOrdersMissingAndReportsThem) {
   }
 }
 
-TEST(UnwrapTemporally, WrongOrdersAreNoMoreThanTheChanceAllowed) {
-  // Sigma 0.093 rad and ratio 8 give a chance of a wrong order of about 2.6e-5 a pixel.
+TEST(UnwrapTemporally, WrongOrdersStayWithinTheAllowedProbability) {
+  // Sigma 0.093 rad and ratio 8 give a probability of a wrong order of about 2.6e-5 per pixel.
   const Scene noisy{.height = 2000, .noise_counts = 2630.0, .seed = 11};
   const AbsolutePhase phase = unwrap_temporally(levels(noisy, {640.0, 80.0}),
                                                 wall_display(),
@@ -83,7 +83,7 @@ TEST(UnwrapTemporally, WrongOrdersAreNoMoreThanTheChanceAllowed) {
   EXPECT_LT(wrong, 1e-3 * kept);
 }
 
-TEST(UnwrapTemporally, SmoothingTheCoarsePhaseSavesOrdersAndDoesNotTouchTheFineOne) {
+TEST(UnwrapTemporally, SmoothingTheCoarsePhaseKeepsMorePixelsAndLeavesTheFinePhaseUnchanged) {
   const Scene noisy{.height = 60, .noise_counts = 1200.0, .seed = 5};
   const auto both = levels(noisy, {640.0, 20.0});
   const AbsolutePhase rough = unwrap_temporally(both, wall_display(), {.smooth_radius_px = 0});
@@ -98,13 +98,13 @@ TEST(UnwrapTemporally, SmoothingTheCoarsePhaseSavesOrdersAndDoesNotTouchTheFineO
   EXPECT_GT(saved, 30000);
 }
 
-TEST(UnwrapTemporally, ProbabilityOfAWrongOrderIsThatOfPhysics) {
-  // physics.md: below 1e-6 needs sigma < 0.287 rad for ratio 2 and 0.080 for ratio 8.
+TEST(UnwrapTemporally, WrongOrderProbabilityMatchesTheFormula) {
+  // A probability below 1e-6 needs sigma < 0.287 rad for ratio 2 and < 0.080 rad for ratio 8.
   EXPECT_NEAR(wrong_order_probability(0.287 * std::sqrt(5.0)), 1e-6, 0.1e-6);
   EXPECT_NEAR(wrong_order_probability(0.0797 * std::sqrt(65.0)), 1e-6, 0.1e-6);
 }
 
-TEST(UnwrapTemporally, DoubtsTheEndsOfTheFieldWhereNoiseSlipsOverToTheOtherEnd) {
+TEST(UnwrapTemporally, MarksTheEndsOfTheFieldUncertainWhereNoiseWrapsThePhase) {
   const Scene noisy{.height = 50, .noise_counts = 2000.0};
   const AbsolutePhase phase = unwrap_temporally(levels(noisy, {640.0}), wall_display());
   for (int y = 0; y < noisy.height; ++y) {

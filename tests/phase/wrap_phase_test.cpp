@@ -29,7 +29,7 @@ WrappedPhase decode(const FrameStack& stack, double noise_counts = 1.0) {
 }
 
 TEST(WrapPhase, RecoversPhaseModulationAndMeanOfCleanFringes) {
-  const Scene scene{.width = 3001};  // not a whole number of tiles
+  const Scene scene{.width = 3001};  // not a multiple of the tile size
   const WrappedPhase phase = decode(render_frames(scene, quarter_steps(), gentle_ramp));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
@@ -42,8 +42,8 @@ TEST(WrapPhase, RecoversPhaseModulationAndMeanOfCleanFringes) {
   }
 }
 
-TEST(WrapPhase, AgreesWithTheStandardLibrarysArcTangent) {
-  // Counts chosen freely, so that sine and cosine sums go all around the circle.
+TEST(WrapPhase, MatchesTheStandardLibrarysArcTangent) {
+  // Arbitrary counts, so that the sine and cosine sums cover the circle.
   FrameStack stack{.pattern = quarter_steps(), .frames = {}, .white_level = 65535};
   stack.pattern.fringes_per_degree = 0.0;
   stack.pattern.period_px = 20.0;  // least squares: sine (I4 - I2) / 2, cosine (I1 - I3) / 2
@@ -99,7 +99,7 @@ TEST(WrapPhase, MarksPixelsSaturatedInAnyFrame) {
   EXPECT_EQ(phase.status(6, 1), PixelStatus::Measured);
 }
 
-TEST(WrapPhase, TakesNoNoiseForFringes) {
+TEST(WrapPhase, MarksNoiseWithoutFringesAsUnmodulated) {
   const Scene dark{
       .height = 500, .mean_counts = 1000.0, .modulation_counts = 0.0, .noise_counts = 20.0};
   const WrappedPhase phase =
@@ -108,7 +108,7 @@ TEST(WrapPhase, TakesNoNoiseForFringes) {
     EXPECT_EQ(status, PixelStatus::Unmodulated);
 }
 
-TEST(WrapPhase, RefusesFramesThatDoNotFitThePattern) {
+TEST(WrapPhase, RefusesFramesThatDoNotMatchThePattern) {
   FrameStack stack = render_frames({}, quarter_steps(), gentle_ramp);
   stack.frames.pop_back();
   EXPECT_THROW(static_cast<void>(decode(stack)), Error);

@@ -25,7 +25,7 @@ TEST(CameraModel, ProjectsAsOpenCvDoes) {
   EXPECT_NEAR(pixel.y(), 1190.0 * y + 251.4, 1e-9);
 }
 
-TEST(CameraModel, RayOfAPixelProjectsBackOntoIt) {
+TEST(CameraModel, RayOfAPixelProjectsBackToThePixel) {
   for (int y = 0; y < kCameraModel.height_px; y += 73) {
     for (int x = 0; x < kCameraModel.width_px; x += 61) {
       const Eigen::Vector2d ray = kCameraModel.ray(Eigen::Vector2d(x, y));
@@ -53,8 +53,8 @@ TEST(CameraModel, HasNoRayWhereTheModelFoldsBack) {
   EXPECT_TRUE(folding.undistort({0.9, 0.0}).hasNaN());
 }
 
-TEST(CameraModel, RaysOfAllPixelsAreThoseOfEach) {
-  CameraModel folding = kCameraModel;  // so much that the corners of the image have no ray
+TEST(CameraModel, RaysOfMatchesRayAtEveryPixel) {
+  CameraModel folding = kCameraModel;  // so strong that the corners of the image have no ray
   folding.distortion[0] = -2.0;
   folding.focal_px = {700.0, 690.0};
   for (const CameraModel& model : {kCameraModel, folding}) {

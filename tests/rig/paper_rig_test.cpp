@@ -18,8 +18,8 @@ struct PaperPoint {
   double y_mm;
 };
 
-/// Equations (2) to (8) as printed, but for the sign of (7.2); phase in degrees, pitch in fringes a
-/// degree.
+/// Equations (2) to (8) as published, except for the sign of (7.2). Phase in degrees, pitch in
+/// fringes per degree.
 PaperPoint paper_point(const PaperGeometry& g, double column, double phase_deg, double pitch) {
   const double y_ccd = g.pixel_mm * (0.5 * g.columns - column);    // (2)
   const double alpha = std::atan(y_ccd / g.focal_mm);              // (3)
@@ -31,7 +31,7 @@ PaperPoint paper_point(const PaperGeometry& g, double column, double phase_deg, 
   return {g.x0_mm - delta_x, delta_x * t - y1};              // (7)
 }
 
-TEST(PaperRig, TriangulatesAsEquationsTwoToEight) {
+TEST(PaperRig, TriangulationMatchesEquationsTwoToEight) {
   const PaperGeometry geometry;
   const Rig rig = make_paper_rig(geometry);
   const double pitch = 1.3;
@@ -50,14 +50,14 @@ TEST(PaperRig, TriangulatesAsEquationsTwoToEight) {
 }
 
 TEST(PaperRig, EquationEightAgreesWithTheCameraLine) {
-  // y_B = y0 - dX tan(alpha): the slip in the printed (7.2) would break this.
+  // y_B = y0 - dX tan(alpha), which the sign error in the published (7.2) violates.
   const PaperGeometry geometry;
   const PaperPoint point = paper_point(geometry, 100.0, 500.0, 1.0);
   const double tan_alpha = geometry.pixel_mm * (256.0 - 100.0) / geometry.focal_mm;
   EXPECT_NEAR(point.y_mm, point.x_mm * tan_alpha, 1e-9);
 }
 
-TEST(PaperRig, LightsOWithTheFringeThroughTheAxis) {
+TEST(PaperRig, TheFringeThroughTheAxisPassesThroughO) {
   const PaperGeometry geometry;
   const Rig rig = make_paper_rig(geometry);
   const Pattern pattern{.name = "fringe", .fringes_per_degree = 1.0, .shifts_rad = {}};

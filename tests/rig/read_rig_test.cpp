@@ -64,7 +64,7 @@ TEST(ReadRig, ReadsEveryTable) {
   EXPECT_TRUE(warnings.empty());
 }
 
-TEST(ReadRig, ReadsBackWhatWriteRigWrote) {
+TEST(ReadRig, ReadsBackAWrittenRig) {
   const TemporaryFolder folder;
   Rig rig = make_paper_rig({});
   rig.turntable = Turntable{.point_mm = {1.0, 2.0, 480.0}};
@@ -78,7 +78,7 @@ TEST(ReadRig, ReadsBackWhatWriteRigWrote) {
   EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
 }
 
-TEST(ReadRig, WarnsOfKeysThatItDoesNotKnowByName) {
+TEST(ReadRig, WarnsAboutUnknownKeysByName) {
   const TemporaryFolder folder;
   std::vector<std::string> warnings;
   frangia::Run run;
@@ -91,7 +91,7 @@ TEST(ReadRig, WarnsOfKeysThatItDoesNotKnowByName) {
 struct Fault {
   std::string from;
   std::string to;
-  std::string names;  ///< what the sentence must name
+  std::string names;  ///< text that the message must contain
 };
 
 class ReadRigFault : public ::testing::TestWithParam<Fault> {};
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"\"frangia-rig\"", "\"frangia-scan\"", "format"},
         Fault{"[line]", "[line", "line 14"}));
 
-TEST(ReadRig, NamesAFileThatIsNotThere) {
+TEST(ReadRig, NamesAMissingFile) {
   try {
     static_cast<void>(read_rig("/nowhere/rig.toml"));
     FAIL();

@@ -12,7 +12,7 @@
 namespace frangia {
 namespace {
 
-/// Light of a display of gamma 2.2, with some of the room's besides, at evenly spaced levels.
+/// Light of a display of gamma 2.2 with ambient light, at evenly spaced levels.
 ResponseCurve gamma_curve(int levels) {
   std::vector<double> at;
   std::vector<double> light;
@@ -23,7 +23,7 @@ ResponseCurve gamma_curve(int levels) {
   return make_response_curve(at, light);
 }
 
-TEST(ResponseCurve, OfAGammaIsThatGammaAndBackFromLightToLevel) {
+TEST(ResponseCurve, ReproducesAGammaAndInvertsIt) {
   const ResponseCurve curve = gamma_curve(17);
   for (const double level : testing::linspace(91, 0.1, 1.0)) {
     EXPECT_NEAR(curve.light_of(level), std::pow(level, 2.2), 2e-3) << level;
@@ -31,7 +31,7 @@ TEST(ResponseCurve, OfAGammaIsThatGammaAndBackFromLightToLevel) {
   }
 }
 
-TEST(ResponseCurve, NeverFallsThoughItsMeasurementsDo) {
+TEST(ResponseCurve, IsMonotoneForFallingMeasurements) {
   const ResponseCurve curve = make_response_curve({0.0, 0.2, 0.5, 0.7, 1.0}, {5, 9, 8, 20, 40});
   for (std::size_t i = 1; i < curve.light.size(); ++i)
     EXPECT_GE(curve.light[i], curve.light[i - 1]);
@@ -39,7 +39,7 @@ TEST(ResponseCurve, NeverFallsThoughItsMeasurementsDo) {
   EXPECT_EQ(curve.light.back(), 1.0);
 }
 
-TEST(ResponseCurve, SeenThroughItsOwnLookUpTableIsAStraightLine) {
+TEST(ResponseCurve, IsLinearThroughItsOwnLookUpTable) {
   const ResponseCurve curve = gamma_curve(17);
   const ResponseCurve line{{0.0, 1.0}};
   const ResponseCurve same = compose(curve, line);

@@ -17,7 +17,7 @@ TEST(Turntable, ObjectOriginIsThePointOnTheAxis) {
   EXPECT_NEAR((origin - kTable.point_mm).norm(), 0.0, 1e-12);
 }
 
-TEST(Turntable, ObjectXLooksTowardsTheCameraAtAngleZero) {
+TEST(Turntable, ObjectXPointsToTheCameraAtAngleZero) {
   const Eigen::Matrix3d basis = kTable.rig_from_object(0.0).linear();
   EXPECT_GT(basis.col(0).dot(-kTable.point_mm), 0.0);
   EXPECT_NEAR(basis.col(0).dot(kTable.axis), 0.0, 1e-12);
@@ -25,10 +25,10 @@ TEST(Turntable, ObjectXLooksTowardsTheCameraAtAngleZero) {
   EXPECT_NEAR((basis.col(1) - kTable.axis.cross(basis.col(0))).norm(), 0.0, 1e-12);
 }
 
-TEST(Turntable, TurnsRightHandedAboutTheAxis) {
+TEST(Turntable, RotatesRightHandedAboutTheAxis) {
   const Eigen::Isometry3d start = kTable.rig_from_object(0.0);
   const Eigen::Isometry3d turned = kTable.rig_from_object(kPi / 2.0);
-  // What was on x is seen on y after a quarter turn.
+  // A point on x lies on y after a quarter turn.
   const Eigen::Vector3d seen = turned * Eigen::Vector3d::UnitX();
   EXPECT_NEAR((seen - start * Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-12);
 }

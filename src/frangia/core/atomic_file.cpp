@@ -23,12 +23,13 @@ AtomicFile::AtomicFile(std::filesystem::path path, Durability durability)
     : path_(std::move(path)), durability_(durability) {
   const auto folder = folder_of(path_);
   if (!std::filesystem::is_directory(folder)) {
-    fail(path_, fmt::format("there is no folder {}; make it first", folder.string()));
+    fail(path_, fmt::format("the folder {} does not exist; create it first", folder.string()));
   }
   if (std::filesystem::is_directory(path_)) fail(path_, "it is a folder; name a file");
   temporary_ = folder / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!stream_) fail(path_, "the folder is not writable; choose another or change its rights");
+  if (!stream_)
+    fail(path_, "the folder is not writable; choose another folder or change its permissions");
 }
 
 AtomicFile::~AtomicFile() {

@@ -13,7 +13,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+                fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
   }
 }
 

@@ -28,7 +28,7 @@ using Context = std::unique_ptr<spng_ctx, FreeContext>;
 
 std::vector<char> bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) fail(path, "is missing or cannot be read; put the frame there");
+  if (!file) fail(path, "does not exist or cannot be read; copy the frame there");
   std::vector<char> bytes(static_cast<std::size_t>(file.tellg()));
   file.seekg(0);
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -96,6 +96,7 @@ spng_ihdr header_of(const Image<T>& image, int bit_depth, int color_type) {
 
 Frame read_png(const std::filesystem::path& path) {
   const std::vector<char> bytes = bytes_of(path);
+  if (bytes.empty()) fail(path, "is empty; copy or capture it again");
   const Context context(spng_ctx_new(0));
   spng_set_image_limits(context.get(), kMaxSide, kMaxSide);
   if (spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != 0) {

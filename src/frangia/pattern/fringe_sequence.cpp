@@ -66,7 +66,7 @@ SequencePlan plan_sequence(double fringes, double sigma_rad, double max_wrong_or
       throw Error(
           ErrorKind::Input,
           fmt::format("no sequence keeps the probability of a wrong order below {:g} at a sigma "
-                      "of {:g} rad; take more frames a map, or more light",
+                      "of {:g} rad; take more frames per map or more light",
                       max_wrong_order,
                       sigma_rad));
     }

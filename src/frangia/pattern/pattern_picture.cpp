@@ -30,10 +30,11 @@ float light_at(const Pattern& pattern, int frame, int position) {
 }  // namespace
 
 Image<float> pattern_picture(const Pattern& pattern, int frame, int width, int height) {
-  if (pattern.kind == PatternKind::Line) fail(pattern, "is a line, which no projector shows");
+  if (pattern.kind == PatternKind::Line)
+    fail(pattern, "is of kind line, which a digital projector does not show");
   if (pattern.kind == PatternKind::Fringe && !(pattern.period_px > 0.0))
     fail(pattern, "needs a period_px above 0 to be shown by a digital projector");
-  if (frame < 0 || frame >= pattern.frame_count()) fail(pattern, "has fewer frames");
+  if (frame < 0 || frame >= pattern.frame_count()) fail(pattern, "has no frame of this number");
   const bool vertical = pattern.direction == FringeDirection::Vertical;
   std::vector<float> across;
   for (int position = 0; position < (vertical ? width : height); ++position)

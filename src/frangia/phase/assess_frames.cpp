@@ -111,19 +111,19 @@ std::string describe(const FrameAssessment& assessment) {
   std::string text =
       fmt::format("pattern \"{}\" by {}: ", assessment.pattern, assessment.algorithm);
   if (assessment.nominal_deg != 0.0) {
-    text += fmt::format("steps of {:.3f} +- {:.3f} degrees for {:g}, ",
+    text += fmt::format("step {:.3f} +- {:.3f} degrees (nominal {:g}), ",
                         assessment.step_deg,
                         assessment.step_sigma_deg,
                         assessment.nominal_deg);
     if (assessment.jitter_deg > 0.0)
-      text += fmt::format("uneven by some {:.2f} degrees, ", assessment.jitter_deg);
+      text += fmt::format("step jitter {:.2f} degrees, ", assessment.jitter_deg);
   }
   text += fmt::format("contrast {:.2f}, {:.1f} % measured, {:.1f} % saturated",
                       assessment.contrast,
                       100.0 * assessment.measured_fraction,
                       100.0 * assessment.saturated_fraction);
   if (assessment.residual_ratio > 0.0) {
-    text += fmt::format(", {} ({:.2f} times the noise's variance is left over)",
+    text += fmt::format(", {} (residual variance {:.2f} times the noise)",
                         assessment.vibration_suspected
                             ? "something moved or flickered between the frames"
                             : "frames consistent",

@@ -42,8 +42,8 @@ ResponseTable response_table(const ResponseCurve& response,
     found.push_back(found.empty() ? phase + wrap_rad(seen - phase)
                                   : found.back() + wrap_rad(seen - found.back()));
     require(found.size() == 1 || found.back() > found[found.size() - 2],
-            "the projector's response is so bent that its fringes do not tell their phase; correct "
-            "the patterns that it shows instead");
+            "the projector's response is too nonlinear for its fringes to determine the phase; "
+            "correct the projected patterns instead");
   }
   ResponseTable table;
   for (std::size_t i = 0; i <= kTableIntervals; ++i) {

@@ -19,7 +19,7 @@ namespace {
 constexpr int kMaxBits = 24;
 
 void check(std::span<const FrameStack> gray, const WrappedPhase& fringes) {
-  require(!gray.empty(), "decode_gray_code: no Gray code given");
+  require(!gray.empty(), "decode_gray_code: no Gray code is given");
   const Pattern& code = gray.front().pattern;
   const auto fail = [&](const std::string& why) {
     throw Error(ErrorKind::Input, fmt::format("pattern \"{}\": {}", code.name, why));
@@ -27,7 +27,7 @@ void check(std::span<const FrameStack> gray, const WrappedPhase& fringes) {
   if (code.bits < 1 || code.bits > kMaxBits)
     fail(fmt::format("has {} bits; Gray code takes 1 to {}", code.bits, kMaxBits));
   if (code.direction != fringes.pattern.direction)
-    fail(fmt::format("does not run as the fringes \"{}\" do", fringes.pattern.name));
+    fail(fmt::format("has another direction than the fringes \"{}\"", fringes.pattern.name));
   if (!(code.stripe_px <= fringes.pattern.period_px)) {
     fail(
         fmt::format("its stripes of {:g} px are wider than the fringes of \"{}\", {:g} px; take "
@@ -38,11 +38,11 @@ void check(std::span<const FrameStack> gray, const WrappedPhase& fringes) {
   }
   for (const FrameStack& stack : gray) {
     if (static_cast<int>(stack.frames.size()) != code.frame_count())
-      fail(fmt::format("has {} frames for {}", stack.frames.size(), code.frame_count()));
+      fail(fmt::format("has {} frames instead of {}", stack.frames.size(), code.frame_count()));
     for (const Frame& frame : stack.frames) {
       if (width_of(frame) != fringes.phase_rad.width() ||
           height_of(frame) != fringes.phase_rad.height())
-        fail("its frames are of another size than those of the fringes");
+        fail("its frames differ in size from those of the fringes");
     }
   }
 }

@@ -94,8 +94,9 @@ double largest_change(const std::vector<double>& a, const std::vector<double>& b
 }  // namespace
 
 ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) {
-  require(stack.frames.size() >= 6 && stack.frames.size() == stack.pattern.shifts_rad.size(),
-          "the algorithm \"aia\" finds unknown shifts from six frames or more; take more frames");
+  require(
+      stack.frames.size() >= 6 && stack.frames.size() == stack.pattern.shifts_rad.size(),
+      "the algorithm \"aia\" needs at least six frames to estimate the shifts; take more frames");
   const std::vector<double>& nominal = stack.pattern.shifts_rad;
   ShiftEstimate out{.shifts_rad = nominal};
   const Eigen::ArrayXXd counts = sample_frames(stack, kSamples).cast<double>();

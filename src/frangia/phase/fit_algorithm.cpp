@@ -23,8 +23,8 @@ FittedAlgorithm fit_advanced_iterative(const FrameStack& stack,
   const ShiftEstimate shifts = estimate_shifts(stack, noise);
   if (!shifts.found) {
     run.warn(fmt::format(
-        "pattern \"{}\": no set of shifts explains the frames to within their noise ({:.3g} "
-        "counts squared left, {:.3g} expected), so the shifts of scan.toml are used",
+        "pattern \"{}\": no set of shifts fits the frames within their noise (residual variance "
+        "{:.3g} counts squared, {:.3g} expected), so the shifts of scan.toml are used",
         stack.pattern.name,
         shifts.residual_counts2,
         shifts.expected_counts2));

@@ -87,19 +87,20 @@ bool determines_response(const Pattern& pattern) {
 }
 
 ResponseCurve measure_fringe_response(std::span<const FrameStack> stacks) {
-  require(!stacks.empty(),
-          "the scan holds neither a pattern of kind \"ramp\" nor fringes of six frames or more, "
-          "evenly spread over a turn, which a response is measured by");
+  require(
+      !stacks.empty(),
+      "the scan has neither a pattern of kind \"ramp\" nor fringes of six or more frames evenly "
+      "spaced over a turn; the response is measured from one of them");
   CurveFit fit;
   int used = 0;
   for (const FrameStack& stack : stacks) {
     require(determines_response(stack.pattern) &&
                 stack.frames.size() == stack.pattern.shifts_rad.size(),
-            "measure_fringe_response: needs six frames or more, evenly spread over a turn");
+            "measure_fringe_response: needs six or more frames evenly spaced over a turn");
     used += add_pixels(stack, fit);
   }
   require(used >= kMinPixels,
-          "the fringes light too few pixels that do not saturate; check the exposure");
+          "the fringes illuminate too few unsaturated pixels; check the exposure");
   const Eigen::VectorXd light = fit.solve();
   std::vector<double> levels;
   levels.reserve(kKnots);

@@ -35,17 +35,18 @@ std::size_t add_illuminated(const FrameStack& ramp, std::vector<double>& sums) {
 
 ResponseCurve measure_response(std::span<const FrameStack> ramps) {
   require(!ramps.empty(),
-          "the scan holds no pattern of kind \"ramp\", which a response is measured by");
+          "the scan has no pattern of kind \"ramp\", from which the response is measured");
   const std::vector<double>& levels = ramps.front().pattern.levels;
   std::vector<double> sums(levels.size(), 0.0);
   std::size_t illuminated = 0;
   for (const FrameStack& ramp : ramps) {
     require(ramp.pattern.levels == levels && ramp.frames.size() == levels.size(),
-            "measure_response: the ramps differ, or their frames are not as many as their levels");
+            "measure_response: the ramps differ in their levels or have another number of frames "
+            "than levels");
     illuminated += add_illuminated(ramp, sums);
   }
   require(illuminated >= kMinPixels,
-          "the ramp lights too few pixels that do not saturate; check the exposure");
+          "the ramp illuminates too few unsaturated pixels; check the exposure");
   return make_response_curve(levels, sums);
 }
 

@@ -31,7 +31,7 @@ std::vector<Shot> shots_of(std::span<const FrameStack> exposures,
   const Frame& first = exposures.front().frames.front();
   for (const FrameStack& stack : exposures) {
     require(stack.frames.size() == shifts_rad.size(),
-            "merge_exposures: the frames are not as many as the shifts");
+            "merge_exposures: the number of frames differs from the number of shifts");
     for (std::size_t k = 0; k < shifts_rad.size(); ++k) {
       const Frame& frame = stack.frames[k];
       require(width_of(frame) == width_of(first) && height_of(frame) == height_of(first),

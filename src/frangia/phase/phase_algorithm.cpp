@@ -115,13 +115,14 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
   for (const PublishedAlgorithm& other : published_algorithms()) {
     if (fits(other, shifts_rad)) others.push_back(other.name);
   }
-  throw Error(ErrorKind::Input,
-              fmt::format("the algorithm \"{}\" takes {}, which these {} shifts are not; {}",
-                          wanted.name,
-                          describe_frames(wanted),
-                          shifts_rad.size(),
-                          others.empty() ? "give at least 3"
-                                         : fmt::format("use {}", fmt::join(others, ", "))));
+  throw Error(
+      ErrorKind::Input,
+      fmt::format(
+          "the algorithm \"{}\" takes {}, which the {} shifts of the pattern do not match; {}",
+          wanted.name,
+          describe_frames(wanted),
+          shifts_rad.size(),
+          others.empty() ? "give at least 3" : fmt::format("use {}", fmt::join(others, ", "))));
 }
 
 }  // namespace
@@ -149,7 +150,7 @@ PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
   if (shifts_rad.size() < 3) {
     throw Error(
         ErrorKind::Input,
-        fmt::format("{} shifts do not determine a phase; give at least 3", shifts_rad.size()));
+        fmt::format("a phase needs at least 3 shifts, but the pattern has {}", shifts_rad.size()));
   }
   // I = A + B cos(phi) cos(shift) - B sin(phi) sin(shift), linear in three unknowns.
   const auto row = [](double shift) {

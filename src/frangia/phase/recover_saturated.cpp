@@ -22,7 +22,7 @@ constexpr int kWhite = std::numeric_limits<std::uint16_t>::max();
 std::size_t recover_saturated(FrameStack& stack) {
   const double step = common_step(stack.pattern.shifts_rad);
   require(stack.frames.size() == 4 && std::abs(std::abs(step) - 0.5 * kPi) < 1e-3,
-          "a saturated frame can be recovered from four frames 90 degrees apart only");
+          "saturated counts can be recovered only from four frames 90 degrees apart");
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
   std::vector<Image<std::uint16_t>> wide;

@@ -117,7 +117,7 @@ AbsolutePhase unwrap_temporally(std::span<const WrappedPhase> coarse_to_fine,
                                 const TemporalUnwrapOptions& options) {
   require(!coarse_to_fine.empty(), "unwrap_temporally: no phase given");
   require(is_absolute(coarse_to_fine.front().pattern, projector),
-          "unwrap_temporally: the first level must hold one fringe or less over the field");
+          "unwrap_temporally: the first level must have at most one fringe over the field");
   const double sigmas = kPi / sigma_for_wrong_order_probability(options.max_wrong_order);
   AbsolutePhase coarsest = from_single_fringe(coarse_to_fine.front(), projector, sigmas);
   return unwrap_finer_levels(std::move(coarsest), coarse_to_fine.subspan(1), options);

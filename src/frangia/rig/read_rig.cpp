@@ -111,13 +111,12 @@ Projector read_projector(TomlReader reader, const Run& run) {
     const auto light = response.numbers("light");
     const bool rises = std::is_sorted(light.begin(), light.end());
     if (light.size() < 2 || light.front() != 0.0 || light.back() != 1.0 || !rises)
-      response.fail("light", "must rise from 0 to 1, a number for each of evenly spaced levels");
+      response.fail("light", "must rise from 0 to 1, one number per evenly spaced level");
     projector.response = ResponseCurve{light};
     response.warn_of_unused_keys(run);
   }
   if (projector.position_mm.norm() == 0.0) {
-    reader.fail("position_mm",
-                "is the camera's own centre; without a baseline nothing is measured");
+    reader.fail("position_mm", "is the camera's own centre; triangulation needs a baseline");
   }
   reader.warn_of_unused_keys(run);
   return projector;

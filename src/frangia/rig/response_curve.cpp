@@ -67,14 +67,14 @@ double ResponseCurve::level_of(double light_fraction) const {
 
 ResponseCurve make_response_curve(const std::vector<double>& levels, std::vector<double> light) {
   require(levels.size() >= 3 && light.size() == levels.size(),
-          "a response curve needs three levels or more, and a light for each");
+          "a response curve needs at least three levels and one light value per level");
   require(std::is_sorted(levels.begin(), levels.end(), std::less_equal<>()) &&
               levels.front() == 0.0 && levels.back() == 1.0,
           "the levels of a response curve must rise from 0 to 1");
   const double dark = light.front();
   const double full = light.back() - dark;
   require(std::isfinite(full) && full > 0.0,
-          "the projector's last level is no brighter than its first: check its light");
+          "the projector's last level is not brighter than its first; check the projector");
   for (double& value : light)
     value = (value - dark) / full;
   make_monotone(light);

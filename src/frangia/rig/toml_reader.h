@@ -51,7 +51,7 @@ class TomlReader {
   }
   [[nodiscard]] std::string text(std::string_view key) {
     const auto value = node(key).value_exact<std::string>();
-    if (!value) fail(key, "must be a text in quotes");
+    if (!value) fail(key, "must be a string in quotes");
     return *value;
   }
   /// Returns a list of numbers, of exactly `count` numbers unless `count` is 0.
@@ -111,7 +111,7 @@ class TomlReader {
   void warn_of_unused_keys(const Run& run) const {
     for (const auto& [key, value] : *table_) {
       if (!used_.contains(std::string(key.str()))) {
-        run.warn(fmt::format("{}: {} is not known and ignored", file_.string(), name(key.str())));
+        run.warn(fmt::format("{}: {} is unknown and ignored", file_.string(), name(key.str())));
       }
     }
   }

@@ -222,8 +222,8 @@ HierarchicalUnwrapper::HierarchicalUnwrapper(std::span<const Pattern> coarse_to_
   }
   levels_ = find_unwrap_levels(coarse_to_fine, projector);
   require(!levels_.empty(),
-          "the fringe patterns tell no absolute phase together: none of them, and no beat of two, "
-          "holds one fringe or less over the field");
+          "the fringe patterns do not determine an absolute phase: none of them, and no beat of "
+          "two, has at most one fringe over the field");
   const auto count = static_cast<double>(levels_.size());
   safe_sigmas_ = kPi / sigma_for_wrong_order_probability(max_wrong_order / count);
   center_rad_ =
