@@ -9,7 +9,6 @@
 #include <sys/resource.h>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/core/crc32.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
@@ -59,11 +58,6 @@ TEST(AtomicFileSynced, WritesAllBytesUnderItsName) {
   file.stream() << "whole";
   file.commit();
   EXPECT_EQ(text_of(folder.path() / "a.txt"), "whole");
-}
-
-TEST(Crc32, EqualsThePublishedCheckValue) {
-  const std::string digits = "123456789";
-  EXPECT_EQ(crc32(digits), 0xCBF43926U);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@ namespace frangia {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
+inline constexpr auto kPiF = static_cast<float>(kPi);        ///< for single-precision loops
+inline constexpr auto kTwoPiF = static_cast<float>(kTwoPi);  ///< for single-precision loops
 
 [[nodiscard]] constexpr double rad_from_deg(double deg) {
   return deg * (kPi / 180.0);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/median.h"
 
 namespace frangia {
 namespace {
@@ -75,10 +77,7 @@ double median_contrast(const WrappedPhase& map) {
     if (map.status.pixels()[i] == PixelStatus::Measured && mean > 0.0F)
       contrast.push_back(map.modulation_counts.pixels()[i] / mean);
   }
-  if (contrast.empty()) return 0.0;
-  const auto middle = contrast.begin() + std::ssize(contrast) / 2;
-  std::nth_element(contrast.begin(), middle, contrast.end());
-  return static_cast<double>(*middle);
+  return static_cast<double>(median_in_place(std::span(contrast)));
 }
 
 double fraction_of(const Image<PixelStatus>& status, PixelStatus which) {

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <vector>
 
 #include <Eigen/LU>
 
+#include "frangia/core/median.h"
 #include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
@@ -92,9 +94,7 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
 /// Robust variance of Gaussian noise from absolute values: a median, refined by three rounds of
 /// 3-sigma clipping because the median of whole counts moves in steps.
 double robust_variance(std::vector<float> magnitudes) {
-  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  double sigma = std::max(*middle / 0.6745, 0.3);
+  double sigma = std::max(median_in_place(std::span(magnitudes)) / 0.6745, 0.3);
   for (int i = 0; i < 3; ++i) {
     double sum = 0.0;
     double count = 0.0;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/vectorized.h"
 
@@ -12,7 +13,7 @@ namespace {
 /// Whole turns that wrapping removes from the difference between `a` and `b`.
 [[gnu::always_inline]] inline std::int32_t turns(float a, float b) {
   const float difference = b - a;
-  return (difference > 3.14159265F ? 1 : 0) - (difference < -3.14159265F ? 1 : 0);
+  return (difference > kPiF ? 1 : 0) - (difference < -kPiF ? 1 : 0);
 }
 
 /// Finds the residues between two rows. The unwrapped differences around a loop sum to zero, so the

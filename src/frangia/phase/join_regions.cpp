@@ -8,12 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
 
 namespace frangia {
 namespace {
-
-constexpr double kTwoPiRad = 6.283185307179586;
 
 /// The border between two regions: how often each whole number of fringes is implied.
 struct Border {
@@ -70,7 +69,7 @@ std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& reg
       const int b = phase.region(u, v);
       if (a == b || a < 0 || b < 0) return;
       const double jump = phase.phase_rad(x, y) - phase.phase_rad(u, v);
-      const int fringes = static_cast<int>(std::lround(jump / kTwoPiRad));
+      const int fringes = static_cast<int>(std::lround(jump / kTwoPi));
       rows[static_cast<std::size_t>(y)].push_back({a, b, fringes, smooth});
     };
     // Most blocks lie within one region, together with the pixels to their right and below.
@@ -156,7 +155,7 @@ void relabel_from_largest(RelativePhase& phase, const Forest& forest) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] < 0) continue;
     const auto [root, fringes] = roots[static_cast<std::size_t>(labels[i])];
-    phase.phase_rad.pixels()[i] += static_cast<float>(kTwoPiRad * fringes);
+    phase.phase_rad.pixels()[i] += static_cast<float>(kTwoPi * fringes);
     labels[i] = root;
     ++sizes[static_cast<std::size_t>(root)];
   }

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "frangia/core/angles.h"
+#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/vectorized.h"
@@ -17,8 +20,8 @@ namespace {
 FRANGIA_VECTORIZED void find_jumps(const float* from, const float* to, int count, float* jump) {
   for (int x = 0; x < count; ++x) {
     const float difference = to[x] - from[x];
-    const float down = difference > 3.14159265F ? 6.28318531F : 0.0F;
-    const float up = difference < -3.14159265F ? 6.28318531F : 0.0F;
+    const float down = difference > kPiF ? kTwoPiF : 0.0F;
+    const float up = difference < -kPiF ? kTwoPiF : 0.0F;
     jump[x] = difference - down + up;
   }
 }
@@ -68,15 +71,12 @@ float jump_noise(const Image<float>& phase, int dx, int dy) {
           phase(x - dx, y - dy) - 2.0F * phase(x, y) + phase(x + dx, y + dy);
       if (std::isnan(second_difference)) continue;
       differences.push_back(
-          std::fabs(second_difference - 6.28318531F * std::round(second_difference / 6.28318531F)));
+          std::fabs(second_difference - kTwoPiF * std::round(second_difference / kTwoPiF)));
     }
   }
-  if (differences.empty()) return 0.0F;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
   // a - 2b + c has variance 6 sigma^2, a first difference 2 sigma^2; 0.6745 sigma is the median of
   // |noise|.
-  return *middle / 0.6745F / std::sqrt(3.0F);
+  return median_in_place(std::span(differences)) / 0.6745F / std::sqrt(3.0F);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "frangia/core/angles.h"
+
 namespace frangia {
 
 /// The arc tangent of t in [0, 1] by an odd polynomial; error 3.6e-7 rad.
@@ -16,8 +18,8 @@ namespace frangia {
 
 /// Extends the arc tangent of the smaller over the larger coordinate to [-pi, pi].
 [[gnu::always_inline]] inline float restore_octant(float angle, float y, float x) {
-  angle = std::fabs(y) > std::fabs(x) ? 1.57079632679F - angle : angle;
-  angle = x < 0.0F ? 3.14159265359F - angle : angle;
+  angle = std::fabs(y) > std::fabs(x) ? 0.5F * kPiF - angle : angle;
+  angle = x < 0.0F ? kPiF - angle : angle;
   return std::copysign(angle, y);
 }
 

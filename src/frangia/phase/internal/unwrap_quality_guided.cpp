@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/phase/internal/unwrap_run_merging.h"
 
@@ -45,9 +46,8 @@ class Frontier {
 void snap_to_whole_fringes(std::span<const float> wrapped, std::span<float> unwrapped) {
   for (std::size_t i = 0; i < unwrapped.size(); ++i) {
     if (std::isnan(unwrapped[i])) continue;
-    const double orders =
-        std::round((static_cast<double>(unwrapped[i]) - wrapped[i]) / 6.283185307179586);
-    unwrapped[i] = static_cast<float>(wrapped[i] + 6.283185307179586 * orders);
+    const double orders = std::round((static_cast<double>(unwrapped[i]) - wrapped[i]) / kTwoPi);
+    unwrapped[i] = static_cast<float>(wrapped[i] + kTwoPi * orders);
   }
 }
 
@@ -81,7 +81,7 @@ RelativePhase unwrap_quality_guided(const WrappedPhase& phase,
   const auto reach = [&](std::size_t from, std::size_t to) {
     if (labels[to] != labels[from] || !std::isnan(unwrapped[to])) return;
     const float jump = wrapped[to] - wrapped[from];
-    const float short_way = jump - 6.28318531F * std::round(jump / 6.28318531F);
+    const float short_way = jump - kTwoPiF * std::round(jump / kTwoPiF);
     // Pixels are unwrapped when they are pushed, from the neighbour that reaches them first.
     unwrapped[to] = unwrapped[from] + short_way;
     if (keep_growth_order) out.growth_order.pixels()[to] = ++reached;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/phase/internal/pixel_runs.h"
@@ -14,10 +15,8 @@
 namespace frangia {
 namespace {
 
-constexpr float kTwoPiRad = 6.28318531F;
-
 float wrapped(float jump) {
-  return jump - kTwoPiRad * std::round(jump / kTwoPiRad);
+  return jump - kTwoPiF * std::round(jump / kTwoPiF);
 }
 
 /// Sum of squared second differences along rows, columns and both diagonals; infinite where a
@@ -77,7 +76,7 @@ RelativePhase unwrap_reliability_sorted(const WrappedPhase& phase, const Regions
   RunForest forest(rad.size());  // of pixels
   for (const Edge& edge : sorted_edges(phase.phase_rad, regions)) {
     const auto turns =
-        static_cast<std::int32_t>(std::lround((rad[edge.from] - rad[edge.to]) / kTwoPiRad));
+        static_cast<std::int32_t>(std::lround((rad[edge.from] - rad[edge.to]) / kTwoPiF));
     forest.join(edge.from, edge.to, turns);
   }
   const auto best = best_pixels(phase.modulation_counts, regions.label, regions.count);
@@ -92,7 +91,7 @@ RelativePhase unwrap_reliability_sorted(const WrappedPhase& phase, const Regions
   for (std::size_t i = 0; i < rad.size(); ++i) {
     if (labels[i] < 0) continue;
     const std::int32_t zero = forest.root(best[static_cast<std::size_t>(labels[i])]).fringes;
-    out.phase_rad.pixels()[i] += kTwoPiRad * static_cast<float>(forest.root(i).fringes - zero);
+    out.phase_rad.pixels()[i] += kTwoPiF * static_cast<float>(forest.root(i).fringes - zero);
   }
   return out;
 }

@@ -6,12 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/core/angles.h"
 #include "frangia/phase/internal/pixel_runs.h"
 
 namespace frangia {
 namespace {
-
-constexpr float kTwoPiRad = 6.28318531F;
 
 /// Least number of unanimous votes of a safe join. Fewer pixels may all be wrong.
 constexpr std::int32_t kSafe = 8;
@@ -29,7 +28,7 @@ void count_turns(const float* phase, PixelRun run, std::int16_t* turns) {
   turns[run.begin] = 0;
   for (std::int32_t x = run.begin + 1; x < run.end; ++x) {
     const float jump = phase[x] - phase[x - 1];
-    turn += (jump < -0.5F * kTwoPiRad ? 1 : 0) - (jump > 0.5F * kTwoPiRad ? 1 : 0);
+    turn += (jump < -kPiF ? 1 : 0) - (jump > kPiF ? 1 : 0);
     turns[x] = static_cast<std::int16_t>(turn);
   }
 }
@@ -52,9 +51,8 @@ class OverlapVotes {
     for (std::int32_t x = begin; x < end; ++x) {
       if (regions_.smooth_below(x, y - 1) == 0) continue;
       const float jump = phase_(x, y) - phase_(x, y - 1);
-      const std::int32_t fringes = turns_(x, y - 1) - turns_(x, y) +
-                                   (jump < -0.5F * kTwoPiRad ? 1 : 0) -
-                                   (jump > 0.5F * kTwoPiRad ? 1 : 0);
+      const std::int32_t fringes =
+          turns_(x, y - 1) - turns_(x, y) + (jump < -kPiF ? 1 : 0) - (jump > kPiF ? 1 : 0);
       // Boyer-Moore majority vote; exact when one number has more than half of the votes.
       if (vote.votes == 0) vote.fringes = fringes;
       const bool agrees = vote.fringes == fringes;
@@ -167,7 +165,7 @@ RelativePhase unwrap_run_merging(WrappedPhase&& phase, Regions& regions) {
       const PixelRun run = all.runs[i];
       const std::int32_t above = level[i] - zero[static_cast<std::size_t>(label(run.begin, y))];
       for (std::int32_t x = run.begin; x < run.end; ++x)
-        rad[x] += kTwoPiRad * static_cast<float>(turns(x, y) + above);
+        rad[x] += kTwoPiF * static_cast<float>(turns(x, y) + above);
     }
   });
   return {.pattern = std::move(phase.pattern),

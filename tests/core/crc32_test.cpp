@@ -1,0 +1,20 @@
+#include "frangia/core/crc32.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace frangia {
+namespace {
+
+TEST(Crc32, EqualsThePublishedCheckValue) {
+  const std::string digits = "123456789";
+  EXPECT_EQ(crc32(digits), 0xCBF43926U);
+}
+
+TEST(Crc32, OfNoBytesIsZero) {
+  EXPECT_EQ(crc32({}), 0U);
+}
+
+}  // namespace
+}  // namespace frangia
