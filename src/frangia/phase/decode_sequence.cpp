@@ -15,6 +15,7 @@
 #include "frangia/core/resize_uninitialized.h"
 #include "frangia/core/vectorized.h"
 #include "frangia/phase/internal/hierarchical_unwrapper.h"
+#include "frangia/phase/internal/sum_frames.h"
 #include "frangia/phase/internal/wrap_four_step.h"
 #include "frangia/phase/internal/wrap_tile.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
+#include "frangia/phase/internal/fringe_forest.h"
 
 namespace frangia {
 namespace {
@@ -19,35 +21,7 @@ struct Border {
   int length = 0;
   std::map<int, int> votes;
 };
-using Borders = std::map<std::pair<int, int>, Border>;
-
-/// A forest of joined regions; each region stores its fringe offset from its parent.
-class Forest {
- public:
-  explicit Forest(int count)
-      : parent_(static_cast<std::size_t>(count)), fringes_(static_cast<std::size_t>(count), 0) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  [[nodiscard]] int count() const { return static_cast<int>(parent_.size()); }
-  /// Returns the root of `region` and the fringes to add to `region` to be level with it.
-  [[nodiscard]] std::pair<int, int> root(int region) const {
-    int fringes = 0;
-    while (parent_[static_cast<std::size_t>(region)] != region) {
-      fringes += fringes_[static_cast<std::size_t>(region)];
-      region = parent_[static_cast<std::size_t>(region)];
-    }
-    return {region, fringes};
-  }
-  /// Makes the root `child` a child of the root `parent`; `fringes` is added to it.
-  void attach(int child, int parent, int fringes) {
-    parent_[static_cast<std::size_t>(child)] = parent;
-    fringes_[static_cast<std::size_t>(child)] = fringes;
-  }
-
- private:
-  std::vector<int> parent_;
-  std::vector<int> fringes_;
-};
+using Borders = std::map<std::pair<std::uint32_t, std::uint32_t>, Border>;
 
 /// Two neighbouring pixels of different regions.
 struct Contact {
@@ -94,30 +68,33 @@ std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& reg
   return all;
 }
 
-Borders all_borders(const std::vector<Contact>& contacts, const Forest& forest) {
+Borders all_borders(const std::vector<Contact>& contacts, FringeForest& forest) {
   Borders borders;
   for (const Contact& contact : contacts) {
-    auto [root_a, fringes_a] = forest.root(contact.a);
-    auto [root_b, fringes_b] = forest.root(contact.b);
-    if (root_a == root_b) continue;
-    int asked = contact.fringes + fringes_a - fringes_b;
-    if (root_a > root_b) {
-      std::swap(root_a, root_b);
-      asked = -asked;
+    auto a = forest.root(static_cast<std::size_t>(contact.a));
+    auto b = forest.root(static_cast<std::size_t>(contact.b));
+    if (a.index == b.index) continue;
+    int fringes = contact.fringes + a.fringes - b.fringes;
+    if (a.index > b.index) {
+      std::swap(a, b);
+      fringes = -fringes;
     }
-    Border& border = borders[{root_a, root_b}];
+    Border& border = borders[{a.index, b.index}];
     ++border.length;
-    if (contact.smooth) ++border.votes[asked];
+    if (contact.smooth) ++border.votes[fringes];
   }
   return borders;
 }
 
 /// Joins across the safe borders, longest first; returns the number of joins.
-int merge_safe(const Borders& borders, double min_agreement, Forest& forest) {
+int merge_safe(const Borders& borders,
+               double min_agreement,
+               std::size_t count,
+               FringeForest& forest) {
   struct Merge {
     int votes;
-    int keep;
-    int give;
+    std::uint32_t keep;
+    std::uint32_t give;
     int fringes;
   };
   std::vector<Merge> merges;
@@ -134,30 +111,29 @@ int merge_safe(const Borders& borders, double min_agreement, Forest& forest) {
     return a.votes > b.votes;
   });
   int merged = 0;
-  std::vector<bool> touched(static_cast<std::size_t>(forest.count()), false);
+  std::vector<bool> changed(count, false);
   for (const Merge& merge : merges) {
     // A region that has just changed is considered again in the next pass, with its new border.
-    if (touched[static_cast<std::size_t>(merge.keep)]) continue;
-    if (touched[static_cast<std::size_t>(merge.give)]) continue;
-    forest.attach(merge.give, merge.keep, merge.fringes);
-    touched[static_cast<std::size_t>(merge.give)] = true;
+    if (changed[merge.keep] || changed[merge.give]) continue;
+    forest.join(merge.keep, merge.give, merge.fringes);
+    changed[merge.give] = true;
     ++merged;
   }
   return merged;
 }
 
-void relabel_from_largest(RelativePhase& phase, const Forest& forest) {
+void relabel_from_largest(RelativePhase& phase, FringeForest& forest) {
   std::vector<std::size_t> sizes(static_cast<std::size_t>(phase.region_count), 0);
-  std::vector<std::pair<int, int>> roots;
-  for (int region = 0; region < phase.region_count; ++region)
+  std::vector<FringeForest::Root> roots;
+  for (std::size_t region = 0; region < sizes.size(); ++region)
     roots.push_back(forest.root(region));
   const auto labels = phase.region.pixels();
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] < 0) continue;
     const auto [root, fringes] = roots[static_cast<std::size_t>(labels[i])];
     phase.phase_rad.pixels()[i] += static_cast<float>(kTwoPi * fringes);
-    labels[i] = root;
-    ++sizes[static_cast<std::size_t>(root)];
+    labels[i] = static_cast<std::int32_t>(root);
+    ++sizes[root];
   }
   std::vector<int> order(sizes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -178,9 +154,10 @@ void relabel_from_largest(RelativePhase& phase, const Forest& forest) {
 }  // namespace
 
 void join_regions(RelativePhase& phase, const Regions& regions, const JoinOptions& options) {
-  Forest forest(phase.region_count);
+  const auto count = static_cast<std::size_t>(phase.region_count);
+  FringeForest forest(count);
   const std::vector<Contact> contacts = all_contacts(phase, regions);
-  while (merge_safe(all_borders(contacts, forest), options.min_agreement, forest) > 0) {
+  while (merge_safe(all_borders(contacts, forest), options.min_agreement, count, forest) > 0) {
   }
   relabel_from_largest(phase, forest);
 }

@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/core/disjoint_sets.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/pixel_allocator.h"
 #include "frangia/core/vectorized.h"
+#include "frangia/phase/internal/cut_mask.h"
 #include "frangia/phase/internal/pixel_runs.h"
 #include "frangia/phase/smooth_jumps.h"
 
@@ -16,73 +18,6 @@ namespace frangia {
 namespace {
 
 using Mask = Image<std::uint8_t>;
-
-/// Marks pairs of measured pixels whose difference is not smooth.
-FRANGIA_VECTORIZED void mark_broken(const float* __restrict a,
-                                    const float* __restrict b,
-                                    const std::uint8_t* __restrict smooth,
-                                    int count,
-                                    std::uint8_t* __restrict broken) {
-  for (int x = 0; x < count; ++x) {
-    const float both = a[x] + b[x];
-    const auto cut = static_cast<std::uint8_t>((both == both ? 1 : 0) & (smooth[x] ^ 1));
-    broken[x] = static_cast<std::uint8_t>(broken[x] | cut);
-  }
-}
-
-/// Marks pixels with a measured neighbour across a difference that is not smooth.
-Mask broken_pixels(const Image<float>& phase, const Regions& regions) {
-  const int width = phase.width();
-  const int height = phase.height();
-  Mask broken(width, height, Uninitialized{});
-  const auto row_of = [&](const auto& image, int y) {
-    return image.pixels().data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-  };
-  parallel_rows(height, [&](int y) {
-    std::vector<std::uint8_t> right(static_cast<std::size_t>(width) + 1, 0);
-    const float* row = row_of(phase, y);
-    mark_broken(row, row + 1, row_of(regions.smooth_right, y), width - 1, right.data() + 1);
-    std::uint8_t* out = &broken(0, y);
-    for (std::size_t x = 0; x + 1 < right.size(); ++x)
-      out[x] = static_cast<std::uint8_t>(right[x] | right[x + 1]);
-    if (y > 0) mark_broken(row - width, row, row_of(regions.smooth_below, y - 1), width, out);
-    if (y + 1 < height) mark_broken(row, row + width, row_of(regions.smooth_below, y), width, out);
-  });
-  return broken;
-}
-
-FRANGIA_VECTORIZED void widen(std::uint8_t* __restrict into,
-                              const std::uint8_t* __restrict from,
-                              std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i)
-    into[i] = into[i] > from[i] ? into[i] : from[i];
-}
-
-/// Dilates a mask by a square of this radius, one direction at a time.
-void dilate(int radius, Mask& mask) {
-  const int width = mask.width();
-  const int height = mask.height();
-  parallel_rows(height, [&](int y) {
-    int last = -2 * radius - width;
-    std::vector<int> before;
-    for (int x = 0; x < width; ++x) {
-      if (mask(x, y) != 0) before.push_back(x);
-    }
-    for (const int x : before) {
-      for (int u = std::max({0, x - radius, last + 1}); u <= std::min(width - 1, x + radius); ++u)
-        mask(u, y) = 1;
-      last = std::min(width - 1, x + radius);
-    }
-  });
-  if (height < 2) return;
-  const auto row = static_cast<std::size_t>(width);
-  const Mask across = mask;
-  parallel_rows(height, [&](int y) {
-    for (int v = std::max(0, y - radius); v <= std::min(height - 1, y + radius); ++v) {
-      if (v != y) widen(&mask(0, y), &across(0, v), row);
-    }
-  });
-}
 
 /// Indices of pixels in the order of their visit.
 using PixelQueue = LargeVector<std::uint32_t>;
@@ -114,7 +49,7 @@ void grow_labels(PixelQueue& queue, Regions& regions, const Allowed& allowed) {
 /// Runs of pixels connected by smooth differences and the set of each run.
 struct RunSets {
   PixelRuns all;
-  RunForest forest;
+  DisjointSets sets;
 };
 
 template <typename Allowed>
@@ -125,15 +60,16 @@ RunSets connect_runs(const Regions& regions, const Allowed& allowed) {
       height,
       [&](int x, int y) { return regions.label(x, y) < 0 && allowed(x, y); },
       [&](int x, int y) { return regions.smooth_right(x, y) != 0; });
-  RunForest forest(all.runs.size());
+  DisjointSets sets(all.runs.size());
   for (int y = 1; y < height; ++y) {
     for_each_overlap_above(
         all, y, [&](std::size_t a, std::size_t b, std::int32_t begin, std::int32_t end) {
           const std::uint8_t* smooth = &regions.smooth_below(0, y - 1);
-          if (std::find(smooth + begin, smooth + end, 1) != smooth + end) forest.join(a, b, 0);
+          if (std::find(smooth + begin, smooth + end, 1) != smooth + end)
+            sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
         });
   }
-  return {std::move(all), std::move(forest)};
+  return {std::move(all), std::move(sets)};
 }
 
 /// Writes the label of each run that has one.
@@ -151,14 +87,14 @@ void label_runs(const PixelRuns& all, const std::vector<std::int32_t>& label, Re
 /// Assigns a new label to each connected set of admitted, unlabelled pixels.
 template <typename Allowed>
 void label_all(Regions& regions, const Allowed& allowed) {
-  RunSets sets = connect_runs(regions, allowed);
+  RunSets runs = connect_runs(regions, allowed);
   // The root is the first run of its set.
-  std::vector<std::int32_t> label(sets.all.runs.size());
+  std::vector<std::int32_t> label(runs.all.runs.size());
   for (std::size_t i = 0; i < label.size(); ++i) {
-    const std::size_t root = sets.forest.root(i).run;
+    const std::size_t root = runs.sets.find(static_cast<std::uint32_t>(i));
     label[i] = root == i ? regions.count++ : label[root];
   }
-  label_runs(sets.all, label, regions);
+  label_runs(runs.all, label, regions);
 }
 
 constexpr std::int32_t kNoLabel = -1;
@@ -185,22 +121,22 @@ std::int32_t label_adjacent_to(const Regions& regions, int y, PixelRun run) {
 /// `grow_labels`, without a queue.
 template <typename Allowed>
 void label_sets_with_one_neighbor(Regions& regions, const Allowed& allowed) {
-  RunSets sets = connect_runs(regions, allowed);
-  std::vector<std::int32_t> adjacent(sets.all.runs.size());
+  RunSets runs = connect_runs(regions, allowed);
+  std::vector<std::int32_t> adjacent(runs.all.runs.size());
   parallel_rows(regions.label.height(), [&](int y) {
     const auto row = static_cast<std::size_t>(y);
-    for (std::size_t i = sets.all.first[row]; i < sets.all.first[row + 1]; ++i)
-      adjacent[i] = label_adjacent_to(regions, y, sets.all.runs[i]);
+    for (std::size_t i = runs.all.first[row]; i < runs.all.first[row + 1]; ++i)
+      adjacent[i] = label_adjacent_to(regions, y, runs.all.runs[i]);
   });
   std::vector<std::int32_t> of_set(adjacent.size(), kNoLabel);
   for (std::size_t i = 0; i < adjacent.size(); ++i) {
-    std::int32_t& known = of_set[sets.forest.root(i).run];
+    std::int32_t& known = of_set[runs.sets.find(static_cast<std::uint32_t>(i))];
     if (adjacent[i] == kNoLabel || adjacent[i] == known) continue;
     known = known == kNoLabel ? adjacent[i] : kSeveral;
   }
   for (std::size_t i = 0; i < adjacent.size(); ++i)
-    adjacent[i] = of_set[sets.forest.root(i).run];
-  label_runs(sets.all, adjacent, regions);
+    adjacent[i] = of_set[runs.sets.find(static_cast<std::uint32_t>(i))];
+  label_runs(runs.all, adjacent, regions);
 }
 
 /// Marks pixels that are near a cut, or above or below such a pixel. All unlabelled pixels are near
@@ -260,8 +196,8 @@ Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options) 
                   .count = 0,
                   .smooth_right = smooth_right(phase, options.jumps),
                   .smooth_below = smooth_below(phase, options.jumps)};
-  Mask near_cut = broken_pixels(phase, regions);
-  dilate(options.neck_radius_px, near_cut);
+  const Mask near_cut =
+      mark_near_cuts(phase, {regions.smooth_right, regions.smooth_below}, options.neck_radius_px);
   const auto measured = [&](int x, int y) { return !std::isnan(phase(x, y)); };
   label_all(regions, [&](int x, int y) { return measured(x, y) && near_cut(x, y) == 0; });
   // Most margins around the cores belong to one core; the others are divided among the nearest

@@ -10,6 +10,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/core/resize_uninitialized.h"
 #include "frangia/core/vectorized.h"
+#include "frangia/phase/internal/sum_frames.h"
 #include "frangia/phase/internal/wrap_tile.h"
 
 namespace frangia {

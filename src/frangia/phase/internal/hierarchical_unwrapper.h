@@ -39,13 +39,6 @@ class HierarchicalUnwrapper {
               std::int32_t* uncertain) const;
 
  private:
-  /// Fits the least-squares slope of phase over frequency through all maps; `at` is the absolute
-  /// phase of the finest map.
-  void fit_slope(const Input& maps,
-                 const float* at,
-                 std::size_t n,
-                 float* absolute_rad,
-                 float* sigma_rad) const;
   /// Probability that one of pixel i's orders is wrong.
   [[nodiscard]] double pixel_wrong_order_probability(const Input& maps, std::size_t i) const;
 

@@ -65,49 +65,4 @@ void for_each_overlap_above(const PixelRuns& all, int y, const Visit& visit) {
   }
 }
 
-/// Union-find over runs; each run stores its fringe offset from its parent.
-class RunForest {
- public:
-  explicit RunForest(std::size_t count) : parent_(count), fringes_(count, 0) {
-    for (std::size_t i = 0; i < count; ++i)
-      parent_[i] = static_cast<std::uint32_t>(i);
-  }
-  struct Root {
-    std::uint32_t run;
-    std::int32_t fringes;  ///< fringes to add to the run to be level with its root
-  };
-  [[nodiscard]] Root root(std::size_t run) {
-    auto at = static_cast<std::uint32_t>(run);
-    std::int32_t fringes = 0;
-    while (parent_[at] != at) {
-      // Path halving.
-      const std::uint32_t up = parent_[at];
-      fringes_[at] += fringes_[up];
-      parent_[at] = parent_[up];
-      fringes += fringes_[at];
-      at = parent_[at];
-    }
-    return {at, fringes};
-  }
-  /// Joins the sets of `a` and `b`; `fringes` is added to `b` to be level with `a`. The root with
-  /// the smaller index stays a root. Runs that are already in one set are unchanged.
-  void join(std::size_t a, std::size_t b, std::int32_t fringes) {
-    const Root above = root(a);
-    const Root below = root(b);
-    if (above.run == below.run) return;
-    const std::int32_t apart = fringes + above.fringes - below.fringes;
-    if (above.run < below.run) {
-      parent_[below.run] = above.run;
-      fringes_[below.run] = apart;
-    } else {
-      parent_[above.run] = below.run;
-      fringes_[above.run] = -apart;
-    }
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-  std::vector<std::int32_t> fringes_;
-};
-
 }  // namespace frangia

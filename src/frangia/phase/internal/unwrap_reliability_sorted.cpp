@@ -9,7 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/phase/internal/pixel_runs.h"
+#include "frangia/phase/internal/fringe_forest.h"
 #include "frangia/phase/internal/unwrap_run_merging.h"
 
 namespace frangia {
@@ -73,7 +73,7 @@ std::vector<Edge> sorted_edges(const Image<float>& phase, const Regions& regions
 
 RelativePhase unwrap_reliability_sorted(const WrappedPhase& phase, const Regions& regions) {
   const auto rad = phase.phase_rad.pixels();
-  RunForest forest(rad.size());  // of pixels
+  FringeForest forest(rad.size());  // of pixels
   for (const Edge& edge : sorted_edges(phase.phase_rad, regions)) {
     const auto turns =
         static_cast<std::int32_t>(std::lround((rad[edge.from] - rad[edge.to]) / kTwoPiF));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/core/angles.h"
+#include "frangia/phase/internal/fringe_forest.h"
 #include "frangia/phase/internal/pixel_runs.h"
 
 namespace frangia {
@@ -73,7 +74,7 @@ std::vector<Link> join_safe(const PixelRuns& all,
                             const OverlapVotes& overlap,
                             int height,
                             const Image<std::int32_t>& label,
-                            RunForest& forest) {
+                            FringeForest& forest) {
   std::vector<std::vector<Link>> rows(static_cast<std::size_t>(height));
   parallel_rows(height, [&](int y) {
     for_each_overlap_above(
@@ -140,7 +141,7 @@ RelativePhase unwrap_run_merging(WrappedPhase&& phase, Regions& regions) {
     for (std::size_t i = all.first[row]; i < all.first[row + 1]; ++i)
       count_turns(row_of(phase.phase_rad, y), all.runs[i], row_of(turns, y));
   });
-  RunForest forest(all.runs.size());
+  FringeForest forest(all.runs.size());
   for (const Link& link : join_safe(all, {phase, regions, turns}, height, label, forest))
     forest.join(link.above, link.below, link.fringes);
 

@@ -42,14 +42,6 @@ struct TileNoise {
                                    const PhaseAlgorithm& algorithm,
                                    const NoiseModel& noise);
 
-/// Computes the sums over all frames for the pixels [at, at + n), n <= kTilePixels. `brightest`
-/// accumulates; set it to 0 before the first stack.
-void sum_frames(const FrameStack& stack,
-                const PhaseAlgorithm& algorithm,
-                std::size_t at,
-                std::size_t n,
-                WrapTile& tile);
-
 /// Computes the phase from the sums, in (-pi, pi]; error below 5e-7 rad.
 void find_tile_phase(const WrapTile& tile, std::size_t n, float* phase_rad);
 

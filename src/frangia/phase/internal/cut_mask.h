@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "frangia/core/image.h"
+
+namespace frangia {
+
+/// Masks of the smooth phase differences to the right-hand neighbour and to the neighbour below.
+struct SmoothSteps {
+  const Image<std::uint8_t>& right;
+  const Image<std::uint8_t>& below;
+};
+
+/// Marks with 1 the pixels within a square of this radius around a cut: a phase difference between
+/// two measured pixels that is not smooth.
+///
+/// shape    w x h
+/// units    rad
+[[nodiscard]] Image<std::uint8_t> mark_near_cuts(const Image<float>& phase_rad,
+                                                 const SmoothSteps& smooth,
+                                                 int radius_px);
+
+}  // namespace frangia
