@@ -1,8 +1,13 @@
 #include "frangia/rig/camera_model.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/rig/fast_camera_model.h"
 
 namespace frangia {
 namespace {
@@ -13,16 +18,78 @@ const CameraModel kCameraModel{.width_px = 640,
                                .principal_point_px = {326.8, 251.4},
                                .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.01}};
 
-TEST(CameraModel, ProjectsAsOpenCvDoes) {
-  // cv2.projectPoints of (30, -20, 400) with the same matrix and coefficients.
-  const Eigen::Vector2d n(0.075, -0.05);
-  const double r2 = 0.008125;
-  const double radial = 1.0 - 0.09 * r2 + 0.05 * r2 * r2 + 0.01 * r2 * r2 * r2;
-  const double x = n.x() * radial + 2 * 4e-4 * n.x() * n.y() - 3e-4 * (r2 + 2 * n.x() * n.x());
-  const double y = n.y() * radial + 4e-4 * (r2 + 2 * n.y() * n.y()) - 2 * 3e-4 * n.x() * n.y();
-  const Eigen::Vector2d pixel = kCameraModel.project({30.0, -20.0, 400.0});
-  EXPECT_NEAR(pixel.x(), 1200.0 * x + 326.8, 1e-9);
-  EXPECT_NEAR(pixel.y(), 1190.0 * y + 251.4, 1e-9);
+/// Points and pixels of OpenCV 4.6 for one set of coefficients, by tests/rig/make_opencv_points.py.
+struct OpenCvModel {
+  std::array<double, 5> distortion;
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector2d>> projected;    ///< point, pixel
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> undistorted;  ///< pixel, ray
+};
+
+const std::vector<OpenCvModel>& opencv_models() {
+  static const std::vector<OpenCvModel> models{
+      {{-0.09, 0.05, 4e-4, -3e-4, 0.01},
+       {
+           {{0, 0, 250}, {326.80000000000001, 251.40000000000001}},
+           {{30, -20, 400}, {416.72391005305178, 191.95223765937135}},
+           {{-85, 60, 400}, {73.206091040117826, 428.93089127191752}},
+           {{120, 95, 500}, {612.46866478802463, 475.74082312282076}},
+           {{-140, -110, 450}, {-41.798281542522034, -35.681069430276835}},
+       },
+       {
+           {{0, 0}, {-0.27509336460855804, -0.21347908268115659}},
+           {{326.8, 251.4}, {0, 0}},
+           {{639, 511}, {0.26279207632777529, 0.22027530911472351}},
+           {{17.25, 480.5}, {-0.26016566668093782, 0.19414967985914972}},
+           {{600, 30}, {0.22948310308566566, -0.18754852920133017}},
+       }},
+      {{-0.31, 0.12, -2e-3, 1.5e-3, -0.02},
+       {
+           {{0, 0, 250}, {326.80000000000001, 251.40000000000001}},
+           {{30, -20, 400}, {416.62689950327149, 192.0047699117261}},
+           {{-85, 60, 400}, {77.447082253260447, 425.87126742271772}},
+           {{120, 95, 500}, {606.89029158235076, 470.93491379433851}},
+           {{-140, -110, 450}, {-29.220095725096655, -26.591115943829124}},
+       },
+       {
+           {{0, 0}, {-0.28323681265430206, -0.21929690400715271}},
+           {{326.8, 251.4}, {0, 0}},
+           {{639, 511}, {0.26991457757330817, 0.22674524261013701}},
+           {{17.25, 480.5}, {-0.26739421690847215, 0.19966483340668892}},
+           {{600, 30}, {0.23354410276676457, -0.19078122630104499}},
+       }}};
+  return models;
+}
+
+TEST(CameraModel, ProjectsAsOpenCv) {
+  CameraModel model = kCameraModel;
+  for (const OpenCvModel& expected : opencv_models()) {
+    model.distortion = expected.distortion;
+    for (const auto& [point, pixel] : expected.projected)
+      EXPECT_LT((model.project(point) - pixel).norm(), 1e-9) << point.transpose();
+  }
+}
+
+TEST(CameraModel, UndistortsAsOpenCv) {
+  CameraModel model = kCameraModel;
+  for (const OpenCvModel& expected : opencv_models()) {
+    model.distortion = expected.distortion;
+    for (const auto& [pixel, ray] : expected.undistorted)
+      EXPECT_LT((model.ray(pixel) - ray).norm(), 1e-12) << pixel.transpose();
+  }
+}
+
+TEST(FastCameraModel, ProjectsAsOpenCv) {
+  CameraModel model = kCameraModel;
+  for (const OpenCvModel& expected : opencv_models()) {
+    model.distortion = expected.distortion;
+    const FastCameraModel fast(model);
+    for (const auto& [point, pixel] : expected.projected) {
+      const Eigen::Vector3f p = point.cast<float>();
+      Eigen::Vector2f found;
+      fast.project(p.x(), p.y(), p.z(), found.x(), found.y());
+      EXPECT_LT((found.cast<double>() - pixel).norm(), 2e-4) << point.transpose();
+    }
+  }
 }
 
 TEST(CameraModel, RayOfAPixelProjectsBackToThePixel) {

@@ -36,6 +36,7 @@ class ChunkedVector {
   }
 
  private:
+  /// A few huge pages per chunk: the allocator caches blocks of at least 4 MB.
   static constexpr std::size_t kBytes = std::size_t{4} << 20U;
   static constexpr std::size_t kChunkCapacity = kBytes / sizeof(T);
   static constexpr std::size_t kChunkSize =

@@ -65,6 +65,7 @@ class BlockCache {
   BlockCache() { blocks_.reserve(64); }
 
  private:
+  /// The frames and phase maps of one view of 20 Mpx (12 frames of 8 bits, five float maps) fit.
   static constexpr std::size_t kMaxCachedBytes = std::size_t{768} << 20U;
   struct Block {
     void* memory;

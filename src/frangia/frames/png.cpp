@@ -15,6 +15,7 @@
 namespace frangia {
 namespace {
 
+/// Protects against headers that request absurd amounts of memory; px.
 constexpr std::uint32_t kMaxSide = 65535;
 
 struct FreeContext {

@@ -11,6 +11,7 @@
 namespace frangia {
 namespace {
 
+/// Least ratio of a plan. Below it more frames per map are better than more maps.
 constexpr double kMinRatio = 1.1;
 
 }  // namespace

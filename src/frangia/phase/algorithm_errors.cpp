@@ -8,8 +8,8 @@
 namespace frangia {
 namespace {
 
-constexpr int kPhases = 1440;
-constexpr double kSmall = 1e-5;
+constexpr int kPhases = 1440;    ///< phases per fringe: every quarter degree
+constexpr double kSmall = 1e-5;  ///< of B: linear response, far above rounding
 
 struct Wave {
   int harmonic = 2;

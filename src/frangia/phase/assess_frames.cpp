@@ -13,11 +13,6 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kSamples = 100'000;
-
-/// Beyond this the residual is no noise: a noise model is good to some 10 %.
-constexpr double kMaxResidualRatio = 1.6;
-
 /// Weights that give each frame's residual from the least-squares fringe of `shifts`; one row per
 /// frame.
 std::vector<std::vector<double>> residual_weights(const std::vector<double>& shifts) {
@@ -39,12 +34,13 @@ std::vector<std::vector<double>> residual_weights(const std::vector<double>& shi
 double residual_ratio(const FrameStack& stack,
                       const std::vector<double>& shifts,
                       const WrappedPhase& map,
-                      const NoiseModel& noise) {
+                      const NoiseModel& noise,
+                      const AssessmentOptions& options) {
   if (shifts.size() < 4) return 0.0;
   const auto rows = residual_weights(shifts);
   const auto freedom = static_cast<double>(shifts.size() - 3);
   const std::size_t pixels = map.status.pixels().size();
-  const std::size_t stride = std::max<std::size_t>(1, pixels / kSamples);
+  const std::size_t stride = std::max<std::size_t>(1, pixels / options.samples);
   double ratio = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < pixels; i += stride) {
@@ -63,15 +59,15 @@ double residual_ratio(const FrameStack& stack,
     }
     const double expected =
         freedom * noise.variance(static_cast<double>(map.mean_counts.pixels()[i]));
-    ratio += std::min(square / expected, 25.0);  // a depth edge's few pixels do not decide
+    ratio += std::min(square / expected, options.max_pixel_ratio);
     count += 1.0;
   }
   return count > 0.0 ? ratio / count : 0.0;
 }
 
-double median_contrast(const WrappedPhase& map) {
+double median_contrast(const WrappedPhase& map, std::size_t samples) {
   std::vector<float> contrast;
-  const std::size_t stride = std::max<std::size_t>(1, map.status.pixels().size() / kSamples);
+  const std::size_t stride = std::max<std::size_t>(1, map.status.pixels().size() / samples);
   for (std::size_t i = 0; i < map.status.pixels().size(); i += stride) {
     const float mean = map.mean_counts.pixels()[i];
     if (map.status.pixels()[i] == PixelStatus::Measured && mean > 0.0F)
@@ -90,7 +86,8 @@ double fraction_of(const Image<PixelStatus>& status, PixelStatus which) {
 FrameAssessment assess_frames(const FrameStack& stack,
                               const FittedAlgorithm& fitted,
                               const WrappedPhase& map,
-                              const NoiseModel& noise) {
+                              const NoiseModel& noise,
+                              const AssessmentOptions& options) {
   FrameAssessment assessment{.pattern = stack.pattern.name, .algorithm = fitted.algorithm.name};
   if (fitted.step.found) {
     assessment.nominal_deg = deg_from_rad(fitted.step.nominal_rad);
@@ -98,11 +95,11 @@ FrameAssessment assess_frames(const FrameStack& stack,
     assessment.jitter_deg = deg_from_rad(fitted.step.jitter_rad);
     assessment.step_sigma_deg = deg_from_rad(fitted.step.sigma_rad);
   }
-  assessment.contrast = median_contrast(map);
+  assessment.contrast = median_contrast(map, options.samples);
   assessment.measured_fraction = fraction_of(map.status, PixelStatus::Measured);
   assessment.saturated_fraction = fraction_of(map.status, PixelStatus::Saturated);
-  assessment.residual_ratio = residual_ratio(stack, fitted.shifts_rad, map, noise);
-  assessment.vibration_suspected = assessment.residual_ratio > kMaxResidualRatio;
+  assessment.residual_ratio = residual_ratio(stack, fitted.shifts_rad, map, noise, options);
+  assessment.vibration_suspected = assessment.residual_ratio > options.max_residual_ratio;
   return assessment;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "frangia/frames/frame_stack.h"
@@ -29,13 +30,25 @@ struct FrameAssessment {
   bool vibration_suspected = false;
 };
 
+struct AssessmentOptions {
+  /// Residual ratio above which motion or flicker is suspected. The residuals of good frames give 1
+  /// with a noise model that is accurate to about 10 %, as an estimated one is.
+  double max_residual_ratio = 1.6;
+  /// A pixel's squared residual counts up to this multiple of its expectation, so that the few
+  /// pixels on depth edges do not decide: (5 sigma)^2.
+  double max_pixel_ratio = 25.0;
+  /// Approximate number of sampled pixels. The mean ratio then has a standard error below 0.5 %.
+  std::size_t samples = 100'000;
+};
+
 /// Assesses the frames of a pattern from its fitted algorithm and wrapped phase.
 ///
 /// shape    `stack` and `map` have the same size
 [[nodiscard]] FrameAssessment assess_frames(const FrameStack& stack,
                                             const FittedAlgorithm& fitted,
                                             const WrappedPhase& map,
-                                            const NoiseModel& noise);
+                                            const NoiseModel& noise,
+                                            const AssessmentOptions& options = {});
 
 /// Formats an assessment as one sentence.
 [[nodiscard]] std::string describe(const FrameAssessment& assessment);

@@ -16,7 +16,7 @@
 namespace frangia {
 namespace {
 
-constexpr int kMaxBits = 24;
+constexpr int kMaxBits = 24;  ///< wider than any projector; codes stay exact in 32 bits
 
 void check(std::span<const FrameStack> gray, const WrappedPhase& fringes) {
   require(!gray.empty(), "decode_gray_code: no Gray code is given");

@@ -17,6 +17,7 @@ namespace frangia {
 namespace {
 
 constexpr int kBins = NoiseSamples::kBins;
+constexpr double kMinSigma = 0.3;  ///< counts: quantization, 1 / sqrt(12)
 constexpr std::size_t kMinSamples =
     200;  ///< fewest samples of a bin; the variance then has a standard error of 10 %
 constexpr std::size_t kRowSamples = 400'000;  ///< approximate number of pixels sampled per stack
@@ -94,7 +95,7 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
 /// Robust variance of Gaussian noise from absolute values: a median, refined by three rounds of
 /// 3-sigma clipping because the median of whole counts moves in steps.
 double robust_variance(std::vector<float> magnitudes) {
-  double sigma = std::max(median_in_place(std::span(magnitudes)) / 0.6745, 0.3);
+  double sigma = std::max(median_in_place(std::span(magnitudes)) / 0.6745, kMinSigma);
   for (int i = 0; i < 3; ++i) {
     double sum = 0.0;
     double count = 0.0;

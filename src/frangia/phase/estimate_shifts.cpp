@@ -14,10 +14,11 @@
 namespace frangia {
 namespace {
 
+/// Sampled pixels. At 1 % noise the standard error of a shift is then about 1e-4 rad.
 constexpr std::size_t kSamples = 20'000;
-constexpr Eigen::Index kMinSamples = 100;
-constexpr int kIterations = 100;
-constexpr double kConverged_rad = 1e-9;
+constexpr Eigen::Index kMinSamples = 100;  ///< fewer pixels do not determine the shifts
+constexpr int kIterations = 100;           ///< safety limit; the iteration stops on convergence
+constexpr double kConverged_rad = 1e-9;    ///< largest change of a shift, far below its noise
 
 /// Largest ratio of residual to noise variance; the noise model is no more accurate than that.
 constexpr double kMaxExcess = 1.5;
@@ -45,7 +46,7 @@ Eigen::VectorXd residuals_of(const Eigen::MatrixXd& root, const std::vector<doub
 std::vector<double> levenberg_marquardt_step(const Eigen::MatrixXd& root,
                                              const std::vector<double>& shifts,
                                              double& damping) {
-  constexpr double kProbe_rad = 1e-6;
+  constexpr double kProbe_rad = 1e-6;  // step of the numerical derivative
   const Eigen::VectorXd residual = residuals_of(root, shifts);
   Eigen::MatrixXd slopes(residual.size(), std::ssize(shifts) - 1);
   for (std::size_t k = 1; k < shifts.size(); ++k) {

@@ -13,11 +13,19 @@
 namespace frangia {
 namespace {
 
+/// Sampled pixels. At 1 % noise the standard error of a step is then below 1e-4 rad.
 constexpr std::size_t kSamples = 400'000;
-constexpr Eigen::Index kMinSamples = 100;
+constexpr Eigen::Index kMinSamples = 100;  ///< fewer pixels do not determine the step
 
 /// Least ratio of the variance along the fitted line to the variance across it.
 constexpr double kMinSignal = 4.0;
+
+/// Least |sine| of a step, and of 1.5 steps for the jitter; below it the equations are nearly
+/// singular.
+constexpr double kMinSine = 0.1;
+
+/// Least significance of a jitter, in sigmas; smaller ones are noise.
+constexpr double kJitterSigmas = 4.0;
 
 /// Largest plausible gain error of a phase shifter. A larger estimate is rejected.
 constexpr double kMaxGainError = 0.25;
@@ -45,7 +53,7 @@ double nearest_angle(double cosine, double nominal) {
 /// I4).
 double shift_error_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, double step) {
   const double outer = std::sin(1.5 * step);
-  if (std::abs(outer) < 0.1) return 0.0;
+  if (std::abs(outer) < kMinSine) return 0.0;
   Eigen::MatrixX3d contrasts(counts.rows(), 3);
   const auto frame = [&](Eigen::Index i) { return counts.col(k + i).cast<double>(); };
   contrasts.col(0) = (frame(0) - frame(3)) / std::numbers::sqrt2;
@@ -59,7 +67,7 @@ double shift_error_of_window(const Eigen::ArrayXXf& counts, Eigen::Index k, doub
   const double sigma =
       2.0 * std::sqrt(std::max(eigen.values(0), 0.0) / std::max(products(2, 2), 1e-9) /
                       static_cast<double>(counts.rows()));
-  if (std::abs(b) < 4.0 * sigma) return 0.0;
+  if (std::abs(b) < kJitterSigmas * sigma) return 0.0;
   return b * (std::cos(0.5 * step) - std::cos(1.5 * step)) / outer;
 }
 
@@ -79,7 +87,7 @@ StepEstimate estimate_step(const FrameStack& stack) {
   StepEstimate out;
   if (stack.frames.size() < 4 || stack.pattern.shifts_rad.size() != stack.frames.size()) return out;
   out.nominal_rad = out.step_rad = nominal_step(stack.pattern.shifts_rad);
-  if (std::abs(std::sin(out.nominal_rad)) < 0.1) return out;
+  if (std::abs(std::sin(out.nominal_rad)) < kMinSine) return out;
   const Eigen::ArrayXXf counts = sample_frames(stack, kSamples);
   if (counts.rows() < kMinSamples) return out;
   out.mean_counts = static_cast<double>(counts.mean());

@@ -9,8 +9,14 @@
 namespace frangia {
 namespace {
 
+/// Largest unmodulated patch that counts as a dark speck, px: 2 x 2.
 constexpr std::size_t kSpeckPx = 4;
+
+/// Safety limit: Gauss-Seidel from a plane converges on a hole of 10 x 10 px in about 100 sweeps.
 constexpr int kSweeps = 200;
+
+/// Largest change of a sweep at convergence, far below phase noise.
+constexpr float kConverged_rad = 1e-4F;
 
 struct Pixel {
   int x;
@@ -107,7 +113,7 @@ void fill(AbsolutePhase& phase, const Hole& hole, const Plane& plane) {
       moved = std::max(moved, std::abs(0.25F * sum - phase.phase_rad(p.x, p.y)));
       phase.phase_rad(p.x, p.y) = 0.25F * sum;
     }
-    if (moved < 1e-4F) break;
+    if (moved < kConverged_rad) break;
   }
 }
 

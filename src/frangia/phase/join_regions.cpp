@@ -49,7 +49,7 @@ std::vector<Contact> all_contacts(const RelativePhase& phase, const Regions& reg
     // Most blocks lie within one region, together with the pixels to their right and below.
     const std::int32_t* here = &phase.region(0, y);
     const std::int32_t* below = y + 1 < height ? here + width : here;
-    constexpr int kBlock = 32;
+    constexpr int kBlock = 32;  // labels per comparison: two cache lines
     for (int begin = 0; begin < width; begin += kBlock) {
       const int end = std::min(width, begin + kBlock);
       const int last = std::min(width - 1, end);

@@ -15,9 +15,10 @@
 namespace frangia {
 namespace {
 
-constexpr int kKnots = 17;               ///< knots of the curve at evenly spaced levels from 0 to 1
-constexpr double kMinAmplitude = 0.075;  ///< least amplitude of the fringes as a fraction of white
-constexpr int kMinPixels = 1000;         ///< least number of pixels
+constexpr int kKnots = 17;  ///< evenly spaced levels; as `frangia simulate --ramp 17`
+constexpr double kMinAmplitude =
+    0.075;                        ///< of white: half the least contrast of `measure_response`
+constexpr int kMinPixels = 1000;  ///< least number of pixels
 
 /// Least-squares fit of a piecewise linear curve.
 class CurveFit {

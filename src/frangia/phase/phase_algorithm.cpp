@@ -87,7 +87,7 @@ Wave wave_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
 /// Normalizes a published formula to B sin and B cos of the phase at shift zero. Offset and scale
 /// follow from the result for a known phase.
 void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& algorithm) {
-  constexpr double kProbe_rad = 0.5;
+  constexpr double kProbe_rad = 0.5;  // any phase whose sine and cosine are not 0
   const double step = common_step(shifts_rad);
   std::vector<double> counts;
   for (std::size_t k = 0; k < shifts_rad.size(); ++k)

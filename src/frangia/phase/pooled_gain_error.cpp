@@ -28,6 +28,7 @@ double pooled_gain_error(std::span<const StepEstimate> views) {
   }
   const double freedom = 2.0 * count - 1.0;
   const double variance = square / freedom / count + noise / (count * count);
+  // 4: a mean of two sigmas shrinks to 0.
   const double caution = 4.0 * (1.0 + 5.0 / freedom);
   return mean == 0.0 ? 0.0 : mean * std::max(0.0, 1.0 - caution * variance / (mean * mean));
 }

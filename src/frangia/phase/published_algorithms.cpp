@@ -11,8 +11,9 @@ namespace frangia {
 namespace {
 
 /// Largest deviation from equal steps that an algorithm for equal steps accepts.
-constexpr double kTolerance_rad = 1e-3;
+constexpr double kTolerance_rad = 1e-3;  ///< shifts_deg typed with two decimals fits
 
+/// N of the examples in the table of docs/phase.md.
 constexpr int kExampleSteps = 6;
 
 /// Returns N for an algorithm of `frames` frames 360 / N degrees apart; 0 if there is none.

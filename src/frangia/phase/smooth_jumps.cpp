@@ -15,6 +15,10 @@
 namespace frangia {
 namespace {
 
+/// Allowed deviation in sigmas of the differences' own noise: 1 of 2 million differences exceeds
+/// it.
+constexpr float kNoiseSigmas = 5.0F;
+
 /// Wrapped differences between two rows, or between a row and itself shifted by one pixel; NaN
 /// where a pixel is missing.
 FRANGIA_VECTORIZED void find_jumps(const float* from, const float* to, int count, float* jump) {
@@ -84,7 +88,7 @@ float jump_noise(const Image<float>& phase, int dx, int dy) {
 Image<std::uint8_t> smooth_right(const Image<float>& phase_rad, const JumpOptions& options) {
   const int width = phase_rad.width();
   const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.tolerance_rad + 5.0F * jump_noise(phase_rad, 1, 0),
+  const Limits limits{options.tolerance_rad + kNoiseSigmas * jump_noise(phase_rad, 1, 0),
                       options.max_jump_rad};
   Image<std::uint8_t> smooth(width, phase_rad.height(), Uninitialized{});
   parallel_rows(phase_rad.height(), [&](int y) {
@@ -101,7 +105,7 @@ Image<std::uint8_t> smooth_below(const Image<float>& phase_rad, const JumpOption
   const int width = phase_rad.width();
   const int height = phase_rad.height();
   const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.tolerance_rad + 5.0F * jump_noise(phase_rad, 0, 1),
+  const Limits limits{options.tolerance_rad + kNoiseSigmas * jump_noise(phase_rad, 0, 1),
                       options.max_jump_rad};
   Image<std::uint8_t> smooth(width, height, Uninitialized{});
   parallel_rows((height + kBand - 1) / kBand, [&](int band) {

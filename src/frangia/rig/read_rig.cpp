@@ -17,7 +17,7 @@ namespace {
 /// Largest deviation of a rotation or a unit vector from exact. Files carry nine digits; people
 /// type four.
 constexpr double kUnitTolerance = 2e-3;
-constexpr int kMaxSide = 65535;
+constexpr int kMaxSide = 65535;  ///< px, as for frames
 
 Eigen::Vector2d vector2(TomlReader& reader, std::string_view key) {
   const auto values = reader.numbers(key, 2);
