@@ -12,6 +12,7 @@
 #include <tbb/global_control.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/release_cached_pixels.h"
 #include "frangia/pattern/fringe_sequence.h"
 #include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/published_algorithms.h"
@@ -23,7 +24,7 @@
 namespace frangia {
 namespace {
 
-/// All figures are of one core.
+/// All figures are for one core.
 const tbb::global_control& one_core() {
   static const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
   return control;
@@ -34,8 +35,8 @@ void per_pixel(benchmark::State& state, double pixels) {
       pixels * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Pixels of a side of a square image of some megapixels, in whole hundreds: OpenCV's decoder
-/// takes only sizes that its Fourier transform likes.
+/// Side of a square image of some megapixels, in multiples of 100: OpenCV's decoder accepts only
+/// sizes that are products of small primes.
 int side_of(std::int64_t megapixels) {
   return 100 * static_cast<int>(std::ceil(10.0 * std::sqrt(static_cast<double>(megapixels))));
 }
@@ -47,8 +48,8 @@ void write_raw(const std::filesystem::path& path, const Image<T>& image) {
              static_cast<std::streamsize>(image.pixels().size() * sizeof(T)));
 }
 
-/// For tools/bench_peers.py: frames, wrapped, unwrapped and true phase as raw files in the folder
-/// that FRANGIA_BENCH_DATA names.
+/// Writes frames, wrapped, unwrapped and true phase for tools/bench_peers.py, as raw files in the
+/// folder that FRANGIA_BENCH_DATA names.
 void write_for_peers(const FrameStack& stack, const WrappedPhase& wrapped) {
   const char* folder = std::getenv("FRANGIA_BENCH_DATA");  // NOLINT(concurrency-mt-unsafe)
   if (folder == nullptr) return;
@@ -80,8 +81,11 @@ void decode(benchmark::State& state, const char* name) {
   WrappedPhase map = wrap_phase(stack, algorithm, testing::kBenchmarkNoise);
   for (auto iteration : state) {
     static_cast<void>(iteration);
-    map = wrap_phase(
-        stack, algorithm, testing::kBenchmarkNoise, {}, std::move(map));  // as from view to view
+    map = wrap_phase(stack,
+                     algorithm,
+                     testing::kBenchmarkNoise,
+                     {},
+                     std::move(map));  // reuses the map, as in a loop over views
   }
   per_pixel(state, static_cast<double>(side) * side);
 }
@@ -92,7 +96,26 @@ BENCHMARK_CAPTURE(decode, schwider, "schwider")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(decode, carre, "carre")->Arg(20)->Unit(benchmark::kMillisecond);
 
-/// Frames of a map of `fringes` over a display as wide as the image; the same rows again and again.
+/// Decoding into memory that is touched for the first time, as in a single call.
+void decode_cold(benchmark::State& state, const char* name) {
+  static_cast<void>(one_core());
+  const int side = side_of(state.range(0));
+  const FrameStack stack = testing::benchmark_frames(side, side);
+  const PhaseAlgorithm algorithm = make_algorithm(name, stack.pattern.shifts_rad);
+  for (auto iteration : state) {
+    static_cast<void>(iteration);
+    WrappedPhase map = wrap_phase(stack, algorithm, testing::kBenchmarkNoise);
+    state.PauseTiming();
+    map = {};
+    release_cached_pixels();
+    state.ResumeTiming();
+  }
+  per_pixel(state, static_cast<double>(side) * side);
+}
+BENCHMARK_CAPTURE(decode_cold, schwider, "schwider")->Arg(20)->Unit(benchmark::kMillisecond);
+
+/// Frames of a map of `fringes` over a display as wide as the image. Bands of identical rows save
+/// time.
 FrameStack sequence_frames(int side, double fringes) {
   FrameStack band = testing::benchmark_frames(
       side, side / 10, [&](double u, double /*v*/) { return kTwoPi * fringes * u; });
@@ -111,7 +134,7 @@ FrameStack sequence_frames(int side, double fringes) {
   return band;
 }
 
-/// Seven maps of four frames to absolute phase, all in one pass.
+/// Decodes seven maps of four frames to absolute phase in one pass.
 void decode_maps(benchmark::State& state, const char* name) {
   static_cast<void>(one_core());
   const int side = side_of(state.range(0));

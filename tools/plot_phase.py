@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The plots of docs/phase.md, from the program's own figures. Debian: python3-matplotlib.
+"""Makes the plots of docs/phase.md from figures that the program measures. Debian: python3-matplotlib, python3-pil.
 
 usage: plot_phase.py PROGRAM BENCH_FOLDER OUTPUT_FOLDER
 """
@@ -14,7 +14,7 @@ import tempfile
 import matplotlib
 
 matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 
 
 def chart(folder, name, title, x_label, y_label, draw):
@@ -31,10 +31,10 @@ def chart(folder, name, title, x_label, y_label, draw):
 
 
 def stages(program, folder):
-    """One row of what `frangia decode` writes of a view of the paper's rig."""
+    """A row of pictures that `frangia decode` writes for a view of the paper's rig."""
     shown = (("fringe-residues", "modulo 2π, residues"), ("fringe-modulation", "modulation"),
-             ("growth", "order of growth"), ("regions", "regions"), ("fringes", "fringes"),
-             ("absolute", "final phase"), ("mask", "why pixels went"))
+             ("growth", "order of growth"), ("regions", "regions"), ("fringes", "fringe orders"),
+             ("absolute", "final phase"), ("mask", "reason of missing pixels"))
     with tempfile.TemporaryDirectory() as work:
         scan, views = os.path.join(work, "scan"), os.path.join(work, "stages")
         subprocess.run([program, "--quiet", "simulate", "bracket", "--rig", "carducci", "--views", "4",
@@ -52,12 +52,12 @@ def stages(program, folder):
 
 
 def noise_points(program):
-    """RMS phase error against sigma_I / B of simulated plates at five exposures, by algorithm: the
-    decoded phase against that of the same frames without noise."""
+    """RMS phase error against sigma_I / B for each algorithm: plates simulated at five exposures, compared with the
+    same plate without noise."""
     import numpy as np
     from PIL import Image
 
-    per_count = 20000 / 255  # electrons, as `frangia simulate` says
+    per_count = 20000 / 255  # electrons, the default of `frangia simulate`
 
     def image(path):
         return np.asarray(Image.open(path), dtype=float)
@@ -112,7 +112,7 @@ def main(program, bench, folder):
             axes.loglog(*zip(*points), "o", markersize=4, label=f"{name}, simulated")
         sigma = [0.01 * 1.2**i for i in range(20)]
         for row in table:
-            if row["name"] in ("carre", "global-carre"):  # as many frames as were simulated
+            if row["name"] in ("carre", "global-carre"):  # algorithms for the number of simulated frames
                 axes.loglog(sigma, [row["noise_gain"] * s for s in sigma], linewidth=0.8, color="grey")
         axes.loglog(sigma, [math.sqrt(2 / 4) * s for s in sigma], "k--", label="Cramér-Rao bound, 4 frames")
 
@@ -125,11 +125,11 @@ def main(program, bench, folder):
                                   for s in sigma], label=f"ratio {ratio}")
         axes.axhline(1e-6, color="k", linestyle=":", label="1e-6")
 
-    chart(folder, "wrong-order.svg", "Chance of a wrong order against sigma",
-          "sigma of each map, rad", "chance a pixel and step", failure)
+    chart(folder, "wrong-order.svg", "Probability of a wrong order against sigma",
+          "sigma of each map, rad", "probability per pixel and level", failure)
     path = os.path.join(bench, "phase.json")
     if not os.path.exists(path):
-        print(f"{path} is absent: run ./run bench for the plot of speed")
+        print(f"{path} is missing; run ./run bench to plot the speed")
         return
     with open(path, encoding="utf-8") as file:
         runs = json.load(file)["benchmarks"]
@@ -141,7 +141,7 @@ def main(program, bench, folder):
             axes.loglog(sizes, [run["cpu_time"] / size for run, size in zip(some, sizes)], "o-",
                         label=start)
 
-    chart(folder, "speed.svg", "Speed against size, one core", "Mpx", "ns a pixel", speed)
+    chart(folder, "speed.svg", "Speed against size, one core", "Mpx", "ns per pixel", speed)
 
 
 if __name__ == "__main__":
