@@ -28,7 +28,7 @@ Eigen::Vector3d point_at(const View& view, const Image<Eigen::Vector2f>& rays, s
   return depth * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
 }
 
-/// The measured pixels of the view in squares of `side`, for the squares that `wanted` holds.
+/// Divides the measured pixels of the view that `wanted` marks into squares of `side` pixels.
 std::vector<Patch> patches_of(const View& view,
                               const FringeComparison& set,
                               int side,
@@ -56,7 +56,7 @@ std::vector<Patch> patches_of(const View& view,
   return patches;
 }
 
-/// Lets every other view say what it sees at each of the patches' candidates.
+/// Compares the candidates of all patches with every other view.
 void compare_with_others(const ViewStore& views,
                          std::size_t own,
                          const FringeComparison& set,
@@ -78,7 +78,7 @@ void compare_with_others(const ViewStore& views,
   }
 }
 
-/// The fringes by which the patch is off; 0 unless the others leave no doubt.
+/// The correction of a patch's fringe order; 0 unless the other views determine it uniquely.
 int order_error(const Patch& patch, const FringeOrderCorrectionOptions& options) {
   const FringeOrderCandidate* current = nullptr;
   const FringeOrderCandidate* best = nullptr;
@@ -96,15 +96,15 @@ int order_error(const Patch& patch, const FringeOrderCorrectionOptions& options)
   if (current == nullptr || best == nullptr) return 0;
   const auto points = static_cast<double>(best->points_mm.size());
   if (current->agree > options.max_current_agreement * points) return 0;
-  // Where others look at it and do not find it, half of it elsewhere is enough; where it hides from
-  // them behind the surface, most of it must be that surface.
+  // A patch that other views see through is certainly wrong, and the lower agreement suffices. A
+  // patch hidden behind their surface is not contradicted and needs the higher one.
   const bool missed = current->violations + current->unseen >= points;
   const double wanted = missed ? options.min_agreement : options.min_agreement_hidden;
   if (best->score() < wanted * points || 2 * second > best->score()) return 0;
   return best->order;
 }
 
-/// Whether others see through the patch and none confirms it.
+/// Whether the patch violates the free space of other views and no view confirms it.
 bool violates_free_space(const Patch& patch, const FringeOrderCorrectionOptions& options) {
   for (const FringeOrderCandidate& candidate : patch.candidates) {
     if (candidate.order != 0) continue;
@@ -129,7 +129,7 @@ void correct_pixel(const FringeComparison& set, std::size_t pixel, double phase_
   sigma *= static_cast<float>(std::abs(after.mm_per_rad / before.mm_per_rad));
 }
 
-/// Moves the patches that are off; returns their pixels.
+/// Corrects the patches whose order is wrong; returns their pixels.
 std::vector<std::uint32_t> correct_patches(const std::vector<Patch>& patches,
                                            const FringeComparison& set,
                                            const FringeOrderCorrectionOptions& options,
@@ -146,7 +146,7 @@ std::vector<std::uint32_t> correct_patches(const std::vector<Patch>& patches,
   return moved;
 }
 
-/// Marks the pixels and, in steps of `reach`, those so far to each side of them.
+/// Marks the given pixels and their eight neighbours at distance `reach`.
 Image<std::uint8_t> around(const std::vector<std::uint32_t>& pixels,
                            int width,
                            int height,
@@ -175,7 +175,7 @@ std::size_t correct_view(ViewStore& views,
   compare_with_others(views, own, set, patches);
   const auto moved = correct_patches(patches, set, options, view);
   if (moved.empty()) return 0;
-  // Around what moved, squares hold pixels of both kinds: again, in squares of three pixels.
+  // Patches around the corrected ones hold pixels of both orders: repeat with 3 x 3 pixels.
   views.replace(own, view);
   auto small = patches_of(view, set, 3, around(moved, width, height, side));
   compare_with_others(views, own, set, small);
@@ -187,7 +187,7 @@ std::size_t correct_view(ViewStore& views,
   }
   Image<PixelStatus> status(width, height, PixelStatus::Measured);
   remove_mixed_pixels(view.range, set.rays, status);
-  view.edge_pixels.clear();  // what it hung on may be elsewhere
+  view.edge_pixels.clear();  // the surface that they continued may have moved
   views.replace(own, view);
   return moved.size() + moved_too.size();
 }
@@ -200,7 +200,7 @@ std::size_t correct_fringe_orders(ViewStore& views,
                                   const Run& run) {
   const FringeComparison set{optics, options.tolerance, kSamples};
   std::size_t moved = 0;
-  // What one view puts right helps to judge the next; a second round judges the first views so too.
+  // Each view is compared with already corrected ones; the second pass does so for the first views.
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t before = moved;
     for (std::size_t own = 0; own < views.size(); ++own) {

@@ -16,7 +16,7 @@ struct RegionCandidates {
   bool resolved = false;
 };
 
-/// The fringe that the other views confirm and no other rivals, or null.
+/// The candidate that other views confirm and that no other one rivals, or null.
 const FringeOrderCandidate* best_candidate(const RegionCandidates& one,
                                            const ResolveByViewsOptions& options) {
   const FringeOrderCandidate* best = nullptr;
@@ -55,7 +55,7 @@ void add_to_view(const UnresolvedViewRegion& part,
   views.replace(part.view, view);
 }
 
-/// One look at every view; returns the points resolved.
+/// Compares the unresolved regions with every view once; returns the number of resolved points.
 std::size_t one_pass(ViewStore& views,
                      std::vector<RegionCandidates>& cases,
                      const FringeComparison& set,

@@ -13,13 +13,14 @@
 namespace frangia {
 namespace {
 
-/// Fringes to add to each region, where known.
+/// The order to add to each region, where known.
 using Orders = std::vector<std::optional<int>>;
 
-/// How near to a pixel another region may come: two pixels of a border may each see both sides.
+/// Pixels closer than this to another region may be mixed: two pixels of a border can each see both
+/// sides.
 constexpr int kBorderPx = 2;
 
-/// Whether a pixel lies so near to another region that it may see that one's surface too.
+/// Whether a pixel lies so close to another region that it may see that region's surface too.
 bool at_border(const Image<std::int32_t>& region, std::size_t i) {
   const auto row = static_cast<std::size_t>(region.width());
   const int x = static_cast<int>(i % row);
@@ -66,10 +67,11 @@ ResolvedPhase with_orders(const RelativePhase& relative, const Orders& orders) {
 
 struct Crossing {
   int region;
-  double fringes;  ///< to add, not yet whole
+  double fringes;  ///< to add, not yet rounded
 };
 
-/// The relative phase under a sub-pixel place, from two measured pixels of one region.
+/// Compares the expected phase of a profile point with the relative phase at its sub-pixel
+/// position, interpolated between two measured pixels of one region.
 std::optional<Crossing> cross(const RelativePhase& phase,
                               const ProfilePoint& point,
                               const Projector& projector) {
@@ -84,12 +86,12 @@ std::optional<Crossing> cross(const RelativePhase& phase,
   if (x < 0 || y < 0 || u >= phase.region.width() || v >= phase.region.height()) return {};
   const int region = phase.region(x, y);
   if (region < 0 || phase.region(u, v) != region) return {};
-  // Near another region the light may lie on that one's surface.
+  // Near a border, the laser line may lie on the other region's surface.
   const auto row = static_cast<std::size_t>(phase.region.width());
   if (at_border(phase.region, static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x))) {
     return {};
   }
-  // The line runs along one axis of the scan, so one of fx and fy is zero.
+  // Profile points have one integer coordinate, so fx or fy is zero.
   const double share = fx + fy;
   const double here = (1.0 - share) * phase.phase_rad(x, y) + share * phase.phase_rad(u, v);
   return Crossing{region, (expected - here) / kTwoPi};

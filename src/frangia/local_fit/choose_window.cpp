@@ -10,7 +10,7 @@ namespace {
 
 const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
 
-/// The window of 3 x 3 pixels about (x, y), by hand; NaN as in `fit_windows`.
+/// The fit over the 3 x 3 pixels around (x, y); NaN as in `fit_windows`.
 WindowFit small_fit(const Image<float>& q, int x, int y) {
   if (x < 1 || y < 1 || x + 1 >= q.width() || y + 1 >= q.height()) {
     return kNoFit;
@@ -31,7 +31,7 @@ WindowFit small_fit(const Image<float>& q, int x, int y) {
       fit.variance += (q(x + dx, y + dy) - plane) * (q(x + dx, y + dy) - plane) / 6.0F;
     }
   }
-  // Of the best paraboloid: the mean less what its curvature lifts the mean by.
+  // The quadratic's value: the mean minus the mean of its second-order terms.
   fit.value = fit.mean;
   for (const int dy : {-1, 0, 1}) {
     for (const int dx : {-1, 0, 1}) {
@@ -41,8 +41,8 @@ WindowFit small_fit(const Image<float>& q, int x, int y) {
   return fit;
 }
 
-/// Of a pixel's own window and eight shifted by `shift`, the best one; its own unless another is
-/// clearly better. `fit_at(x, y)` is the fit about a pixel.
+/// The best of the centered window and eight windows shifted by `shift`. A shifted window must be
+/// better by a margin. `fit_at(x, y)` is the fit around a pixel.
 template <typename FitAt>
 WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at) {
   constexpr float kClearlyBetter = 0.5F;  // in variance
@@ -61,9 +61,8 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
   return best;
 }
 
-/// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
-/// or, of a loud one, more of it than the phase knows of, but without structure. An edge leaves
-/// structure over.
+/// The quadratic fit around a pixel if its residuals are noise: no larger than expected, or, with
+/// `noisy`, larger but without structure. The residuals at an edge have structure.
 ChosenWindow curved_window(const Image<float>& image,
                            const Eigen::Vector2i& at,
                            const PixelNoise& noise,
@@ -122,7 +121,7 @@ ChosenWindow choose_window(const Image<float>& image,
   const WindowFit close = small_fit(image, at.x(), at.y());
   if (good(close)) return centered_on(close, 1);
   const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
-  // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
+  // Without a flat window to any side there is no edge: the surface is curved, or noisy.
   if (std::isnan(centered.mean) || !good(large)) {
     const ChosenWindow curved = curved_window(image, at, noise, patch(), true);
     if (curved.kind == WindowKind::Centered) return curved;

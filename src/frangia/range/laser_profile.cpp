@@ -15,12 +15,12 @@ struct Peak {
   double sigma_px;
 };
 
-/// How bright a pixel beside the line is in the line's frame, from how bright it is in the fringe
-/// frames: spill_ratio light in proportion, other light in full.
+/// Predicts the counts of a pixel beside the line from its counts in the fringe frames: spilled
+/// laser light is proportional to them, ambient light is constant.
 struct StrayLight {
   double ambient_counts = 0.0;
   double spill_ratio = 0.0;
-  double dark_counts = 0.0;  ///< what the fringes do not light by more than this, the line does not
+  double dark_counts = 0.0;  ///< pixels darker than this in the fringe frames are background
 
   [[nodiscard]] double operator()(double fringe_counts) const {
     return ambient_counts + spill_ratio * fringe_counts;
@@ -33,8 +33,8 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
-/// A straight line through the medians of equal bins of brightness: the plane of light covers so
-/// little of the object that the medians do not see it.
+/// Fits a straight line through the medians of equal bins of brightness. The laser line covers so
+/// few pixels that it does not affect the medians.
 StrayLight estimate_stray_light(const Frame& line,
                                 const Image<float>& fringe_counts,
                                 const NoiseModel& noise) {
@@ -75,8 +75,8 @@ StrayLight estimate_stray_light(const Frame& line,
   return stray_light;
 }
 
-/// Centre of gravity of what stands above a fifth of the peak's height, so that both flanks count
-/// alike and the surroundings do not pull.
+/// Centre of gravity of the part above a fifth of the peak's height. The threshold keeps the
+/// surroundings from biasing the centre.
 Peak center_of(const std::vector<double>& counts,
                std::size_t top,
                double base,
@@ -113,7 +113,7 @@ std::vector<Peak> peaks_of(const std::vector<double>& counts,
   std::vector<Peak> peaks;
   const auto reach = static_cast<std::size_t>(options.half_width_px);
   for (std::size_t i = 1; i + 1 < counts.size(); ++i) {
-    // The first of equal values, and the largest within reach: a flank or a speck is no peak.
+    // A peak is the first of equal values and the maximum within reach.
     if (counts[i] <= counts[i - 1] || counts[i] < counts[i + 1]) continue;
     const auto begin = counts.begin();
     const auto first = begin + static_cast<std::ptrdiff_t>(i - std::min(i, reach));
@@ -121,12 +121,12 @@ std::vector<Peak> peaks_of(const std::vector<double>& counts,
     const auto last = begin + static_cast<std::ptrdiff_t>(std::min(counts.size(), i + reach + 1));
     if (*std::max_element(first, last) > counts[i]) continue;
     if (std::count_if(first, last, [&](double c) { return c >= white_level; }) > 3) continue;
-    // The brighter of both sides: one of them may be the dark beyond the object's edge.
+    // The base is the brighter side: the other may be the background beyond the object's edge.
     const double base = std::max(*std::min_element(first, here), *std::min_element(here + 1, last));
     const double height = counts[i] - base;
     if (height < options.min_sigmas * std::sqrt(noise.variance(counts[i])) + 2.0) continue;
     if (height < least_height) continue;
-    // Two pixels at least share a real line's light; a hot pixel stands alone.
+    // A laser line covers at least two pixels; a hot pixel is single.
     if (std::max(counts[i - 1], counts[i + 1]) < counts[i] - 0.9 * height) continue;
     peaks.push_back(center_of(counts, i, base, noise, options.half_width_px));
   }
@@ -147,7 +147,7 @@ std::vector<ProfilePoint> laser_profile(const FrameStack& line,
           "laser_profile: the line and the fringes differ in size");
   const LaserSheet& plane = *rig.laser_sheet;
   const StrayLight stray_light = estimate_stray_light(frame, fringe_counts, noise);
-  // The plane meets the image along normal . (x, y, 1) = 0 at infinity: scan across it.
+  // The laser line runs along normal . (x, y, 1) = 0 in the image: search across it.
   const bool scan_rows = std::abs(plane.normal.x()) >= std::abs(plane.normal.y());
   const int lines = scan_rows ? height_of(frame) : width_of(frame);
   const int length = scan_rows ? width_of(frame) : height_of(frame);
@@ -162,7 +162,7 @@ std::vector<ProfilePoint> laser_profile(const FrameStack& line,
       const double lit = fringe_counts(x, y);
       double& above = counts[static_cast<std::size_t>(along)];
       if (seen >= line.white_level) {
-        above = seen;  // stays recognisable
+        above = seen;  // keeps saturated pixels recognizable
       } else {
         above = lit > stray_light.dark_counts ? std::max(0.0, seen - stray_light(lit)) : 0.0;
       }

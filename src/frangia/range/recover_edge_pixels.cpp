@@ -19,7 +19,7 @@ namespace {
 enum EdgePixelState : std::uint8_t { Removed, Recovered, BehindStep };
 using EdgePixelStates = std::vector<std::uint8_t>;
 
-/// Gives back the pixels that lie where those in the grid lead, and puts them there.
+/// Recovers the pixels that continue the surface in the grid, and adds them to it.
 void recover_supported(RangeGrid& grid,
                        const ReliablePixels& reliable,
                        const std::vector<RangePixel>& removed,
@@ -36,8 +36,7 @@ void recover_supported(RangeGrid& grid,
   }
 }
 
-/// Whether a pixel lies behind the one `step` beside it by more than the surfaces on both sides
-/// slope, and by more than a crease would make of them.
+/// Whether a pixel lies behind its neighbour at `step` across a depth step, see `is_depth_step`.
 bool is_behind(const ReliablePixels& seen, const Eigen::Vector2i& at, const Eigen::Vector2i& step) {
   constexpr float kLeast = 1.5F;  // pixels
   constexpr float kSigmas = 8.0F;

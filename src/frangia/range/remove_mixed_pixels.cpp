@@ -19,9 +19,7 @@ namespace {
 struct Grid {
   const RangeGrid& range;
   const Image<Eigen::Vector2f>& rays;
-  float max_slope;  ///< depth for each unit across
-
-  /// Whether a continuous surface can run from one pixel to its neighbour.
+  float max_slope;  ///< change of depth per lateral distance
   [[nodiscard]] bool connected(int x, int y, int u, int v) const {
     return is_connected(range, rays, {x, y}, {u, v}, max_slope);
   }
@@ -37,8 +35,8 @@ bool at_depth_step(const Grid& grid, int x, int y) {
   return false;
 }
 
-/// A step too low for `at_depth_step`: between (x, y) - d and (x, y) + d the depth changes by more
-/// than it does on either side, and by more than a slope or a crease would make of those sides.
+/// Whether a depth step too low for `at_depth_step` lies between the pixels (x, y) - d and
+/// (x, y) + d, see `is_depth_step`.
 bool is_low_step(const Grid& grid, int x, int y, int dx, int dy) {
   const auto& depth = grid.range.depth_mm;
   const auto at = [&](int k) {
@@ -50,12 +48,13 @@ bool is_low_step(const Grid& grid, int x, int y, int dx, int dy) {
   const float jump = at(1) - at(-1);
   if (std::isnan(jump)) return false;
   const float pixel_mm = (grid.rays(x, y) - grid.rays(x + dx, y + dy)).norm() * at(-1);
-  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump less what its sides expect
+  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump minus its prediction
   const DepthChange change{jump, at(-1) - at(-3), at(3) - at(1)};  // each over two pixels
   return is_depth_step(change, 2.5F * pixel_mm + 4.0F * noise);
 }
 
-/// Three dark neighbours make a border; fewer are specks.
+/// Whether a pixel lies next to the background: three unmodulated neighbours make a border, fewer
+/// are isolated defects.
 bool at_silhouette(const Image<PixelStatus>& status, int x, int y) {
   int dark = 0;
   for (int v = std::max(0, y - 1); v <= std::min(status.height() - 1, y + 1); ++v) {
@@ -70,7 +69,7 @@ struct Pixel {
   int y;
 };
 
-/// Marks the pixels of patches with fewer than `min_px`.
+/// Marks the pixels of connected patches with fewer than `min_px` pixels.
 void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& remove) {
   const auto& depth = grid.range.depth_mm;
   Image<std::uint8_t> seen = remove;
@@ -100,7 +99,7 @@ void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& remov
   }
 }
 
-/// Marks the pixel of each low step and those next to it across the step.
+/// Marks the pixel at each low step and its neighbours across the step.
 void mark_low_steps(const Grid& grid, Image<std::uint8_t>& remove) {
   enum Step : std::uint8_t { Across = 1, Down = 2 };
   const int width = remove.width();

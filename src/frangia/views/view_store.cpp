@@ -30,7 +30,7 @@ std::FILE* open_unnamed() {
   return ::fdopen(descriptor, "w+b");
 }
 
-/// Writes or reads one after the other, from a place in the file on.
+/// Reads or writes consecutive blocks of the file from an offset on.
 class Cursor {
  public:
   Cursor(std::FILE* file, std::int64_t offset) : descriptor_(::fileno(file)), offset_(offset) {}

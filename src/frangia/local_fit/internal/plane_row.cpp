@@ -15,17 +15,18 @@ namespace {
 /// Variance that beside a rim or an edge neither slope nor pixel has in the middle of a face.
 constexpr float kOffCenterVarianceFactor = 9.0F;
 
-/// What a row of windows says, and of the pixels' noise.
+/// A row of window fits and of the pixels' noise.
 struct WindowRow {
   const float* noise;
   const float* slope_x;
   const float* slope_y;
   const float* scatter;
   float lateral_variance;
-  float left;  ///< of a pixel's variance in the middle of a window
+  float left;  ///< variance of a window's central value, per pixel variance
 };
 
-/// Variances of the middles, and 1 where the window fits as well as noise allows.
+/// Computes the variances of the central values, and 1 where the window is flat to within the
+/// noise.
 FRANGIA_VECTORIZED_WIDE void test_windows(const WindowRow& row,
                                           std::ptrdiff_t count,
                                           float* variance,

@@ -9,8 +9,10 @@
 
 namespace frangia {
 
-/// Whether a continuous surface that changes in depth by at most `max_slope` for each unit across
-/// can run from one pixel to its neighbour, or noise can make it so. False where one is missing.
+/// Whether two neighbouring pixels can lie on one continuous surface: their depths differ by at
+/// most `max_slope` times their lateral distance plus 4 sigmas of noise.
+///
+/// missing  false where either pixel is missing
 [[nodiscard]] inline bool is_connected(const RangeGrid& range,
                                        const Image<Eigen::Vector2f>& rays,
                                        const Eigen::Vector2i& one,
