@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/range/fringe_ray.h"
 
@@ -65,16 +68,16 @@ ResolvedPhase with_orders(const RelativePhase& relative, const Orders& orders) {
   return out;
 }
 
-struct Crossing {
+struct LaserCrossing {
   int region;
   double fringes;  ///< to add, not yet rounded
 };
 
 /// Compares the expected phase of a profile point with the relative phase at its sub-pixel
 /// position, interpolated between two measured pixels of one region.
-std::optional<Crossing> cross(const RelativePhase& phase,
-                              const ProfilePoint& point,
-                              const Projector& projector) {
+std::optional<LaserCrossing> crossing_of(const RelativePhase& phase,
+                                         const ProfilePoint& point,
+                                         const Projector& projector) {
   const double expected = phase_at(point.point_mm, phase.pattern, projector);
   if (std::isnan(expected)) return {};
   const int x = static_cast<int>(std::floor(point.pixel.x()));
@@ -94,7 +97,7 @@ std::optional<Crossing> cross(const RelativePhase& phase,
   // Profile points have one integer coordinate, so fx or fy is zero.
   const double share = fx + fy;
   const double here = (1.0 - share) * phase.phase_rad(x, y) + share * phase.phase_rad(u, v);
-  return Crossing{region, (expected - here) / kTwoPi};
+  return LaserCrossing{region, (expected - here) / kTwoPi};
 }
 
 std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOptions& options) {
@@ -108,9 +111,7 @@ std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOpt
   std::vector<double> departures;
   for (const double value : fringes)
     departures.push_back(std::abs(value - winner->first));
-  const auto middle = departures.begin() + static_cast<std::ptrdiff_t>(departures.size() / 2);
-  std::nth_element(departures.begin(), middle, departures.end());
-  if (*middle > options.max_departure) return {};
+  if (median_in_place(std::span<double>(departures)) > options.max_departure) return {};
   return winner->first;
 }
 
@@ -122,7 +123,7 @@ ResolvedPhase resolve_by_laser_sheet(const RelativePhase& phase,
                                      const FringeOrderOptions& options) {
   std::vector<std::vector<double>> fringes(static_cast<std::size_t>(phase.region_count));
   for (const ProfilePoint& point : profile) {
-    if (const auto crossing = cross(phase, point, projector)) {
+    if (const auto crossing = crossing_of(phase, point, projector)) {
       fringes[static_cast<std::size_t>(crossing->region)].push_back(crossing->fringes);
     }
   }
@@ -141,8 +142,8 @@ ResolvedPhase resolve_by_distance(const RelativePhase& phase,
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] < 0) continue;
     const Eigen::Vector2f ray = rays.pixels()[i];
-    const Eigen::Vector3d there = distance_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
-    const double expected = phase_at(there, phase.pattern, rig.projector);
+    const Eigen::Vector3d point = distance_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
+    const double expected = phase_at(point, phase.pattern, rig.projector);
     if (std::isnan(expected)) continue;
     fringes[static_cast<std::size_t>(labels[i])].push_back(
         (expected - phase.phase_rad.pixels()[i]) / kTwoPi);
@@ -151,9 +152,7 @@ ResolvedPhase resolve_by_distance(const RelativePhase& phase,
   for (auto& offsets : fringes) {
     orders.emplace_back();
     if (offsets.empty()) continue;
-    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-    std::nth_element(offsets.begin(), middle, offsets.end());
-    orders.back() = static_cast<int>(std::lround(*middle));
+    orders.back() = static_cast<int>(std::lround(median_in_place(std::span<double>(offsets))));
   }
   return with_orders(phase, orders);
 }

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "frangia/core/error.h"
+#include "frangia/core/median.h"
 
 namespace frangia {
 namespace {
@@ -27,19 +29,15 @@ struct StrayLight {
   }
 };
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Fits a straight line through the medians of equal bins of brightness. The laser line covers so
 /// few pixels that it does not affect the medians.
 StrayLight estimate_stray_light(const Frame& line,
                                 const Image<float>& fringe_counts,
                                 const NoiseModel& noise) {
-  constexpr std::size_t kBins = 16;
-  StrayLight stray_light{.dark_counts = 10.0 * std::sqrt(noise.variance(0.0))};
+  constexpr std::size_t kBins = 16;      // the fit has two unknowns
+  constexpr std::size_t kMinInBin = 20;  // for a median that single pixels do not affect
+  constexpr double kDarkSigmas = 10.0;   // of the noise without light
+  StrayLight stray_light{.dark_counts = kDarkSigmas * std::sqrt(noise.variance(0.0))};
   const float brightest =
       *std::max_element(fringe_counts.pixels().begin(), fringe_counts.pixels().end());
   std::array<std::vector<double>, kBins> seen;
@@ -57,10 +55,10 @@ StrayLight estimate_stray_light(const Frame& line,
   double sxx = 0.0;
   double sxy = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
-    if (seen[bin].size() < 20) continue;
+    if (seen[bin].size() < kMinInBin) continue;
     const double weight = static_cast<double>(seen[bin].size());
     const double x = (static_cast<double>(bin) + 0.5) * brightest / kBins;
-    const double y = median_of(seen[bin]);
+    const double y = median_in_place(std::span<double>(seen[bin]));
     n += weight;
     sx += weight * x;
     sy += weight * y;
@@ -75,17 +73,17 @@ StrayLight estimate_stray_light(const Frame& line,
   return stray_light;
 }
 
-/// Centre of gravity of the part above a fifth of the peak's height. The threshold keeps the
+/// Centre of gravity of the part of a peak above `LaserProfileOptions::threshold`, which keeps the
 /// surroundings from biasing the centre.
 Peak center_of(const std::vector<double>& counts,
                std::size_t top,
                double base,
                const NoiseModel& noise,
-               int half_width) {
-  const double foot = base + 0.2 * (counts[top] - base);
+               const LaserProfileOptions& options) {
+  const double foot = base + options.threshold * (counts[top] - base);
   std::size_t first = top;
   std::size_t last = top;
-  const auto reach = static_cast<std::size_t>(half_width);
+  const auto reach = static_cast<std::size_t>(options.half_width_px);
   while (first > 0 && top - first < reach && counts[first - 1] > foot)
     --first;
   while (last + 1 < counts.size() && last - top < reach && counts[last + 1] > foot)
@@ -120,15 +118,17 @@ std::vector<Peak> peaks_of(const std::vector<double>& counts,
     const auto here = begin + static_cast<std::ptrdiff_t>(i);
     const auto last = begin + static_cast<std::ptrdiff_t>(std::min(counts.size(), i + reach + 1));
     if (*std::max_element(first, last) > counts[i]) continue;
-    if (std::count_if(first, last, [&](double c) { return c >= white_level; }) > 3) continue;
+    const auto saturated = std::count_if(first, last, [&](double c) { return c >= white_level; });
+    if (saturated > options.max_saturated_px) continue;
     // The base is the brighter side: the other may be the background beyond the object's edge.
     const double base = std::max(*std::min_element(first, here), *std::min_element(here + 1, last));
     const double height = counts[i] - base;
-    if (height < options.min_sigmas * std::sqrt(noise.variance(counts[i])) + 2.0) continue;
+    const double noise_height = options.min_sigmas * std::sqrt(noise.variance(counts[i]));
+    if (height < noise_height + options.min_height_counts) continue;
     if (height < least_height) continue;
     // A laser line covers at least two pixels; a hot pixel is single.
-    if (std::max(counts[i - 1], counts[i + 1]) < counts[i] - 0.9 * height) continue;
-    peaks.push_back(center_of(counts, i, base, noise, options.half_width_px));
+    if (std::max(counts[i - 1], counts[i + 1]) < base + options.min_neighbor * height) continue;
+    peaks.push_back(center_of(counts, i, base, noise, options));
   }
   return peaks;
 }
@@ -140,11 +140,11 @@ std::vector<ProfilePoint> laser_profile(const FrameStack& line,
                                         const Rig& rig,
                                         const NoiseModel& noise,
                                         const LaserProfileOptions& options) {
-  require(rig.laser_sheet.has_value(), "laser_profile: the rig has no plane of light");
-  require(line.frames.size() == 1, "laser_profile: a line pattern has one frame");
+  require(rig.laser_sheet.has_value(), "laser_profile: the rig has no laser sheet");
+  require(line.frames.size() == 1, "laser_profile: a line pattern must have exactly one frame");
   const Frame& frame = line.frames.front();
   require(fringe_counts.width() == width_of(frame) && fringe_counts.height() == height_of(frame),
-          "laser_profile: the line and the fringes differ in size");
+          "laser_profile: the frames of the line and the fringes differ in size");
   const LaserSheet& plane = *rig.laser_sheet;
   const StrayLight stray_light = estimate_stray_light(frame, fringe_counts, noise);
   // The laser line runs along normal . (x, y, 1) = 0 in the image: search across it.

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <utility>
 #include <vector>
 
+#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
 #include "frangia/local_fit/fit_windows.h"
 
@@ -60,11 +63,11 @@ float estimate_lateral_noise(const Image<float>& image, const Image<float>& nois
   std::nth_element(slopes.begin(), steep, slopes.end(), [](const Slope& a, const Slope& b) {
     return a.steepness < b.steepness;
   });
-  const auto middle = steep + (slopes.end() - steep) / 2;
-  std::nth_element(steep, middle, slopes.end(), [](const Slope& a, const Slope& b) {
-    return a.lateral_variance < b.lateral_variance;
+  std::vector<float> variances;
+  std::transform(steep, slopes.end(), std::back_inserter(variances), [](const Slope& slope) {
+    return slope.lateral_variance;
   });
-  return std::min(kMax_px, std::sqrt(std::max(0.0F, middle->lateral_variance)));
+  return std::min(kMax_px, std::sqrt(std::max(0.0F, median(std::move(variances)))));
 }
 
 }  // namespace frangia

@@ -18,13 +18,14 @@ namespace frangia {
                                        const Eigen::Vector2i& one,
                                        const Eigen::Vector2i& other,
                                        float max_slope) {
+  constexpr float kNoiseSigmas = 4.0F;  // of the difference in depth
   const float a = range.depth_mm(one.x(), one.y());
   const float b = range.depth_mm(other.x(), other.y());
   const float across =
       (rays(one.x(), one.y()) - rays(other.x(), other.y())).norm() * 0.5F * (a + b);
   const float noise =
       std::hypot(range.sigma_mm(one.x(), one.y()), range.sigma_mm(other.x(), other.y()));
-  return std::abs(a - b) <= max_slope * across + 4.0F * noise;
+  return std::abs(a - b) <= max_slope * across + kNoiseSigmas * noise;
 }
 
 }  // namespace frangia
