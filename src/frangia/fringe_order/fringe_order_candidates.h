@@ -1,13 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "frangia/core/image.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/rig/rig.h"
-#include "frangia/views/view.h"
 
 namespace frangia {
 
@@ -17,7 +17,7 @@ struct FringePixels {
   std::vector<float> phase_rad;
 };
 
-/// The points of a pixel set at one candidate order, and how many of them other views confirm.
+/// The points of a pixel set at one candidate order, and how other views agree with them.
 struct FringeOrderCandidate {
   int order = 0;
   std::vector<Eigen::Vector3f> points_mm;  ///< object frame
@@ -26,6 +26,7 @@ struct FringeOrderCandidate {
   int violations = 0;  ///< comparisons in which the point lies in front of that surface
   int unseen = 0;      ///< comparisons in which the other view measured nothing at that pixel
 
+  /// A free-space violation counts twice: an agreement can be a coincidence.
   [[nodiscard]] int score() const { return agree - 2 * violations; }
 };
 
@@ -49,11 +50,15 @@ struct FringeComparison : FringeOptics {
 [[nodiscard]] std::vector<FringeOrderCandidate> fringe_order_candidates(
     const FringePixels& pixels,
     const Eigen::Isometry3d& rig_from_object,
-    const FringeComparison& setting);
+    const FringeComparison& comparison);
 
-/// Compares a candidate's points with the surface of one view and adds to the candidate's counts.
-void compare_with(const View& view,
-                  const FringeComparison& setting,
+/// Compares a candidate's points with the depths of one view and adds to the candidate's counts.
+///
+/// A point within the tolerance of the measured surface agrees. A point more than twice the
+/// tolerance in front of it violates the free space that the view observed.
+void compare_with(const Image<float>& depth_mm,
+                  const Eigen::Isometry3d& rig_from_object,
+                  const FringeComparison& comparison,
                   FringeOrderCandidate& candidate);
 
 }  // namespace frangia

@@ -12,6 +12,11 @@ namespace frangia {
 struct EdgePixelOptions {
   int depth_px = 3;  ///< passes; each recovers pixels next to those of the one before
   double max_incidence_deg = 82.0;  ///< a surface at a larger angle of incidence is a depth step
+  /// Minimum step in front of a rejected pixel, in lateral pixel distances plus noise. Lower than
+  /// in `MixedPixelOptions`: next to a removed pixel a step is more likely than on a closed
+  /// surface.
+  double min_step_px = 1.5;
+  double min_step_sigmas = 8.0;  ///< minimum step in sigmas of the pixel's noise
 };
 
 /// Selects those pixels removed by `remove_mixed_pixels` that see a single surface.

@@ -13,6 +13,9 @@ namespace frangia {
 struct MixedPixelOptions {
   double max_incidence_deg = 82.0;  ///< a surface at a larger angle of incidence is a depth step
   int min_patch_px = 12;            ///< connected patches of fewer points are removed
+  double min_step_px = 2.5;         ///< minimum depth step, in lateral pixel distances, plus noise
+  double min_step_sigmas = 4.0;     ///< minimum depth step in sigmas of its noise
+  int min_dark_neighbors = 3;       ///< of a silhouette's pixel, among 8; fewer are defects
 };
 
 /// Removes the points of pixels that receive light from two surfaces, or from a surface and the

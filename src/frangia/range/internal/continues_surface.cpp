@@ -75,7 +75,8 @@ bool extrapolates_to(const ReliablePixels& reliable,
                      const Eigen::Vector2i& at,
                      const RangePixel& pixel) {
   if (group.count < kMinPixels) return false;
-  const auto& [depth, sigma] = reliable.range;
+  const Image<float>& depth = reliable.range.depth_mm;
+  const Image<float>& sigma = reliable.range.sigma_mm;
   const float here = 1.0F / pixel.depth_mm;
   Matrix6 normal = Matrix6::Zero();
   Vector6 right_side = Vector6::Zero();  // relative to the pixel's inverse depth, to keep precision
