@@ -48,8 +48,17 @@ struct ChosenWindow {
   float variance = kMissing;  ///< variance of `value`
 };
 
-/// Maximum variance about a plane, per pixel variance, for which the window counts as flat.
-inline constexpr float kMaxScatterRatio = 2.0F;
+/// Thresholds of `choose_window`. Ratios compare a residual variance with that of the pixel's
+/// noise.
+struct WindowChoiceOptions {
+  float max_flat_ratio = 2.0F;    ///< of a plane: the window counts as flat
+  float max_curved_ratio = 1.3F;  ///< of a quadratic: the surface is curved
+  float max_noisy_ratio = 9.0F;   ///< of a quadratic with noisy residuals: 3 times the known noise
+  /// Maximum autocorrelation of residuals that count as noise. That of noise is negative.
+  float max_autocorrelation = 0.0F;
+  float max_shifted_ratio = 0.5F;  ///< of a shifted window's variance to the centered one's
+  float max_off_sigmas = 4.0F;     ///< distance of a pixel from its plane
+};
 
 /// Chooses the window whose plane follows the image at a pixel without smoothing across an edge.
 ///
@@ -57,12 +66,13 @@ inline constexpr float kMaxScatterRatio = 2.0F;
 /// noise; a quadratic fit over the same pixels if its residuals are noise; 3 x 3 pixels around the
 /// pixel; the best window of full size, and then of 3 x 3 pixels, that holds the pixel.
 ///
-/// shape    `at` lies in one of the rows of `fits`
+/// shape    `at` is a measured pixel in one of the rows of `fits`
 /// missing  kind None and NaN where the pixel lies off even the best plane
 /// source   the choice among shifted windows: Kuwahara et al. 1976
 [[nodiscard]] ChosenWindow choose_window(const Image<float>& image,
                                          const WindowRows& fits,
                                          const Eigen::Vector2i& at,
-                                         const PixelNoise& noise);
+                                         const PixelNoise& noise,
+                                         const WindowChoiceOptions& options = {});
 
 }  // namespace frangia

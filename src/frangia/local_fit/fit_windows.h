@@ -31,6 +31,13 @@ inline constexpr WindowFit kNoFit{
   return radius == 1 ? 5.0F / 9.0F : radius == 2 ? 27.0F / 175.0F : 11.0F / 147.0F;
 }
 
+/// Variance of the plane's value at a corner of its window per pixel variance:
+/// 1/n + 2 r^2 / sum(dx^2).
+[[nodiscard]] constexpr float corner_variance(int radius) {
+  const auto r = static_cast<float>(radius);
+  return (1.0F + 6.0F * r / (r + 1.0F)) / ((2.0F * r + 1.0F) * (2.0F * r + 1.0F));
+}
+
 /// The fits around the pixels of some rows. Each quantity is stored in rows of its own, so that
 /// loops over them vectorize.
 class WindowFits {

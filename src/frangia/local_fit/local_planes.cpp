@@ -114,7 +114,7 @@ LocalPlanes local_planes(const View& view,
       constexpr int kWide = 3;
       wider.emplace(grid.q, kWide, static_cast<int>(begin), static_cast<int>(end - begin));
     }
-    PlaneRow row(width);
+    PlaneRow row(width, options);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       row.choose(grid, fits, wider ? &*wider : nullptr, y, lateral_noise_px);
       row.fit(&rays(0, y), model);

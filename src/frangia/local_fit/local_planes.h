@@ -157,11 +157,26 @@ struct LocalPlanes {
   }
 };
 
+/// Thresholds of the smoothing over 7 x 7 pixels.
+struct WideningOptions {
+  /// Maximum residual variance of the wide quadratic, per pixel variance: pixels differ in noise.
+  float max_residual_ratio = 2.5F;
+  /// Maximum change of the pixel's value, per standard deviation of its noise: about 2.5 standard
+  /// deviations of the difference between both fits.
+  float max_change = 0.7F;
+  float max_autocorrelation = 0.05F;  ///< of the residuals; that of noise is negative
+};
+
 struct LocalPlanesOptions {
   int radius = 2;           ///< radius of the windows, px
   double crease_rad = 0.3;  ///< neighbouring planes at a larger angle belong to different faces
   int extrapolate_px = 0;   ///< distance that planes are extrapolated beyond measured pixels
   bool widen = false;       ///< smooth over 7 x 7 pixels where the residuals are noise
+  WideningOptions widening;
+  WindowChoiceOptions windows;
+  /// Variance of a pixel next to an edge, per variance that its fit predicts: neither slope nor
+  /// position are as accurate there as in the middle of a face.
+  float off_center_variance_factor = 9.0F;
 };
 
 /// Fits the local plane at each pixel by least squares over a square window.

@@ -16,7 +16,8 @@ namespace frangia {
 /// that loops vectorize.
 class PlaneRow {
  public:
-  explicit PlaneRow(int width);
+  /// The options must outlive the row.
+  PlaneRow(int width, const LocalPlanesOptions& options);
 
   /// Chooses the window of each pixel of row `y`: the centered one where it is flat to within the
   /// noise, which is nearly everywhere, else the result of `choose_window`. Where the residuals of
@@ -37,6 +38,7 @@ class PlaneRow {
   using Row = std::vector<float>;
   void widen(const LinkedPixels& grid, const WindowRows& wider, int y, float lateral_noise_px);
 
+  const LocalPlanesOptions& options_;
   int width_;
   std::size_t begin_ = 0;  ///< measured pixels lie in [begin_, end_)
   std::size_t end_ = 0;
