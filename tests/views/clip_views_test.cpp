@@ -6,9 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/error.h"
-
 #include "support/analytic_views.h"
+#include "support/error_of.h"
 
 namespace frangia {
 namespace {
@@ -96,13 +95,11 @@ TEST(ClipViews, KeepsAllWithoutALimit) {
 
 TEST(ClipViews, RefusesToRemoveEverything) {
   ViewStore views = sphere_views();
-  try {
+  const std::string message = testing::error_of([&] {
     clip_views(
         views, small_camera_model(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -100.0}});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("`clip_below`"), std::string::npos) << error.what();
-  }
+  });
+  EXPECT_NE(message.find("`clip_below`"), std::string::npos) << message;
 }
 
 }  // namespace

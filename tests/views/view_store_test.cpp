@@ -1,12 +1,16 @@
 #include "frangia/views/view_store.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+
+#include "support/error_of.h"
 
 namespace frangia {
 namespace {
@@ -88,6 +92,15 @@ TEST(ViewStore, LoadsPointsWithoutPhase) {
   EXPECT_EQ(store.load_depth_mm(0)(29, 19), 1.0F);
   EXPECT_THROW(store.replace(0, points), Error);  // the phase would be lost
   EXPECT_EQ(store.load(0).range.phase_rad(5, 5), 7.0F);
+}
+
+TEST(ViewStore, NamesTheTemporaryFolderThatCannotHoldIt) {
+  const char* before = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): no other thread
+  const std::string folder = before != nullptr ? before : "/tmp";
+  ::setenv("TMPDIR", "/nowhere", 1);  // NOLINT(concurrency-mt-unsafe)
+  const std::string message = testing::error_of([] { const ViewStore store; });
+  ::setenv("TMPDIR", folder.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  EXPECT_NE(message.find("/nowhere"), std::string::npos) << message;
 }
 
 TEST(ViewStore, RefusesImagesOfDifferentSize) {

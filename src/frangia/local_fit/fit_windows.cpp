@@ -185,35 +185,8 @@ Span seen_columns(const Image<float>& image, int first_row, int rows) {
 
 }  // namespace
 
-WindowFits::WindowFits(int width, int rows)
-    : width_(width),
-      values_(std::make_unique_for_overwrite<float[]>(  // NOLINT(*-avoid-c-arrays)
-          static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * QuantityCount))) {}
-
-void WindowFits::set_missing_outside(int begin, int end, int row) {
-  for (int quantity = 0; quantity < QuantityCount; ++quantity) {
-    float* values = this->row(static_cast<Quantity>(quantity), row);
-    std::fill(values, values + begin, kMissing);
-    std::fill(values + end, values + width_, kMissing);
-  }
-}
-
-WindowFit WindowFits::at(int x, int row) const {
-  const float* first = values_.get() + offset(Mean, row) + x;
-  const auto quantity = [&](Quantity which) { return first[std::ptrdiff_t{width_} * which]; };
-  return {quantity(Mean),
-          quantity(SlopeX),
-          quantity(SlopeY),
-          quantity(Variance),
-          quantity(Value),
-          quantity(ResidualVariance),
-          quantity(CurvatureXX),
-          quantity(CurvatureYY),
-          quantity(CurvatureXY)};
-}
-
 WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows) {
-  require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
+  require(radius >= 1 && radius <= 3, "fit_windows: the radius must be 1, 2 or 3 pixels");
   WindowFits fits(image.width(), rows);
   const int side = 2 * radius + 1;
   const Span seen = seen_columns(image, first - radius, rows + 2 * radius);

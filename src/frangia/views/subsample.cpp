@@ -23,7 +23,7 @@ Image<float> subsample(const Image<float>& image, int step) {
 }  // namespace
 
 CameraModel subsample(const CameraModel& camera, int step) {
-  require(step >= 1, "subsample: the step is at least one pixel");
+  require(step >= 1, "subsample: the step must be at least one pixel");
   CameraModel out = camera;
   out.width_px = subsampled_size(camera.width_px, step);
   out.height_px = subsampled_size(camera.height_px, step);
@@ -33,7 +33,7 @@ CameraModel subsample(const CameraModel& camera, int step) {
 }
 
 View subsample(const View& view, int step) {
-  require(step >= 1, "subsample: the step is at least one pixel");
+  require(step >= 1, "subsample: the step must be at least one pixel");
   View out;
   out.rig_from_object = view.rig_from_object;
   out.range.depth_mm = subsample(view.range.depth_mm, step);

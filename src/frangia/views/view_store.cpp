@@ -1,7 +1,9 @@
 #include "frangia/views/view_store.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <string>
@@ -15,18 +17,23 @@
 namespace frangia {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
+std::string temporary_folder() {
+  const char* folder = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): nothing sets it
+  return folder != nullptr ? folder : "/tmp";
+}
+
+[[noreturn]] void fail_to_store(int error) {
   throw Error(ErrorKind::File,
-              "the views cannot be stored in the temporary folder (" + what +
+              "the views cannot be stored in the temporary folder " + temporary_folder() + " (" +
+                  std::strerror(error) +  // NOLINT(concurrency-mt-unsafe)
                   "); free some space, or set TMPDIR to a folder on a larger disk");
 }
 
 std::FILE* open_unnamed() {
-  const char* folder = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): nothing sets it
-  std::string path = std::string(folder != nullptr ? folder : "/tmp") + "/frangia-views-XXXXXX";
+  std::string path = temporary_folder() + "/frangia-views-XXXXXX";
   const int descriptor = ::mkstemp(path.data());
-  if (descriptor < 0) fail(std::strerror(errno));  // NOLINT(concurrency-mt-unsafe)
-  ::unlink(path.c_str());                          // the file lives as long as it is open
+  if (descriptor < 0) fail_to_store(errno);
+  ::unlink(path.c_str());  // the file lives as long as it is open
   return ::fdopen(descriptor, "w+b");
 }
 
@@ -38,7 +45,7 @@ class Cursor {
   void write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       const auto wrote = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset_);
-      if (wrote <= 0) fail(std::strerror(errno));  // NOLINT(concurrency-mt-unsafe)
+      if (wrote <= 0) fail_to_store(errno);
       bytes = bytes.subspan(static_cast<std::size_t>(wrote));
       offset_ += wrote;
     }
@@ -46,7 +53,11 @@ class Cursor {
   void read(std::span<std::byte> bytes) {
     while (!bytes.empty()) {
       const auto got = ::pread(descriptor_, bytes.data(), bytes.size(), offset_);
-      if (got <= 0) fail("a view could not be read back");
+      if (got <= 0) {
+        throw Error(ErrorKind::File,
+                    "a view cannot be read back from the temporary folder " + temporary_folder() +
+                        "; check its disk, or set TMPDIR to a folder on another one");
+      }
       bytes = bytes.subspan(static_cast<std::size_t>(got));
       offset_ += got;
     }

@@ -74,7 +74,7 @@ void window_autocorrelation(const Image<float>& image,
                             const WindowRows& windows,
                             int y,
                             std::span<float> autocorrelation) {
-  require(windows.radius == kRadius, "window_autocorrelation: the windows are of 7 x 7 pixels");
+  require(windows.radius == kRadius, "window_autocorrelation: the windows must be 7 x 7 pixels");
   std::fill(autocorrelation.begin(), autocorrelation.end(), kMissing);
   const int top = y - kRadius;
   if (top < 0 || top + kSide > image.height() || image.width() < kSide) return;
