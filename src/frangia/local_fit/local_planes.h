@@ -157,7 +157,8 @@ struct LocalPlanes {
   }
 };
 
-/// Thresholds of the smoothing over 7 x 7 pixels.
+/// Thresholds of the smoothing over 7 x 7 pixels. Half or double of one changes the RMS deviation
+/// of the demo's shaft by less than 1 %, see `WindowChoiceOptions`.
 struct WideningOptions {
   /// Maximum residual variance of the wide quadratic, per pixel variance: pixels differ in noise.
   float max_residual_ratio = 2.5F;

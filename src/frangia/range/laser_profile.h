@@ -23,9 +23,8 @@ struct LaserProfileOptions {
   int half_width_px = 12;     ///< maximum distance of a peak's pixels from its brightest one
   double threshold = 0.2;     ///< share of a peak's height; pixels below do not enter its centre
   double min_height_counts = 2.0;  ///< added to the minimum height: quantization of dark frames
-  double min_neighbor =
-      0.1;                   ///< minimum height of a pixel next to the peak, per height of the peak
-  int max_saturated_px = 3;  ///< maximum number of saturated pixels of a peak
+  double min_neighbor = 0.1;       ///< minimum height of the brighter neighbour, per peak height
+  int max_saturated_px = 3;        ///< maximum number of saturated pixels of a peak
 };
 
 /// Locates the laser line in each row to sub-pixel accuracy and triangulates it with the laser
@@ -37,9 +36,9 @@ struct LaserProfileOptions {
 ///
 /// shape    `fringe_counts`: the mean of the fringe frames, w x h
 /// units    px and mm, rig frame
-/// missing  a row without a peak, or whose peak is saturated over more than 3 pixels, gives no
-/// point errors   Error(Input) when the rig has no laser sheet or the images differ in size source
-/// center of gravity above the background, Fisher & Naidu 1996
+/// missing  a row without a peak gives no point, nor does a peak with too many saturated pixels
+/// errors   Error(Input) when the rig has no laser sheet or the images differ in size
+/// source   center of gravity above the background, Fisher & Naidu 1996
 [[nodiscard]] std::vector<ProfilePoint> laser_profile(const FrameStack& line,
                                                       const Image<float>& fringe_counts,
                                                       const Rig& rig,
