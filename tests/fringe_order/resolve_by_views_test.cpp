@@ -14,7 +14,7 @@ namespace {
 using testing::Ball;
 using testing::kBallPattern;
 
-TEST(ResolveByViews, PutsAnUnresolvedRegionWhereOtherViewsSawIt) {
+TEST(ResolveByViews, FindsTheOrderAtWhichOtherViewsConfirmARegion) {
   const Ball ball;
   ViewStore views;
   std::vector<UnresolvedViewRegion> unresolved;
@@ -32,6 +32,9 @@ TEST(ResolveByViews, PutsAnUnresolvedRegionWhereOtherViewsSawIt) {
     const float depth = truth.range.depth_mm.pixels()[i];
     if (std::isnan(depth)) continue;
     EXPECT_NEAR(resolved.range.depth_mm.pixels()[i], depth, 0.01);
+    const float phase = resolved.range.phase_rad.pixels()[i];
+    EXPECT_NEAR(phase, truth.range.phase_rad.pixels()[i], 1e-5);
+    EXPECT_EQ(resolved.range.depth_mm.pixels()[i], ball.depth_at(i, phase));
   }
 }
 

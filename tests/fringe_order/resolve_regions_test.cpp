@@ -14,7 +14,7 @@ namespace {
 
 const Pattern kPattern{.name = "fringe", .fringes_per_degree = 1.0};
 
-/// Two walls side by side at different depths, their phase known but for whole fringes.
+/// Two walls side by side at different depths with phases of unknown fringe order.
 struct TwoWalls {
   Rig rig = make_paper_rig({.columns = 100, .rows = 60});
   Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
@@ -41,7 +41,7 @@ struct TwoWalls {
       }
     }
   }
-  /// Crossings of a line with column x + 0.4.
+  /// A laser line at column x + 0.4.
   [[nodiscard]] std::vector<ProfilePoint> line_at(int x, double z_mm, int rows) const {
     std::vector<ProfilePoint> profile;
     for (int y = 5; y < 5 + rows; ++y) {
@@ -53,7 +53,7 @@ struct TwoWalls {
   }
 };
 
-TEST(ResolveByLaserSheet, FindsTheWholeFringesOfTheRegionThatTheLineTouches) {
+TEST(ResolveByLaserSheet, FindsTheOrderOfTheRegionThatTheLineCrosses) {
   const TwoWalls walls;
   const ResolvedPhase resolved =
       resolve_by_laser_sheet(walls.phase, walls.line_at(20, 480.3, 30), walls.rig.projector);
@@ -68,16 +68,18 @@ TEST(ResolveByLaserSheet, FindsTheWholeFringesOfTheRegionThatTheLineTouches) {
 
 TEST(ResolveByLaserSheet, LeavesARegionUnresolvedWhoseCrossingsDisagreeOrAreFew) {
   const TwoWalls walls;
-  auto torn = walls.line_at(20, 480.0, 10);
+  auto contradictory = walls.line_at(20, 480.0, 10);
   const auto other = walls.line_at(30, 540.0, 10);
-  torn.insert(torn.end(), other.begin(), other.end());
-  EXPECT_EQ(resolve_by_laser_sheet(walls.phase, torn, walls.rig.projector).unresolved.size(), 2U);
+  contradictory.insert(contradictory.end(), other.begin(), other.end());
+  EXPECT_EQ(
+      resolve_by_laser_sheet(walls.phase, contradictory, walls.rig.projector).unresolved.size(),
+      2U);
   EXPECT_EQ(resolve_by_laser_sheet(walls.phase, walls.line_at(20, 480.0, 2), walls.rig.projector)
                 .unresolved.size(),
             2U);
 }
 
-TEST(ResolveByDistance, ChoosesTheFringeNearestToWhereTheAxesCross) {
+TEST(ResolveByDistance, ChoosesTheOrderClosestToTheDistance) {
   const TwoWalls walls;
   const ResolvedPhase resolved = resolve_by_distance(walls.phase, walls.rig, walls.rays, 485.0);
   EXPECT_TRUE(resolved.unresolved.empty());

@@ -7,7 +7,7 @@
 namespace frangia {
 namespace {
 
-/// A ball's cap, each pixel of which looks `lateral_noise_px` beside its centre, with noise.
+/// A ball's cap whose pixels have lateral localization noise and noise of their value.
 Image<float> cap(float lateral_noise_px, float noise) {
   constexpr int kSide = 200;
   constexpr int kHalf = kSide / 2;

@@ -65,7 +65,7 @@ TEST(FitQuadratic, PredictsItsNoise) {
   EXPECT_NEAR(squares / predicted, 1.0, 0.08);
 }
 
-TEST(FitQuadratic, CorrelatesAtAnEdgeAndNotInNoise) {
+TEST(FitQuadratic, LeavesCorrelatedResidualsAtAnEdgeOnly) {
   Image<float> edge(5, 5);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x)
@@ -85,7 +85,7 @@ TEST(FitQuadratic, CorrelatesAtAnEdgeAndNotInNoise) {
   EXPECT_GT(none, 180);
 }
 
-TEST(FitQuadratic, RefusesToGuess) {
+TEST(FitQuadratic, IsMissingWithTooFewPixels) {
   Image<float> image(5, 5, kMissing);
   image(2, 2) = 1.0F;
   EXPECT_TRUE(std::isnan(fit_quadratic(image, {2, 2}).window.value));

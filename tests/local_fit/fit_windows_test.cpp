@@ -34,10 +34,10 @@ TEST(FitWindows, MeasuresTheScatterAboutThePlane) {
   image(7, 5) += 1.0F;
   const WindowFits fits = fit_windows(image, 1, 5, 1);
   EXPECT_NEAR(
-      fits.at(7, 0).variance, (8.0 / 9.0) / 6.0, 1e-5);  // what one of nine leaves, over 9 - 3
+      fits.at(7, 0).variance, (8.0 / 9.0) / 6.0, 1e-5);  // residuals of one in nine, over 9 - 3
 }
 
-TEST(FitWindows, LeavesOutWindowsWithAHoleOrOverTheBorder) {
+TEST(FitWindows, AreMissingAtAHoleAndAtTheBorder) {
   Image<float> image = slope();
   image(7, 5) = kMissing;
   const WindowFits fits = fit_windows(image, 2, 0, 12);

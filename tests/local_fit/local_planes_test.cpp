@@ -16,7 +16,7 @@ using testing::small_camera_model;
 
 constexpr double kStandOff = 650.0;
 
-/// How far a point of the object frame lies in front of what the view saw.
+/// The signed distance of a point of the object frame to the surface that the view measured.
 float in_front(const LocalPlanes& view, const CameraModel& model, const Eigen::Vector3d& point) {
   const Eigen::Vector3d seen = view.rig_from_object * point;
   const Eigen::Vector2f pixel = model.project(seen).cast<float>();
@@ -47,14 +47,14 @@ TEST(LocalPlanes, KeepBothFacesOfARidge) {
       testing::snapshot(
           testing::box({20.0, 20.0, 20.0}), camera.model, look_from(0.6, 0.5, kStandOff)),
       camera);
-  // On the edge between the faces x = 20 and y = 20, and a little off it.
+  // On the edge between the faces x = 20 and y = 20, and next to it.
   EXPECT_NEAR(in_front(view, camera.model, {20.0, 20.0, 3.0}), 0.0, 0.05);
   EXPECT_NEAR(in_front(view, camera.model, {20.3, 20.0, 3.0}), 0.3, 0.06);
   EXPECT_NEAR(in_front(view, camera.model, {20.0, 20.3, 3.0}), 0.3, 0.06);
   EXPECT_NEAR(in_front(view, camera.model, {19.7, 19.7, 3.0}), -0.3, 0.06);
 }
 
-TEST(LocalPlanes, SeeNothingAcrossADepthStep) {
+TEST(LocalPlanes, HaveNoQuadAcrossADepthStep) {
   const CameraRays camera(small_camera_model());
   const auto scene = testing::both(testing::sphere(12.0, {0.0, 0.0, 40.0}), testing::floor_at(0.0));
   const View view = testing::snapshot(scene, camera.model, look_from(0.0, 1.2, kStandOff));
@@ -65,6 +65,33 @@ TEST(LocalPlanes, SeeNothingAcrossADepthStep) {
       EXPECT_LT(std::abs(view.range.depth_mm(x, y) - view.range.depth_mm(x + 1, y + 1)), 10.0F);
     }
   }
+}
+
+TEST(LocalPlanes, AreLessNoisyWithWiderWindows) {
+  const CameraRays camera(small_camera_model());
+  const View view = testing::snapshot(testing::floor_at(0.0),
+                                      camera.model,
+                                      look_from(0.0, 1.2, kStandOff),
+                                      {.noise_mm = 0.1, .sigma_mm = 0.1});
+  const auto variance = [&](bool widen) {
+    const LocalPlanes planes = local_planes(view, camera, {.widen = widen});
+    const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
+    double squares = 0.0;
+    int count = 0;
+    for (int y = 20; y < 280; ++y) {
+      for (int x = 20; x < 280; ++x) {
+        if (!planes.has_plane(x, y)) continue;
+        const Eigen::Vector3d seen =
+            (camera.rays(x, y).homogeneous() / planes.inverse_depth(x, y)).cast<double>();
+        squares += std::pow((object_from_rig * seen).z(), 2);
+        ++count;
+      }
+    }
+    return squares / count;
+  };
+  const double ratio =
+      static_cast<double>(value_variance(3)) / static_cast<double>(value_variance(2));
+  EXPECT_NEAR(variance(true) / variance(false), ratio, 0.1);
 }
 
 TEST(LocalPlanes, RefuseAViewOfAnotherSize) {

@@ -30,11 +30,11 @@ TEST(WindowAutocorrelation, IsPositiveWhereverAnEdgeRunsThroughTheWindow) {
     EXPECT_GT(autocorrelation[x], 0.2F) << x;
 }
 
-TEST(WindowAutocorrelation, IsNegativeForNoiseHoweverLoud) {
-  for (const float loud : {0.001F, 100.0F}) {
+TEST(WindowAutocorrelation, IsNegativeForNoiseOfAnyAmplitude) {
+  for (const float amplitude : {0.001F, 100.0F}) {
     Image<float> noise(200, 12);
     for (std::size_t i = 0; i < noise.pixels().size(); ++i)
-      noise.pixels()[i] = loud * static_cast<float>(uniform_from(hash(std::uint64_t{i})));
+      noise.pixels()[i] = amplitude * static_cast<float>(uniform_from(hash(std::uint64_t{i})));
     const auto autocorrelation = autocorrelation_of_row(noise, 5);
     float sum = 0.0F;
     for (std::size_t x = 3; x < 197; ++x)
@@ -43,7 +43,7 @@ TEST(WindowAutocorrelation, IsNegativeForNoiseHoweverLoud) {
   }
 }
 
-TEST(WindowAutocorrelation, IsMissingWhereNoWindowIs) {
+TEST(WindowAutocorrelation, IsMissingWithoutAWindow) {
   Image<float> image(20, 12, 1.0F);
   image(8, 5) = std::nanf("");
   const auto autocorrelation = autocorrelation_of_row(image, 5);

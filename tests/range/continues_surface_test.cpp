@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kSigma_mm = 0.02F;
 
-/// A cylinder of 10 mm radius; columns from 30 on are no reliable pixels.
+/// A cylinder of 10 mm radius; the pixels of columns from 30 on are not reliable.
 struct HalfCylinder {
   CameraModel model{.width_px = 40,
                     .height_px = 20,
@@ -68,9 +68,9 @@ TEST(ContinuesSurface, RejectsAPixelDarkerThanExpected) {
 
 TEST(ContinuesSurface, NeedsReliableNeighbors) {
   HalfCylinder scene;
-  EXPECT_FALSE(scene.continues(31));  // there is one between
+  EXPECT_FALSE(scene.continues(31));  // pixel 30 lies between
   for (int y = 0; y < 20; ++y)
-    scene.all.depth_mm(28, y) = kMissing;  // a column alone tells no slope
+    scene.all.depth_mm(28, y) = kMissing;  // a single column does not determine a slope
   EXPECT_FALSE(scene.continues(30));
 }
 

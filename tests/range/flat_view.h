@@ -9,7 +9,7 @@
 
 namespace frangia {
 
-/// 80 x 60 pixels that see a plane at 500 mm, pixels of 0.5 mm, before anything is dropped.
+/// 80 x 60 pixels of 0.5 mm that see a plane at 500 mm.
 struct FlatView {
   CameraModel model{.width_px = 80,
                     .height_px = 60,

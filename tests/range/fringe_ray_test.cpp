@@ -61,7 +61,7 @@ TEST_P(FringeRay, FindsThePointLitWithThePhase) {
   }
 }
 
-TEST_P(FringeRay, KnowsHowFastTheDepthMovesWithThePhase) {
+TEST_P(FringeRay, GivesTheDerivativeOfDepthWithRespectToPhase) {
   const auto& [pattern, projector] = GetParam();
   const Eigen::Vector2d ray(0.05, -0.03);
   const double phase = phase_at(500.0 * Eigen::Vector3d(0.05, -0.03, 1.0), pattern, projector);
@@ -79,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(Projectors,
                                            std::pair(columns(), pinhole()),
                                            std::pair(rows(), pinhole())));
 
-TEST(FringeRayAtInfinity, HasNoPointWhereRayAndLightDoNotMeetInFront) {
+TEST(FringeRayAtInfinity, IsMissingWithoutAnIntersectionInFrontOfTheCamera) {
   const Projector projector = angular();
-  // Light that leaves to the other side of the camera's axis never comes back to it.
+  // Light that diverges from the camera's axis does not intersect it.
   const RayDepth found = intersect_fringe({0.0, 0.0}, 2.0 * kPi * 1.5 * 60.0, degrees(), projector);
   EXPECT_TRUE(std::isnan(found.depth_mm));
 }

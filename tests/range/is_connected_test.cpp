@@ -7,7 +7,7 @@
 namespace frangia {
 namespace {
 
-/// Two neighbours, 1 mm apart across.
+/// Two neighbours at a lateral distance of 1 mm.
 bool connected(float one_mm, float other_mm, float sigma_mm) {
   RangeGrid range{Image<float>(2, 1, one_mm), Image<float>(2, 1, sigma_mm)};
   range.depth_mm(1, 0) = other_mm;
@@ -16,12 +16,12 @@ bool connected(float one_mm, float other_mm, float sigma_mm) {
   return is_connected(range, rays, {0, 0}, {1, 0}, 7.0F);
 }
 
-TEST(IsConnected, HoldsAsFarAsASlopeMayRise) {
+TEST(IsConnected, HoldsUpToTheMaximumSlope) {
   EXPECT_TRUE(connected(500.0F, 506.9F, 0.0F));
   EXPECT_FALSE(connected(500.0F, 507.1F, 0.0F));
 }
 
-TEST(IsConnected, LetsNoiseMakeAStep) {
+TEST(IsConnected, AllowsForNoise) {
   EXPECT_TRUE(connected(500.0F, 507.5F, 0.1F));
   EXPECT_FALSE(connected(500.0F, 507.6F, 0.1F));
 }

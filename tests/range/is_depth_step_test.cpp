@@ -14,7 +14,7 @@ TEST(IsDepthStep, DistinguishesAJumpFromASlopeAndACrease) {
   EXPECT_FALSE(is_depth_step({2.0F, 0.0F, 2.0F}, 0.5F));  // a crease
 }
 
-TEST(IsDepthStep, IsAsHighAsAskedFor) {
+TEST(IsDepthStep, ExceedsTheMinimumHeight) {
   EXPECT_FALSE(is_depth_step({0.9F, 0.0F, 0.0F}, 1.0F));
   EXPECT_TRUE(is_depth_step({1.1F, 0.0F, 0.0F}, 1.0F));
 }

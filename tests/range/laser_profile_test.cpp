@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-/// A wall across the view that glows, with a dark patch, and the plane of light on it.
+/// A wall across the view with stray light and a laser line on it.
 struct WallWithStrayLight {
   Rig rig = make_paper_rig({.focal_mm = 25.0, .columns = 320, .rows = 120});
   double z_mm = 505.0;
@@ -20,7 +20,7 @@ struct WallWithStrayLight {
   double noise_counts = 0.7;
   Image<float> lit{320, 120, 100.0F};
 
-  /// Where the plane meets row y: normal . (x z, y z, z) = offset.
+  /// The column of the laser sheet in row y: normal . (x z, y z, z) = offset.
   [[nodiscard]] double true_column(double /*row*/) const {
     const LaserSheet& plane = *rig.laser_sheet;
     const double x = (plane.offset_mm / z_mm - plane.normal.z()) / plane.normal.x();
@@ -64,7 +64,7 @@ TEST(LaserProfile, FindsTheLineInEveryRowToATenthOfAPixel) {
   EXPECT_LT(std::sqrt(square / predicted), 2.0);
 }
 
-/// A dim narrow post away from the plane, and a wall whose brightness rises across the view.
+/// A dim narrow post away from the laser sheet, and a wall whose brightness rises across the view.
 WallWithStrayLight post_and_wall(double ambient) {
   WallWithStrayLight wall;
   wall.spill = 0.08;

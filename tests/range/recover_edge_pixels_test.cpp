@@ -17,7 +17,7 @@ namespace {
 constexpr float kEdgeSigma_mm = 0.02F;
 
 struct EdgeScene : FlatView {
-  /// Columns of row 30 whose pixels are removed and given back.
+  /// Columns of row 30 whose pixels are removed and recovered.
   [[nodiscard]] std::vector<int> edge_pixels() {
     const auto removed = remove_mixed_pixels(range, rays, status);
     std::vector<int> columns;
@@ -28,7 +28,7 @@ struct EdgeScene : FlatView {
   }
 };
 
-/// Column 60 and what follows is dark; a pixel of column 59 has `lit` of its light.
+/// The columns from 60 on are dark; the pixels of column 59 receive the share `lit` of their light.
 EdgeScene silhouette(float lit) {
   EdgeScene scene;
   scene.set_columns(60, 80, kMissing);
@@ -48,6 +48,16 @@ TEST(RecoverEdgePixels, RejectsAnOutermostPixelHalfOnThePart) {
   EXPECT_TRUE(silhouette(0.5F).edge_pixels().empty());
 }
 
+TEST(RecoverEdgePixels, KeepsThePhase) {
+  EdgeScene scene = silhouette(1.0F);
+  scene.range.phase_rad = Image<float>(80, 60, 7.0F);
+  const auto removed = remove_mixed_pixels(scene.range, scene.rays, scene.status);
+  const auto recovered = recover_edge_pixels(scene.range, scene.rays, removed);
+  ASSERT_FALSE(recovered.empty());
+  for (const RangePixel& pixel : recovered)
+    EXPECT_EQ(pixel.phase_rad, 7.0F);
+}
+
 TEST(RecoverEdgePixels, RecoversThePixelsOnBothSidesOfAMixedPixel) {
   EdgeScene scene;
   scene.set_columns(40, 41, 510.0F);
@@ -56,7 +66,7 @@ TEST(RecoverEdgePixels, RecoversThePixelsOnBothSidesOfAMixedPixel) {
 }
 
 TEST(RecoverEdgePixels, RejectsThePixelBehindALowStep) {
-  EdgeScene scene;  // 2 mm at pixels of 0.5 mm: no steeper than a slope may be
+  EdgeScene scene;  // 2 mm at pixels of 0.5 mm: not steeper than a slope may be
   scene.set_columns(41, 80, 502.0F);
   const auto edge_pixels = scene.edge_pixels();
   EXPECT_TRUE(std::find(edge_pixels.begin(), edge_pixels.end(), 40) != edge_pixels.end());

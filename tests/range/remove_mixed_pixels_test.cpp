@@ -12,7 +12,7 @@ namespace frangia {
 namespace {
 
 struct Scene : FlatView {
-  std::size_t drop() { return remove_mixed_pixels(range, rays, status).size(); }
+  std::size_t removed() { return remove_mixed_pixels(range, rays, status).size(); }
 };
 
 TEST(RemoveMixedPixels, KeepsEveryPointOfASlopedSurface) {
@@ -21,7 +21,7 @@ TEST(RemoveMixedPixels, KeepsEveryPointOfASlopedSurface) {
     for (int x = 0; x < 80; ++x)
       scene.range.depth_mm(x, y) = 480.0F + 1.5F * static_cast<float>(x);  // 72 degrees
   }
-  EXPECT_EQ(scene.drop(), 0U);
+  EXPECT_EQ(scene.removed(), 0U);
 }
 
 TEST(RemoveMixedPixels, KeepsACrease) {
@@ -30,7 +30,7 @@ TEST(RemoveMixedPixels, KeepsACrease) {
     for (int x = 0; x < 80; ++x)
       scene.range.depth_mm(x, y) = 480.0F + std::abs(static_cast<float>(x) - 40.0F);
   }
-  EXPECT_EQ(scene.drop(), 0U);
+  EXPECT_EQ(scene.removed(), 0U);
 }
 
 TEST(RemoveMixedPixels, RemovesThePixelsBetweenTwoSurfaces) {
@@ -41,7 +41,7 @@ TEST(RemoveMixedPixels, RemovesThePixelsBetweenTwoSurfaces) {
         scene.range.depth_mm(x, y) = 500.0F + step_mm;
       scene.range.depth_mm(40, y) = 500.0F + 0.3F * step_mm;  // sees both
     }
-    EXPECT_GT(scene.drop(), 0U);
+    EXPECT_GT(scene.removed(), 0U);
     for (int y = 0; y < 60; ++y) {
       EXPECT_EQ(scene.status(40, y), PixelStatus::MixedPixel) << step_mm;
       EXPECT_TRUE(std::isnan(scene.range.depth_mm(40, y)));
@@ -61,7 +61,7 @@ TEST(RemoveMixedPixels, RemovesTheOutermostPixelOfASilhouetteButNotAtASpeck) {
   }
   scene.range.depth_mm(20, 20) = kMissing;
   scene.status(20, 20) = PixelStatus::Unmodulated;
-  scene.drop();
+  scene.removed();
   EXPECT_EQ(scene.status(59, 30), PixelStatus::MixedPixel);
   EXPECT_EQ(scene.status(58, 30), PixelStatus::Measured);
   EXPECT_EQ(scene.status(21, 20), PixelStatus::Measured);
@@ -75,7 +75,30 @@ TEST(RemoveMixedPixels, RemovesPatchesTooSmallToBeASurface) {
     for (int x = 20; x < 23; ++x)
       scene.range.depth_mm(x, y) = 500.0F;
   }
-  EXPECT_EQ(scene.drop(), 9U);
+  EXPECT_EQ(scene.removed(), 9U);
+}
+
+TEST(RemoveMixedPixels, ReturnsTheRemovedPixelsWithTheirPhase) {
+  Scene scene;
+  scene.range.phase_rad = Image<float>(80, 60, 7.0F);
+  scene.set_columns(40, 80, 530.0F);
+  const auto removed = remove_mixed_pixels(scene.range, scene.rays, scene.status);
+  ASSERT_FALSE(removed.empty());
+  for (const RangePixel& pixel : removed) {
+    EXPECT_EQ(pixel.phase_rad, 7.0F);
+    EXPECT_TRUE(std::isnan(scene.range.phase_rad(pixel.x, pixel.y)));
+  }
+  EXPECT_EQ(scene.range.phase_rad(20, 20), 7.0F);
+}
+
+TEST(RemoveMixedPixels, TakesTheMinimumStepFromItsOptions) {
+  for (const double min_step_px : {2.5, 8.0}) {
+    Scene scene;  // 3 mm at pixels of 0.5 mm
+    scene.set_columns(40, 80, 503.0F);
+    const MixedPixelOptions options{.min_step_px = min_step_px};
+    const auto removed = remove_mixed_pixels(scene.range, scene.rays, scene.status, options);
+    EXPECT_EQ(removed.empty(), min_step_px == 8.0);
+  }
 }
 
 }  // namespace

@@ -35,12 +35,22 @@ struct Wall {
   }
 };
 
-TEST(Triangulate, PutsAWallWhereItStands) {
+TEST(Triangulate, RecoversTheDepthOfAWall) {
   const Wall wall;
   AbsolutePhase phase = wall.phase(501.5, 0.02F);
   const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
   for (const float depth : range.depth_mm.pixels())
     EXPECT_NEAR(depth, 501.5, 1e-4);
+}
+
+TEST(Triangulate, KeepsThePhaseOfEachPoint) {
+  const Wall wall;
+  AbsolutePhase phase = wall.phase(501.5, 0.02F);
+  phase.phase_rad(3, 4) = 500.0F;  // outside of the lit field
+  const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
+  EXPECT_TRUE(std::isnan(range.phase_rad(3, 4)));
+  for (int x = 4; x < 64; ++x)
+    EXPECT_EQ(range.phase_rad(x, 4), phase.phase_rad(x, 4));
 }
 
 TEST(Triangulate, PredictsTheScatterOfNoisyPhase) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/error.h"
-
 #include "support/analytic_views.h"
+#include "support/error_of.h"
 
 namespace frangia {
 namespace {
@@ -62,12 +62,30 @@ TEST(ClipViews, RemovesEdgePixelsLikeTheOthers) {
   const float depth_mm = view.range.depth_mm(60, 60);
   ASSERT_GT(depth_mm, 0.0F);
   view.edge_pixels = {{60, 60, depth_mm, 0.1F},
-                      {60, 60, depth_mm + 300.0F, 0.1F}};  // before and behind
+                      {60, 60, depth_mm + 300.0F, 0.1F}};  // inside and behind
   ViewStore one;
   one.add(view);
   static_cast<void>(clip_views(one, small_camera_model(120, 600.0), {.max_radius_mm = 100.0}));
   ASSERT_EQ(one.load(0).edge_pixels.size(), 1U);
   EXPECT_EQ(one.load(0).edge_pixels[0].depth_mm, depth_mm);
+}
+
+TEST(ClipViews, RemovesSigmaAndPhaseWithThePoint) {
+  ViewStore all = sphere_views();
+  View view = all.load(0);
+  view.range.phase_rad = Image<float>(120, 120, 7.0F);
+  ViewStore views;
+  views.add(view);
+  EXPECT_GT(clip_views(views, small_camera_model(120, 600.0), {.max_radius_mm = 30.0}), 0U);
+  const RangeGrid clipped = views.load(0).range;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 120; ++x) {
+      const bool was_measured = !std::isnan(view.range.depth_mm(x, y));
+      if (!was_measured) continue;
+      EXPECT_EQ(std::isnan(clipped.sigma_mm(x, y)), std::isnan(clipped.depth_mm(x, y)));
+      EXPECT_EQ(std::isnan(clipped.phase_rad(x, y)), std::isnan(clipped.depth_mm(x, y)));
+    }
+  }
 }
 
 TEST(ClipViews, KeepsAllWithoutALimit) {
@@ -77,10 +95,11 @@ TEST(ClipViews, KeepsAllWithoutALimit) {
 
 TEST(ClipViews, RefusesToRemoveEverything) {
   ViewStore views = sphere_views();
-  EXPECT_THROW(
-      clip_views(
-          views, small_camera_model(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -100.0}}),
-      Error);
+  const std::string message = testing::error_of([&] {
+    clip_views(
+        views, small_camera_model(120, 600.0), {.floor = {Eigen::Vector3d::UnitZ(), -100.0}});
+  });
+  EXPECT_NE(message.find("`clip_below`"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -17,10 +17,12 @@ TEST(Subsample, KeepsEachPixelsRayAndPoint) {
   View view;
   view.range.depth_mm = Image<float>(11, 8);
   view.range.sigma_mm = Image<float>(11, 8);
+  view.range.phase_rad = Image<float>(11, 8);
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 11; ++x) {
       view.range.depth_mm(x, y) = static_cast<float>(100 * y + x);
       view.range.sigma_mm(x, y) = static_cast<float>(x - y);
+      view.range.phase_rad(x, y) = static_cast<float>(x + 20 * y);
     }
   }
   const CameraModel model = subsample(kCameraModel, 3);
@@ -33,13 +35,14 @@ TEST(Subsample, KeepsEachPixelsRayAndPoint) {
     for (int x = 0; x < 4; ++x) {
       EXPECT_EQ(thin.range.depth_mm(x, y), view.range.depth_mm(3 * x, 3 * y));
       EXPECT_EQ(thin.range.sigma_mm(x, y), view.range.sigma_mm(3 * x, 3 * y));
+      EXPECT_EQ(thin.range.phase_rad(x, y), view.range.phase_rad(3 * x, 3 * y));
       const Eigen::Vector2d all = kCameraModel.ray(Eigen::Vector2d(3 * x, 3 * y));
       EXPECT_NEAR((model.ray(Eigen::Vector2d(x, y)) - all).norm(), 0.0, 1e-12);
     }
   }
 }
 
-TEST(Subsample, RefusesAStepOfNothing) {
+TEST(Subsample, RefusesAStepOfZero) {
   EXPECT_THROW(static_cast<void>(subsample(kCameraModel, 0)), Error);
   EXPECT_THROW(static_cast<void>(subsample(View{}, 0)), Error);
 }

@@ -1,12 +1,16 @@
 #include "frangia/views/view_store.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+
+#include "support/error_of.h"
 
 namespace frangia {
 namespace {
@@ -56,7 +60,54 @@ TEST(ViewStore, KeepsEdgePixelsApartFromTheGrid) {
   store.clear(0);
   EXPECT_TRUE(store.load(0).edge_pixels.empty());
   EXPECT_EQ(store.load(1).range.depth_mm(0, 0), 2.0F);
-  EXPECT_THROW(store.replace(1, view), Error);  // there is no room for its edge pixels
+  EXPECT_THROW(store.replace(1, view), Error);  // more edge pixels than before
+}
+
+TEST(ViewStore, KeepsThePhaseBetweenGridAndEdgePixels) {
+  ViewStore store;
+  View view = view_of(1.0F);
+  view.range.phase_rad = Image<float>(30, 20, 7.0F);
+  view.edge_pixels = {{3, 4, 5.0F, 0.5F, 9.0F}};
+  store.add(view);
+  store.add(view_of(2.0F));  // without phase
+  const View loaded = store.load(0);
+  EXPECT_EQ(loaded.range.phase_rad(29, 19), 7.0F);
+  EXPECT_EQ(loaded.edge_pixels.at(0).phase_rad, 9.0F);
+  EXPECT_TRUE(store.load(1).range.phase_rad.empty());
+  EXPECT_EQ(store.load(1).range.depth_mm(0, 0), 2.0F);
+  store.clear(0);
+  EXPECT_TRUE(std::isnan(store.load(0).range.phase_rad(5, 5)));
+}
+
+TEST(ViewStore, LoadsPointsWithoutPhase) {
+  ViewStore store;
+  View view = view_of(1.0F);
+  view.range.phase_rad = Image<float>(30, 20, 7.0F);
+  view.edge_pixels = {{3, 4, 5.0F, 0.5F, 9.0F}};
+  store.add(view);
+  const View points = store.load_points(0);
+  EXPECT_TRUE(points.range.phase_rad.empty());
+  EXPECT_EQ(points.range.sigma_mm(5, 5), 0.1F);
+  EXPECT_EQ(points.edge_pixels.at(0).depth_mm, 5.0F);
+  EXPECT_EQ(store.load_depth_mm(0)(29, 19), 1.0F);
+  EXPECT_THROW(store.replace(0, points), Error);  // the phase would be lost
+  EXPECT_EQ(store.load(0).range.phase_rad(5, 5), 7.0F);
+}
+
+TEST(ViewStore, NamesTheTemporaryFolderThatCannotHoldIt) {
+  const char* before = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): no other thread
+  const std::string folder = before != nullptr ? before : "/tmp";
+  ::setenv("TMPDIR", "/nowhere", 1);  // NOLINT(concurrency-mt-unsafe)
+  const std::string message = testing::error_of([] { const ViewStore store; });
+  ::setenv("TMPDIR", folder.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  EXPECT_NE(message.find("/nowhere"), std::string::npos) << message;
+}
+
+TEST(ViewStore, RefusesImagesOfDifferentSize) {
+  ViewStore store;
+  View view = view_of(1.0F);
+  view.range.phase_rad = Image<float>(29, 20, 7.0F);
+  EXPECT_THROW(store.add(view), Error);
 }
 
 TEST(ViewStore, KeepsItsViewsWhenMoved) {

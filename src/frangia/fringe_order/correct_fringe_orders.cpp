@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/range/remove_mixed_pixels.h"
@@ -14,72 +14,61 @@
 namespace frangia {
 namespace {
 
-constexpr int kSamples = 48;
-constexpr std::size_t kFewestPixels = 4;
-
 struct Patch {
   FringePixels pixels;
   std::vector<FringeOrderCandidate> candidates;
 };
 
-Eigen::Vector3d point_at(const View& view, const Image<Eigen::Vector2f>& rays, std::size_t pixel) {
-  const Eigen::Vector2d ray = rays.pixels()[pixel].cast<double>();
-  const double depth = view.range.depth_mm.pixels()[pixel];
-  return depth * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
-}
-
-/// The measured pixels of the view in squares of `side`, for the squares that `wanted` holds.
+/// Divides the pixels of the view that have a phase and that `wanted` marks into squares of `side`
+/// pixels.
 std::vector<Patch> patches_of(const View& view,
-                              const FringeComparison& set,
                               int side,
+                              std::size_t min_pixels,
                               const Image<std::uint8_t>& wanted) {
-  const auto& depth = view.range.depth_mm;
-  const int across = (depth.width() + side - 1) / side;
-  const int down = (depth.height() + side - 1) / side;
+  const Image<float>& phase = view.range.phase_rad;
+  const int across = (phase.width() + side - 1) / side;
+  const int down = (phase.height() + side - 1) / side;
   std::vector<Patch> grid(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
-  for (int y = 0; y < depth.height(); ++y) {
-    for (int x = 0; x < depth.width(); ++x) {
-      if (std::isnan(depth(x, y)) || wanted(x, y) == 0) continue;
-      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(depth.width()) +
-                         static_cast<std::size_t>(x);
+  for (int y = 0; y < phase.height(); ++y) {
+    for (int x = 0; x < phase.width(); ++x) {
+      if (std::isnan(phase(x, y)) || wanted(x, y) == 0) continue;
       const int square = y / side * across + x / side;
       FringePixels& pixels = grid[static_cast<std::size_t>(square)].pixels;
-      pixels.pixel.push_back(static_cast<std::uint32_t>(pixel));
-      pixels.phase_rad.push_back(static_cast<float>(
-          phase_at(point_at(view, set.rays, pixel), set.pattern, set.rig.projector)));
+      pixels.pixel.push_back(static_cast<std::uint32_t>(y * phase.width() + x));
+      pixels.phase_rad.push_back(phase(x, y));
     }
   }
   std::vector<Patch> patches;
   for (Patch& patch : grid) {
-    if (patch.pixels.pixel.size() >= kFewestPixels) patches.push_back(std::move(patch));
+    if (patch.pixels.pixel.size() >= min_pixels) patches.push_back(std::move(patch));
   }
   return patches;
 }
 
-/// Lets every other view say what it sees at each of the patches' candidates.
+/// Compares the candidates of all patches with every other view.
 void compare_with_others(const ViewStore& views,
                          std::size_t own,
-                         const FringeComparison& set,
+                         const FringeComparison& comparison,
                          std::vector<Patch>& patches) {
   parallel_chunks(patches.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       patches[i].candidates =
-          fringe_order_candidates(patches[i].pixels, views.rig_from_object(own), set);
+          fringe_order_candidates(patches[i].pixels, views.rig_from_object(own), comparison);
   });
   for (std::size_t other = 0; other < views.size(); ++other) {
     if (other == own) continue;
-    const View view = views.load(other);
+    const Image<float> depth_mm = views.load_depth_mm(other);
     parallel_chunks(patches.size(), 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         for (FringeOrderCandidate& candidate : patches[i].candidates)
-          compare_with(view, set, candidate);
+          compare_with(depth_mm, views.rig_from_object(other), comparison, candidate);
       }
     });
   }
 }
 
-/// The fringes by which the patch is off; 0 unless the others leave no doubt.
-int order_error(const Patch& patch, const FringeOrderCorrectionOptions& options) {
+/// The correction of a patch's fringe order; 0 unless the other views determine it uniquely.
+int order_correction(const Patch& patch, const FringeOrderCorrectionOptions& options) {
   const FringeOrderCandidate* current = nullptr;
   const FringeOrderCandidate* best = nullptr;
   int second = 0;
@@ -96,57 +85,64 @@ int order_error(const Patch& patch, const FringeOrderCorrectionOptions& options)
   if (current == nullptr || best == nullptr) return 0;
   const auto points = static_cast<double>(best->points_mm.size());
   if (current->agree > options.max_current_agreement * points) return 0;
-  // Where others look at it and do not find it, half of it elsewhere is enough; where it hides from
-  // them behind the surface, most of it must be that surface.
-  const bool missed = current->violations + current->unseen >= points;
-  const double wanted = missed ? options.min_agreement : options.min_agreement_hidden;
-  if (best->score() < wanted * points || 2 * second > best->score()) return 0;
+  // A patch that other views see through is certainly wrong, and the lower agreement suffices. A
+  // patch hidden behind their surface is not contradicted and needs the higher one.
+  const bool contradicted = current->violations + current->unseen >= points;
+  const double wanted = contradicted ? options.min_agreement : options.min_agreement_hidden;
+  if (best->score() < wanted * points || second > options.max_runner_up * best->score()) return 0;
   return best->order;
 }
 
-/// Whether others see through the patch and none confirms it.
+/// Whether the patch violates the free space of other views and no view confirms it.
 bool violates_free_space(const Patch& patch, const FringeOrderCorrectionOptions& options) {
   for (const FringeOrderCandidate& candidate : patch.candidates) {
     if (candidate.order != 0) continue;
     const auto points = static_cast<double>(candidate.points_mm.size());
     return candidate.agree <= options.max_current_agreement * points &&
-           2 * candidate.violations >= points;
+           candidate.violations >= options.min_violations * points;
   }
   return false;
 }
 
-void correct_pixel(const FringeComparison& set, std::size_t pixel, double phase_rad, View& view) {
-  const Eigen::Vector2d ray = set.rays.pixels()[pixel].cast<double>();
-  float& depth = view.range.depth_mm.pixels()[pixel];
-  float& sigma = view.range.sigma_mm.pixels()[pixel];
-  const RayDepth before =
-      intersect_fringe(ray,
-                       phase_at(point_at(view, set.rays, pixel), set.pattern, set.rig.projector),
-                       set.pattern,
-                       set.rig.projector);
-  const RayDepth after = intersect_fringe(ray, phase_rad, set.pattern, set.rig.projector);
-  depth = static_cast<float>(after.depth_mm);
-  sigma *= static_cast<float>(std::abs(after.mm_per_rad / before.mm_per_rad));
+/// Adds fringes to the phase of a pixel and triangulates it again.
+void correct_pixel(const FringeComparison& comparison,
+                   std::uint32_t index,
+                   int fringes,
+                   View& view) {
+  const int x = static_cast<int>(index) % view.range.phase_rad.width();
+  const int y = static_cast<int>(index) / view.range.phase_rad.width();
+  const Eigen::Vector2d ray = comparison.rays(x, y).cast<double>();
+  RangePixel pixel = view.range.pixel(x, y);
+  const auto intersect = [&] {
+    return intersect_fringe(ray, pixel.phase_rad, comparison.pattern, comparison.rig.projector);
+  };
+  const RayDepth before = intersect();
+  pixel.phase_rad = static_cast<float>(pixel.phase_rad + kTwoPi * fringes);
+  const RayDepth after = intersect();
+  if (std::isnan(after.depth_mm)) return view.range.remove(x, y);
+  pixel.depth_mm = static_cast<float>(after.depth_mm);
+  pixel.sigma_mm *= static_cast<float>(std::abs(after.mm_per_rad / before.mm_per_rad));
+  view.range.set(pixel);
 }
 
-/// Moves the patches that are off; returns their pixels.
+/// Corrects the patches whose order is wrong; returns their pixels.
 std::vector<std::uint32_t> correct_patches(const std::vector<Patch>& patches,
-                                           const FringeComparison& set,
+                                           const FringeComparison& comparison,
                                            const FringeOrderCorrectionOptions& options,
                                            View& view) {
-  std::vector<std::uint32_t> moved;
+  std::vector<std::uint32_t> corrected;
   for (const Patch& patch : patches) {
-    const int off = order_error(patch, options);
-    if (off == 0) continue;
-    const FringePixels& pixels = patch.pixels;
-    for (std::size_t i = 0; i < pixels.pixel.size(); ++i)
-      correct_pixel(set, pixels.pixel[i], pixels.phase_rad[i] + kTwoPi * off, view);
-    moved.insert(moved.end(), pixels.pixel.begin(), pixels.pixel.end());
+    const int fringes = order_correction(patch, options);
+    if (fringes == 0) continue;
+    const std::vector<std::uint32_t>& pixels = patch.pixels.pixel;
+    for (const std::uint32_t pixel : pixels)
+      correct_pixel(comparison, pixel, fringes, view);
+    corrected.insert(corrected.end(), pixels.begin(), pixels.end());
   }
-  return moved;
+  return corrected;
 }
 
-/// Marks the pixels and, in steps of `reach`, those so far to each side of them.
+/// Marks the given pixels and their eight neighbours at distance `reach`.
 Image<std::uint8_t> around(const std::vector<std::uint32_t>& pixels,
                            int width,
                            int height,
@@ -165,31 +161,33 @@ Image<std::uint8_t> around(const std::vector<std::uint32_t>& pixels,
 
 std::size_t correct_view(ViewStore& views,
                          std::size_t own,
-                         const FringeComparison& set,
+                         const FringeComparison& comparison,
                          const FringeOrderCorrectionOptions& options) {
   View view = views.load(own);
-  const int width = view.range.depth_mm.width();
-  const int height = view.range.depth_mm.height();
-  const int side = std::max(4, width / options.patches_across);
-  auto patches = patches_of(view, set, side, Image<std::uint8_t>(width, height, 1));
-  compare_with_others(views, own, set, patches);
-  const auto moved = correct_patches(patches, set, options, view);
-  if (moved.empty()) return 0;
-  // Around what moved, squares hold pixels of both kinds: again, in squares of three pixels.
-  views.replace(own, view);
-  auto small = patches_of(view, set, 3, around(moved, width, height, side));
-  compare_with_others(views, own, set, small);
-  const auto moved_too = correct_patches(small, set, options, view);
-  for (const Patch& patch : small) {
-    if (order_error(patch, options) != 0 || !violates_free_space(patch, options)) continue;
+  if (view.range.phase_rad.empty()) return 0;
+  const int width = view.range.phase_rad.width();
+  const int height = view.range.phase_rad.height();
+  const int side = std::max(options.refined_patch_px + 1, width / options.patches_across);
+  const Image<std::uint8_t> everywhere(width, height, 1);
+  auto patches = patches_of(view, side, options.min_patch_px, everywhere);
+  compare_with_others(views, own, comparison, patches);
+  const auto corrected = correct_patches(patches, comparison, options, view);
+  if (corrected.empty()) return 0;
+  // Patches around the corrected ones hold pixels of both orders: repeat with smaller patches.
+  const auto border = around(corrected, width, height, side);
+  auto refined = patches_of(view, options.refined_patch_px, options.min_patch_px, border);
+  compare_with_others(views, own, comparison, refined);
+  const auto corrected_too = correct_patches(refined, comparison, options, view);
+  for (const Patch& patch : refined) {
+    if (order_correction(patch, options) != 0 || !violates_free_space(patch, options)) continue;
     for (const std::uint32_t pixel : patch.pixels.pixel)
-      view.range.depth_mm.pixels()[pixel] = view.range.sigma_mm.pixels()[pixel] = kMissing;
+      view.range.remove(static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
   }
   Image<PixelStatus> status(width, height, PixelStatus::Measured);
-  remove_mixed_pixels(view.range, set.rays, status);
-  view.edge_pixels.clear();  // what it hung on may be elsewhere
+  remove_mixed_pixels(view.range, comparison.rays, status);
+  view.edge_pixels.clear();  // the surface that they continued may have moved
   views.replace(own, view);
-  return moved.size() + moved_too.size();
+  return corrected.size() + corrected_too.size();
 }
 
 }  // namespace
@@ -198,18 +196,18 @@ std::size_t correct_fringe_orders(ViewStore& views,
                                   const FringeOptics& optics,
                                   const FringeOrderCorrectionOptions& options,
                                   const Run& run) {
-  const FringeComparison set{optics, options.tolerance, kSamples};
-  std::size_t moved = 0;
-  // What one view puts right helps to judge the next; a second round judges the first views so too.
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t before = moved;
+  const FringeComparison comparison{optics, options.tolerance, options.max_samples};
+  std::size_t corrected = 0;
+  // Each view is compared with already corrected ones; the second pass does so for the first views.
+  for (int pass = 0; pass < options.passes; ++pass) {
+    const std::size_t before = corrected;
     for (std::size_t own = 0; own < views.size(); ++own) {
       run.check();
-      moved += correct_view(views, own, set, options);
+      corrected += correct_view(views, own, comparison, options);
     }
-    if (moved == before) break;
+    if (corrected == before) break;
   }
-  return moved;
+  return corrected;
 }
 
 }  // namespace frangia

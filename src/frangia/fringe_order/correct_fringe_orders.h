@@ -8,21 +8,32 @@
 
 namespace frangia {
 
+/// All shares refer to a patch's compared points.
 struct FringeOrderCorrectionOptions {
-  int patches_across = 32;     ///< a view is looked at in this many patches across
-  double min_agreement = 0.5;  ///< share of a patch that others must confirm at its new place
-  double min_agreement_hidden = 0.75;  ///< the same for a patch that lies behind what others saw
-  double max_current_agreement = 0.1;  ///< and at most confirm where it is
-  double tolerance = 0.06;  ///< of the depth between two fringes: how near counts as agreeing
+  int patches_across = 32;       ///< patches that a view is divided into, across
+  int refined_patch_px = 3;      ///< side of the patches around corrected ones
+  std::size_t min_patch_px = 4;  ///< patches with fewer measured pixels are left unchanged
+  int max_samples = 48;          ///< maximum number of compared points of a patch
+  double min_agreement = 0.5;    ///< minimum score of the corrected order
+  /// The same for a patch that other views do not contradict because it lies behind their surface.
+  double min_agreement_hidden = 0.75;
+  double max_current_agreement = 0.1;  ///< maximum share that agrees with the present order
+  double max_runner_up = 0.5;   ///< maximum score of the second best order, per score of the best
+  double min_violations = 0.5;  ///< minimum share of free-space violations of a removed patch
+  double tolerance = 0.06;      ///< distance that counts as agreement, per fringe spacing in depth
+  int passes = 2;               ///< maximum number of passes over all views
 };
 
-/// Moves patches that lie a whole number of fringes off to where the other views saw the surface.
+/// Corrects the fringe orders of patches whose surface the other views measured a whole number of
+/// fringes away. Returns the number of corrected points.
 ///
-/// Unwrapping in space cannot see a depth step that happens to be a whole number of fringes high
-/// all along its edge. Other angles do: nothing is confirmed where the patch lies, and all of it
-/// one or more fringes away. Returns how many points moved.
+/// Spatial unwrapping cannot detect a depth step that is a whole number of fringes high all along
+/// its edge. Other views can: they confirm no point of the patch at its present order and most of
+/// them at another one. The points are recomputed from the phase that the range grid keeps.
 ///
-/// missing  pixels where a moved patch meets one that stayed are dropped as mixed edges
+/// missing  views without phase are left unchanged; mixed pixels at the border of a corrected patch
+///          are removed, as are refined patches that violate free space and all edge pixels of a
+///          corrected view
 [[nodiscard]] std::size_t correct_fringe_orders(ViewStore& views,
                                                 const FringeOptics& optics,
                                                 const FringeOrderCorrectionOptions& options = {},

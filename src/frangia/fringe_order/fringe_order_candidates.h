@@ -1,56 +1,64 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "frangia/core/image.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/rig/rig.h"
-#include "frangia/views/view.h"
 
 namespace frangia {
 
-/// Pixels that share one unknown whole number of fringes, and the phase they have with 0 of them.
+/// Pixels that share one unknown fringe order, and their phase at order 0.
 struct FringePixels {
   std::vector<std::uint32_t> pixel;  ///< y * width + x
   std::vector<float> phase_rad;
 };
 
-/// Points of a pixel set, were it this many fringes farther on, and what other views say of them.
+/// The points of a pixel set at one candidate order, and how other views agree with them.
 struct FringeOrderCandidate {
   int order = 0;
   std::vector<Eigen::Vector3f> points_mm;  ///< object frame
-  double spacing_mm = 0.0;                 ///< depth from here to the next fringe
-  int agree = 0;                           ///< another view measured the surface there
-  int violations = 0;                      ///< another view sees through the point
-  int unseen = 0;                          ///< another view measured nothing there
+  double spacing_mm = 0.0;                 ///< depth between this order and the next
+  int agree = 0;       ///< comparisons in which another view measured the surface at the point
+  int violations = 0;  ///< comparisons in which the point lies in front of that surface
+  int unseen = 0;      ///< comparisons in which the other view measured nothing at that pixel
 
+  /// A free-space violation counts twice: an agreement can be a coincidence.
   [[nodiscard]] int score() const { return agree - 2 * violations; }
 };
 
-/// What turns a scan's phase into points.
+/// The inputs that convert a scan's phase into points.
 struct FringeOptics {
   const Pattern& pattern;
   const Rig& rig;
   const Image<Eigen::Vector2f>& rays;  ///< of the camera's pixels
 };
 
-/// The same, and how points are compared with what other views measured.
+/// `FringeOptics` and the options of the comparison with other views.
 struct FringeComparison : FringeOptics {
-  double tolerance = 0.06;  ///< of the depth between two fringes: how near counts as agreeing
-  int max_samples = 400;    ///< points of a pixel set that are compared
+  double tolerance = 0.06;  ///< distance that counts as agreement, per fringe spacing in depth
+  int max_samples = 400;    ///< maximum number of compared points of a pixel set
 };
 
-/// Every whole number of fringes that keeps most of the set in the lit field.
+/// Lists every fringe order that keeps more than half of the set in the projector's field, with the
+/// points at that order.
+///
+/// units    mm, object frame
 [[nodiscard]] std::vector<FringeOrderCandidate> fringe_order_candidates(
     const FringePixels& pixels,
     const Eigen::Isometry3d& rig_from_object,
-    const FringeComparison& setting);
+    const FringeComparison& comparison);
 
-/// Adds what one view says of a candidate's points.
-void compare_with(const View& view,
-                  const FringeComparison& setting,
+/// Compares a candidate's points with the depths of one view and adds to the candidate's counts.
+///
+/// A point within the tolerance of the measured surface agrees. A point more than twice the
+/// tolerance in front of it violates the free space that the view observed.
+void compare_with(const Image<float>& depth_mm,
+                  const Eigen::Isometry3d& rig_from_object,
+                  const FringeComparison& comparison,
                   FringeOrderCandidate& candidate);
 
 }  // namespace frangia

@@ -11,17 +11,17 @@ namespace frangia {
 namespace {
 
 struct RegionCandidates {
-  const UnresolvedViewRegion* part = nullptr;
+  const UnresolvedViewRegion* unresolved = nullptr;
   std::vector<FringeOrderCandidate> candidates;
   bool resolved = false;
 };
 
-/// The fringe that the other views confirm and no other rivals, or null.
-const FringeOrderCandidate* best_candidate(const RegionCandidates& one,
+/// The candidate that other views confirm and that no other one rivals, or null.
+const FringeOrderCandidate* best_candidate(const RegionCandidates& region,
                                            const ResolveByViewsOptions& options) {
   const FringeOrderCandidate* best = nullptr;
   const FringeOrderCandidate* second = nullptr;
-  for (const FringeOrderCandidate& candidate : one.candidates) {
+  for (const FringeOrderCandidate& candidate : region.candidates) {
     if (best == nullptr || candidate.score() > best->score()) {
       second = best;
       best = &candidate;
@@ -37,52 +37,55 @@ const FringeOrderCandidate* best_candidate(const RegionCandidates& one,
   return ambiguous ? nullptr : best;
 }
 
-void add_to_view(const UnresolvedViewRegion& part,
-                 int fringes,
-                 const FringeComparison& set,
+void add_to_view(const UnresolvedViewRegion& unresolved,
+                 int order,
+                 const FringeComparison& comparison,
                  ViewStore& views) {
-  View view = views.load(part.view);
-  for (std::size_t i = 0; i < part.region.pixel.size(); ++i) {
-    const std::uint32_t pixel = part.region.pixel[i];
-    const Eigen::Vector2d ray = set.rays.pixels()[pixel].cast<double>();
-    const double phase = part.region.phase_rad[i] + kTwoPi * fringes;
-    const RayDepth found = intersect_fringe(ray, phase, set.pattern, set.rig.projector);
+  View view = views.load(unresolved.view);
+  const UnresolvedRegion& region = unresolved.region;
+  for (std::size_t i = 0; i < region.pixel.size(); ++i) {
+    const int x = static_cast<int>(region.pixel[i]) % view.range.depth_mm.width();
+    const int y = static_cast<int>(region.pixel[i]) / view.range.depth_mm.width();
+    const Eigen::Vector2d ray = comparison.rays(x, y).cast<double>();
+    const auto phase = static_cast<float>(region.phase_rad[i] + kTwoPi * order);
+    const RayDepth found =
+        intersect_fringe(ray, phase, comparison.pattern, comparison.rig.projector);
     if (std::isnan(found.depth_mm)) continue;
-    view.range.depth_mm.pixels()[pixel] = static_cast<float>(found.depth_mm);
-    view.range.sigma_mm.pixels()[pixel] = static_cast<float>(
-        std::abs(found.mm_per_rad) * part.region.sigma_rad[i] * std::sqrt(1.0 + ray.squaredNorm()));
+    const double along_ray = std::sqrt(1.0 + ray.squaredNorm());
+    const double sigma = std::abs(found.mm_per_rad) * region.sigma_rad[i] * along_ray;
+    view.range.set({x, y, static_cast<float>(found.depth_mm), static_cast<float>(sigma), phase});
   }
-  views.replace(part.view, view);
+  views.replace(unresolved.view, view);
 }
 
-/// One look at every view; returns the points resolved.
-std::size_t one_pass(ViewStore& views,
-                     std::vector<RegionCandidates>& cases,
-                     const FringeComparison& set,
-                     const ResolveByViewsOptions& options,
-                     const Run& run) {
-  for (RegionCandidates& one : cases) {
-    for (FringeOrderCandidate& candidate : one.candidates)
+/// Compares the unresolved regions with every view once; returns the number of resolved points.
+std::size_t resolve_once(ViewStore& views,
+                         std::vector<RegionCandidates>& regions,
+                         const FringeComparison& comparison,
+                         const ResolveByViewsOptions& options,
+                         const Run& run) {
+  for (RegionCandidates& region : regions) {
+    for (FringeOrderCandidate& candidate : region.candidates)
       candidate.agree = candidate.violations = candidate.unseen = 0;
   }
   for (std::size_t other = 0; other < views.size(); ++other) {
     run.check();
-    const View view = views.load(other);
-    parallel_chunks(cases.size(), 1, [&](std::size_t begin, std::size_t end) {
+    const Image<float> depth_mm = views.load_depth_mm(other);
+    parallel_chunks(regions.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (cases[i].resolved || cases[i].part->view == other) continue;
-        for (FringeOrderCandidate& candidate : cases[i].candidates)
-          compare_with(view, set, candidate);
+        if (regions[i].resolved || regions[i].unresolved->view == other) continue;
+        for (FringeOrderCandidate& candidate : regions[i].candidates)
+          compare_with(depth_mm, views.rig_from_object(other), comparison, candidate);
       }
     });
   }
   std::size_t resolved = 0;
-  for (RegionCandidates& one : cases) {
-    const FringeOrderCandidate* best = one.resolved ? nullptr : best_candidate(one, options);
+  for (RegionCandidates& region : regions) {
+    const FringeOrderCandidate* best = region.resolved ? nullptr : best_candidate(region, options);
     if (best == nullptr) continue;
-    add_to_view(*one.part, best->order, set, views);
-    one.resolved = true;
-    resolved += one.part->region.pixel.size();
+    add_to_view(*region.unresolved, best->order, comparison, views);
+    region.resolved = true;
+    resolved += region.unresolved->region.pixel.size();
   }
   return resolved;
 }
@@ -94,17 +97,17 @@ ResolveByViewsResult resolve_by_views(ViewStore& views,
                                       const FringeOptics& optics,
                                       const ResolveByViewsOptions& options,
                                       const Run& run) {
-  const FringeComparison set{optics, options.tolerance, options.max_samples};
+  const FringeComparison comparison{optics, options.tolerance, options.max_samples};
   ResolveByViewsResult result;
-  std::vector<RegionCandidates> cases;
-  for (const UnresolvedViewRegion& part : unresolved) {
-    result.removed_points += part.region.pixel.size();
-    if (part.region.pixel.size() < options.min_region_px) continue;
-    const FringePixels pixels{part.region.pixel, part.region.phase_rad};
-    cases.push_back(
-        {&part, fringe_order_candidates(pixels, views.rig_from_object(part.view), set)});
+  std::vector<RegionCandidates> regions;
+  for (const UnresolvedViewRegion& one : unresolved) {
+    result.removed_points += one.region.pixel.size();
+    if (one.region.pixel.size() < options.min_region_px) continue;
+    const FringePixels pixels{one.region.pixel, one.region.phase_rad};
+    regions.push_back(
+        {&one, fringe_order_candidates(pixels, views.rig_from_object(one.view), comparison)});
   }
-  while (const std::size_t resolved = one_pass(views, cases, set, options, run)) {
+  while (const std::size_t resolved = resolve_once(views, regions, comparison, options, run)) {
     result.resolved_points += resolved;
     result.removed_points -= resolved;
   }

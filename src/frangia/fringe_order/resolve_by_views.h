@@ -10,18 +10,18 @@
 
 namespace frangia {
 
-/// A unresolved regions and the view it belongs to.
+/// An unresolved region and the view that it belongs to.
 struct UnresolvedViewRegion {
   std::size_t view = 0;
   UnresolvedRegion region;
 };
 
 struct ResolveByViewsOptions {
-  std::size_t min_region_px = 30;  ///< smaller regions are not worth a guess
-  int max_samples = 400;           ///< points of a region that are compared
-  double tolerance = 0.06;      ///< of the depth between two fringes: how near counts as agreeing
-  double min_agreement = 0.15;  ///< share of a region's points that another view must confirm
-  double max_runner_up = 0.5;   ///< the second best fringe must be worse than the best by this
+  std::size_t min_region_px = 30;  ///< smaller regions are removed without a comparison
+  int max_samples = 400;           ///< maximum number of compared points of a region
+  double tolerance = 0.06;         ///< distance that counts as agreement, per fringe spacing
+  double min_agreement = 0.15;     ///< minimum score of the best order, per compared point
+  double max_runner_up = 0.5;      ///< maximum score of the second best order, per best score
 };
 
 struct ResolveByViewsResult {
@@ -29,9 +29,11 @@ struct ResolveByViewsResult {
   std::size_t removed_points = 0;
 };
 
-/// Fixes the whole number of fringes of unresolved regions by the surface that other views saw
-/// there: the fringe that puts a region where others measured it, and not in front of what they
-/// saw, wins. What is resolved is added to its view and helps the next. The rest is dropped.
+/// Determines the fringe orders of unresolved regions from the surface that other views measured.
+///
+/// The order wins at which other views confirm most of the region without a free-space violation.
+/// A resolved region is added to its view and helps to resolve the next one. Regions that remain
+/// unresolved stay missing.
 [[nodiscard]] ResolveByViewsResult resolve_by_views(
     ViewStore& views,
     const std::vector<UnresolvedViewRegion>& unresolved,

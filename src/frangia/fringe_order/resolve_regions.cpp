@@ -5,21 +5,25 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/range/fringe_ray.h"
 
 namespace frangia {
 namespace {
 
-/// Fringes to add to each region, where known.
+/// The order to add to each region, where known.
 using Orders = std::vector<std::optional<int>>;
 
-/// How near to a pixel another region may come: two pixels of a border may each see both sides.
+/// Pixels closer than this to another region may be mixed: two pixels of a border can each see both
+/// sides.
 constexpr int kBorderPx = 2;
 
-/// Whether a pixel lies so near to another region that it may see that one's surface too.
+/// Whether a pixel lies so close to another region that it may see that region's surface too.
 bool at_border(const Image<std::int32_t>& region, std::size_t i) {
   const auto row = static_cast<std::size_t>(region.width());
   const int x = static_cast<int>(i % row);
@@ -64,15 +68,16 @@ ResolvedPhase with_orders(const RelativePhase& relative, const Orders& orders) {
   return out;
 }
 
-struct Crossing {
+struct LaserCrossing {
   int region;
-  double fringes;  ///< to add, not yet whole
+  double fringes;  ///< to add, not yet rounded
 };
 
-/// The relative phase under a sub-pixel place, from two measured pixels of one region.
-std::optional<Crossing> cross(const RelativePhase& phase,
-                              const ProfilePoint& point,
-                              const Projector& projector) {
+/// Compares the expected phase of a profile point with the relative phase at its sub-pixel
+/// position, interpolated between two measured pixels of one region.
+std::optional<LaserCrossing> crossing_of(const RelativePhase& phase,
+                                         const ProfilePoint& point,
+                                         const Projector& projector) {
   const double expected = phase_at(point.point_mm, phase.pattern, projector);
   if (std::isnan(expected)) return {};
   const int x = static_cast<int>(std::floor(point.pixel.x()));
@@ -84,15 +89,15 @@ std::optional<Crossing> cross(const RelativePhase& phase,
   if (x < 0 || y < 0 || u >= phase.region.width() || v >= phase.region.height()) return {};
   const int region = phase.region(x, y);
   if (region < 0 || phase.region(u, v) != region) return {};
-  // Near another region the light may lie on that one's surface.
+  // Near a border, the laser line may lie on the other region's surface.
   const auto row = static_cast<std::size_t>(phase.region.width());
   if (at_border(phase.region, static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x))) {
     return {};
   }
-  // The line runs along one axis of the scan, so one of fx and fy is zero.
+  // Profile points have one integer coordinate, so fx or fy is zero.
   const double share = fx + fy;
   const double here = (1.0 - share) * phase.phase_rad(x, y) + share * phase.phase_rad(u, v);
-  return Crossing{region, (expected - here) / kTwoPi};
+  return LaserCrossing{region, (expected - here) / kTwoPi};
 }
 
 std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOptions& options) {
@@ -106,9 +111,7 @@ std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOpt
   std::vector<double> departures;
   for (const double value : fringes)
     departures.push_back(std::abs(value - winner->first));
-  const auto middle = departures.begin() + static_cast<std::ptrdiff_t>(departures.size() / 2);
-  std::nth_element(departures.begin(), middle, departures.end());
-  if (*middle > options.max_departure) return {};
+  if (median_in_place(std::span<double>(departures)) > options.max_departure) return {};
   return winner->first;
 }
 
@@ -120,7 +123,7 @@ ResolvedPhase resolve_by_laser_sheet(const RelativePhase& phase,
                                      const FringeOrderOptions& options) {
   std::vector<std::vector<double>> fringes(static_cast<std::size_t>(phase.region_count));
   for (const ProfilePoint& point : profile) {
-    if (const auto crossing = cross(phase, point, projector)) {
+    if (const auto crossing = crossing_of(phase, point, projector)) {
       fringes[static_cast<std::size_t>(crossing->region)].push_back(crossing->fringes);
     }
   }
@@ -139,8 +142,8 @@ ResolvedPhase resolve_by_distance(const RelativePhase& phase,
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] < 0) continue;
     const Eigen::Vector2f ray = rays.pixels()[i];
-    const Eigen::Vector3d there = distance_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
-    const double expected = phase_at(there, phase.pattern, rig.projector);
+    const Eigen::Vector3d point = distance_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
+    const double expected = phase_at(point, phase.pattern, rig.projector);
     if (std::isnan(expected)) continue;
     fringes[static_cast<std::size_t>(labels[i])].push_back(
         (expected - phase.phase_rad.pixels()[i]) / kTwoPi);
@@ -149,9 +152,7 @@ ResolvedPhase resolve_by_distance(const RelativePhase& phase,
   for (auto& offsets : fringes) {
     orders.emplace_back();
     if (offsets.empty()) continue;
-    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-    std::nth_element(offsets.begin(), middle, offsets.end());
-    orders.back() = static_cast<int>(std::lround(*middle));
+    orders.back() = static_cast<int>(std::lround(median_in_place(std::span<double>(offsets))));
   }
   return with_orders(phase, orders);
 }

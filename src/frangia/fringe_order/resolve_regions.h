@@ -9,7 +9,7 @@
 
 namespace frangia {
 
-/// A region whose whole number of fringes is not known yet: its pixels and what they hold.
+/// A region of unknown fringe order: its pixels and their relative phases.
 struct UnresolvedRegion {
   std::vector<std::uint32_t> pixel;  ///< y * width + x
   std::vector<float> phase_rad;
@@ -17,29 +17,33 @@ struct UnresolvedRegion {
 };
 
 struct FringeOrderOptions {
-  int min_crossings = 3;        ///< of the line with a region
-  double min_agreement = 0.7;   ///< share of them that ask for the same fringe
-  double max_departure = 0.25;  ///< median distance from a whole number of fringes
+  int min_crossings = 3;        ///< minimum number of laser line points on a region
+  double min_agreement = 0.7;   ///< minimum share of these points that vote for the same order
+  double max_departure = 0.25;  ///< maximum median distance from that order, in fringes
 };
 
 struct ResolvedPhase {
-  AbsolutePhase phase;  ///< regions that the line fixed; the others are Unanchored
-  std::vector<UnresolvedRegion> unresolved;  ///< those others, from the largest
+  AbsolutePhase phase;  ///< pixels of unresolved regions are NaN and marked Unresolved
+  std::vector<UnresolvedRegion> unresolved;  ///< from the largest
 };
 
-/// Fixes the whole number of fringes of each region with the object's profile in the plane of
-/// light.
+/// Determines the fringe order of each region from the object's laser profile.
 ///
-/// missing  a region that the line does not touch, or on which its crossings disagree, is
-/// unresolved source   the paper, section 2: a profile with a single plane of light for each view
+/// units    rad
+/// missing  a region without enough laser points, or whose points disagree, remains unresolved;
+///          pixels at the border of two regions are NaN and marked MixedPixel
+/// source   the paper, section 2: one profile with a single laser sheet for each view
 [[nodiscard]] ResolvedPhase resolve_by_laser_sheet(const RelativePhase& phase,
                                                    const std::vector<ProfilePoint>& profile,
                                                    const Projector& projector,
                                                    const FringeOrderOptions& options = {});
 
-/// Calls the largest region's fringe the one that puts it nearest to `distance_mm`, where the
-/// paper's axes cross, and the other regions' likewise: relative to the fringe through the
+/// Gives each region the fringe order that puts it closest to the plane z = `distance_mm`, where
+/// the axes of camera and projector cross. The orders are relative to the fringe through the
 /// projection axis.
+///
+/// units    mm, rad
+/// missing  a region outside of the projector's field remains unresolved
 [[nodiscard]] ResolvedPhase resolve_by_distance(const RelativePhase& phase,
                                                 const Rig& rig,
                                                 const Image<Eigen::Vector2f>& rays,

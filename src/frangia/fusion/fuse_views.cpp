@@ -44,7 +44,7 @@ void for_each_view(const ViewStore& views,
                    const std::function<void(const LocalPlanes&)>& use) {
   const auto read = [&](std::size_t i) {
     return std::async(std::launch::async, [&views, step, i] {
-      View view = views.load(i);
+      View view = views.load_points(i);
       add_edge_pixels(view);
       return step > 1 ? subsample(view, step) : view;
     });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "frangia/local_fit/internal/fit_quadratic.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
 
-/// The window of 3 x 3 pixels about (x, y), by hand; NaN as in `fit_windows`.
+/// The fit over the 3 x 3 pixels around (x, y); NaN as in `fit_windows`.
 WindowFit small_fit(const Image<float>& q, int x, int y) {
   if (x < 1 || y < 1 || x + 1 >= q.width() || y + 1 >= q.height()) {
     return kNoFit;
@@ -31,7 +32,7 @@ WindowFit small_fit(const Image<float>& q, int x, int y) {
       fit.variance += (q(x + dx, y + dy) - plane) * (q(x + dx, y + dy) - plane) / 6.0F;
     }
   }
-  // Of the best paraboloid: the mean less what its curvature lifts the mean by.
+  // The quadratic's value: the mean minus the mean of its second-order terms.
   fit.value = fit.mean;
   for (const int dy : {-1, 0, 1}) {
     for (const int dx : {-1, 0, 1}) {
@@ -41,13 +42,13 @@ WindowFit small_fit(const Image<float>& q, int x, int y) {
   return fit;
 }
 
-/// Of a pixel's own window and eight shifted by `shift`, the best one; its own unless another is
-/// clearly better. `fit_at(x, y)` is the fit about a pixel.
+/// The best of the centered window and eight windows shifted by `shift`. A shifted window must be
+/// better by a margin. `fit_at(x, y)` is the fit around a pixel.
 template <typename FitAt>
-WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at) {
-  constexpr float kClearlyBetter = 0.5F;  // in variance
+WindowFit best_window(const Eigen::Vector2i& at, int shift, float max_ratio, const FitAt& fit_at) {
   WindowFit best = fit_at(at.x(), at.y());
-  float limit = std::isnan(best.variance) ? 1e30F : kClearlyBetter * best.variance;
+  float limit = std::isnan(best.variance) ? std::numeric_limits<float>::infinity()
+                                          : max_ratio * best.variance;
   for (const int dy : {-shift, 0, shift}) {
     for (const int dx : {-shift, 0, shift}) {
       const WindowFit shifted = fit_at(at.x() + dx, at.y() + dy);
@@ -61,24 +62,21 @@ WindowFit best_window(const Eigen::Vector2i& at, int shift, const FitAt& fit_at)
   return best;
 }
 
-/// The best paraboloid about a pixel where what it leaves over is noise: as much as is expected,
-/// or, of a loud one, more of it than the phase knows of, but without structure. An edge leaves
-/// structure over.
+/// The quadratic fit around a pixel if its residuals are noise: no larger than expected, or, with
+/// `noisy`, larger but without structure. The residuals at an edge have structure.
 ChosenWindow curved_window(const Image<float>& image,
                            const Eigen::Vector2i& at,
                            const PixelNoise& noise,
                            const QuadraticFit& patch,
-                           bool noisy) {
-  constexpr float kMaxCurvedRatio = 1.3F;  // in variance
-  constexpr float kMaxNoisyRatio = 9.0F;
-  constexpr float kMaxAutocorrelation = 0.0F;
+                           bool noisy,
+                           const WindowChoiceOptions& options) {
   const float expected = noise.variance(patch.window);
   const float residual_variance = patch.window.residual_variance;
-  if (!(residual_variance < (noisy ? kMaxNoisyRatio : kMaxCurvedRatio) * expected))
-    return kNoWindow;  // and for NaN
-  const bool quiet = residual_variance < kMaxCurvedRatio * expected;
+  const float max_ratio = noisy ? options.max_noisy_ratio : options.max_curved_ratio;
+  if (!(residual_variance < max_ratio * expected)) return kNoWindow;  // also for NaN
+  const bool quiet = residual_variance < options.max_curved_ratio * expected;
   if (!(noisy && quiet) &&
-      !(residual_autocorrelation(image, at, patch.window) < kMaxAutocorrelation))
+      !(residual_autocorrelation(image, at, patch.window) < options.max_autocorrelation))
     return kNoWindow;
   return {patch.window,
           WindowKind::Centered,
@@ -91,19 +89,18 @@ ChosenWindow curved_window(const Image<float>& image,
 ChosenWindow choose_window(const Image<float>& image,
                            const WindowRows& fits,
                            const Eigen::Vector2i& at,
-                           const PixelNoise& noise) {
-  constexpr float kFarthest = 4.0F;  // sigmas that a pixel may lie off its plane
-  constexpr float kAtCorner = 0.2F;  // of a pixel's variance, what a plane has at a corner
+                           const PixelNoise& noise,
+                           const WindowChoiceOptions& options) {
   const auto centered_on = [&](const WindowFit& fit, int radius) {
     const float variance = value_variance(radius) * noise.variance(fit);
     return ChosenWindow{fit, WindowKind::Centered, fit.value, variance};
   };
   const auto good = [&](const WindowFit& fit) {
-    return fit.variance < kMaxScatterRatio * noise.variance(fit);  // false for NaN
+    return fit.variance < options.max_flat_ratio * noise.variance(fit);  // false for NaN
   };
   const auto near = [&](const WindowFit& fit) {
     const float off = fit.mean - image(at.x(), at.y());
-    return off * off < kFarthest * kFarthest * noise.variance(fit);
+    return off * off < options.max_off_sigmas * options.max_off_sigmas * noise.variance(fit);
   };
   const WindowFit centered = fits.at(at.x(), at.y());
   const auto patch = [&]() -> QuadraticFit {
@@ -116,20 +113,26 @@ ChosenWindow choose_window(const Image<float>& image,
   };
   if (good(centered)) return centered_on(centered, fits.radius);
   if (!std::isnan(centered.mean)) {
-    const ChosenWindow curved = curved_window(image, at, noise, patch(), false);
+    const ChosenWindow curved = curved_window(image, at, noise, patch(), false, options);
     if (curved.kind == WindowKind::Centered) return curved;
   }
   const WindowFit close = small_fit(image, at.x(), at.y());
   if (good(close)) return centered_on(close, 1);
-  const WindowFit large = best_window(at, fits.radius, [&](int x, int y) { return fits.at(x, y); });
-  // Where no window to one side is flat there is no edge either: the surface is round, or noisy.
+  const WindowFit large = best_window(
+      at, fits.radius, options.max_shifted_ratio, [&](int x, int y) { return fits.at(x, y); });
+  // Without a flat window to any side there is no edge: the surface is curved, or noisy.
   if (std::isnan(centered.mean) || !good(large)) {
-    const ChosenWindow curved = curved_window(image, at, noise, patch(), true);
+    const ChosenWindow curved = curved_window(image, at, noise, patch(), true, options);
     if (curved.kind == WindowKind::Centered) return curved;
   }
-  if (good(large) && near(large))
-    return {large, WindowKind::Shifted, large.mean, kAtCorner * noise.variance(large)};
-  const WindowFit small = best_window(at, 1, [&](int x, int y) { return small_fit(image, x, y); });
+  if (good(large) && near(large)) {
+    return {large,
+            WindowKind::Shifted,
+            large.mean,
+            corner_variance(fits.radius) * noise.variance(large)};
+  }
+  const WindowFit small = best_window(
+      at, 1, options.max_shifted_ratio, [&](int x, int y) { return small_fit(image, x, y); });
   if (near(small)) return {small, WindowKind::Small, image(at.x(), at.y()), noise.variance(small)};
   return kNoWindow;
 }

@@ -8,13 +8,13 @@
 
 namespace frangia {
 
-/// `fit_windows` of some rows of an image.
+/// The window fits of some rows of an image, with `radius` more rows on both sides.
 struct WindowRows {
   WindowRows(const Image<float>& image, int radius_px, int first_row, int rows)
       : radius(radius_px),
         first(first_row - radius_px),
         fits(fit_windows(image, radius, first, rows + 2 * radius_px)) {}
-  /// The fit about pixel (x, y), which may be `radius` beside the rows, or the image.
+  /// The fit around pixel (x, y), which may lie up to `radius` outside of the rows or the image.
   [[nodiscard]] WindowFit at(int x, int y) const {
     return x < 0 || x >= fits.width() ? kNoFit : fits.at(x, y - first);
   }
@@ -24,14 +24,15 @@ struct WindowRows {
   WindowFits fits;
 };
 
-/// About the pixel, so that its slope is that at the pixel, curved or not; beside it; or of 3 x 3
-/// pixels.
+/// The position of a window relative to its pixel: none, around the pixel, a full window that holds
+/// the pixel off its centre, or 3 x 3 pixels that hold it. On a curved surface only the slope of a
+/// centered window is that at the pixel.
 enum class WindowKind : std::uint8_t { None, Centered, Shifted, Small };
 
-/// What a pixel's value is uncertain by.
+/// The noise of one pixel.
 struct PixelNoise {
-  float value = 0.0F;             ///< standard deviation of the value itself
-  float lateral_noise_px = 0.0F;  ///< of the place that it belongs to, see `estimate_lateral_noise`
+  float value = 0.0F;             ///< standard deviation of the value
+  float lateral_noise_px = 0.0F;  ///< standard deviation of the pixel's position along each axis
 
   [[nodiscard]] float variance(const WindowFit& fit) const {
     const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
@@ -39,27 +40,43 @@ struct PixelNoise {
   }
 };
 
+/// The window of a pixel and the pixel's smoothed value.
 struct ChosenWindow {
   WindowFit fit;
   WindowKind kind = WindowKind::None;
-  float value = kMissing;     ///< the pixel's, with as little noise as the window leaves in it
-  float variance = kMissing;  ///< of that value
+  float value = kMissing;     ///< the smoothed value at the pixel
+  float variance = kMissing;  ///< variance of `value`
 };
 
-/// A window fits as well as noise allows when it scatters by less than this, in its variance.
-inline constexpr float kMaxScatterRatio = 2.0F;
-
-/// The plane that an image follows at a pixel, never rounded off by what lies across an edge: that
-/// of the window about the pixel when it fits as well as noise allows, else of 3 x 3 pixels about
-/// it, else of the best window that holds the pixel, large or small.
+/// Thresholds of `choose_window`. Ratios compare a residual variance with that of the pixel's
+/// noise.
 ///
-/// shape    one pixel, in one of the rows
-/// missing  NaN where the pixel lies off even the best plane: there the image is rougher than its
-///          pixels
-/// source   Kuwahara et al. 1976
+/// Half or double of one threshold changes the RMS deviation of the shaft of `frangia demo`
+/// (`frangia inspect shaft.ply --reference shaft-scan/truth.ply`: 0.036 mm) by -2 % to +7 %; the
+/// most sensitive one is `max_flat_ratio`.
+struct WindowChoiceOptions {
+  float max_flat_ratio = 2.0F;    ///< of a plane: the window counts as flat
+  float max_curved_ratio = 1.3F;  ///< of a quadratic: the surface is curved
+  float max_noisy_ratio = 9.0F;   ///< of a quadratic with noisy residuals: 3 times the known noise
+  /// Maximum autocorrelation of residuals that count as noise. That of noise is negative.
+  float max_autocorrelation = 0.0F;
+  float max_shifted_ratio = 0.5F;  ///< of a shifted window's variance to the centered one's
+  float max_off_sigmas = 4.0F;     ///< distance of a pixel from its plane
+};
+
+/// Chooses the window whose plane follows the image at a pixel without smoothing across an edge.
+///
+/// The candidates are, in this order: the window around the pixel if it is flat to within the
+/// noise; a quadratic fit over the same pixels if its residuals are noise; 3 x 3 pixels around the
+/// pixel; the best window of full size, and then of 3 x 3 pixels, that holds the pixel.
+///
+/// shape    `at` is a measured pixel in one of the rows of `fits`
+/// missing  kind None and NaN where the pixel lies off even the best plane
+/// source   the choice among shifted windows: Kuwahara et al. 1976
 [[nodiscard]] ChosenWindow choose_window(const Image<float>& image,
                                          const WindowRows& fits,
                                          const Eigen::Vector2i& at,
-                                         const PixelNoise& noise);
+                                         const PixelNoise& noise,
+                                         const WindowChoiceOptions& options = {});
 
 }  // namespace frangia

@@ -13,12 +13,13 @@
 namespace frangia {
 namespace {
 
-/// Sums over one side of a window of the powers of the place, which make its fits orthogonal.
+/// Sums of powers of the position over one side of a window. The basis 1, x, x^2 - mean(x^2) is
+/// orthogonal.
 template <int kRadius>
 struct Moments {
   static constexpr int kSide = 2 * kRadius + 1;
   static constexpr float kSquare = kRadius * (kRadius + 1) / 3.0F;  ///< mean of x^2
-  /// Of x^2 less its mean.
+  /// x^2 minus its mean.
   static constexpr float quadratic(int i) {
     return static_cast<float>((i - kRadius) * (i - kRadius)) - kSquare;
   }
@@ -35,16 +36,16 @@ struct Moments {
   static constexpr float kPerProduct = 1.0F / (kSquares * kSquares);
 };
 
-/// What the rows of windows have in one row of the image, each quantity in a row of its own: loops
-/// over them become vector code. Of a window's row it is the line that fits best.
+/// Line fits over the window rows that lie in one row of the image. Each quantity is stored in a
+/// row of its own, so that loops vectorize.
 struct Lines {
   float* mean = nullptr;
   float* slope = nullptr;
   float* quadratic = nullptr;  ///< sum of `Moments::quadratic` times the values
-  float* squares = nullptr;    ///< of the values off the line
+  float* squares = nullptr;    ///< sum of squared residuals of the line
 };
 
-/// The same of whole windows.
+/// Rows of `WindowFit` quantities.
 struct Windows {
   float* mean = nullptr;
   float* slope_x = nullptr;
@@ -88,8 +89,8 @@ template <int kRadius>
   }
 }
 
-/// Windows from the lines of their rows. What lies off the plane is what lies off the lines, and
-/// what these lie off the plane: nothing cancels.
+/// Joins the line fits of a window's rows to window fits. The squared residuals of the plane are
+/// those of the lines plus those of the lines about the plane, a sum without cancellation.
 template <int kRadius>
 [[gnu::always_inline]] inline void join_lines(const std::array<Lines, 7>& rows,
                                               std::ptrdiff_t count,
@@ -130,7 +131,7 @@ template <int kRadius>
     curvature_xx *= M::kPerQuadratic;
     curvature_yy *= static_cast<float>(kSide) * M::kPerQuadratic;
     curvature_xy *= M::kSquares * M::kPerProduct;
-    const float explained =  // of the squares, by the paraboloid
+    const float explained =  // part of the squares that the quadratic terms explain
         (curvature_xx * curvature_xx + curvature_yy * curvature_yy) / M::kPerQuadratic +
         curvature_xy * curvature_xy / M::kPerProduct;
     to.mean[x] = mean;
@@ -162,7 +163,7 @@ FRANGIA_VECTORIZED_WIDE void join_lines(const std::array<Lines, 7>& rows,
   if (radius == 3) join_lines<3>(rows, count, windows);
 }
 
-/// Columns [begin, end) outside of which some rows hold nothing.
+/// Columns [begin, end) that hold all measured pixels of some rows.
 struct Span {
   int begin = 0;
   int end = 0;
@@ -184,35 +185,8 @@ Span seen_columns(const Image<float>& image, int first_row, int rows) {
 
 }  // namespace
 
-WindowFits::WindowFits(int width, int rows)
-    : width_(width),
-      values_(std::make_unique_for_overwrite<float[]>(  // NOLINT(*-avoid-c-arrays)
-          static_cast<std::size_t>(width) * static_cast<std::size_t>(rows * QuantityCount))) {}
-
-void WindowFits::set_missing_outside(int begin, int end, int row) {
-  for (int quantity = 0; quantity < QuantityCount; ++quantity) {
-    float* values = this->row(static_cast<Quantity>(quantity), row);
-    std::fill(values, values + begin, kMissing);
-    std::fill(values + end, values + width_, kMissing);
-  }
-}
-
-WindowFit WindowFits::at(int x, int row) const {
-  const float* first = values_.get() + offset(Mean, row) + x;
-  const auto quantity = [&](Quantity which) { return first[std::ptrdiff_t{width_} * which]; };
-  return {quantity(Mean),
-          quantity(SlopeX),
-          quantity(SlopeY),
-          quantity(Variance),
-          quantity(Value),
-          quantity(ResidualVariance),
-          quantity(CurvatureXX),
-          quantity(CurvatureYY),
-          quantity(CurvatureXY)};
-}
-
 WindowFits fit_windows(const Image<float>& image, int radius, int first, int rows) {
-  require(radius >= 1 && radius <= 3, "fit_windows: the radius is 1, 2 or 3 pixels");
+  require(radius >= 1 && radius <= 3, "fit_windows: the radius must be 1, 2 or 3 pixels");
   WindowFits fits(image.width(), rows);
   const int side = 2 * radius + 1;
   const Span seen = seen_columns(image, first - radius, rows + 2 * radius);
@@ -223,7 +197,7 @@ WindowFits fit_windows(const Image<float>& image, int radius, int first, int row
     float* slot = kept.data() + static_cast<std::size_t>(4 * (y % side)) * width;
     return Lines{slot, slot + width, slot + 2 * width, slot + 3 * width};
   };
-  int next = std::max(0, first - radius);  // the first row whose lines are not known
+  int next = std::max(0, first - radius);  // the first row whose lines are not yet fitted
   for (int row = 0; row < rows; ++row) {
     const int top = first + row - radius;
     if (inner <= 0 || top < 0 || top + side > image.height()) {

@@ -24,7 +24,6 @@ void resize_image(Image<T>& image, int width, int height) {
   if (image.width() != width || image.height() != height) image = Image<T>(width, height);
 }
 
-/// The corners of quad (x, y).
 using Corners = std::array<Eigen::Vector2i, 4>;
 Corners corners_of(int x, int y) {
   return {Eigen::Vector2i(x, y),
@@ -43,7 +42,8 @@ bool is_smooth(const std::array<const LocalPlanes::Plane*, 4>& corners, float cr
   return least > crease_cosine;
 }
 
-/// Whether the faces of a quad bulge or gape: whether its corners lie behind one another's planes.
+/// Classifies a crease: the corners of a ridge lie behind one another's planes, those of a valley
+/// in front.
 LocalPlanes::Kind crease_of(const LocalPlanes& view,
                             const Image<Eigen::Vector2f>& rays,
                             int x,
@@ -114,7 +114,7 @@ LocalPlanes local_planes(const View& view,
       constexpr int kWide = 3;
       wider.emplace(grid.q, kWide, static_cast<int>(begin), static_cast<int>(end - begin));
     }
-    PlaneRow row(width);
+    PlaneRow row(width, options);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       row.choose(grid, fits, wider ? &*wider : nullptr, y, lateral_noise_px);
       row.fit(&rays(0, y), model);

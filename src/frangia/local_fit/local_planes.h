@@ -13,7 +13,7 @@
 
 namespace frangia {
 
-/// A camera and the ray of each of its pixels.
+/// A camera model and the ray of each pixel.
 struct CameraRays {
   explicit CameraRays(const CameraModel& camera) : model(camera), rays(rays_of(camera)) {}
 
@@ -21,36 +21,36 @@ struct CameraRays {
   Image<Eigen::Vector2f> rays;
 };
 
-/// One view made ready to be asked how far a point lies from the surface it saw.
+/// The local planes of a view, from which the signed distance of a point to the measured surface
+/// follows.
 ///
 /// A plane `a x + b y + c z = 1` of the rig frame is linear in inverse depth over the undistorted
-/// image: 1/z = a rx + b ry + c. So inverse depth q is what is interpolated and fitted, and a point
-/// at depth z lies `(1 - z q) / |(a, b, c)|` in front of the plane seen at its pixel, which is the
+/// image: 1/z = a rx + b ry + c. Inverse depth q is therefore the fitted and interpolated quantity.
+/// A point at depth z lies `(1 - z q) / |(a, b, c)|` in front of the plane at its pixel: the
 /// distance along the ray times the cosine of incidence.
 ///
 /// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
 /// units    mm, rig frame
 /// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Extrapolated
-/// beside what
-///          was seen, when a plane reaches there, or Unseen
+///          where a neighbouring plane was extrapolated to it, else Unseen
 struct LocalPlanes {
   struct Plane {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
     float distance_mm = 0.0F;                          ///< from the camera's center
-    float tangent_distance_mm =
-        0.0F;             ///< the same of the parallel plane through the pixel's own point
-    float weight = 0.0F;  ///< cos(incidence)^2 / sigma^2, in 1/mm^2; 0 of one carried on
-    WindowKind window = WindowKind::None;  ///< that it was fitted over
+    /// The distance of the parallel plane through the pixel's own point.
+    float tangent_distance_mm = 0.0F;
+    float weight = 0.0F;  ///< cos(incidence)^2 / sigma^2, in 1/mm^2; 0 when extrapolated
+    WindowKind window = WindowKind::None;  ///< window that the plane was fitted over
 
     [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
       return normal.dot(point) + distance_mm;
     }
   };
-  /// As wide as the numbers beside it, so that the compiler takes 8 quads at once.
+  /// 32 bits wide like the other members of `Quad`, so that loops over quads vectorize.
   enum class Kind : std::int32_t { Unseen, Extrapolated, Smooth, Ridge, Valley };
   struct Quad {
-    float distance_mm = 0.0F;  ///< of its plane from the camera's center
-    float weight = 0.0F;       ///< mean of the corners'
+    float distance_mm = 0.0F;  ///< distance of its plane from the camera's center
+    float weight = 0.0F;       ///< mean weight of the corners
     Kind kind = Kind::Unseen;
   };
 
@@ -65,7 +65,8 @@ struct LocalPlanes {
            planes(x, y).distance_mm > 0.0F;
   }
 
-  /// The quad that pixel (u, v) falls into; null where nothing is, outside the image, and for NaN.
+  /// The quad that contains the image point (u, v), measured or extrapolated. Null where there is
+  /// neither, outside of the image, and for NaN.
   [[nodiscard]] const Quad* quad_or_extrapolated(float u, float v) const {
     const bool within = u >= 0.0F && v >= 0.0F && u < static_cast<float>(quads.width()) &&
                         v < static_cast<float>(quads.height());
@@ -73,20 +74,20 @@ struct LocalPlanes {
     const Quad& quad = quads(static_cast<int>(u), static_cast<int>(v));
     return quad.kind == Kind::Unseen ? nullptr : &quad;
   }
-  /// The same, null where nothing was seen.
+  /// The measured quad that contains the image point (u, v), or null.
   [[nodiscard]] const Quad* quad_at(float u, float v) const {
     const Quad* quad = quad_or_extrapolated(u, v);
     return quad != nullptr && quad->kind == Kind::Extrapolated ? nullptr : quad;
   }
 
-  /// The plane of the pixel whose square (u, v) falls into, which is in the picture.
+  /// The plane of the pixel nearest to the image point (u, v), which lies inside of the image.
   [[nodiscard]] const Plane& nearest(float u, float v) const {
     const float right = u + 0.5F;
     const float down = v + 0.5F;
     return planes(static_cast<int>(right), static_cast<int>(down));
   }
-  /// The same, null where the picture ends or the pixel has no plane: what is half a pixel beside
-  /// the last quad was seen, too.
+  /// The measured plane of the pixel nearest to (u, v), or null. Reaches half a pixel beyond the
+  /// outermost quads.
   [[nodiscard]] const Plane* pixel_at(float u, float v) const {
     const float right = u + 0.5F;
     const float down = v + 0.5F;
@@ -97,7 +98,7 @@ struct LocalPlanes {
     return plane.weight > 0.0F ? &plane : nullptr;
   }
 
-  /// Inverse depth between the pixels of a quad.
+  /// The inverse depth at (u, v), interpolated bilinearly between the corners of its quad.
   [[nodiscard]] float inverse_depth_at(float u, float v) const {
     const int x = static_cast<int>(u);
     const int y = static_cast<int>(v);
@@ -109,9 +110,9 @@ struct LocalPlanes {
     return upper + down * (lower - upper);
   }
 
-  /// A point's distance from the surface of a smooth quad, to second order: halfway between the
-  /// chords from corner to corner, which a curved surface leaves on one side, and the corners'
-  /// tangent planes, which it leaves as far on the other.
+  /// A point's signed distance to the surface of a smooth quad, accurate to second order: the mean
+  /// of the distances to the bilinear interpolation of the corners and to their tangent planes. A
+  /// curved surface lies between both, equally far from each.
   [[nodiscard]] float smooth_mm(float u, float v, const Eigen::Vector3f& point) const {
     const int x = static_cast<int>(u);
     const int y = static_cast<int>(v);
@@ -128,8 +129,9 @@ struct LocalPlanes {
     return 0.5F * (tangents + chords);
   }
 
-  /// Of a quad whose corners lie on several faces, the one that a point belongs to: the object is
-  /// what all faces of a ridge have behind them, and what any face of a valley has.
+  /// The face that determines a point's distance at a quad whose corners lie on several faces. The
+  /// object is the intersection of the half spaces behind the faces of a ridge, and the union of
+  /// those behind the faces of a valley.
   [[nodiscard]] const Plane& nearest_face(float u, float v, const Eigen::Vector3f& point) const {
     const int x = static_cast<int>(u);
     const int y = static_cast<int>(v);
@@ -141,7 +143,7 @@ struct LocalPlanes {
     return *found;
   }
 
-  /// A point's distance from the nearest plane that reaches a quad beside what was seen.
+  /// A point's signed distance to the nearest plane at the corners of an extrapolated quad.
   [[nodiscard]] float extrapolated_mm(float u, float v, const Eigen::Vector3f& point) const {
     const int x = static_cast<int>(u);
     const int y = static_cast<int>(v);
@@ -155,19 +157,35 @@ struct LocalPlanes {
   }
 };
 
-struct LocalPlanesOptions {
-  int radius = 2;           ///< of the windows, px
-  double crease_rad = 0.3;  ///< neighbouring planes that differ by more belong to different faces
-  int extrapolate_px = 0;   ///< how far planes are carried on beside what was seen
-  bool widen = false;       ///< smooth over 7 x 7 pixels where those leave nothing over but noise
+/// Thresholds of the smoothing over 7 x 7 pixels. Half or double of the ratio changes the RMS
+/// deviation of the demo's shaft by less than 1 %, see `WindowChoiceOptions`.
+struct WideningOptions {
+  /// Maximum residual variance of the wide quadratic, per pixel variance: pixels differ in noise.
+  float max_residual_ratio = 2.5F;
+  float max_autocorrelation = 0.05F;  ///< of the residuals; that of noise is negative
 };
 
-/// The local plane at each pixel, by least squares over a square window.
+struct LocalPlanesOptions {
+  int radius = 2;           ///< radius of the windows, px
+  double crease_rad = 0.3;  ///< neighbouring planes at a larger angle belong to different faces
+  int extrapolate_px = 0;   ///< distance that planes are extrapolated beyond measured pixels
+  bool widen = false;       ///< smooth over 7 x 7 pixels where the residuals are noise
+  WideningOptions widening;
+  WindowChoiceOptions windows;
+  /// Variance of a pixel next to an edge, per variance that its fit predicts: neither slope nor
+  /// position are as accurate there as in the middle of a face.
+  float off_center_variance_factor = 9.0F;
+};
+
+/// Fits the local plane at each pixel by least squares over a square window.
 ///
-/// Near an edge of the object a window about the pixel would round it off: of the windows that hold
-/// the pixel and fit no better than noise allows, the best one is taken, which lies to one side.
-/// Neighbouring pixels are on one surface unless the line that joins them is within 8 degrees of
-/// the viewing ray, by more than their noise.
+/// A window across an edge of the object would round the edge off. There a window is used that
+/// holds the pixel and lies to one side of the edge, see `choose_window`. Neighbouring pixels are
+/// on one surface unless the line that joins them is within 8 degrees of the viewing ray by more
+/// than their noise. `reuse` lends its memory to the result.
+///
+/// shape    w x h of the camera
+/// units    mm, rig frame
 /// errors   Error(Input) when the grid and the camera differ in size
 /// source   the choice among windows: Kuwahara et al. 1976
 [[nodiscard]] LocalPlanes local_planes(const View& view,

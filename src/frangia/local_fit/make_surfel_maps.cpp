@@ -13,7 +13,7 @@ std::vector<SurfelMap> make_surfel_maps(const ViewStore& views,
   LocalPlanes planes;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));
-    planes = local_planes(views.load(i), rays, {}, std::move(planes));
+    planes = local_planes(views.load_points(i), rays, {}, std::move(planes));
     maps.push_back(make_surfel_map(planes, rays, pixels));
   }
   return maps;

@@ -10,9 +10,10 @@
 
 namespace frangia {
 
-/// Every view in little, each loaded once.
+/// Builds the surfel map of every view. Each view is loaded once.
 ///
-/// shape    one a view, of at most about `pixels` surfels
+/// shape    one map for each view, each of at most about `pixels` surfels
+/// errors   Error(Input) when a view and the camera differ in size
 [[nodiscard]] std::vector<SurfelMap> make_surfel_maps(const ViewStore& views,
                                                       const CameraModel& camera,
                                                       std::size_t pixels = 250000,

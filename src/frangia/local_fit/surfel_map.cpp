@@ -40,7 +40,7 @@ std::vector<SurfelMap::Surfel> pick_surfels(const SurfelMap& map, std::size_t co
   std::size_t rank = 0;
   for (const SurfelMap::Surfel& surfel : surfels) {
     if (!seen(surfel)) continue;
-    // Every all / count-th of them, which over many rows is as good as a grid.
+    // Picks every (all / count)-th surfel; over many rows this is as even as a grid.
     if (all <= count || rank * count / all != (rank + 1) * count / all) picked.push_back(surfel);
     ++rank;
   }

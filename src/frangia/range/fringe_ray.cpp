@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
-/// Ray (x, y, 1) t against the plane normal . (X - center) = 0. `normal_derivative` is d normal / d
-/// angle.
+/// Intersects the ray (x, y, 1) t with the plane normal . (X - center) = 0. `normal_derivative` is
+/// d normal / d angle.
 RayDepth intersect_plane(const Eigen::Vector3d& direction,
                          const Eigen::Vector3d& normal,
                          const Eigen::Vector3d& normal_derivative,
@@ -33,8 +33,8 @@ RayDepth intersect_angle(const Eigen::Vector3d& direction,
   return intersect_plane(direction, c * x - s * z, -s * x - c * z, projector.position_mm);
 }
 
-/// A projector column (axis 0) or row (1): a plane but for the lens, so a plane first, then Newton
-/// along the ray on the distorted column.
+/// Intersects the ray with a projector column (axis 0) or row (axis 1). The undistorted column is a
+/// plane and gives the start; Newton's method along the ray then solves for the distorted one.
 RayDepth intersect_pixel(const Eigen::Vector3d& direction,
                          double pixel,
                          int axis,

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "frangia/core/error.h"
+#include "frangia/core/median.h"
 
 namespace frangia {
 namespace {
@@ -15,31 +17,27 @@ struct Peak {
   double sigma_px;
 };
 
-/// How bright a pixel beside the line is in the line's frame, from how bright it is in the fringe
-/// frames: spill_ratio light in proportion, other light in full.
+/// Predicts the counts of a pixel beside the line from its counts in the fringe frames: spilled
+/// laser light is proportional to them, ambient light is constant.
 struct StrayLight {
   double ambient_counts = 0.0;
   double spill_ratio = 0.0;
-  double dark_counts = 0.0;  ///< what the fringes do not light by more than this, the line does not
+  double dark_counts = 0.0;  ///< pixels darker than this in the fringe frames are background
 
   [[nodiscard]] double operator()(double fringe_counts) const {
     return ambient_counts + spill_ratio * fringe_counts;
   }
 };
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// A straight line through the medians of equal bins of brightness: the plane of light covers so
-/// little of the object that the medians do not see it.
+/// Fits a straight line through the medians of equal bins of brightness. The laser line covers so
+/// few pixels that it does not affect the medians.
 StrayLight estimate_stray_light(const Frame& line,
                                 const Image<float>& fringe_counts,
                                 const NoiseModel& noise) {
-  constexpr std::size_t kBins = 16;
-  StrayLight stray_light{.dark_counts = 10.0 * std::sqrt(noise.variance(0.0))};
+  constexpr std::size_t kBins = 16;      // the fit has two unknowns
+  constexpr std::size_t kMinInBin = 20;  // for a median that single pixels do not affect
+  constexpr double kDarkSigmas = 10.0;   // of the noise without light
+  StrayLight stray_light{.dark_counts = kDarkSigmas * std::sqrt(noise.variance(0.0))};
   const float brightest =
       *std::max_element(fringe_counts.pixels().begin(), fringe_counts.pixels().end());
   std::array<std::vector<double>, kBins> seen;
@@ -57,10 +55,10 @@ StrayLight estimate_stray_light(const Frame& line,
   double sxx = 0.0;
   double sxy = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
-    if (seen[bin].size() < 20) continue;
+    if (seen[bin].size() < kMinInBin) continue;
     const double weight = static_cast<double>(seen[bin].size());
     const double x = (static_cast<double>(bin) + 0.5) * brightest / kBins;
-    const double y = median_of(seen[bin]);
+    const double y = median_in_place(std::span<double>(seen[bin]));
     n += weight;
     sx += weight * x;
     sy += weight * y;
@@ -75,17 +73,17 @@ StrayLight estimate_stray_light(const Frame& line,
   return stray_light;
 }
 
-/// Centre of gravity of what stands above a fifth of the peak's height, so that both flanks count
-/// alike and the surroundings do not pull.
+/// Centre of gravity of the part of a peak above `LaserProfileOptions::threshold`, which keeps the
+/// surroundings from biasing the centre.
 Peak center_of(const std::vector<double>& counts,
                std::size_t top,
                double base,
                const NoiseModel& noise,
-               int half_width) {
-  const double foot = base + 0.2 * (counts[top] - base);
+               const LaserProfileOptions& options) {
+  const double foot = base + options.threshold * (counts[top] - base);
   std::size_t first = top;
   std::size_t last = top;
-  const auto reach = static_cast<std::size_t>(half_width);
+  const auto reach = static_cast<std::size_t>(options.half_width_px);
   while (first > 0 && top - first < reach && counts[first - 1] > foot)
     --first;
   while (last + 1 < counts.size() && last - top < reach && counts[last + 1] > foot)
@@ -113,22 +111,24 @@ std::vector<Peak> peaks_of(const std::vector<double>& counts,
   std::vector<Peak> peaks;
   const auto reach = static_cast<std::size_t>(options.half_width_px);
   for (std::size_t i = 1; i + 1 < counts.size(); ++i) {
-    // The first of equal values, and the largest within reach: a flank or a speck is no peak.
+    // A peak is the first of equal values and the maximum within reach.
     if (counts[i] <= counts[i - 1] || counts[i] < counts[i + 1]) continue;
     const auto begin = counts.begin();
     const auto first = begin + static_cast<std::ptrdiff_t>(i - std::min(i, reach));
     const auto here = begin + static_cast<std::ptrdiff_t>(i);
     const auto last = begin + static_cast<std::ptrdiff_t>(std::min(counts.size(), i + reach + 1));
     if (*std::max_element(first, last) > counts[i]) continue;
-    if (std::count_if(first, last, [&](double c) { return c >= white_level; }) > 3) continue;
-    // The brighter of both sides: one of them may be the dark beyond the object's edge.
+    const auto saturated = std::count_if(first, last, [&](double c) { return c >= white_level; });
+    if (saturated > options.max_saturated_px) continue;
+    // The base is the brighter side: the other may be the background beyond the object's edge.
     const double base = std::max(*std::min_element(first, here), *std::min_element(here + 1, last));
     const double height = counts[i] - base;
-    if (height < options.min_sigmas * std::sqrt(noise.variance(counts[i])) + 2.0) continue;
+    const double noise_height = options.min_sigmas * std::sqrt(noise.variance(counts[i]));
+    if (height < noise_height + options.min_height_counts) continue;
     if (height < least_height) continue;
-    // Two pixels at least share a real line's light; a hot pixel stands alone.
-    if (std::max(counts[i - 1], counts[i + 1]) < counts[i] - 0.9 * height) continue;
-    peaks.push_back(center_of(counts, i, base, noise, options.half_width_px));
+    // A laser line covers at least two pixels; a hot pixel is single.
+    if (std::max(counts[i - 1], counts[i + 1]) < base + options.min_neighbor * height) continue;
+    peaks.push_back(center_of(counts, i, base, noise, options));
   }
   return peaks;
 }
@@ -140,14 +140,14 @@ std::vector<ProfilePoint> laser_profile(const FrameStack& line,
                                         const Rig& rig,
                                         const NoiseModel& noise,
                                         const LaserProfileOptions& options) {
-  require(rig.laser_sheet.has_value(), "laser_profile: the rig has no plane of light");
-  require(line.frames.size() == 1, "laser_profile: a line pattern has one frame");
+  require(rig.laser_sheet.has_value(), "laser_profile: the rig has no laser sheet");
+  require(line.frames.size() == 1, "laser_profile: a line pattern must have exactly one frame");
   const Frame& frame = line.frames.front();
   require(fringe_counts.width() == width_of(frame) && fringe_counts.height() == height_of(frame),
-          "laser_profile: the line and the fringes differ in size");
+          "laser_profile: the frames of the line and the fringes differ in size");
   const LaserSheet& plane = *rig.laser_sheet;
   const StrayLight stray_light = estimate_stray_light(frame, fringe_counts, noise);
-  // The plane meets the image along normal . (x, y, 1) = 0 at infinity: scan across it.
+  // The laser line runs along normal . (x, y, 1) = 0 in the image: search across it.
   const bool scan_rows = std::abs(plane.normal.x()) >= std::abs(plane.normal.y());
   const int lines = scan_rows ? height_of(frame) : width_of(frame);
   const int length = scan_rows ? width_of(frame) : height_of(frame);
@@ -162,7 +162,7 @@ std::vector<ProfilePoint> laser_profile(const FrameStack& line,
       const double lit = fringe_counts(x, y);
       double& above = counts[static_cast<std::size_t>(along)];
       if (seen >= line.white_level) {
-        above = seen;  // stays recognisable
+        above = seen;  // keeps saturated pixels recognizable
       } else {
         above = lit > stray_light.dark_counts ? std::max(0.0, seen - stray_light(lit)) : 0.0;
       }

@@ -10,31 +10,35 @@
 
 namespace frangia {
 
-/// One place where the plane of light meets the object.
+/// One measured point of the laser line.
 struct ProfilePoint {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< sub-pixel
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< rig frame
-  double sigma_px = 0.0;                               ///< of the center, across the line
+  double sigma_px = 0.0;  ///< standard deviation of `pixel`, across the line
 };
 
 struct LaserProfileOptions {
-  double min_sigmas =
-      6.0;  ///< a peak stands out from its surroundings by this many sigmas of noise
-  double min_contrast = 0.5;  ///< and by this share of the object's stray light
-  int half_width_px = 12;     ///< how far around a peak belongs to it, at most
+  double min_sigmas = 6.0;  ///< minimum height of a peak above its base, in sigmas of camera noise
+  double min_contrast = 0.5;  ///< minimum height of a peak, as a share of the object's stray light
+  int half_width_px = 12;     ///< maximum distance of a peak's pixels from its brightest one
+  double threshold = 0.2;     ///< share of a peak's height; pixels below do not enter its centre
+  double min_height_counts = 2.0;  ///< added to the minimum height: quantization of dark frames
+  double min_neighbor = 0.1;       ///< minimum height of the brighter neighbour, per peak height
+  int max_saturated_px = 3;        ///< maximum number of saturated pixels of a peak
 };
 
-/// The object's profile in the plane of light: the center of each bright crossing of each row (or
-/// column, where the line runs across the image), triangulated with the plane.
+/// Locates the laser line in each row to sub-pixel accuracy and triangulates it with the laser
+/// sheet. A line that runs across the image is located in each column instead.
 ///
-/// Light that spills beside the plane, and other light, light up the whole object, and its edges
-/// look like lines. The fringe frames tell how bright each pixel is: the stray light that goes with
-/// their mean is measured over the picture and taken away first.
+/// Stray light of the laser and ambient light illuminate the whole object, and edges of the object
+/// then resemble lines. The part of the frame that is proportional to the mean of the fringe frames
+/// is estimated over the image and subtracted first.
 ///
-/// units    px and mm, rig frame; `fringe_counts` the mean of the fringe frames, w x h
-/// missing  a row without a crossing, or whose peak is saturated flat over more than 3 pixels
-/// errors   Error(Input) when the rig has no plane of light, or the images differ in size
-/// source   center of gravity above the surroundings, Fisher & Naidu 1996
+/// shape    `fringe_counts`: the mean of the fringe frames, w x h
+/// units    px and mm, rig frame
+/// missing  a row without a peak gives no point, nor does a peak with too many saturated pixels
+/// errors   Error(Input) when the rig has no laser sheet or the images differ in size
+/// source   center of gravity above the background, Fisher & Naidu 1996
 [[nodiscard]] std::vector<ProfilePoint> laser_profile(const FrameStack& line,
                                                       const Image<float>& fringe_counts,
                                                       const Rig& rig,

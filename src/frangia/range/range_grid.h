@@ -1,22 +1,43 @@
 #pragma once
 
 #include "frangia/core/image.h"
+#include "frangia/core/missing.h"
 
 namespace frangia {
 
-/// The surface as one camera sees it: a depth for each pixel, in the rig frame. NaN is missing.
-/// The point of pixel (x, y) is `depth_mm * (ray.x, ray.y, 1)`, with `ray` from `rays_of(model)`.
-struct RangeGrid {
-  Image<float> depth_mm;  ///< z, along the optical axis
-  Image<float> sigma_mm;  ///< standard deviation of the point along its viewing ray
-};
-
-/// One pixel of a range grid, by itself.
+/// One pixel of a range grid; see `RangeGrid` for the meaning of the values.
 struct RangePixel {
   int x = 0;
   int y = 0;
   float depth_mm = 0.0F;
   float sigma_mm = 0.0F;
+  float phase_rad = kMissing;
+};
+
+/// The surface as one camera sees it: a point for each pixel. The point of pixel (x, y) is
+/// `depth_mm * (ray.x, ray.y, 1)`, with `ray` from `rays_of(model)`.
+///
+/// shape    all images w x h; `phase_rad` may be empty
+/// units    mm, rig frame; rad
+/// missing  a pixel without a point is NaN in all images; a point that was not measured by fringes,
+///          such as one of another scanner, is NaN in `phase_rad`. An empty `phase_rad` stands for
+///          an image of NaN
+struct RangeGrid {
+  Image<float> depth_mm;  ///< z, along the optical axis
+  Image<float> sigma_mm;  ///< standard deviation of the point along its viewing ray
+  /// Absolute phase of the pattern that the point was triangulated with: the wrapped phase plus
+  /// 2 pi times the fringe order.
+  Image<float> phase_rad = {};
+
+  [[nodiscard]] RangePixel pixel(int x, int y) const {
+    return {x, y, depth_mm(x, y), sigma_mm(x, y), phase_rad.empty() ? kMissing : phase_rad(x, y)};
+  }
+  void set(const RangePixel& pixel) {
+    depth_mm(pixel.x, pixel.y) = pixel.depth_mm;
+    sigma_mm(pixel.x, pixel.y) = pixel.sigma_mm;
+    if (!phase_rad.empty()) phase_rad(pixel.x, pixel.y) = pixel.phase_rad;
+  }
+  void remove(int x, int y) { set({x, y, kMissing, kMissing, kMissing}); }
 };
 
 }  // namespace frangia

@@ -19,7 +19,7 @@ namespace {
 enum EdgePixelState : std::uint8_t { Removed, Recovered, BehindStep };
 using EdgePixelStates = std::vector<std::uint8_t>;
 
-/// Gives back the pixels that lie where those in the grid lead, and puts them there.
+/// Recovers the pixels that continue the surface in the grid, and adds them to it.
 void recover_supported(RangeGrid& grid,
                        const ReliablePixels& reliable,
                        const std::vector<RangePixel>& removed,
@@ -30,17 +30,15 @@ void recover_supported(RangeGrid& grid,
     }
   });
   for (std::size_t i = 0; i < removed.size(); ++i) {
-    if (states[i] != Recovered) continue;
-    grid.depth_mm(removed[i].x, removed[i].y) = removed[i].depth_mm;
-    grid.sigma_mm(removed[i].x, removed[i].y) = removed[i].sigma_mm;
+    if (states[i] == Recovered) grid.set(removed[i]);
   }
 }
 
-/// Whether a pixel lies behind the one `step` beside it by more than the surfaces on both sides
-/// slope, and by more than a crease would make of them.
-bool is_behind(const ReliablePixels& seen, const Eigen::Vector2i& at, const Eigen::Vector2i& step) {
-  constexpr float kLeast = 1.5F;  // pixels
-  constexpr float kSigmas = 8.0F;
+/// Whether a pixel lies behind its neighbour at `step` across a depth step, see `is_depth_step`.
+bool is_behind(const ReliablePixels& seen,
+               const EdgePixelOptions& options,
+               const Eigen::Vector2i& at,
+               const Eigen::Vector2i& step) {
   const auto& depth = seen.range.depth_mm;
   const auto depth_at = [&](int k) {
     const Eigen::Vector2i p = at + k * step;
@@ -54,13 +52,16 @@ bool is_behind(const ReliablePixels& seen, const Eigen::Vector2i& at, const Eige
       (seen.rays(at.x(), at.y()) - seen.rays(next.x(), next.y())).norm() * depth_at(0);
   const float noise = seen.range.sigma_mm(at.x(), at.y());
   return is_depth_step({jump, depth_at(-1) - depth_at(0), depth_at(1) - depth_at(2)},
-                       kLeast * pixel_mm + kSigmas * noise);
+                       static_cast<float>(options.min_step_px) * pixel_mm +
+                           static_cast<float>(options.min_step_sigmas) * noise);
 }
 
-bool is_behind_step(const ReliablePixels& seen, const RangePixel& pixel) {
+bool is_behind_step(const ReliablePixels& seen,
+                    const EdgePixelOptions& options,
+                    const RangePixel& pixel) {
   const Eigen::Vector2i at(pixel.x, pixel.y);
   return std::any_of(kFourNeighbors.begin(), kFourNeighbors.end(), [&](const auto& step) {
-    return is_behind(seen, at, {step[0], step[1]});
+    return is_behind(seen, options, at, {step[0], step[1]});
   });
 }
 
@@ -71,7 +72,7 @@ std::vector<RangePixel> recover_edge_pixels(const RangeGrid& reliable,
                                             const std::vector<RangePixel>& removed,
                                             const EdgePixelOptions& options) {
   require(same_size(reliable.depth_mm, rays), "recover_edge_pixels: range and rays differ in size");
-  RangeGrid grid = reliable;
+  RangeGrid grid{reliable.depth_mm, reliable.sigma_mm};
   const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
   const ReliablePixels seen{grid, rays, slope};
   EdgePixelStates states(removed.size(), Removed);
@@ -79,7 +80,8 @@ std::vector<RangePixel> recover_edge_pixels(const RangeGrid& reliable,
     recover_supported(grid, seen, removed, states);
   parallel_chunks(removed.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (states[i] == Recovered && is_behind_step(seen, removed[i])) states[i] = BehindStep;
+      if (states[i] == Recovered && is_behind_step(seen, options, removed[i]))
+        states[i] = BehindStep;
     }
   });
   std::vector<RangePixel> edge_pixels;

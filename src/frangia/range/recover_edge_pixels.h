@@ -10,17 +10,24 @@
 namespace frangia {
 
 struct EdgePixelOptions {
-  int depth_px = 3;                 ///< how far into what was removed
-  double max_incidence_deg = 82.0;  ///< a surface seen at a flatter angle counts as a depth step
+  int depth_px = 3;  ///< passes; each recovers pixels next to those of the one before
+  double max_incidence_deg = 82.0;  ///< a surface at a larger angle of incidence is a depth step
+  /// Minimum step in front of a rejected pixel, in lateral pixel distances plus noise. Lower than
+  /// in `MixedPixelOptions`: next to a removed pixel a step is more likely than on a closed
+  /// surface.
+  double min_step_px = 1.5;
+  double min_step_sigmas = 8.0;  ///< minimum step in sigmas of the pixel's noise
 };
 
-/// Of the pixels that `remove_mixed_pixels` removed, those that see one surface with all of their
-/// square after all: they lie where the pixels beside them lead, see `continues_surface`. First
-/// those next to what was never in doubt, then those next to them. Where two such surfaces come to
-/// lie beside each other, across a step no steeper than a slope may be, a surface would be laid
-/// from one to the other: there the pixel behind stays away.
+/// Selects those pixels removed by `remove_mixed_pixels` that see a single surface.
 ///
-/// shape    in the order of `removed`
+/// A pixel is recovered when it lies on the extrapolation of the surface next to it and is as
+/// bright as that surface, see `continues_surface`. When two recovered surfaces become neighbours
+/// across a depth step that is not steeper than a slope may be, fusion would connect them: the
+/// pixel behind the step is then left out.
+///
+/// shape    `reliable` and `rays` w x h; the result is in the order of `removed`
+/// errors   Error(Input) when grid and rays differ in size
 [[nodiscard]] std::vector<RangePixel> recover_edge_pixels(const RangeGrid& reliable,
                                                           const Image<Eigen::Vector2f>& rays,
                                                           const std::vector<RangePixel>& removed,

@@ -19,9 +19,7 @@ namespace {
 struct Grid {
   const RangeGrid& range;
   const Image<Eigen::Vector2f>& rays;
-  float max_slope;  ///< depth for each unit across
-
-  /// Whether a continuous surface can run from one pixel to its neighbour.
+  float max_slope;  ///< change of depth per lateral distance
   [[nodiscard]] bool connected(int x, int y, int u, int v) const {
     return is_connected(range, rays, {x, y}, {u, v}, max_slope);
   }
@@ -37,32 +35,35 @@ bool at_depth_step(const Grid& grid, int x, int y) {
   return false;
 }
 
-/// A step too low for `at_depth_step`: between (x, y) - d and (x, y) + d the depth changes by more
-/// than it does on either side, and by more than a slope or a crease would make of those sides.
-bool is_low_step(const Grid& grid, int x, int y, int dx, int dy) {
+/// Whether a depth step too low for `at_depth_step` lies between the pixels (x, y) - d and
+/// (x, y) + d, see `is_depth_step`.
+bool is_low_step(
+    const Grid& grid, const MixedPixelOptions& options, int x, int y, const Eigen::Vector2i& d) {
   const auto& depth = grid.range.depth_mm;
   const auto at = [&](int k) {
-    const int u = x + k * dx;
-    const int v = y + k * dy;
+    const int u = x + k * d.x();
+    const int v = y + k * d.y();
     const bool inside = u >= 0 && v >= 0 && u < depth.width() && v < depth.height();
     return inside ? depth(u, v) : kMissing;
   };
   const float jump = at(1) - at(-1);
   if (std::isnan(jump)) return false;
-  const float pixel_mm = (grid.rays(x, y) - grid.rays(x + dx, y + dy)).norm() * at(-1);
-  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump less what its sides expect
+  const float pixel_mm = (grid.rays(x, y) - grid.rays(x + d.x(), y + d.y())).norm() * at(-1);
+  const float noise = 2.0F * grid.range.sigma_mm(x, y);  // of the jump minus its prediction
   const DepthChange change{jump, at(-1) - at(-3), at(3) - at(1)};  // each over two pixels
-  return is_depth_step(change, 2.5F * pixel_mm + 4.0F * noise);
+  return is_depth_step(change,
+                       static_cast<float>(options.min_step_px) * pixel_mm +
+                           static_cast<float>(options.min_step_sigmas) * noise);
 }
 
-/// Three dark neighbours make a border; fewer are specks.
-bool at_silhouette(const Image<PixelStatus>& status, int x, int y) {
+/// Whether a pixel lies next to the background, which is unmodulated.
+bool at_silhouette(const Image<PixelStatus>& status, int min_dark_neighbors, int x, int y) {
   int dark = 0;
   for (int v = std::max(0, y - 1); v <= std::min(status.height() - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(status.width() - 1, x + 1); ++u)
       dark += status(u, v) == PixelStatus::Unmodulated ? 1 : 0;
   }
-  return dark >= 3;
+  return dark >= min_dark_neighbors;
 }
 
 struct Pixel {
@@ -70,7 +71,7 @@ struct Pixel {
   int y;
 };
 
-/// Marks the pixels of patches with fewer than `min_px`.
+/// Marks the pixels of connected patches with fewer than `min_px` pixels.
 void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& remove) {
   const auto& depth = grid.range.depth_mm;
   Image<std::uint8_t> seen = remove;
@@ -100,8 +101,10 @@ void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& remov
   }
 }
 
-/// Marks the pixel of each low step and those next to it across the step.
-void mark_low_steps(const Grid& grid, Image<std::uint8_t>& remove) {
+/// Marks the pixel at each low step and its neighbours across the step.
+void mark_low_steps(const Grid& grid,
+                    const MixedPixelOptions& options,
+                    Image<std::uint8_t>& remove) {
   enum Step : std::uint8_t { Across = 1, Down = 2 };
   const int width = remove.width();
   const int height = remove.height();
@@ -109,8 +112,8 @@ void mark_low_steps(const Grid& grid, Image<std::uint8_t>& remove) {
   parallel_rows(height, [&](int y) {
     const bool within = y > 0 && y + 1 < height;
     for (int x = 0; x < width; ++x) {
-      const bool across = x > 0 && x + 1 < width && is_low_step(grid, x, y, 1, 0);
-      const bool down = within && is_low_step(grid, x, y, 0, 1);
+      const bool across = x > 0 && x + 1 < width && is_low_step(grid, options, x, y, {1, 0});
+      const bool down = within && is_low_step(grid, options, x, y, {0, 1});
       steps(x, y) = static_cast<std::uint8_t>((across ? Across : 0) | (down ? Down : 0));
     }
   });
@@ -141,20 +144,19 @@ std::vector<RangePixel> remove_mixed_pixels(RangeGrid& range,
   parallel_rows(rays.height(), [&](int y) {
     for (int x = 0; x < rays.width(); ++x) {
       if (std::isnan(range.depth_mm(x, y))) continue;
-      remove(x, y) = at_depth_step(grid, x, y) || at_silhouette(status, x, y) ? 1 : 0;
+      const bool mixed =
+          at_depth_step(grid, x, y) || at_silhouette(status, options.min_dark_neighbors, x, y);
+      remove(x, y) = mixed ? 1 : 0;
     }
   });
-  mark_low_steps(grid, remove);
+  mark_low_steps(grid, options, remove);
   mark_small_patches(grid, options.min_patch_px, remove);
   std::vector<RangePixel> removed;
   for (int y = 0; y < remove.height(); ++y) {
     for (int x = 0; x < remove.width(); ++x) {
-      float& depth = range.depth_mm(x, y);
-      float& sigma = range.sigma_mm(x, y);
-      if (remove(x, y) == 0 || std::isnan(depth)) continue;
-      removed.push_back({x, y, depth, sigma});
-      depth = kMissing;
-      sigma = kMissing;
+      if (remove(x, y) == 0 || std::isnan(range.depth_mm(x, y))) continue;
+      removed.push_back(range.pixel(x, y));
+      range.remove(x, y);
       status(x, y) = PixelStatus::MixedPixel;
     }
   }

@@ -11,19 +11,24 @@
 namespace frangia {
 
 struct MixedPixelOptions {
-  /// A surface seen at a flatter angle than this counts as a depth step.
-  double max_incidence_deg = 82.0;
-  /// A patch of fewer points than this that hangs on no other is no surface.
-  int min_patch_px = 12;
+  double max_incidence_deg = 82.0;  ///< a surface at a larger angle of incidence is a depth step
+  int min_patch_px = 12;            ///< connected patches of fewer points are removed
+  double min_step_px = 2.5;         ///< minimum depth step, in lateral pixel distances, plus noise
+  double min_step_sigmas = 4.0;     ///< minimum depth step in sigmas of its noise
+  int min_dark_neighbors = 3;       ///< of a silhouette's pixel, among 8; fewer are defects
 };
 
-/// Drops the points that a pixel made of two surfaces, or of one surface and the dark.
+/// Removes the points of pixels that receive light from two surfaces, or from a surface and the
+/// background.
 ///
-/// At a depth step the pixels on both sides may hold light of both surfaces, so they go. On a
-/// silhouette against the dark the outermost pixel holds light of its covered part only, which is
-/// not its centre, so it goes too. What is left in patches too small to be a surface goes last.
-/// Dropped pixels are marked MixedPixel in `status`. Returns them, in order, as they were: some may
-/// see one surface after all, see `recover_edge_pixels`.
+/// The pixels on both sides of a depth step may mix light of both surfaces. The outermost pixel of
+/// a silhouette receives light from only a part of its area, so its point does not lie on the ray
+/// through its centre. Patches too small to be a surface are removed last.
+///
+/// shape    w x h; the result holds the removed pixels row by row, with their former values: some
+///          see a single surface, see `recover_edge_pixels`
+/// missing  a removed pixel is NaN in `range` and MixedPixel in `status`
+/// errors   Error(Input) when range, rays and status differ in size
 std::vector<RangePixel> remove_mixed_pixels(RangeGrid& range,
                                             const Image<Eigen::Vector2f>& rays,
                                             Image<PixelStatus>& status,

@@ -14,11 +14,13 @@ RangeGrid triangulate(AbsolutePhase& phase, const Rig& rig, const Image<Eigen::V
   require(same_size(phase.phase_rad, rays), "triangulate: phase and rays differ in size");
   const int width = rays.width();
   RangeGrid out{Image<float>(width, rays.height(), kMissing),
+                Image<float>(width, rays.height(), kMissing),
                 Image<float>(width, rays.height(), kMissing)};
   const PhaseRange lit = phase_range(phase.pattern, rig.projector);
   parallel_rows(rays.height(), [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const double phi = phase.phase_rad(x, y);
+      const float measured_rad = phase.phase_rad(x, y);
+      const double phi = measured_rad;
       if (std::isnan(phi)) continue;
       const double sigma = phase.sigma_rad(x, y);
       const Eigen::Vector2d ray = rays(x, y).cast<double>();
@@ -30,8 +32,11 @@ RangeGrid triangulate(AbsolutePhase& phase, const Rig& rig, const Image<Eigen::V
         continue;
       }
       const double along_ray = std::sqrt(1.0 + ray.squaredNorm());
-      out.depth_mm(x, y) = static_cast<float>(found.depth_mm);
-      out.sigma_mm(x, y) = static_cast<float>(std::abs(found.mm_per_rad) * sigma * along_ray);
+      out.set({x,
+               y,
+               static_cast<float>(found.depth_mm),
+               static_cast<float>(std::abs(found.mm_per_rad) * sigma * along_ray),
+               measured_rad});
     }
   });
   return out;

@@ -9,12 +9,12 @@
 
 namespace frangia {
 
-/// Where each camera ray meets the light of its phase.
+/// Triangulates each pixel from its camera ray and its absolute phase.
 ///
 /// shape    w x h in and out; `rays` from `rays_of(rig.camera.model)`
 /// units    mm, rig frame; sigma along the viewing ray
-/// missing  a pixel without a phase, or whose phase the projector does not show in front of the
-///          camera, has no depth; the latter is marked OutOfField in `phase`
+/// missing  a pixel without a phase has no point; a pixel whose phase the projector does not show
+///          in front of the camera has none either and is marked OutOfField in `phase`
 /// errors   Error(Input) when the phase and the rays differ in size
 /// source   the paper's equations (5) to (8)
 [[nodiscard]] RangeGrid triangulate(AbsolutePhase& phase,

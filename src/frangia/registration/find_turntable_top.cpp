@@ -32,7 +32,7 @@ Cloud gather(const ViewStore& views,
   LocalPlanes planes;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));
-    planes = local_planes(views.load(i), rays, {}, std::move(planes));
+    planes = local_planes(views.load_points(i), rays, {}, std::move(planes));
     const Eigen::Isometry3d object_from_rig = views.rig_from_object(i).inverse();
     for (const auto& surfel :
          pick_surfels(make_surfel_map(planes, rays, 16 * kSurfels), kSurfels)) {

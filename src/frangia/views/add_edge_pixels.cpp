@@ -3,10 +3,8 @@
 namespace frangia {
 
 void add_edge_pixels(View& view) {
-  for (const RangePixel& pixel : view.edge_pixels) {
-    view.range.depth_mm(pixel.x, pixel.y) = pixel.depth_mm;
-    view.range.sigma_mm(pixel.x, pixel.y) = pixel.sigma_mm;
-  }
+  for (const RangePixel& pixel : view.edge_pixels)
+    view.range.set(pixel);
   view.edge_pixels.clear();
 }
 

@@ -4,7 +4,7 @@
 
 namespace frangia {
 
-/// Puts the pixels recovered at the edges of a view among the others.
+/// Moves the recovered edge pixels of a view into its range grid.
 void add_edge_pixels(View& view);
 
 }  // namespace frangia

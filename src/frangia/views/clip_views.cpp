@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 
 namespace frangia {
@@ -17,7 +16,7 @@ struct Count {
 
 Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip) {
   const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
-  Image<float>& depth = view.range.depth_mm;
+  const Image<float>& depth = view.range.depth_mm;
   const auto keeps = [&](const Eigen::Vector2f& ray, float depth_mm) {
     const Eigen::Vector3f seen = depth_mm * ray.homogeneous();
     const Eigen::Vector3d point = object_from_rig * seen.cast<double>();
@@ -32,7 +31,7 @@ Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip
         ++count.kept;
       } else {
         ++count.removed;
-        depth(x, y) = kMissing;
+        view.range.remove(x, y);
       }
     }
   });
@@ -69,8 +68,8 @@ std::size_t clip_views(ViewStore& views,
     all.removed += count.removed;
   }
   require(all.kept > 0,
-          "nothing is left of the object: every point lies below the clip or beyond its radius; "
-          "lower --clip-below or widen --clip-radius");
+          "nothing is left of the object: every point lies below `clip_below` or outside of "
+          "`clip_radius`; lower `clip_below` or increase `clip_radius`");
   return all.removed;
 }
 

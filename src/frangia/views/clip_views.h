@@ -11,20 +11,20 @@
 
 namespace frangia {
 
-/// What is kept of what was seen, in the object frame.
+/// The region of the object frame whose points are kept.
 struct Clip {
-  /// Only points in front of this plane; a height is {UnitZ, -height}.
+  /// Points in front of this plane are kept; a minimum height h is {UnitZ, -h}.
   Eigen::Hyperplane<double, 3> floor{Eigen::Vector3d::UnitZ(),
                                      std::numeric_limits<double>::infinity()};
   double max_radius_mm = std::numeric_limits<double>::infinity();  ///< from the axis
 };
 
-/// Drops points from all views, so that they can neither capture the registration nor stay in the
-/// mesh.
+/// Removes the points outside of the clip from all views, before they can affect the registration
+/// or the mesh. Returns the number of removed points.
 ///
-/// missing  a dropped point is NaN, as one that was never seen
-/// errors   Error(Input) when no point is left
-/// Returns how many points were dropped.
+/// units    mm, object frame
+/// missing  a removed point is NaN
+/// errors   Error(Input) when no point is left, or a view and the camera differ in size
 std::size_t clip_views(ViewStore& views,
                        const CameraModel& camera,
                        const Clip& clip,

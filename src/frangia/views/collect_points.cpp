@@ -11,7 +11,7 @@ PointCloud collect_points(const ViewStore& views, const CameraModel& camera, con
   PointCloud cloud;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.check();
-    const View view = views.load(i);
+    const View view = views.load_points(i);
     require(same_size(view.range.depth_mm, rays),
             "collect_points: a view and the camera differ in size");
     const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();

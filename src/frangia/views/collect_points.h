@@ -10,15 +10,19 @@
 
 namespace frangia {
 
-/// Measured points of all views, as they are: not smoothed, not averaged.
+/// Measured points of all views, neither smoothed nor averaged.
 ///
 /// units    mm, object frame
 struct PointCloud {
   std::vector<Eigen::Vector3f> points_mm;
-  std::vector<float> sigma_mm;  ///< along the viewing ray, one a point
+  std::vector<float> sigma_mm;  ///< standard deviation of each point along its viewing ray
 };
 
-/// View by view, row by row.
+/// Collects the points of all views, view by view and row by row, without edge pixels.
+///
+/// units    mm, object frame
+/// missing  missing pixels are skipped
+/// errors   Error(Input) when a view and the camera differ in size
 [[nodiscard]] PointCloud collect_points(const ViewStore& views,
                                         const CameraModel& camera,
                                         const Run& run = {});

@@ -6,12 +6,13 @@
 namespace frangia {
 namespace {
 
-int thinned(int pixels, int step) {
+int subsampled_size(int pixels, int step) {
   return (pixels + step - 1) / step;
 }
 
 Image<float> subsample(const Image<float>& image, int step) {
-  Image<float> out(thinned(image.width(), step), thinned(image.height(), step), Uninitialized{});
+  Image<float> out(
+      subsampled_size(image.width(), step), subsampled_size(image.height(), step), Uninitialized{});
   parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x)
       out(x, y) = image(x * step, y * step);
@@ -22,22 +23,23 @@ Image<float> subsample(const Image<float>& image, int step) {
 }  // namespace
 
 CameraModel subsample(const CameraModel& camera, int step) {
-  require(step >= 1, "subsample: the step is at least one pixel");
-  CameraModel thin = camera;
-  thin.width_px = thinned(camera.width_px, step);
-  thin.height_px = thinned(camera.height_px, step);
-  thin.focal_px /= step;
-  thin.principal_point_px /= step;
-  return thin;
+  require(step >= 1, "subsample: the step must be at least one pixel");
+  CameraModel out = camera;
+  out.width_px = subsampled_size(camera.width_px, step);
+  out.height_px = subsampled_size(camera.height_px, step);
+  out.focal_px /= step;
+  out.principal_point_px /= step;
+  return out;
 }
 
 View subsample(const View& view, int step) {
-  require(step >= 1, "subsample: the step is at least one pixel");
-  View thin;
-  thin.rig_from_object = view.rig_from_object;
-  thin.range.depth_mm = subsample(view.range.depth_mm, step);
-  thin.range.sigma_mm = subsample(view.range.sigma_mm, step);
-  return thin;
+  require(step >= 1, "subsample: the step must be at least one pixel");
+  View out;
+  out.rig_from_object = view.rig_from_object;
+  out.range.depth_mm = subsample(view.range.depth_mm, step);
+  out.range.sigma_mm = subsample(view.range.sigma_mm, step);
+  if (!view.range.phase_rad.empty()) out.range.phase_rad = subsample(view.range.phase_rad, step);
+  return out;
 }
 
 }  // namespace frangia

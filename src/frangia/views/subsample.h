@@ -5,12 +5,15 @@
 
 namespace frangia {
 
-/// Every `step`-th pixel of a camera, both ways, from the first on.
+/// The camera of every `step`-th pixel along both axes, starting with pixel (0, 0).
+///
+/// errors   Error(Input) when the step is less than one pixel
 [[nodiscard]] CameraModel subsample(const CameraModel& camera, int step);
 
-/// The view that it has.
+/// The view of the subsampled camera, without edge pixels.
 ///
-/// shape    as the thinned camera's
+/// shape    that of `subsample(camera, step)`
+/// errors   Error(Input) when the step is less than one pixel
 [[nodiscard]] View subsample(const View& view, int step);
 
 }  // namespace frangia

@@ -8,10 +8,12 @@
 
 namespace frangia {
 
-/// One range grid and where the object stood when it was seen.
+/// A range grid and the pose of the object when it was measured.
 ///
-/// What lies beside an edge is good enough for a surface that nothing else shows, but not to find
-/// poses by: it is kept aside, see `recover_edge_pixels`, until `add_edge_pixels`.
+/// Pixels recovered at edges are accurate enough for fusion but not for registration. They are
+/// stored apart, see `recover_edge_pixels`, until `add_edge_pixels` adds them to the grid.
+///
+/// units    mm, rig frame
 struct View {
   RangeGrid range;
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();

@@ -9,9 +9,9 @@
 
 namespace frangia {
 
-/// Views kept in an unnamed temporary file, so that memory holds one of them at a time.
+/// Stores views in an unnamed temporary file, so that memory holds one view at a time.
 ///
-/// errors   Error(File) when the temporary folder is full
+/// errors   Error(File) when the temporary folder cannot hold the views
 class ViewStore {
  public:
   ViewStore();
@@ -23,12 +23,19 @@ class ViewStore {
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
   void add(const View& view);
-  /// Replaces view `index`; the grid must have the size it had, with no more edge pixels.
+  /// Replaces view `index`.
+  ///
+  /// errors   Error(Input) unless the grid keeps its size and has a phase image when it had one
+  ///          before, and the number of edge pixels does not grow
   void replace(std::size_t index, const View& view);
-  /// Takes all points of view `index` away: it stays, but saw nothing.
+  /// Removes all points of view `index`; the view itself remains.
   void clear(std::size_t index);
   [[nodiscard]] View load(std::size_t index) const;
-  /// The pose alone, without reading the grid.
+  /// Loads a view without its phase image, for stages that use points only.
+  [[nodiscard]] View load_points(std::size_t index) const;
+  /// Loads the depth image alone.
+  [[nodiscard]] Image<float> load_depth_mm(std::size_t index) const;
+  /// The pose of a view, without reading its grid.
   [[nodiscard]] const Eigen::Isometry3d& rig_from_object(std::size_t index) const {
     return entries_[index].rig_from_object;
   }
@@ -41,10 +48,12 @@ class ViewStore {
     Eigen::Isometry3d rig_from_object;
     int width = 0;
     int height = 0;
+    bool has_phase = false;
     std::size_t edge_pixels = 0;  ///< pixels
     std::int64_t offset = 0;
   };
-  /// Returns where it ends.
+  [[nodiscard]] View read(std::size_t index, bool with_phase) const;
+  /// Returns the end of the view in the file.
   std::int64_t write(const View& view, std::int64_t offset);
 
   std::vector<Entry> entries_;

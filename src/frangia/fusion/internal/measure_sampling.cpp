@@ -22,7 +22,7 @@ Sampling measure_sampling(const ViewStore& views, const CameraRays& camera, cons
   Sampling sampling;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.check();
-    const RangeGrid range = views.load(i).range;
+    const RangeGrid range = views.load_points(i).range;
     require(same_size(range.depth_mm, camera.rays),
             "a view's size is not that of the rig's camera");
     const auto point = [&](int x, int y) -> Eigen::Vector3f {

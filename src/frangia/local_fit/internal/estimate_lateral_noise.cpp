@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <utility>
 #include <vector>
 
+#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
 #include "frangia/local_fit/fit_windows.h"
 
@@ -12,16 +15,16 @@ namespace frangia {
 namespace {
 
 constexpr int kRadius = 2;
-constexpr int kEvery = 6;                 // rows are looked at, of an image that has few
-constexpr int kMaxRows = 100;             // rows of one that has many
-constexpr std::size_t kMinWindows = 200;  // windows tell too little
-constexpr float kMax_px = 0.5F;           // beyond its own edge no pixel looks
-constexpr float kSteepest = 0.25F;        // the share of windows that is looked at
+constexpr int kEvery = 6;                 // row spacing of the samples in a small image
+constexpr int kMaxRows = 100;             // number of sampled rows in a large image
+constexpr std::size_t kMinWindows = 200;  // fewer give no estimate
+constexpr float kMax_px = 0.5F;           // half a pixel: the measured position is inside the pixel
+constexpr float kSteepest = 0.25F;        // share of the windows that is used, from the steepest
 
-/// What one window says.
+/// The estimate from one window.
 struct Slope {
   float steepness;         ///< slope^2 over noise^2
-  float lateral_variance;  ///< excess of the scatter over noise^2, over slope^2
+  float lateral_variance;  ///< (residual variance - noise^2) / slope^2
 };
 
 std::vector<Slope> slopes_of_row(const Image<float>& image, const Image<float>& noise, int y) {
@@ -60,11 +63,11 @@ float estimate_lateral_noise(const Image<float>& image, const Image<float>& nois
   std::nth_element(slopes.begin(), steep, slopes.end(), [](const Slope& a, const Slope& b) {
     return a.steepness < b.steepness;
   });
-  const auto middle = steep + (slopes.end() - steep) / 2;
-  std::nth_element(steep, middle, slopes.end(), [](const Slope& a, const Slope& b) {
-    return a.lateral_variance < b.lateral_variance;
+  std::vector<float> variances;
+  std::transform(steep, slopes.end(), std::back_inserter(variances), [](const Slope& slope) {
+    return slope.lateral_variance;
   });
-  return std::min(kMax_px, std::sqrt(std::max(0.0F, middle->lateral_variance)));
+  return std::min(kMax_px, std::sqrt(std::max(0.0F, median(std::move(variances)))));
 }
 
 }  // namespace frangia

@@ -4,15 +4,16 @@
 
 namespace frangia {
 
-/// How far from its centre a pixel looks, as a standard deviation along each axis of the picture.
+/// Estimates the lateral localization noise: the standard deviation, along each axis of the image,
+/// of the position that a pixel measures about its centre.
 ///
-/// Light that is spread unevenly over a pixel, vibration and an imperfect lens move the place that
-/// a pixel measures. On a surface that slopes away this is depth noise which the phase knows
-/// nothing of: what neighbours scatter by about a smooth surface, beyond their phase's noise, per
-/// slope.
+/// Uneven light within a pixel, vibration and an imperfect lens displace the measured position. On
+/// an inclined surface this causes depth noise that the phase noise does not include. The estimate
+/// is the scatter about a smooth surface in excess of the phase noise, divided by the slope.
+///
 /// shape    both w x h: a value that is linear over planes, and its standard deviation
 /// units    px
-/// missing  0 where too few windows slope enough to tell
+/// missing  0 when too few windows are usable
 [[nodiscard]] float estimate_lateral_noise(const Image<float>& image, const Image<float>& noise);
 
 }  // namespace frangia

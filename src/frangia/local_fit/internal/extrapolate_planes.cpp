@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-/// Missing pixels beside one that has a plane, row by row.
+/// Pixels without a plane that have a four-neighbour with one, row by row.
 std::vector<Eigen::Vector2i> boundary_of(const LocalPlanes& view) {
   std::vector<std::vector<Eigen::Vector2i>> rows(static_cast<std::size_t>(view.planes.height()));
   parallel_rows(view.planes.height(), [&](int y) {
@@ -27,7 +27,7 @@ std::vector<Eigen::Vector2i> boundary_of(const LocalPlanes& view) {
   return boundary;
 }
 
-/// Carries planes on to missing pixels, one pixel farther each time.
+/// Extends planes by one pixel in each step.
 void extrapolate(LocalPlanes& view, int extrapolate_px) {
   std::vector<Eigen::Vector2i> boundary = boundary_of(view);
   for (int step = 0; step < extrapolate_px; ++step) {
@@ -55,7 +55,7 @@ void extrapolate(LocalPlanes& view, int extrapolate_px) {
   }
 }
 
-/// Unseen quads that a plane reaches.
+/// Marks unseen quads that have a plane at a corner.
 void mark_extrapolated(LocalPlanes& view) {
   parallel_rows(view.quads.height(), [&](int y) {
     for (int x = 0; x < view.quads.width(); ++x) {

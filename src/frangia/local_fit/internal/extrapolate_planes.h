@@ -4,8 +4,8 @@
 
 namespace frangia {
 
-/// Carries planes on to pixels that have none, in place, and marks the quads that they reach as
-/// Extrapolated.
+/// Extends planes to pixels without one, up to `extrapolate_px` pixels away, in place. Marks the
+/// unseen quads that then have a plane at a corner as Extrapolated.
 void extrapolate_planes(LocalPlanes& view, int extrapolate_px);
 
 }  // namespace frangia

@@ -16,11 +16,12 @@ using Matrix6 = Eigen::Matrix<float, 6, 6>;
 constexpr int kRadius = kQuadraticRadius;
 constexpr int kSide = 2 * kRadius + 1;
 constexpr std::size_t kPixels = static_cast<std::size_t>(kSide) * kSide;
-constexpr std::size_t kFewest = 12;    // pixels: six unknowns and as many to judge them by
-constexpr float kMostVariance = 0.8F;  // less than that is not worth it
+constexpr std::size_t kFewest = 12;    // pixels: six unknowns and as many degrees of freedom
+constexpr float kMostVariance = 0.8F;  // of the value, per pixel variance: above, the pixel itself
+                                       // is about as good
 constexpr QuadraticFit kNone{kNoFit, kMissing};
 
-/// The pixels about one, less its value: small numbers keep their digits.
+/// The values of the pixels around one, relative to `less` to keep precision.
 struct Patch {
   std::array<float, kPixels> off{};   ///< 0 where missing
   std::array<float, kPixels> seen{};  ///< 1, or 0 where missing
@@ -46,9 +47,8 @@ Patch patch_at(const Image<float>& image, const Eigen::Vector2i& at, float less)
   return patch;
 }
 
-/// Products of the place in a patch, up to the fourth power: 1, x, y, xx, xy, yy, xxx, ... yyyy.
-/// The first six are the unknowns'; sixteen numbers a pixel, so that sums over them are vector
-/// code.
+/// Monomials of the position in a patch up to the fourth degree: 1, x, y, xx, xy, yy, xxx, ...
+/// yyyy. The first six belong to the unknowns. Padded to sixteen, so that sums over them vectorize.
 using Powers = std::array<float, 16>;
 constexpr std::array<Powers, kPixels> make_powers() {
   std::array<Powers, kPixels> all{};
@@ -78,7 +78,7 @@ constexpr std::array<Powers, kPixels> make_powers() {
 }
 constexpr std::array<Powers, kPixels> kPowers = make_powers();
 
-/// Which of the sums over powers stands where in the normal matrix, below its diagonal.
+/// Index into `Powers` of each element of the normal matrix on and below its diagonal.
 constexpr std::array<std::array<std::size_t, 6>, 6> kNormalMatrixTerms{
     {{0}, {1, 3}, {2, 4, 5}, {3, 6, 7, 10}, {4, 7, 8, 11, 12}, {5, 8, 9, 12, 13, 14}}};
 
@@ -114,7 +114,7 @@ QuadraticFit fit_pixels(const Patch& patch, float here) {
   return out;
 }
 
-/// What the fit leaves over at each pixel, 0 where it is missing.
+/// The residual of the fit at each pixel, 0 where the pixel is missing.
 std::array<float, kPixels> residuals_of(const Patch& patch, const WindowFit& fit, float here) {
   std::array<float, kPixels> off{};
   const float value = fit.value - here;

@@ -10,19 +10,19 @@ namespace frangia {
 
 inline constexpr int kQuadraticRadius = 2;
 
-/// A paraboloid through what there is of the 5 x 5 pixels about one.
+/// A quadratic fit over the measured ones of the 5 x 5 pixels around a pixel.
 struct QuadraticFit {
-  WindowFit window;       ///< about the pixel: `value` and slopes are the paraboloid's there
-  float variance = 0.0F;  ///< what is left in `value` of a pixel's noise
+  WindowFit window;       ///< `mean` equals `value`, and `variance` equals `residual_variance`
+  float variance = 0.0F;  ///< variance of `value` per pixel variance
 };
 
-/// Least squares over the pixels that are not missing.
+/// Fits a quadratic by least squares over the measured pixels.
 ///
-/// missing  NaN where too few pixels, or pixels on too few sides, determine it
+/// missing  NaN where too few pixels, or pixels on too few sides, determine the fit
 [[nodiscard]] QuadraticFit fit_quadratic(const Image<float>& image, const Eigen::Vector2i& at);
 
-/// Correlation of what a patch leaves over at neighbouring pixels: of noise it is negative, of an
-/// edge or a step positive.
+/// Autocorrelation of a fit's residuals at neighbouring pixels: negative for noise, positive for an
+/// edge or a step.
 [[nodiscard]] float residual_autocorrelation(const Image<float>& image,
                                              const Eigen::Vector2i& at,
                                              const WindowFit& patch);

@@ -10,9 +10,9 @@
 namespace frangia {
 namespace {
 
-constexpr float kSteepest = 7.1F;     // tan(82 degrees): steeper than that is a step, not a slope
-constexpr float kNoiseSigmas = 4.0F;  // and a step must rise out of the noise
-constexpr float kSmallestSigma = 1e-6F;  // of the depth: keeps the weight of perfect data finite
+constexpr float kSteepest = 7.1F;        // tan(82 degrees), the limit of `MixedPixelOptions`
+constexpr float kNoiseSigmas = 4.0F;     // minimum depth step
+constexpr float kSmallestSigma = 1e-6F;  // per depth: keeps the weight of noise-free data finite
 
 /// A row of inverse depths and their noise.
 struct GridRow {
@@ -25,7 +25,7 @@ struct LinkRow {
   int count;
 };
 
-/// Links pixels to those beside them. Missing ones are linked to none.
+/// Links the pixels of one row to those of another. Missing pixels have no links.
 FRANGIA_VECTORIZED void link_row(const GridRow& from,
                                  const GridRow& to,
                                  float steepest,

@@ -8,10 +8,10 @@
 
 namespace frangia {
 
-/// Inverse depths of a view, and which neighbours of a pixel lie on its surface.
+/// Inverse depths of a view, and which neighbouring pixels lie on one surface.
 ///
 /// units    1/mm
-/// missing  q is NaN where nothing was seen
+/// missing  q is NaN where nothing was measured
 struct LinkedPixels {
   enum Link : std::uint8_t { Right = 1, Down = 2 };
 
@@ -22,8 +22,8 @@ struct LinkedPixels {
   [[nodiscard]] bool has(int x, int y, Link link) const { return (links(x, y) & link) != 0; }
 };
 
-/// Neighbouring pixels are on one surface unless the line that joins them is within 8 degrees of
-/// the viewing ray, by more than their noise.
+/// Links neighbouring pixels unless the line that joins their points is within 8 degrees of the
+/// viewing ray by more than 4 sigmas of their noise.
 [[nodiscard]] LinkedPixels link_pixels(const RangeGrid& range, const CameraModel& camera);
 
 }  // namespace frangia

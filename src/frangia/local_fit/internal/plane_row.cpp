@@ -12,20 +12,19 @@
 namespace frangia {
 namespace {
 
-/// Variance that beside a rim or an edge neither slope nor pixel has in the middle of a face.
-constexpr float kOffCenterVarianceFactor = 9.0F;
-
-/// What a row of windows says, and of the pixels' noise.
+/// A row of window fits and of the pixels' noise.
 struct WindowRow {
   const float* noise;
   const float* slope_x;
   const float* slope_y;
   const float* scatter;
   float lateral_variance;
-  float left;  ///< of a pixel's variance in the middle of a window
+  float central_variance;  ///< variance of a window's central value, per pixel variance
+  float max_flat_ratio;    ///< see `WindowChoiceOptions`
 };
 
-/// Variances of the middles, and 1 where the window fits as well as noise allows.
+/// Computes the variances of the central values, and 1 where the window is flat to within the
+/// noise.
 FRANGIA_VECTORIZED_WIDE void test_windows(const WindowRow& row,
                                           std::ptrdiff_t count,
                                           float* variance,
@@ -35,8 +34,8 @@ FRANGIA_VECTORIZED_WIDE void test_windows(const WindowRow& row,
   for (std::ptrdiff_t x = 0; x < count; ++x) {
     const float square = from.slope_x[x] * from.slope_x[x] + from.slope_y[x] * from.slope_y[x];
     const float expected = from.noise[x] * from.noise[x] + from.lateral_variance * square;
-    variance[x] = from.left * expected;
-    fits[x] = from.scatter[x] < kMaxScatterRatio * expected ? 1 : 0;  // 0 for NaN
+    variance[x] = from.central_variance * expected;
+    fits[x] = from.scatter[x] < from.max_flat_ratio * expected ? 1 : 0;  // 0 for NaN
   }
 }
 
@@ -84,8 +83,9 @@ FRANGIA_VECTORIZED_WIDE void fit_planes(const PlaneRowData& rows,
 
 }  // namespace
 
-PlaneRow::PlaneRow(int width)
-    : width_(width),
+PlaneRow::PlaneRow(int width, const LocalPlanesOptions& options)
+    : options_(options),
+      width_(width),
       kind_(static_cast<std::size_t>(width)),
       wide_(kind_.size()),
       measured_(kind_.size()),
@@ -105,10 +105,8 @@ void PlaneRow::widen(const LinkedPixels& grid,
                      const WindowRows& wider,
                      int y,
                      float lateral_noise_px) {
-  constexpr float kUneven = 2.5F;  // in variance: pixels differ in their noise
-  constexpr float kSame = 0.7F;    // of a pixel's noise: two and a half times what chance does
-  constexpr float kMaxAutocorrelation = 0.05F;
-  const float left = value_variance(wider.radius);
+  const WideningOptions& options = options_.widening;
+  const float central_variance = value_variance(wider.radius);
   Row autocorrelation(kind_.size());
   window_autocorrelation(grid.q, wider, y, autocorrelation);
   const int row = y - wider.first;
@@ -118,17 +116,14 @@ void PlaneRow::widen(const LinkedPixels& grid,
   for (std::size_t i = begin_; i < end_; ++i) {
     const float square = slope_x_[i] * slope_x_[i] + slope_y_[i] * slope_y_[i];
     const float expected = noise[i] * noise[i] + lateral_noise_px * lateral_noise_px * square;
-    const float off = wide_value[i] - value_[i];
-    wide_[i] = autocorrelation[i] < kMaxAutocorrelation &&
-                       residual_variance[i] < kUneven * expected &&
-                       off * off < kSame * kSame * expected
-                   ? 1
-                   : 0;
+    const bool is_noise = autocorrelation[i] < options.max_autocorrelation &&
+                          residual_variance[i] < options.max_residual_ratio * expected;
+    wide_[i] = is_noise ? 1 : 0;
     if (wide_[i] == 0) continue;
     if (kind_[i] == WindowKind::None) mean_[i] = value_[i];
     kind_[i] = WindowKind::Centered;
     value_[i] = wide_value[i];
-    variance_[i] = left * expected;
+    variance_[i] = central_variance * expected;
   }
 }
 
@@ -162,7 +157,8 @@ void PlaneRow::choose(const LinkedPixels& grid,
                 slope_y_.data() + from,
                 fits.row(WindowFits::Variance, row) + from,
                 lateral_noise_px * lateral_noise_px,
-                value_variance(windows.radius)},
+                value_variance(windows.radius),
+                options_.windows.max_flat_ratio},
                count,
                variance_.data() + from,
                good.data() + from);
@@ -174,14 +170,14 @@ void PlaneRow::choose(const LinkedPixels& grid,
     const auto x = static_cast<int>(i);
     if (good[i] != 0 || wide_[i] != 0 || std::isnan(measured_[i])) continue;
     const ChosenWindow chosen =
-        choose_window(grid.q, windows, {x, y}, {noise[x], lateral_noise_px});
+        choose_window(grid.q, windows, {x, y}, {noise[x], lateral_noise_px}, options_.windows);
     kind_[i] = chosen.kind;
     mean_[i] = chosen.fit.mean;
     slope_x_[i] = chosen.fit.slope_x;
     slope_y_[i] = chosen.fit.slope_y;
     value_[i] = chosen.value;
-    variance_[i] =
-        (chosen.kind == WindowKind::Centered ? 1.0F : kOffCenterVarianceFactor) * chosen.variance;
+    const bool centered = chosen.kind == WindowKind::Centered;
+    variance_[i] = (centered ? 1.0F : options_.off_center_variance_factor) * chosen.variance;
   }
 }
 

@@ -12,15 +12,16 @@
 
 namespace frangia {
 
-/// The local planes of a row of pixels on their way: each quantity in a row of its own, so that
-/// loops over them become vector code.
+/// Computes the local planes of a row of pixels. Each quantity is stored in a row of its own, so
+/// that loops vectorize.
 class PlaneRow {
  public:
-  explicit PlaneRow(int width);
+  /// The options must outlive the row.
+  PlaneRow(int width, const LocalPlanesOptions& options);
 
-  /// Takes the window of each pixel of row `y`: the one about it where that fits, which is nearly
-  /// everywhere, else what `choose_window` finds. Where a wider window leaves nothing over but
-  /// noise, the pixel has what that has in its middle.
+  /// Chooses the window of each pixel of row `y`: the centered one where it is flat to within the
+  /// noise, which is nearly everywhere, else the result of `choose_window`. Where the residuals of
+  /// the wider window are noise, the pixel gets the value of the wider quadratic.
   ///
   /// shape    `windows` of 5 x 5 pixels; `wider` of 7 x 7, or null
   void choose(const LinkedPixels& grid,
@@ -28,20 +29,21 @@ class PlaneRow {
               const WindowRows* wider,
               int y,
               float lateral_noise_px);
-  /// The planes, from inverse depths and their slopes over the image.
+  /// Computes the planes from inverse depths and their slopes over the image.
   void fit(const Eigen::Vector2f* rays, const FastCameraModel& model);
-  /// Hands them over, with the inverse depth that each pixel is taken to have.
+  /// Writes the planes and the smoothed inverse depths.
   void write(LocalPlanes::Plane* planes, float* inverse_depth) const;
 
  private:
   using Row = std::vector<float>;
   void widen(const LinkedPixels& grid, const WindowRows& wider, int y, float lateral_noise_px);
 
+  const LocalPlanesOptions& options_;
   int width_;
-  std::size_t begin_ = 0;  ///< of the pixels from the first that was seen to the last
+  std::size_t begin_ = 0;  ///< measured pixels lie in [begin_, end_)
   std::size_t end_ = 0;
   std::vector<WindowKind> kind_;
-  std::vector<char> wide_;  ///< what a wider window has
+  std::vector<char> wide_;  ///< 1 where the wider window is used
   Row measured_, value_, variance_;
   Row mean_, slope_x_, slope_y_;
   Row normal_x_, normal_y_, normal_z_, distance_, tangent_distance_, weight_;

@@ -20,7 +20,7 @@ constexpr float quadratic(int i) {
   return static_cast<float>((i - kRadius) * (i - kRadius)) - kSquare;
 }
 
-/// In how many neighbor_pairs of neighbours along a side a place is.
+/// Number of neighbour pairs along a side that an element belongs to.
 constexpr float neighbor_pairs(int i) {
   return i == 0 || i + 1 == kSide ? 1.0F : 2.0F;
 }
@@ -46,7 +46,7 @@ FRANGIA_VECTORIZED_WIDE void correlate(const float* top,
     float products = 0.0F;
     float paired = 0.0F;
     std::array<float, kSide> above{};
-#pragma GCC unroll 7  // the loop over x becomes vector code only without loops in it
+#pragma GCC unroll 7  // the loop over x vectorizes only without inner loops
     for (int j = 0; j < kSide; ++j) {
       const auto down = static_cast<float>(j - kRadius);
       const float row_mean =
@@ -74,7 +74,7 @@ void window_autocorrelation(const Image<float>& image,
                             const WindowRows& windows,
                             int y,
                             std::span<float> autocorrelation) {
-  require(windows.radius == kRadius, "window_autocorrelation: the windows are of 7 x 7 pixels");
+  require(windows.radius == kRadius, "window_autocorrelation: the windows must be 7 x 7 pixels");
   std::fill(autocorrelation.begin(), autocorrelation.end(), kMissing);
   const int top = y - kRadius;
   if (top < 0 || top + kSide > image.height() || image.width() < kSide) return;

@@ -6,11 +6,12 @@
 
 namespace frangia {
 
-/// Correlation of what the paraboloids about the pixels of row `y` leave over at neighbouring
-/// pixels: of noise it is negative, however loud, of an edge or a step positive.
+/// Autocorrelation at neighbouring pixels of the residuals of the quadratic fits around the pixels
+/// of row `y`: negative for noise of any amplitude, positive for an edge or a step.
 ///
-/// shape    `windows` of 7 x 7 pixels of the image; `autocorrelation`: one a column
-/// missing  NaN where there is no window
+/// shape    `windows` of 7 x 7 pixels; `autocorrelation` has one value for each column
+/// missing  NaN where no window fits
+/// errors   Error(Input) for windows of another size
 void window_autocorrelation(const Image<float>& image,
                             const WindowRows& windows,
                             int y,

@@ -18,16 +18,15 @@ using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
 constexpr int kRadius = 3;
 constexpr int kSide = 2 * kRadius + 1;
-constexpr int kMinPixels = 10;        // pixels: six unknowns, and some to judge them by
-constexpr float kMaxLeverage = 8.0F;  // of a pixel's variance, what the paraboloid has out there
-constexpr float kRough = 4.0F;        // in variance: what is left over is more than noise
-constexpr float kSigmas = 3.0F;
-constexpr float kMinBrightness =
-    0.7F;  // of the light expected: less, and the surface ends in the pixel
+constexpr int kMinPixels = 10;          // for six unknowns and their residuals
+constexpr float kMaxLeverage = 8.0F;    // variance of the extrapolated value, per pixel variance
+constexpr float kRough = 4.0F;          // maximum residual variance of the fit, per pixel variance
+constexpr float kSigmas = 3.0F;         // maximum distance of the pixel from the extrapolation
+constexpr float kMinBrightness = 0.7F;  // per expected light; a darker pixel is partly covered
 
 constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
 
-/// Pixels of the window about one that hang together.
+/// Connected pixels of the window around a pixel.
 struct Group {
   std::array<Eigen::Vector2i, kPixels> at;
   std::size_t count = 0;
@@ -76,12 +75,12 @@ bool extrapolates_to(const ReliablePixels& reliable,
                      const Eigen::Vector2i& at,
                      const RangePixel& pixel) {
   if (group.count < kMinPixels) return false;
-  const auto& [depth, sigma] = reliable.range;
+  const Image<float>& depth = reliable.range.depth_mm;
+  const Image<float>& sigma = reliable.range.sigma_mm;
   const float here = 1.0F / pixel.depth_mm;
   Matrix6 normal = Matrix6::Zero();
-  Vector6 right_side =
-      Vector6::Zero();              // of inverse depths less the pixel's: small ones keep digits
-  Vector6 light = Vector6::Zero();  // in units of the pixel's
+  Vector6 right_side = Vector6::Zero();  // relative to the pixel's inverse depth, to keep precision
+  Vector6 light = Vector6::Zero();       // relative to the pixel's light
   float squares = 0.0F;
   for (std::size_t i = 0; i < group.count; ++i) {
     const Eigen::Vector2i& p = group.at[i];

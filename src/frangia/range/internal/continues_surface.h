@@ -7,22 +7,21 @@
 
 namespace frangia {
 
-/// What a view saw, without what may be a mixture.
+/// The pixels of a view that see a single surface.
 struct ReliablePixels {
   const RangeGrid& range;
   const Image<Eigen::Vector2f>& rays;
   float max_slope;  ///< see `is_connected`
 };
 
-/// Whether a pixel that is none of them lies where the surface beside it leads, and is as bright as
-/// is expected there.
+/// Whether a pixel that is not reliable continues the surface next to it in depth and brightness.
 ///
-/// The reliable pixels about it that hang together with one next to it are followed by paraboloids,
-/// in inverse depth and in light. A pixel that sees two surfaces lies beside the first, but for so
-/// little that noise is as much; one that sees the surface with a part of its square only, beside a
-/// silhouette or a shadow, is darker. Light is told by sigma: noise of phase is one over its root.
+/// The reliable pixels around it that are connected to one of its neighbours are extrapolated by
+/// quadratic fits of inverse depth and of light. A pixel that mixes two surfaces lies off the first
+/// surface. A pixel only partly covered by the surface, at a silhouette or a shadow, is darker.
+/// Phase noise falls with the square root of the light, so sigma stands in for brightness.
 ///
-/// missing  false where too few pixels lead there
+/// missing  false where too few reliable pixels determine the fits
 [[nodiscard]] bool continues_surface(const ReliablePixels& reliable, const RangePixel& pixel);
 
 }  // namespace frangia

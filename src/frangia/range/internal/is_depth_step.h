@@ -5,16 +5,18 @@
 
 namespace frangia {
 
-/// How depth changes across a place, and as far on either side of it.
+/// Change of depth across a place and over the same distance on either side of it.
 struct DepthChange {
   float jump_mm;
   float before_mm;
   float after_mm;
 };
 
-/// Whether depth jumps by more than `least_mm` beyond what its sides expect, and by more than
-/// either of them changes: a slope does the same on both sides, a crease as much as one. False
-/// where one is missing.
+/// Whether the jump exceeds the mean change of both sides by more than `least_mm`, and exceeds the
+/// change of each side. The second condition excludes slopes, where all three changes are equal,
+/// and creases, where the jump equals the change of one side.
+///
+/// missing  false where a change is missing
 [[nodiscard]] inline bool is_depth_step(const DepthChange& change, float least_mm) {
   const auto& [jump, before, after] = change;
   const float excess = std::abs(jump - 0.5F * (before + after));
