@@ -12,7 +12,7 @@ for complaint in complaints:
 
 faces, corners = 0, []
 for entity in document.modelspace():
-    if entity.dxf.layer not in ("SCAN", "SCAN_MOVED", "SCAN_INVENTED"):
+    if entity.dxf.layer not in ("SCAN", "SCAN_DISPLACED", "SCAN_SYNTHESIZED"):
         sys.exit(f"an entity is on layer {entity.dxf.layer}")
     if entity.dxf.layer not in document.layers:
         sys.exit(f"layer {entity.dxf.layer} is not in the table")

@@ -69,6 +69,17 @@ TEST_F(EveryFormat, WithRoomForThemKeepsTheMarks) {
     EXPECT_EQ(counts_of_marks(there_and_back(name, mesh)), counts_of_marks(mesh)) << name;
 }
 
+TEST_F(EveryFormat, NamesTheMarksInTextFiles) {
+  for (const char* name : {"a.obj", "a.gltf"}) {
+    write_mesh(at(name), marked_box());
+    for (const char* mark : {"measured", "displaced", "synthesized"})
+      EXPECT_NE(bytes_in(name).find(mark), std::string::npos) << name << " " << mark;
+  }
+  write_mesh(at("a.dxf"), marked_box());
+  for (const char* layer : {"\nSCAN\n", "\nSCAN_DISPLACED\n", "\nSCAN_SYNTHESIZED\n"})
+    EXPECT_NE(bytes_in("a.dxf").find(layer), std::string::npos) << layer;
+}
+
 TEST_F(EveryFormat, GltfAndPlyKeepAllThatIsKnownOfAVertexToTheBit) {
   const Mesh mesh = marked_box();
   for (const char* name : {"a.ply", "a.glb", "a.gltf"}) {

@@ -18,7 +18,7 @@ struct DxfOptions {
 };
 
 /// A DXF of release 12 (AC1009), or 2000 (AC1015) for MESH: what was measured on layer SCAN, what
-/// was moved beyond its sigma on SCAN_MOVED, what was invented on SCAN_INVENTED.
+/// was moved beyond its sigma on SCAN_DISPLACED, what was invented on SCAN_SYNTHESIZED.
 ///
 /// shape    a polyface mesh counts with 16 bits: a larger mesh is split by place into several
 /// units    mm to 0.0001; $INSUNITS and $MEASUREMENT say so, which release 12 does not know but its

@@ -12,7 +12,8 @@
 namespace frangia {
 
 /// Where triangles of each mark lie in a DXF: by number of the Mark.
-inline constexpr std::array<std::string_view, 3> kDxfLayers{"SCAN", "SCAN_MOVED", "SCAN_INVENTED"};
+inline constexpr std::array<std::string_view, 3> kDxfLayers{
+    "SCAN", "SCAN_DISPLACED", "SCAN_SYNTHESIZED"};
 /// Their colours: white, yellow, red.
 inline constexpr std::array<int, 3> kDxfColors{7, 2, 1};
 

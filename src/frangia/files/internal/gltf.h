@@ -21,7 +21,7 @@ namespace frangia {
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& path, const Run& run = {});
 
 /// One node with the mesh; .glb binary, .gltf as text with the buffer inside. Triangles are parted
-/// by mark into materials "measured", "moved" (yellow) and "invented" (red).
+/// by mark into materials "measured", "displaced" (yellow) and "synthesized" (red).
 ///
 /// units    m: coordinates are kept in mm, and the node scales them and turns z up to y up
 /// missing  nothing: _SIGMA_MM, _VIEWS and _MARK are attributes of vertices

@@ -7,7 +7,7 @@
 namespace frangia {
 
 /// A Wavefront OBJ file: v, vn and f, with corners written a, a/b, a//c or a/b/c, also counted back
-/// from the end. Groups named moved and invented mark their triangles. Everything else is skipped.
+/// from the end. Groups named displaced and synthesized mark their triangles. Everything else is skipped.
 ///
 /// shape    polygons become fans of triangles. Normals are kept when there is one a vertex, in the
 ///          vertices' order, and dropped otherwise (an OBJ may give one vertex many).
@@ -19,7 +19,7 @@ namespace frangia {
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& path);
 
 /// The shortest digits that read back as the same numbers; normals when the mesh has them;
-/// triangles in groups named measured, moved and invented when it has marks.
+/// triangles in groups named measured, displaced and synthesized when it has marks.
 ///
 /// units    mm
 /// missing  sigma_mm and views have no place in an OBJ

@@ -13,6 +13,7 @@
 #include "frangia/core/error.h"
 #include "frangia/files/internal/append_transformed.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/three_mf.h"
 #include "frangia/files/internal/xml_parser.h"
@@ -156,10 +157,7 @@ class Model {
         static_cast<std::uint64_t>(*number) >= group->second.size()) {
       return Mark::Measured;
     }
-    const std::string& name = group->second[static_cast<std::size_t>(*number)];
-    return name == "moved"      ? Mark::Displaced
-           : name == "invented" ? Mark::Synthesized
-                                : Mark::Measured;
+    return mark_of_name(group->second[static_cast<std::size_t>(*number)]);
   }
 
   void add(Mesh& mesh,

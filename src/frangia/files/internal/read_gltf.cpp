@@ -12,6 +12,7 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/gltf_document.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -162,10 +163,7 @@ class GltfReader {
     if (!primitive.contains("material")) return Mark::Measured;
     const json& material =
         document_.item("materials", primitive.at("material").get<std::uint64_t>());
-    const std::string name = material.value("name", "");
-    return name == "moved"      ? Mark::Displaced
-           : name == "invented" ? Mark::Synthesized
-                                : Mark::Measured;
+    return mark_of_name(material.value("name", ""));
   }
 
   void add_triangles(Mesh& part, const json& primitive) const {

@@ -10,6 +10,7 @@
 #include "frangia/core/error.h"
 #include "frangia/files/internal/add_polygon.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
@@ -61,10 +62,7 @@ class ObjReader {
       } else if (keyword == "f") {
         read_face();
       } else if (keyword == "g") {
-        const std::string_view name = reader_.word_on_line();
-        mark_ = name == "moved"      ? Mark::Displaced
-                : name == "invented" ? Mark::Synthesized
-                                     : Mark::Measured;
+        mark_ = mark_of_name(reader_.word_on_line());
       }
     }
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {

@@ -9,7 +9,7 @@ namespace frangia {
 
 /// A 3MF package: the meshes that its build names, each where its transforms put it.
 ///
-/// shape    marks of triangles come back from base materials named "moved" and "invented"
+/// shape    marks of triangles come back from base materials named "displaced" and "synthesized"
 /// units    turned into mm from the unit that the model states
 /// missing  supports and solids alike are surface here; textures, beams, slices and models in
 ///          further files are left out; `run` is warned of further files
@@ -20,7 +20,7 @@ namespace frangia {
 [[nodiscard]] Mesh read_3mf(const std::filesystem::path& path, const Run& run = {});
 
 /// One object of type "model" and one item that builds it; triangles of each mark in a base
-/// material named "measured", "moved" (yellow) or "invented" (red).
+/// material named "measured", "displaced" (yellow) or "synthesized" (red).
 ///
 /// shape    triangles with two corners alike, which the format forbids, are left out; as an open or
 ///          non-manifold mesh is no solid, such a one is written as type "surface"

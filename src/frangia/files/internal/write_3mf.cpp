@@ -79,8 +79,8 @@ void write_model(ZipWriter& file, const Mesh& mesh) {
       " <resources>\n"
       "  <basematerials id=\"1\">\n"
       "   <base name=\"measured\" displaycolor=\"#C0C0C8\"/>\n"
-      "   <base name=\"moved\" displaycolor=\"#F0C828\"/>\n"
-      "   <base name=\"invented\" displaycolor=\"#DC2828\"/>\n"
+      "   <base name=\"displaced\" displaycolor=\"#F0C828\"/>\n"
+      "   <base name=\"synthesized\" displaycolor=\"#DC2828\"/>\n"
       "  </basematerials>\n");
   file.text(fmt::format("  <object id=\"2\" type=\"{}\" name=\"scan\" pid=\"1\" pindex=\"0\">\n",
                         is_solid(mesh) ? "model" : "surface"));

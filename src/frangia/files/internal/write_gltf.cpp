@@ -12,6 +12,7 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/gltf.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/geometry/vertex_data.h"
 
@@ -24,7 +25,6 @@ constexpr int kFloat = 5126;
 constexpr int kUnsigned = 5125;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementBuffer = 34963;
-constexpr std::array kNames{"measured", "moved", "invented"};
 const std::array<std::array<double, 4>, 3> kColors{
     {{0.75, 0.75, 0.78, 1.0}, {0.94, 0.78, 0.16, 1.0}, {0.86, 0.16, 0.16, 1.0}}};
 
@@ -111,7 +111,7 @@ class Layout {
       sink.number(static_cast<float>(views));
     for (const Mark mark : mesh_.vertex_marks)
       sink.number(static_cast<float>(mark));
-    for (std::size_t mark = 0; mark < kNames.size(); ++mark) {
+    for (std::size_t mark = 0; mark < kMarkNames.size(); ++mark) {
       for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         if (static_cast<std::size_t>(mark_of(mesh_, i)) != mark) continue;
         for (const std::uint32_t corner : mesh_.triangles[i])
@@ -151,7 +151,7 @@ class Layout {
                              {"indices", accessor(3 * counts.at(mark), kUnsigned, "SCALAR")},
                              {"material", materials_.size()},
                              {"mode", 4}});
-      materials_.push_back({{"name", kNames.at(mark)},
+      materials_.push_back({{"name", kMarkNames.at(mark)},
                             {"pbrMetallicRoughness",
                              {{"baseColorFactor", kColors.at(mark)},
                               {"metallicFactor", 0.0},
