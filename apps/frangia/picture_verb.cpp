@@ -30,7 +30,7 @@ struct PictureArguments {
 
 void draw(PictureArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  check_picture_ending(arguments.output);
+  check_picture_output(arguments.output);
   arguments.shade.azimuth_rad = rad_from_deg(arguments.azimuth_deg);
   arguments.shade.elevation_rad = rad_from_deg(arguments.elevation_deg);
   std::vector<Image<Rgb>> pictures;
