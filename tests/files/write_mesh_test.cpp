@@ -85,12 +85,12 @@ TEST_F(WriteMesh, WarnsOfAnOpenMeshIn3mfOnly) {
   std::string warning;
   run.on_warning = [&](const std::string& sentence) { warning = sentence; };
   for (const char* name : kNames) {
+    warning.clear();
     write_mesh(at(name), testing::sheet(3), {}, run);
-    EXPECT_EQ(warning.empty(), std::string(name) != "part.3mf") << warning;
+    const std::string sentence =
+        at("part.3mf").string() + ": the mesh has 8 open or non-manifold edges";
+    EXPECT_EQ(warning.substr(0, sentence.size()), std::string(name) == "part.3mf" ? sentence : "");
   }
-  EXPECT_EQ(warning.find(at("part.3mf").string() + ": the mesh has 8 open or non-manifold edges"),
-            0U)
-      << warning;
   warning.clear();
   write_mesh(at("part.3mf"), testing::box({0, 0, 0}, {1, 1, 1}), {}, run);
   EXPECT_EQ(warning, "");

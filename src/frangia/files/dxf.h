@@ -28,8 +28,7 @@ struct DxfOptions {
 /// missing  normals, sigma and views are not stored; a triangle with two corners that round to the
 ///          same coordinates is omitted
 /// errors   Error(Input) when check_mesh fails, when every triangle is degenerate after rounding,
-/// or
-///          when a coordinate exceeds 1 000 km; Error(File) when the file cannot be written
+///          or when a coordinate exceeds 1 000 km; Error(File) when the file cannot be written
 /// source   Autodesk, AutoCAD Release 12 Customization Manual, chapter 11; DXF Reference 2000
 void write_dxf(const std::filesystem::path& path, const Mesh& mesh, const DxfOptions& options = {});
 
@@ -42,8 +41,7 @@ void write_dxf(const std::filesystem::path& path, const Mesh& mesh, const DxfOpt
 /// missing  other entities and the contents of blocks are skipped; a warning through `run` lists
 ///          them with their counts
 /// errors   Error(Input) that names the file and the line: no mesh, an invalid group, a vertex
-/// index
-///          out of range, a coordinate that is not finite, a binary DXF
+///          index out of range, a coordinate that is not finite, a binary DXF
 [[nodiscard]] Mesh read_dxf(const std::filesystem::path& path, const Run& run = {});
 
 }  // namespace frangia

@@ -27,8 +27,8 @@ struct RangeScan {
 /// source   Stanford 3D Scanning Repository; Curless & Levoy 1996
 [[nodiscard]] RangeScan read_range_scan(const std::filesystem::path& path);
 
-/// Reads the scans that a Stanford `.conf` file lists, with their poses: each line is
-/// `bmesh FILE tx ty tz qx qy qz qw`, whose quaternion is the conjugate of the scan's rotation.
+/// Reads the scans that a Stanford `.conf` file lists, with their poses: each line is `bmesh FILE
+/// tx ty tz qx qy qz qw`, whose quaternion is the conjugate of the scan's rotation.
 ///
 /// units    translations as in the scans, assumed to be mm
 /// errors   Error(Input) that names the file and the line

@@ -19,8 +19,7 @@ struct WriteOptions {
 ///
 /// units    mm; metres in glTF
 /// missing  sigma and views are kept in .ply, .glb, .gltf and .pcd; marks also in .dxf, .3mf, .obj
-/// and
-///          .off (as colours); normals in .ply, .glb, .gltf, .obj, .xyz and .pcd; .xyz and .pcd
+///          and .off (as colours); normals in .ply, .glb, .gltf, .obj, .xyz and .pcd; .xyz and .pcd
 ///          store no triangles. `run` is warned when the mesh does not suit the format.
 /// errors   Error(Input) for an unknown extension; otherwise as the writer of the format
 void write_mesh(const std::filesystem::path& path,

@@ -11,8 +11,7 @@ namespace frangia {
 /// its buffers embedded or in files beside it.
 ///
 /// shape    normals are read when every primitive has them, and the attributes _SIGMA_MM, _VIEWS
-/// and
-///          _MARK that write_gltf writes; marks of triangles follow from the names of materials
+///          and _MARK that write_gltf writes; marks of triangles follow from the names of materials
 /// units    metres with y up are converted to mm with z up
 /// missing  points, lines, skins and morph targets are skipped; points and lines with a warning
 ///          through `run`
@@ -28,8 +27,7 @@ namespace frangia {
 /// units    coordinates are stored in mm; the node scales them to metres and turns z up to y up
 /// missing  nothing: _SIGMA_MM, _VIEWS and _MARK are attributes of vertices
 /// errors   Error(Input) when check_mesh fails, when the mesh has no triangle, or when it exceeds
-/// the
-///          4 GB of the format; Error(File) when the file cannot be written
+///          the 4 GB of the format; Error(File) when the file cannot be written
 void write_gltf(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace frangia

@@ -21,8 +21,7 @@ struct GltfDocument {
   /// The numbers of an accessor with `width` components per element.
   ///
   /// errors   Error(Input) for an accessor that does not exist, has another width, is sparse, or
-  /// exceeds
-  ///          its buffer
+  ///          exceeds its buffer
   [[nodiscard]] std::vector<double> numbers(std::uint64_t accessor, std::size_t width) const;
 
   /// Element `index` of a list of the document.

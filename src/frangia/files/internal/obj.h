@@ -14,8 +14,8 @@ namespace frangia {
 ///          normal with the index of its vertex, since an OBJ may give one vertex several
 /// units    as in the file, assumed to be mm
 /// errors   Error(Input) that names the file and the line or triangle: an invalid number, a face
-/// with
-///          fewer than three corners, a vertex index out of range, a coordinate that is not finite
+///          with fewer than three corners, a vertex index out of range, a coordinate that is not
+///          finite
 /// source   Wavefront, Advanced Visualizer manual, appendix B1
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& path);
 

@@ -22,8 +22,7 @@ namespace frangia {
 /// units    mm
 /// missing  normals, sigma and views are not stored
 /// errors   Error(Input) when check_mesh fails or the mesh has no triangle; Error(File) when the
-/// file
-///          cannot be written
+///          file cannot be written
 void write_off(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace frangia

@@ -10,14 +10,12 @@ namespace frangia {
 /// Reads a point cloud of the Point Cloud Library, ascii or binary.
 ///
 /// shape    points without triangles; the fields read are x y z, normal_x normal_y normal_z when
-/// all
-///          three exist, and sigma_mm
+///          all three exist, and sigma_mm
 /// units    as in the file, assumed to be mm
 /// missing  points that are not finite, which an organized cloud has at unmeasured pixels, are
 ///          omitted; `run` gets their number
 /// errors   Error(Input) that names the file and the fault: no x y z, counts larger than the file
-/// can
-///          hold, truncated, compressed data
+///          can hold, truncated, compressed data
 /// source   PCL, The PCD file format 0.7
 [[nodiscard]] Mesh read_pcd(const std::filesystem::path& path, const Run& run = {});
 

@@ -14,9 +14,8 @@ namespace frangia {
 /// missing  objects of every type are read as surfaces; textures, beams and slices are skipped, as
 ///          are models in further files of the package, with a warning through `run`
 /// errors   Error(Input) that names the file and the fault: not a zip archive, damaged, invalid
-/// XML,
-///          XML with entities, an invalid number, an index out of range, an object that does not
-///          exist or contains itself, an entry that expands to far more than a mesh
+///          XML, XML with entities, an invalid number, an index out of range, an object that does
+///          not exist or contains itself, an entry that expands to far more than a mesh
 /// source   3MF Consortium, 3D Manufacturing Format, Core Specification 1.3
 [[nodiscard]] Mesh read_3mf(const std::filesystem::path& path, const Run& run = {});
 
@@ -31,8 +30,7 @@ namespace frangia {
 /// units    mm
 /// missing  normals, sigma and views are not stored
 /// errors   Error(Input) when check_mesh fails or the mesh has no triangle; Error(File) when the
-/// file
-///          cannot be written
+///          file cannot be written
 void write_3mf(const std::filesystem::path& path, const Mesh& mesh, const Run& run = {});
 
 }  // namespace frangia
