@@ -51,7 +51,8 @@ TEST(RenderMesh, ShowsTheInsideInAColorOfNoMap) {
     for (int i = 0; i <= 1000; ++i) {
       const Eigen::Vector3d color =
           color_of(map, static_cast<float>(i) / 1000.0F).cast<double>().array().pow(2.2);
-      if (color.norm() > 0.0) EXPECT_GT(chromaticity_angle_deg(inside_color(), color), 20.0) << i;
+      if (color.norm() == 0.0) continue;
+      EXPECT_GT(chromaticity_angle_deg(inside_color(), color), 20.0) << i;
     }
   }
 }
