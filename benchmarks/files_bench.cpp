@@ -21,7 +21,8 @@ std::filesystem::path scratch(const std::string& extension) {
   return std::filesystem::temp_directory_path() / name;
 }
 
-/// Writes a million triangles; the rate is triangles per second. `wanted_s` is the time limit, or 0.
+/// Writes a million triangles; the rate is triangles per second. `wanted_s` is the time limit; 0:
+/// none.
 void write_million(benchmark::State& state,
                    const std::string& extension,
                    DxfVariant variant,

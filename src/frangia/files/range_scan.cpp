@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/median.h"
 #include "frangia/files/internal/ply_source.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/ply.h"
@@ -99,10 +100,7 @@ double median_spacing(const Mesh& mesh, const Grid& grid) {
     const auto& b = mesh.vertices_mm[static_cast<std::size_t>(grid.points[i + 1])];
     lengths.push_back(static_cast<double>((a - b).norm()));
   }
-  if (lengths.empty()) return 0.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return median_in_place(std::span(lengths));
 }
 
 void triangulate_grid(Mesh& mesh, const Grid& grid, const std::filesystem::path& path) {
