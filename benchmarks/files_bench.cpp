@@ -21,8 +21,8 @@ std::filesystem::path scratch(const std::string& extension) {
   return std::filesystem::temp_directory_path() / name;
 }
 
-/// A million triangles to the disk; the rate is triangles per second.
-/// `wanted_s` is what it may take, or 0.
+/// Writes a million triangles; the rate is triangles per second. `wanted_s` is the time limit; 0:
+/// none.
 void write_million(benchmark::State& state,
                    const std::string& extension,
                    DxfVariant variant,
@@ -56,7 +56,7 @@ BENCHMARK_CAPTURE(write_million, ply, ".ply", DxfVariant::Faces, 0.0)
 BENCHMARK_CAPTURE(write_million, obj, ".obj", DxfVariant::Faces, 0.0)
     ->Unit(benchmark::kMillisecond);
 
-/// A million triangles from the disk.
+/// Reads a million triangles.
 void read_million(benchmark::State& state, const std::string& extension) {
   const Mesh mesh = testing::measured_sheet(kSide);
   const auto path = scratch(extension);

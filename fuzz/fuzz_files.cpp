@@ -1,6 +1,5 @@
-// Every reader against bytes that nobody meant: FRANGIA_FUZZ_ENDING says whose turn it is, ".ply",
-// ".dxf", ... or ".json" for scripts of edits. A reader may refuse with an Error or give a mesh
-// that is whole; anything else ends the program.
+// Fuzzes the reader that FRANGIA_FUZZ_ENDING selects: ".ply", ".dxf", ... or ".json" for edit
+// scripts. A reader must throw an Error or return a consistent mesh; anything else is a crash.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -41,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (file < 0 || ::write(file, data, size) != static_cast<ssize_t>(size)) std::abort();
   try {
     read("/proc/self/fd/" + std::to_string(file));
-  } catch (const frangia::Error&) {  // refused: as good as read
+  } catch (const frangia::Error&) {  // the reader refused the file
   }
   ::close(file);
   return 0;

@@ -32,7 +32,7 @@ def scan(part, *options):
 
 
 def show(name, before, after, *options):
-    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 320, "--height", 320, "--marks", *options)
+    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 320, "--height", 320, "--marks", "--no-legend", *options)
 
 
 def picture(name, before, steps, *options):

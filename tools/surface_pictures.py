@@ -173,7 +173,7 @@ def registration():
     pictures = []
     for name, places in (("before", before), ("after", after)):
         put_together(WORK / f"{name}.ply", rig, depths, places)
-        run("inspect", WORK / f"{name}.ply", "--show", "views", "--picture", WORK / f"{name}.png")
+        run("inspect", WORK / f"{name}.ply", "--show", "views", "--no-legend", "--picture", WORK / f"{name}.png")
     side_by_side(
         IMAGES / "surface-registration.png",
         [
@@ -188,8 +188,8 @@ def sigma_and_closing():
     mesh, closed = WORK / "bust.ply", WORK / "closed.ply"
     run("reconstruct", scan, "-o", mesh)
     run("reconstruct", scan, "-o", closed, "--watertight")
-    run("inspect", mesh, "--show", "sigma", "--scale", 0.02, "--picture", WORK / "sigma.png")
-    run("inspect", mesh, "--reference", scan / "truth.ply", "--scale", 0.02, "--picture", WORK / "error.png")
+    run("inspect", mesh, "--show", "sigma", "--scale", 0.02, "--no-legend", "--picture", WORK / "sigma.png")
+    run("inspect", mesh, "--reference", scan / "truth.ply", "--scale", 0.02, "--no-legend", "--picture", WORK / "error.png")
     side_by_side(
         IMAGES / "surface-sigma.png",
         [
@@ -197,13 +197,13 @@ def sigma_and_closing():
             (middle_of(WORK / "error.png", HALF), "true error: -0.02 to 0.02 mm"),
         ],
     )
-    run("inspect", mesh, "--show", "shape", "--from", "60,-35", "--picture", WORK / "open.png")
-    run("inspect", closed, "--show", "marks", "--from", "60,-35", "--picture", WORK / "marks.png")
+    run("inspect", mesh, "--show", "shape", "--from", "60,-35", "--no-legend", "--picture", WORK / "open.png")
+    run("inspect", closed, "--show", "marks", "--from", "60,-35", "--no-legend", "--picture", WORK / "marks.png")
     side_by_side(
         IMAGES / "surface-watertight.png",
         [
             (middle_of(WORK / "open.png", HALF), "what was seen, from below"),
-            (middle_of(WORK / "marks.png", HALF), "--watertight: red is invented"),
+            (middle_of(WORK / "marks.png", HALF), "--watertight: blue is synthesized"),
         ],
     )
 
@@ -236,7 +236,7 @@ def rounds():
     pictures = []
     for name, places in (("moved", on_table), ("joined", together)):
         put_together(WORK / f"{name}.ply", rig, depths, places, lambda view: 1 + 4 * round_of[view])
-        run("inspect", WORK / f"{name}.ply", "--show", "views", "--picture", WORK / f"{name}.png", "--from", "50,25")
+        run("inspect", WORK / f"{name}.ply", "--show", "views", "--no-legend", "--picture", WORK / f"{name}.png", "--from", "50,25")
         pictures.append(middle_of(WORK / f"{name}.png", (0.18, 0.02, 0.82, 0.98)))
     side_by_side(
         IMAGES / "surface-rounds.png",
@@ -307,7 +307,7 @@ def block_edge():
     write_ply(WORK / "cubes.ply", vertices, numpy.ones(len(vertices)), faces)
     pictures = []
     for name in ("block", "cubes"):
-        run("inspect", WORK / f"{name}.ply", "--show", "shape", "--from", "35,30", "--picture", WORK / f"{name}.png")
+        run("inspect", WORK / f"{name}.ply", "--show", "shape", "--from", "35,30", "--no-legend", "--picture", WORK / f"{name}.png")
         pictures.append(middle_of(WORK / f"{name}.png", (0.36, 0.24, 0.64, 0.66)))
     side_by_side(
         IMAGES / "surface-edge.png",

@@ -103,6 +103,7 @@ void measure(const Scan& scan, const Mesh& truth, DemoCase& demo_case, const Run
   shade.value_min = -kErrorScaleMm;
   shade.value_max = kErrorScaleMm;
   shade.color_map = ColorMap::Diverging;
+  shade.value_label = "deviation, mm";
   demo_case.pictures.push_back(render_mesh(demo_case.result.mesh, shade, run));
 }
 

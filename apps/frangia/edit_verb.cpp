@@ -105,7 +105,7 @@ bool asks_for_history(const EditArguments& arguments) {
 std::vector<EditScript> checked(const EditArguments& arguments) {
   for (const auto& path : arguments.outputs)
     check_mesh_extension(path);
-  if (!arguments.preview.empty()) check_picture_ending(arguments.preview);
+  if (!arguments.preview.empty()) check_picture_output(arguments.preview);
   std::vector<EditScript> scripts;
   for (const EditStep& step : arguments.steps) {
     if (step.operation == kScript) {
@@ -187,7 +187,7 @@ void edit(const EditArguments& arguments, Terminal& terminal) {
   }
   run.stage("write");
   for (const auto& path : arguments.outputs)
-    write_mesh(path, session.mesh(), arguments.write);
+    write_mesh(path, session.mesh(), arguments.write, run);
   if (!arguments.save_script.empty()) write_edit_script(arguments.save_script, session.script());
   std::optional<Change> change;
   if (!arguments.preview.empty()) {

@@ -12,7 +12,6 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/files/read_mesh.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspect/surface_completeness.h"
@@ -20,6 +19,8 @@
 #include "frangia/inspect/surface_validity.h"
 
 #include "option_values.h"
+#include "picture_file.h"
+#include "read_surface.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -35,6 +36,7 @@ struct InspectArguments {
   double scale_mm = 0.1;
   double within_mm = 0.2;
   double max_angle_deg = 75.0;
+  bool legend = true;
 };
 
 SurfaceCompleteness completeness_of(const InspectArguments& arguments,
@@ -51,51 +53,56 @@ SurfaceCompleteness completeness_of(const InspectArguments& arguments,
   return surface_completeness(reference, mesh, MeasurementViews{scan.rig, poses}, options, run);
 }
 
-/// What the picture shows of each vertex.
+/// The values of the vertices that --show names.
 std::vector<float> values_of(const InspectArguments& arguments, const Mesh& mesh) {
   std::vector<float> values;
   if (arguments.show == "sigma") values = mesh.sigma_mm;
   if (arguments.show == "views") values.assign(mesh.views.begin(), mesh.views.end());
-  if (arguments.show == "marks") {
-    for (const Mark mark : mesh.vertex_marks)
-      values.push_back(static_cast<float>(mark));
-    // A flat closing has no vertex of its own: its rim shows it.
-    for (std::size_t i = 0; i < mesh.triangle_marks.size() && !values.empty(); ++i) {
-      for (const std::uint32_t vertex : mesh.triangles[i])
-        values[vertex] = std::max(values[vertex], static_cast<float>(mesh.triangle_marks[i]));
-    }
-  }
-  if (!(arguments.show == "shape" || !values.empty())) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format(
-            "{}: holds no {}; show something else", arguments.mesh.string(), arguments.show));
-  }
   return values;
+}
+
+/// Checks before the work that the mesh has what --show names.
+void check_shown(const InspectArguments& arguments, const Mesh& mesh) {
+  const std::string& show = arguments.show;
+  if (show == "deviation") {
+    require(!arguments.reference.empty(),
+            "--show deviation needs a --reference; give one, or choose another --show");
+  }
+  const bool missing =
+      (show == "sigma" && mesh.sigma_mm.empty()) || (show == "views" && mesh.views.empty()) ||
+      (show == "marks" && mesh.vertex_marks.empty() && mesh.triangle_marks.empty());
+  if (!missing) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: the file has no {}; choose another --show, such as shape",
+                          arguments.mesh.string(),
+                          show));
 }
 
 void draw(const InspectArguments& arguments,
           const Mesh& mesh,
           const std::optional<RayScene>& reference,
           const Run& run) {
-  RenderOptions shade;
-  shade.azimuth_rad = rad_from_deg(arguments.from_deg[0]);
-  shade.elevation_rad = rad_from_deg(arguments.from_deg[1]);
-  const auto scale_mm = static_cast<float>(arguments.scale_mm);
+  RenderOptions options;
+  options.azimuth_rad = rad_from_deg(arguments.from_deg[0]);
+  options.elevation_rad = rad_from_deg(arguments.from_deg[1]);
+  options.legend = arguments.legend;
+  options.value_max = static_cast<float>(arguments.scale_mm);
   if (arguments.show == "deviation") {
-    require(reference.has_value(), "--show deviation needs a --reference to deviate from");
-    shade.values = vertex_errors_mm(mesh, *reference, run);
-    shade.value_min = -scale_mm;
-    shade.color_map = ColorMap::Diverging;
+    options.values = vertex_errors_mm(mesh, *reference, run);
+    options.value_min = -options.value_max;
+    options.color_map = ColorMap::Diverging;
+    options.value_label = "deviation, mm";
+  } else if (arguments.show == "marks") {
+    options.show_marks = true;
   } else {
-    shade.values = values_of(arguments, mesh);
-    shade.color_map = arguments.show == "marks" ? ColorMap::Diverging : ColorMap::Viridis;
+    options.values = values_of(arguments, mesh);
+    options.value_label = arguments.show == "sigma" ? "sigma, mm" : "views";
   }
-  shade.value_max = arguments.show == "marks" ? 2.0F : scale_mm;
-  if (arguments.show == "views")
-    shade.value_max = *std::max_element(shade.values.begin(), shade.values.end());
-  if (arguments.show == "marks") shade.value_min = -2.0F;
-  write_png(arguments.picture, render_mesh(mesh, shade, run));
+  if (arguments.show == "views") {
+    options.value_max = *std::max_element(options.values.begin(), options.values.end());
+    options.whole_values = true;
+  }
+  write_png(arguments.picture, render_mesh(mesh, options, run));
 }
 
 void print_result(const SurfaceError& error,
@@ -140,11 +147,13 @@ void print_result(const SurfaceError& error,
 
 void inspect(const InspectArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  const Mesh mesh = read_mesh(arguments.mesh);
   require(!arguments.reference.empty() || !arguments.picture.empty(),
-          "nothing to do: name a --reference to measure against, or a --picture to draw");
+          "nothing to do: give a --reference to measure against or a --picture to draw");
+  if (!arguments.picture.empty()) check_picture_output(arguments.picture);
+  const Mesh mesh = read_surface(arguments.mesh, run);
+  if (!arguments.picture.empty()) check_shown(arguments, mesh);
   std::optional<RayScene> reference;
-  if (!arguments.reference.empty()) reference.emplace(read_mesh(arguments.reference));
+  if (!arguments.reference.empty()) reference.emplace(read_surface(arguments.reference, run));
   if (!arguments.picture.empty()) draw(arguments, mesh, reference, run);
   if (!reference) return;
   const RayScene mesh_scene(mesh);
@@ -161,33 +170,42 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   verb->footer(
       "example:\n  frangia inspect bust.ply --reference bust-scan/truth.ply --scan bust-scan "
       "--picture bust.png");
-  verb->add_option("MESH", arguments->mesh, "the measured mesh: .ply, .stl or .obj")->required();
-  verb->add_option("--reference", arguments->reference, "the true shape, in the same frame");
+  verb->add_option("MESH", arguments->mesh, "the measured mesh")->required();
+  verb->add_option("--reference", arguments->reference, "the reference mesh, in the same frame");
   verb->add_option("--scan",
                    arguments->scan,
-                   "count only what the views of this scan could measure as to be covered");
-  verb->add_option("--within", arguments->within_mm, "a place is covered with mesh this near, mm")
+                   "completeness counts only what the views of this scan can measure");
+  verb->add_option("--within",
+                   arguments->within_mm,
+                   "a point of the reference is covered by mesh within this distance, mm")
       ->check(above_zero())
       ->capture_default_str();
-  verb->add_option("--max-angle",
-                   arguments->max_angle_deg,
-                   "a view could measure what camera and light see within this angle, degrees")
+  verb->add_option(
+          "--max-angle",
+          arguments->max_angle_deg,
+          "a view can measure surfaces whose normal is within this angle of camera and projector, "
+          "degrees")
       ->check(from_to(1.0, 90.0))
       ->capture_default_str();
-  verb->add_option("--picture", arguments->picture, "draw the mesh into this .png");
-  verb->add_option("--show",
-                   arguments->show,
-                   "what its colors are: deviation, sigma, views (how many saw it), marks (red was "
-                   "synthesized), or shape for none")
+  verb->add_option(
+      "--picture", arguments->picture, "draw the mesh into this .png, with a color scale");
+  verb->add_option(
+          "--show",
+          arguments->show,
+          "what its colors show: deviation, sigma, views (their number), marks, or shape for "
+          "none")
       ->check(one_of({"deviation", "sigma", "views", "marks", "shape"}))
       ->capture_default_str();
-  verb->add_option("--from", arguments->from_deg, "where the viewer is: azimuth,elevation, degrees")
+  verb->add_option(
+          "--from", arguments->from_deg, "direction of the viewer: azimuth,elevation, degrees")
       ->delimiter(',')
       ->expected(2)
       ->capture_default_str();
-  verb->add_option("--scale", arguments->scale_mm, "deviation or sigma of the strongest color, mm")
+  verb->add_option(
+          "--scale", arguments->scale_mm, "deviation or sigma at the end of the color scale, mm")
       ->check(above_zero())
       ->capture_default_str();
+  verb->add_flag("!--no-legend", arguments->legend, "leave out the color scale");
   verb->callback([arguments, &terminal] { inspect(*arguments, terminal); });
 }
 

@@ -4,16 +4,23 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/files/lowercase_extension.h"
 
 namespace frangia {
 
-/// errors   Error(Input) when a picture's name has another extension than .png
-inline void check_picture_ending(const std::filesystem::path& path) {
-  if (lowercase_extension(path) == ".png") return;
-  throw Error(ErrorKind::Input,
-              fmt::format("{}: a picture is written as .png; name such a file", path.string()));
+/// Checks before the work that a picture can be written after it.
+///
+/// errors   Error(Input) when the extension is not .png; Error(File) when the folder does not exist
+///          or is not writable
+inline void check_picture_output(const std::filesystem::path& path) {
+  if (lowercase_extension(path) != ".png") {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: pictures are written as PNG; use a name that ends in .png",
+                            path.string()));
+  }
+  const AtomicFile probe(path);
 }
 
 }  // namespace frangia

@@ -8,13 +8,13 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/files/mesh_formats.h"
-#include "frangia/files/read_mesh.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/contact_sheet.h"
 #include "frangia/inspect/render_mesh.h"
 
 #include "option_values.h"
 #include "picture_file.h"
+#include "read_surface.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -30,13 +30,13 @@ struct PictureArguments {
 
 void draw(PictureArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  check_picture_ending(arguments.output);
+  check_picture_output(arguments.output);
   arguments.shade.azimuth_rad = rad_from_deg(arguments.azimuth_deg);
   arguments.shade.elevation_rad = rad_from_deg(arguments.elevation_deg);
   std::vector<Image<Rgb>> pictures;
   for (const auto& path : arguments.meshes) {
     run.stage(path.filename().string());
-    pictures.push_back(render_mesh(read_mesh(path, run), arguments.shade, run));
+    pictures.push_back(render_mesh(read_surface(path, run), arguments.shade, run));
   }
   if (pictures.size() == 1) {
     write_png(arguments.output, pictures.front());
@@ -50,27 +50,30 @@ void draw(PictureArguments arguments, Terminal& terminal) {
 void add_picture_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<PictureArguments>();
   CLI::App* verb = program.add_subcommand("picture", "draw meshes, side by side");
-  verb->footer("example:\n  frangia picture bust.ply mended.ply --marks -o both.png");
+  verb->footer("example:\n  frangia picture bust.ply repaired.ply --marks -o both.png");
   verb->add_option("MESH", arguments->meshes, fmt::format("the meshes: {}", mesh_extensions()))
       ->required();
   verb->add_option("-o,--output", arguments->output, "the picture, a .png")->required();
   const auto size = [&](const char* name, int& value, const char* help) {
     verb->add_option(name, value, help)->check(from_to(16, 16'384))->capture_default_str();
   };
-  size("--width", arguments->shade.width_px, "of each mesh's picture, pixels");
+  size("--width", arguments->shade.width_px, "of each mesh, without its legend, pixels");
   size("--height", arguments->shade.height_px, "pixels");
-  verb->add_option(
-          "--azimuth", arguments->azimuth_deg, "of the viewer about z, degrees from x to y")
+  verb->add_option("--azimuth",
+                   arguments->azimuth_deg,
+                   "direction of the viewer about z, degrees from x to y")
       ->capture_default_str();
-  verb->add_option(
-          "--elevation", arguments->elevation_deg, "of the viewer above the ground, degrees")
+  verb->add_option("--elevation",
+                   arguments->elevation_deg,
+                   "direction of the viewer above the ground, degrees")
       ->check(from_to(-90.0, 90.0))
       ->capture_default_str();
   verb->add_flag("--edges", arguments->shade.show_edges, "draw the edges of the triangles");
   verb->add_flag("--marks",
                  arguments->shade.show_marks,
-                 "show what was moved yellow, what was synthesized blue");
+                 "color what was displaced yellow, what was synthesized blue");
   verb->add_flag("!--no-ground", arguments->shade.ground, "leave out the shadow on the ground");
+  verb->add_flag("!--no-legend", arguments->shade.legend, "leave out the meaning of the colors");
   verb->callback([arguments, &terminal] { draw(*arguments, terminal); });
 }
 

@@ -52,7 +52,7 @@ struct MeshOutputs {
   void write_all(const Mesh& mesh, const Run& run) const {
     for (const auto& path : paths) {
       const bool dxf = lowercase_extension(path) == ".dxf";
-      write_mesh(path, dxf ? limit_triangles(mesh, dxf_faces, run) : mesh, write);
+      write_mesh(path, dxf ? limit_triangles(mesh, dxf_faces, run) : mesh, write, run);
     }
   }
 };

@@ -17,7 +17,7 @@ using testing::FakeExposure;
 using testing::FakeGigeCamera;
 using testing::soon;
 
-/// A ramp that the exposure scales, the black level lifts, and the depth stretches.
+/// A ramp, scaled by the exposure and the bit depth and offset by the black level.
 int ramp(const FakeExposure& exposure, int x, int y) {
   const int white = exposure.bytes_per_px == 1 ? 255 : 65535;
   const double light = exposure.exposure_us / 10'000.0 * ((x + 3 * y) % 200) / 255.0;
@@ -61,7 +61,7 @@ class AravisCameraTest : public ::testing::Test {
   FakeGigeCamera fake_;
 };
 
-TEST_F(AravisCameraTest, AFrameHasTheSettingsThatWereAskedFor) {
+TEST_F(AravisCameraTest, AFrameHasTheRequestedSettings) {
   const auto camera = open_aravis_camera(region(320, 240), soon());
   EXPECT_EQ(camera->info().width_px, 320);
   EXPECT_EQ(camera->info().white_level, 255);
@@ -75,7 +75,7 @@ TEST_F(AravisCameraTest, AFrameHasTheSettingsThatWereAskedFor) {
   }
 }
 
-TEST_F(AravisCameraTest, SixteenBitsArriveAsSixteen) {
+TEST_F(AravisCameraTest, SixteenBitFramesKeepTheirDepth) {
   AravisSettings settings = region(320, 240);
   settings.pixel_format = "Mono16";
   const auto camera = open_aravis_camera(settings, soon());
@@ -86,7 +86,7 @@ TEST_F(AravisCameraTest, SixteenBitsArriveAsSixteen) {
   expect_ramp(captured, camera->info());
 }
 
-TEST_F(AravisCameraTest, LostPacketsMakeIncompleteFramesAndTheOthersAreWhole) {
+TEST_F(AravisCameraTest, LostPacketsMakeFramesIncompleteAndOthersStayComplete) {
   const auto camera = open_aravis_camera(region(320, 240), soon());
   static_cast<void>(camera->configure({1.0, 0.0, 0.0}, soon()));
   fake_.set_packet_loss(0.005);
@@ -102,10 +102,11 @@ TEST_F(AravisCameraTest, LostPacketsMakeIncompleteFramesAndTheOthersAreWhole) {
     }
   }
   EXPECT_GT(complete, 0);
-  EXPECT_LT(complete, kFrames) << "0.5 % of some 60 packets a frame break a quarter of them";
+  EXPECT_LT(complete, kFrames)
+      << "a loss of 0.5 % of about 60 packets per frame affects a quarter of the frames";
 }
 
-TEST_F(AravisCameraTest, WhatItCannotDoIsOneSentence) {
+TEST_F(AravisCameraTest, UnsupportedSettingsAreRefusedInOneSentence) {
   const auto camera = open_aravis_camera(region(320, 240), soon());
   const std::string sentence = error_of([&] {
     static_cast<void>(camera->configure({1e9, 0.0, 0.0}, soon()));
@@ -119,7 +120,7 @@ TEST_F(AravisCameraTest, WhatItCannotDoIsOneSentence) {
             std::string::npos);
 }
 
-TEST_F(AravisCameraTest, ACameraThatIsGoneIsReported) {
+TEST_F(AravisCameraTest, ADisconnectedCameraIsReported) {
   const auto camera = open_aravis_camera(region(320, 240), soon());
   static_cast<void>(camera->configure({1.0, 0.0, 0.0}, soon()));
   fake_.stop();

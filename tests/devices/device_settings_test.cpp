@@ -27,7 +27,7 @@ std::string sentence_of(const std::function<void()>& work) {
   return "no error";
 }
 
-TEST(DeviceSettings, AreReadByTheirTypes) {
+TEST(DeviceSettings, AreReadWithTheirTypes) {
   const testing::TemporaryFolder folder;
   auto all = settings_of(folder.path(),
                          "[devices.camera]\ndriver = \"replay\"\nfolder = \"frames\"\nloop = true\n"
@@ -43,7 +43,7 @@ TEST(DeviceSettings, AreReadByTheirTypes) {
   EXPECT_EQ(camera.number_or("delay_ms", 3.0), 3.0);
 }
 
-TEST(DeviceSettings, NameFileAndKeyOfWhatIsWrong) {
+TEST(DeviceSettings, NameTheFileAndTheKeyOfAnError) {
   const testing::TemporaryFolder folder;
   auto all = settings_of(folder.path(), "[devices.turntable]\nbaud = \"fast\"\nsteps = 2.5\n");
   DeviceSettings& table = all.front();
@@ -55,7 +55,7 @@ TEST(DeviceSettings, NameFileAndKeyOfWhatIsWrong) {
             place + "steps must be a whole number");
 }
 
-TEST(DeviceSettings, WarnOfKeysThatNoDriverAsksFor) {
+TEST(DeviceSettings, WarnOfKeysThatNoDriverReads) {
   const testing::TemporaryFolder folder;
   auto all = settings_of(folder.path(), "[devices.light]\ndriver = \"x\"\nprot = \"a\"\n");
   static_cast<void>(all.front().driver());
@@ -64,10 +64,10 @@ TEST(DeviceSettings, WarnOfKeysThatNoDriverAsksFor) {
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   all.front().warn_of_unused_keys(run);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings.front().find("devices.light.prot is not known"), std::string::npos);
+  EXPECT_NE(warnings.front().find("devices.light.prot is unknown"), std::string::npos);
 }
 
-TEST(DeviceSettings, OfARigWithoutDevicesAreNone) {
+TEST(DeviceSettings, OfARigWithoutDevicesAreEmpty) {
   const testing::TemporaryFolder folder;
   EXPECT_TRUE(settings_of(folder.path(), "").empty());
 }

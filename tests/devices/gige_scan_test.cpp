@@ -1,4 +1,4 @@
-// A scan whose frames come over GigE Vision, from Aravis' fake camera that shows the simulated rig.
+// Scans through GigE Vision with Aravis' fake camera, which shows the simulated rig.
 #include <gtest/gtest.h>
 
 #ifdef FRANGIA_WITH_ARAVIS
@@ -40,7 +40,7 @@ class GigeScan : public ::testing::Test {
     static_cast<void>(open_simulated_camera(part, plan_.rig, bench_));
   }
 
-  /// What the simulated rig looks like now, with noise of its own in each exposure.
+  /// The present image of the simulated rig, with different noise in each exposure.
   void paint(const FakeExposure& exposure, std::uint8_t* pixels) {
     bench_->camera.exposure_ms = 1e-3 * exposure.exposure_us;
     const Frame frame = camera_.capture(*bench_, {0, "gige", ++exposures_, 0, 0});

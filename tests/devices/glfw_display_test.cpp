@@ -15,7 +15,7 @@
 #include "support/test_screen.h"
 
 #ifdef __SANITIZE_ADDRESS__
-// What a graphics driver keeps until the end would be told as lost, once the driver is unloaded.
+// The leak sanitizer would report memory that a graphics driver keeps until it is unloaded.
 extern "C" int dlclose(void* /*library*/) noexcept {
   return 0;
 }
@@ -28,7 +28,7 @@ using testing::error_of;
 using testing::soon;
 using testing::TestScreen;
 
-/// A picture in which no two neighbours are alike, in any direction.
+/// An image in which all neighbouring pixels differ.
 Image<float> checked(const DisplayInfo& info) {
   Image<float> light(info.width_px, info.height_px);
   for (int y = 0; y < info.height_px; ++y) {
@@ -51,7 +51,7 @@ std::vector<std::string> xvfb() {
   return {"Xvfb", "-screen", "0", "320x240x24"};
 }
 
-TEST(GlfwDisplay, ShowsEveryPixelAsItWasAsked) {
+TEST(GlfwDisplay, ShowsEveryPixelAtItsRequestedLevel) {
   const TestScreen screen(xvfb());
   if (!screen.runs()) GTEST_SKIP() << "install xvfb";
   const testing::TemporaryFolder folder;
@@ -66,7 +66,7 @@ TEST(GlfwDisplay, ShowsEveryPixelAsItWasAsked) {
             std::string::npos);
 }
 
-TEST(GlfwDisplay, UndoesTheProjectorsResponse) {
+TEST(GlfwDisplay, CompensatesTheResponseOfTheProjector) {
   const TestScreen screen(xvfb());
   if (!screen.runs()) GTEST_SKIP() << "install xvfb";
   const testing::TemporaryFolder folder;
@@ -85,7 +85,7 @@ TEST(GlfwDisplay, UndoesTheProjectorsResponse) {
   EXPECT_NEAR(seen(160, 120), 255.0 * std::pow(0.5, 1.0 / 2.2), 1.0);
 }
 
-TEST(GlfwDisplay, LightsTheChosenOneOfTwoMonitorsOnly) {
+TEST(GlfwDisplay, UsesTheChosenOneOfTwoMonitorsOnly) {
   const testing::TemporaryFolder folder;
   const auto config = folder.path() / "dummy.conf";
   std::ofstream(config) << "Section \"Device\"\nIdentifier \"c\"\nDriver \"dummy\"\nEndSection\n"
@@ -117,19 +117,19 @@ TEST(GlfwDisplay, LightsTheChosenOneOfTwoMonitorsOnly) {
   const Image<std::uint8_t> seen = screen.read_back(folder.path());
   ASSERT_GE(seen.width(), 1440);
   EXPECT_EQ(wrong_pixels(seen, picture, 800), 0);
-  EXPECT_EQ(seen(400, 300), 0) << "the operator's own monitor stays as it was";
+  EXPECT_EQ(seen(400, 300), 0) << "the other monitor is unchanged";
 }
 
-TEST(GlfwDisplay, AMonitorThatIsNotThereIsNamedWithThoseThatAre) {
+TEST(GlfwDisplay, NamesAMissingMonitorAndTheExistingOnes) {
   {
     const TestScreen screen(xvfb());
     if (!screen.runs()) GTEST_SKIP() << "install xvfb";
     const std::string sentence =
         error_of([] { static_cast<void>(open_glfw_display({.monitor = "projector"})); });
-    EXPECT_NE(sentence.find("there is no such one; there are: monitor 0 "), std::string::npos)
+    EXPECT_NE(sentence.find("it does not exist; the monitors are: monitor 0 "), std::string::npos)
         << sentence;
   }
-  EXPECT_NE(error_of([] { static_cast<void>(open_glfw_display({})); }).find("there is no screen"),
+  EXPECT_NE(error_of([] { static_cast<void>(open_glfw_display({})); }).find("no screen found"),
             std::string::npos);
 }
 

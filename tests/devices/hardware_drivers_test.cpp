@@ -31,7 +31,7 @@ class HardwareDrivers : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(HardwareDrivers, ATableAndALaserShareTheirBoard) {
+TEST_F(HardwareDrivers, ATurntableAndALaserShareTheirBoard) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   const std::string line = "driver = \"grbl\"\nport = \"" + port.path() + "\"\nboot_s = 0.3\n";
   RigDevices devices = open("[devices.light]\n" + line + "[devices.line]\n" + line +
@@ -50,14 +50,14 @@ TEST_F(HardwareDrivers, ATableAndALaserShareTheirBoard) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle || grbl.coolant); });
 }
 
-TEST_F(HardwareDrivers, APortThatIsNotThereIsNamed) {
+TEST_F(HardwareDrivers, AMissingPortIsNamed) {
   const std::string sentence = error_of([&] {
     static_cast<void>(open("[devices.turntable]\ndriver = \"marlin\"\nport = \"/dev/x\"\n"));
   });
   EXPECT_EQ(sentence.find("/dev/x: cannot be opened"), 0U) << sentence;
 }
 
-TEST_F(HardwareDrivers, ALightSpokenToByCommandsOfOnesOwnIsOffWhenOpenedAndAtTheEnd) {
+TEST_F(HardwareDrivers, ALightWithCustomCommandsIsOffWhenOpenedAndAtTheEnd) {
   EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
   port.with<EmulatedScpi>([](auto& supply) { supply.output = true; });
   {

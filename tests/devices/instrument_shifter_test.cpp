@@ -32,7 +32,7 @@ InstrumentShifter shifter_at(const EmulatedPort& port,
   return {open_serial({port.path()}), protocol, up_to(most), 0.0, soon()};
 }
 
-TEST(ScpiShifter, BringsItsCommandsOutAndSwitchesTheOutputOffAtTheEnd) {
+TEST(ScpiShifter, SetsItsCommandsAndSwitchesTheOutputOffAtTheEnd) {
   EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
   {
     InstrumentShifter piezo(
@@ -49,7 +49,7 @@ TEST(ScpiShifter, BringsItsCommandsOutAndSwitchesTheOutputOffAtTheEnd) {
   port.with<EmulatedScpi>([](auto& generator) { EXPECT_FALSE(generator.output); });
 }
 
-TEST(ScpiShifter, BeyondItsRangeNothingIsSent) {
+TEST(ScpiShifter, SendsNothingOutsideItsRange) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 4.0);
   const std::string sentence = error_of([&] { piezo.drive(4.5, soon()); });
@@ -57,7 +57,7 @@ TEST(ScpiShifter, BeyondItsRangeNothingIsSent) {
   port.with<EmulatedScpi>([](auto& generator) { EXPECT_TRUE(generator.set.empty()); });
 }
 
-TEST(ScpiShifter, WhatTheInstrumentSaysOfAnErrorIsToldWithTheCommand) {
+TEST(ScpiShifter, ReportsTheErrorOfTheInstrumentWithTheCommand) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 10.0);
   const std::string sentence = error_of([&] { piezo.drive(9.0, soon()); });
@@ -65,7 +65,7 @@ TEST(ScpiShifter, WhatTheInstrumentSaysOfAnErrorIsToldWithTheCommand) {
   EXPECT_NE(sentence.find("VOLT:OFFS 9"), std::string::npos) << sentence;
 }
 
-TEST(ScpiShifter, ASilentOrRestlessInstrumentEndsWithTheDeadline) {
+TEST(ScpiShifter, FailsAtTheDeadlineWhenSilentOrUnsettled) {
   for (const bool silent : {true, false}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>());
     InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 4.0);
@@ -82,7 +82,7 @@ TEST(ScpiShifter, ASilentOrRestlessInstrumentEndsWithTheDeadline) {
   }
 }
 
-TEST(Gcs2Shifter, AMoveReturnsOnTarget) {
+TEST(Gcs2Shifter, ReturnsFromAMoveOnTarget) {
   EmulatedPort port(std::make_unique<EmulatedGcs2>());
   InstrumentShifter stage = shifter_at(port, gcs2_protocol(), 200.0);
   stage.drive(12.5, soon());
@@ -90,10 +90,10 @@ TEST(Gcs2Shifter, AMoveReturnsOnTarget) {
     EXPECT_DOUBLE_EQ(controller.target, 12.5);
     EXPECT_EQ(controller.answer("ONT? 1"), "1=1\n");
   });
-  EXPECT_NE(error_of([&] { stage.drive(150.0, soon()); }).find("says 7"), std::string::npos);
+  EXPECT_NE(error_of([&] { stage.drive(150.0, soon()); }).find("reports 7"), std::string::npos);
 }
 
-TEST(PrologixShifter, AnInstrumentOnGpibIsSpokenToAsOnALineOfItsOwn) {
+TEST(PrologixShifter, AnInstrumentOnGpibWorksAsOnItsOwnLine) {
   EmulatedPort port(std::make_unique<EmulatedPrologix>(std::make_unique<EmulatedScpi>(), 9),
                     EmulatedPort::Kind::Tcp);
   InstrumentShifter piezo(open_prologix(open_tcp("127.0.0.1", port.tcp_port(), soon()), 9, soon()),
@@ -107,7 +107,7 @@ TEST(PrologixShifter, AnInstrumentOnGpibIsSpokenToAsOnALineOfItsOwn) {
   });
 }
 
-TEST(PrologixShifter, AnAddressWithNobodyAndALineWithoutAdapterAreNamed) {
+TEST(PrologixShifter, AnUnusedAddressAndAMissingAdapterAreNamed) {
   EmulatedPort port(std::make_unique<EmulatedPrologix>(std::make_unique<EmulatedScpi>(), 9),
                     EmulatedPort::Kind::Tcp);
   const std::string sentence = error_of([&] {
@@ -124,7 +124,7 @@ TEST(PrologixShifter, AnAddressWithNobodyAndALineWithoutAdapterAreNamed) {
                Error);
 }
 
-TEST(ActuatorProtocol, ACommandOfOnesOwnIsFilledAndAWrongOneNamed) {
+TEST(ActuatorProtocol, FillsACustomCommandAndNamesAnInvalidOne) {
   EXPECT_EQ(fill_command("1 VOLT {value:.2f}", 3.14159), "1 VOLT 3.14");
   EXPECT_NE(error_of([] { static_cast<void>(fill_command("VOLT", 1.0)); }).find("has no {value}"),
             std::string::npos);

@@ -12,21 +12,21 @@ using testing::EmulatedPort;
 using testing::EmulatedScpi;
 using testing::error_of;
 
-TEST(OpenTransport, APortThatIsNotThereIsNamed) {
+TEST(OpenTransport, NamesAMissingPort) {
   EXPECT_EQ(error_of([] {
               static_cast<void>(open_serial({"/dev/ttyNONE9"}));
             }).find("/dev/ttyNONE9: cannot be opened"),
             0U);
 }
 
-TEST(OpenTransport, APortIsForOneProgramAtATime) {
+TEST(OpenTransport, LocksAPortForOneProgram) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   const auto first = open_serial({port.path()});
   EXPECT_NE(error_of([&] { static_cast<void>(open_serial({port.path()})); }).find("in use"),
             std::string::npos);
 }
 
-TEST(OpenTransport, AWrongTcpPortIsNamed) {
+TEST(OpenTransport, NamesAWrongTcpPort) {
   int closed = 0;
   {
     const EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
@@ -37,7 +37,7 @@ TEST(OpenTransport, AWrongTcpPortIsNamed) {
   EXPECT_EQ(sentence.find("127.0.0.1:" + std::to_string(closed) + ": no connection"), 0U);
 }
 
-TEST(OpenTransport, LinesComeWholeAndInOrderOverBoth) {
+TEST(OpenTransport, ReadsWholeLinesInOrderOverSerialAndTcp) {
   for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
     const Deadline deadline = Deadline::in(3.0);
@@ -51,7 +51,7 @@ TEST(OpenTransport, LinesComeWholeAndInOrderOverBoth) {
   }
 }
 
-TEST(OpenTransport, WhatWasGivenUpIsDiscarded) {
+TEST(OpenTransport, DiscardsAbandonedAnswers) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   const auto line = open_serial({port.path()});
   line->write("*IDN?\n", Deadline::in(1.0));
@@ -61,7 +61,7 @@ TEST(OpenTransport, WhatWasGivenUpIsDiscarded) {
   EXPECT_EQ(read_line(*line, Deadline::in(1.0)), "1");
 }
 
-TEST(OpenTransport, AnUnpluggedDeviceIsAnErrorAndNoWait) {
+TEST(OpenTransport, ReportsAnUnpluggedDeviceAtOnce) {
   for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
     const auto line = kind == EmulatedPort::Kind::Tcp
@@ -73,13 +73,13 @@ TEST(OpenTransport, AnUnpluggedDeviceIsAnErrorAndNoWait) {
     const auto begun = Deadline::Clock::now();
     EXPECT_NE(error_of([&] {
                 static_cast<void>(read_line(*line, Deadline::in(5.0)));
-              }).find("is it plugged in?"),
+              }).find("check that it is plugged in"),
               std::string::npos);
     EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(1));
   }
 }
 
-TEST(OpenTransport, WhatCannotBePrintedIsTold) {
+TEST(OpenTransport, EscapesUnprintableBytes) {
   EXPECT_EQ(printable("ok\r\xff"), "ok\\x0d\\xff");
 }
 

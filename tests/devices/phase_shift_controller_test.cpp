@@ -9,12 +9,12 @@
 namespace frangia {
 namespace {
 
-/// Writes down where it was driven.
+/// Records its commands.
 class WritingShifter final : public PhaseShifter {
  public:
   WritingShifter() {
     info_.max_command = 12.0;
-    info_.curve = {{0.0, 12.0}, {0.0, 1.2 * kTwoPi}};  // 10 V a turn
+    info_.curve = {{0.0, 12.0}, {0.0, 1.2 * kTwoPi}};  // 10 V per turn
   }
   [[nodiscard]] std::string name() const override { return "writing shifter"; }
   [[nodiscard]] std::string test(const Deadline& /*deadline*/) override { return "works"; }
@@ -34,7 +34,7 @@ void expect_near(const std::vector<double>& found, const std::vector<double>& wa
     EXPECT_NEAR(found[i], wanted[i], 1e-9);
 }
 
-TEST(PhaseShiftController, ReachesEveryShiftFromBelow) {
+TEST(PhaseShiftController, ApproachesEveryShiftFromBelow) {
   WritingShifter shifter;
   PhaseShiftController driver(shifter);
   for (const double turns : {0.25, 0.5, 0.25})
@@ -42,7 +42,7 @@ TEST(PhaseShiftController, ReachesEveryShiftFromBelow) {
   expect_near(shifter.driven, {0.0, 2.5, 5.0, 0.0, 2.5});
 }
 
-TEST(PhaseShiftController, ScalesWhatTheFramesHaveShownToBeTooLong) {
+TEST(PhaseShiftController, ScalesShiftsByTheCorrection) {
   WritingShifter shifter;
   PhaseShiftController driver(shifter);
   driver.set_scale(1.0 / 1.05);
@@ -50,7 +50,7 @@ TEST(PhaseShiftController, ScalesWhatTheFramesHaveShownToBeTooLong) {
   expect_near(shifter.driven, {0.0, 5.0 / 1.05});
 }
 
-TEST(PhaseShiftController, AShiftBeyondTheRangeComesBackByAWholeTurn) {
+TEST(PhaseShiftController, ReducesAShiftBeyondTheRangeByAWholeTurn) {
   WritingShifter shifter;
   PhaseShiftController driver(shifter);
   driver.shift_to(0.9 * kTwoPi, Deadline::in(1.0));

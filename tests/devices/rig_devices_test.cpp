@@ -9,7 +9,7 @@
 namespace frangia {
 namespace {
 
-/// A switch that a test can look at: what stands behind a real one.
+/// A switch whose state the test can read.
 class TestSwitch : public SwitchDevice {
  public:
   explicit TestSwitch(bool* on) : on_(on) {}
@@ -53,7 +53,7 @@ class OpenDevices : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(OpenDevices, GoDarkWhenTheyGo) {
+TEST_F(OpenDevices, AreDarkAfterDestruction) {
   bool on = false;
   {
     const RigDevices devices =
@@ -65,15 +65,15 @@ TEST_F(OpenDevices, GoDarkWhenTheyGo) {
   EXPECT_FALSE(on);
 }
 
-TEST_F(OpenDevices, NamesAnUnknownDriverAndThoseThereAre) {
+TEST_F(OpenDevices, NamesAnUnknownDriverAndTheAvailableOnes) {
   bool on = false;
   const std::string sentence =
       fault("[devices.light]\ndriver = \"torch\"\n", switch_drivers(DeviceKind::Light, &on));
   EXPECT_NE(sentence.find("devices.light.driver is \"torch\""), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("there are test"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("are test"), std::string::npos) << sentence;
 }
 
-TEST_F(OpenDevices, RefusesADeviceThatIsNotWhatItsDriverPromises) {
+TEST_F(OpenDevices, RefusesADeviceOfAnotherKindThanItsDriver) {
   bool on = false;
   const std::string sentence =
       fault("[devices.turntable]\ndriver = \"test\"\n", switch_drivers(DeviceKind::Turntable, &on));

@@ -30,7 +30,7 @@ MotionControllerSettings quick() {
   return settings;
 }
 
-/// A board that has greeted.
+/// A connected board.
 std::shared_ptr<MotionController> ready(std::unique_ptr<MotionController> board) {
   board->connect(soon());
   return board;
@@ -52,7 +52,7 @@ std::unique_ptr<MotionController> grbl_at(const EmulatedPort& port) {
   return make_grbl(open_serial({port.path()}), quick());
 }
 
-TEST(GrblTurntable, StandsStillAtTheAngleWhenAMoveReturns) {
+TEST(GrblTurntable, IsAtStandstillAtTheAngleWhenAMoveReturns) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 10.0; });
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
@@ -65,7 +65,7 @@ TEST(GrblTurntable, StandsStillAtTheAngleWhenAMoveReturns) {
   EXPECT_NEAR(table.angle_rad().value(), rad_from_deg(45.0), 1e-12);
 }
 
-TEST(GrblTurntable, EveryTargetIsReachedFromBelow) {
+TEST(GrblTurntable, ApproachesEveryTargetFromBelow) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   StepperTurntable table(ready(grbl_at(port)), options_with(2.0));
   start(table);
@@ -76,7 +76,7 @@ TEST(GrblTurntable, EveryTargetIsReachedFromBelow) {
   EXPECT_EQ(targets, (std::vector<double>{-2.0, 0.0, 30.0, 31.0, 8.0, 10.0}));
 }
 
-TEST(GrblTurntable, AResetInMotionLosesTheAngleAndItDoesNotGoOnUntilHomed) {
+TEST(GrblTurntable, LosesTheAngleOnAResetInMotionAndRefusesToMoveUntilHomed) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
   start(table);
@@ -92,7 +92,7 @@ TEST(GrblTurntable, AResetInMotionLosesTheAngleAndItDoesNotGoOnUntilHomed) {
   EXPECT_TRUE(table.angle_rad().has_value());
 }
 
-TEST(GrblTurntable, BoundsTheTurnByItsOwnLimitsAndByTheBoards) {
+TEST(GrblTurntable, EnforcesItsOwnLimitsAndThoseOfTheBoard) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.travel = 100.0; });
   StepperTurntableOptions options = options_with(0.0);
@@ -109,7 +109,7 @@ TEST(GrblTurntable, BoundsTheTurnByItsOwnLimitsAndByTheBoards) {
   EXPECT_FALSE(table.angle_rad().has_value());
 }
 
-TEST(GrblTurntable, AMoveThatOutlastsItsDeadlineIsStopped) {
+TEST(GrblTurntable, StopsAMoveAtItsDeadline) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
@@ -121,7 +121,7 @@ TEST(GrblTurntable, AMoveThatOutlastsItsDeadlineIsStopped) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.moving()); });
 }
 
-TEST(GrblTurntable, AStopFromOutsideEndsTheWait) {
+TEST(GrblTurntable, StopsWaitingOnAStopRequest) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
@@ -136,7 +136,7 @@ TEST(GrblTurntable, AStopFromOutsideEndsTheWait) {
   EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(3));
 }
 
-TEST(GrblTurntable, LampsAndLasersAreOffAfterwards) {
+TEST(GrblTurntable, SwitchesLampsAndLasersOffAtTheEnd) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   {
     const auto board = ready(grbl_at(port));
@@ -149,7 +149,7 @@ TEST(GrblTurntable, LampsAndLasersAreOffAfterwards) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle || grbl.coolant); });
 }
 
-TEST(GrblTurntable, AFaultOfTheTablePutsTheLaserOutAndItKnows) {
+TEST(GrblTurntable, SwitchesTheLaserOffOnAFaultOfTheTable) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   const auto board = ready(grbl_at(port));
   StepperTurntable table(board, options_with(0.0));
@@ -162,7 +162,7 @@ TEST(GrblTurntable, AFaultOfTheTablePutsTheLaserOutAndItKnows) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle); });
 }
 
-TEST(GrblTurntable, StepsAreWrittenWhereTheyDifferAndNothingIsLostMeanwhile) {
+TEST(GrblTurntable, WritesStepsOnlyWhenDifferentAndLosesNoCommand) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   MotionControllerSettings settings = quick();
   settings.steps_per_unit = 88.889;
@@ -178,7 +178,7 @@ TEST(GrblTurntable, StepsAreWrittenWhereTheyDifferAndNothingIsLostMeanwhile) {
   });
 }
 
-TEST(GrblTurntable, ALockedBoardSaysThatItWantsToBeHomed) {
+TEST(GrblTurntable, AsksForHomingOfALockedBoard) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   const auto firmware = grbl_at(port);
   firmware->connect(soon());
@@ -187,7 +187,7 @@ TEST(GrblTurntable, ALockedBoardSaysThatItWantsToBeHomed) {
             std::string::npos);
 }
 
-TEST(GrblTurntable, SilenceAndGarbageAreOneSentenceWithinTheDeadline) {
+TEST(GrblTurntable, ReportsSilenceAndGarbageByTheDeadline) {
   for (const bool garbage : {false, true}) {
     auto board = std::make_unique<EmulatedGrbl>();
     board->silent = true;
@@ -201,11 +201,11 @@ TEST(GrblTurntable, SilenceAndGarbageAreOneSentenceWithinTheDeadline) {
     const std::string sentence = error_of([&] { firmware->connect(Deadline::in(0.6)); });
     EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(1));
     EXPECT_EQ(sentence.find(port.path()), 0U) << sentence;
-    EXPECT_NE(sentence.find(garbage ? "does not speak GRBL" : "no greeting"), std::string::npos);
+    EXPECT_NE(sentence.find(garbage ? "does not run GRBL" : "no greeting"), std::string::npos);
   }
 }
 
-TEST(MarlinTurntable, BusyIsWaitedForAndBrokenLinesAreSentAgain) {
+TEST(MarlinTurntable, WaitsWhileBusyAndRepeatsBrokenLines) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
   StepperTurntable table(ready(make_marlin(open_serial({port.path()}), quick())),
                          options_with(0.0));
@@ -218,7 +218,7 @@ TEST(MarlinTurntable, BusyIsWaitedForAndBrokenLinesAreSentAgain) {
   });
 }
 
-TEST(MarlinTurntable, ABoardThatHaltsItselfLosesTheAngle) {
+TEST(MarlinTurntable, LosesTheAngleWhenTheBoardHalts) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
   StepperTurntable table(ready(make_marlin(open_serial({port.path()}), quick())),
                          options_with(0.0));
@@ -228,7 +228,7 @@ TEST(MarlinTurntable, ABoardThatHaltsItselfLosesTheAngle) {
   EXPECT_FALSE(table.angle_rad().has_value());
 }
 
-TEST(MarlinTurntable, ALineThatNeverArrivesWholeIsGivenUp) {
+TEST(MarlinTurntable, GivesUpALineThatNeverArrivesIntact) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
   const auto firmware = make_marlin(open_serial({port.path()}), quick());
   firmware->connect(soon());
@@ -236,7 +236,7 @@ TEST(MarlinTurntable, ALineThatNeverArrivesWholeIsGivenUp) {
   EXPECT_NE(error_of([&] { firmware->command("M5", soon()); }).find("again"), std::string::npos);
 }
 
-TEST(HorusTurntable, TurnsAndSwitchesItsLasersOff) {
+TEST(HorusTurntable, TurnsAndSwitchesLasersOff) {
   EmulatedPort port(std::make_unique<EmulatedHorus>());
   {
     const auto board = ready(make_horus(open_serial({port.path()}), quick()));
@@ -246,7 +246,7 @@ TEST(HorusTurntable, TurnsAndSwitchesItsLasersOff) {
     const auto begun = Deadline::Clock::now();
     table.move_to(rad_from_deg(-9.0), soon());
     EXPECT_GE(Deadline::Clock::now() - begun, std::chrono::milliseconds(100))
-        << "the way takes that";
+        << "the duration of the move";
     board->command("M71T1", soon());
     port.with<EmulatedHorus>([](auto& horus) { EXPECT_DOUBLE_EQ(horus.position, -9.0); });
   }
@@ -254,7 +254,7 @@ TEST(HorusTurntable, TurnsAndSwitchesItsLasersOff) {
   port.with<EmulatedHorus>([](auto& horus) { EXPECT_FALSE(horus.lasers[0] || horus.motor); });
 }
 
-TEST(HorusTurntable, AnotherFirmwareIsNamed) {
+TEST(HorusTurntable, NamesAnotherFirmware) {
   auto board = std::make_unique<EmulatedHorus>();
   board->version = "Horus 0.1 ['$' for help]";
   EmulatedPort port(std::move(board));

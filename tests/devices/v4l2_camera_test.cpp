@@ -16,7 +16,7 @@ namespace {
 
 using testing::error_of;
 
-/// A webcam as the kernel would show it: it runs by itself, a frame each time it is waited for.
+/// A webcam behind the system calls: free-running, with a new frame for each wait.
 class FakeWebcam final : public V4l2System {
  public:
   static constexpr int kWidth = 32;
@@ -35,7 +35,7 @@ class FakeWebcam final : public V4l2System {
   void unmap(void* /*memory*/, std::size_t /*length*/) override { ++unmapped; }
   [[nodiscard]] double now_s() override { return now_; }
 
-  /// Time goes by, and another frame is exposed into the oldest buffer.
+  /// Advances the time and exposes the next frame into the oldest buffer.
   [[nodiscard]] int wait_readable(int /*file*/, int /*milliseconds*/) override {
     if (silent) return 0;
     now_ += 0.040;
@@ -111,14 +111,15 @@ class FakeWebcam final : public V4l2System {
   }
   int set_format(v4l2_pix_format& wanted) {
     const bool can = std::find(formats.begin(), formats.end(), wanted.pixelformat) != formats.end();
-    if (!can) wanted.pixelformat = V4L2_PIX_FMT_MJPEG;  // drivers offer what they have instead
+    if (!can)
+      wanted.pixelformat = V4L2_PIX_FMT_MJPEG;  // drivers substitute a format that they support
     format_ = wanted.pixelformat;
     wanted.width = kWidth;
     wanted.height = kHeight;
     wanted.bytesperline = row_bytes();
     return 0;
   }
-  /// The brightness tells the frame, the column and the exposure.
+  /// The luminance encodes the frame, the column and the exposure.
   void paint(std::vector<std::uint8_t>& pixels) {
     ++frame;
     const std::size_t step = format_ == V4L2_PIX_FMT_GREY ? 1 : 2;
@@ -158,7 +159,7 @@ V4l2Settings settings() {
   return wanted;
 }
 
-TEST(V4l2Camera, AFrameIsExposedAfterItIsAskedForAndByHand) {
+TEST(V4l2Camera, AFrameIsExposedAfterTheRequestWithManualExposure) {
   const auto webcam = std::make_shared<FakeWebcam>();
   const auto camera = open_v4l2_camera(settings(), webcam);
   EXPECT_TRUE(webcam->manual);
@@ -171,7 +172,7 @@ TEST(V4l2Camera, AFrameIsExposedAfterItIsAskedForAndByHand) {
   EXPECT_GE(static_cast<int>(captured.id), before + 2) << "one is skipped";
 }
 
-TEST(V4l2Camera, BrightnessIsReadFromGreyAndFromYuyv) {
+TEST(V4l2Camera, ReadsLuminanceFromGreyAndYuyv) {
   for (const unsigned format : {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV}) {
     const auto webcam = std::make_shared<FakeWebcam>();
     webcam->formats = {format};
@@ -183,16 +184,16 @@ TEST(V4l2Camera, BrightnessIsReadFromGreyAndFromYuyv) {
   }
 }
 
-TEST(V4l2Camera, AShortFrameIsIncomplete) {
+TEST(V4l2Camera, MarksAShortFrameIncomplete) {
   const auto webcam = std::make_shared<FakeWebcam>();
   const auto camera = open_v4l2_camera(settings(), webcam);
   webcam->broken = true;
   const CapturedFrame captured = camera->capture({}, at_once());
   EXPECT_FALSE(captured.complete);
-  EXPECT_EQ(captured.incomplete_cause, "10 of 512 bytes came");
+  EXPECT_EQ(captured.incomplete_cause, "10 of 512 bytes arrived");
 }
 
-TEST(V4l2Camera, FaultsAreOneSentenceAndTheCameraIsGivenBack) {
+TEST(V4l2Camera, ReportsFaultsInOneSentenceAndClosesTheCamera) {
   const auto webcam = std::make_shared<FakeWebcam>();
   {
     const auto camera = open_v4l2_camera(settings(), webcam);
@@ -213,7 +214,7 @@ TEST(V4l2Camera, FaultsAreOneSentenceAndTheCameraIsGivenBack) {
   other->formats = {V4L2_PIX_FMT_MJPEG};
   EXPECT_NE(error_of([&] {
               static_cast<void>(open_v4l2_camera(settings(), other));
-            }).find("only compressed ones"),
+            }).find("only compressed images"),
             std::string::npos);
   V4l2Settings nobody = settings();
   nobody.path = "/dev/video9";

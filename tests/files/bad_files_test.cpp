@@ -1,5 +1,5 @@
-// Files as they should not be: each is refused in one sentence, or read as what it is, before
-// memory is taken for what it promises.
+// Damaged and malicious files: each is refused in one sentence, or read as far as it is valid,
+// before memory is allocated for the counts it states.
 #include <string>
 #include <vector>
 
@@ -43,7 +43,7 @@ const std::string kModel =
     R"(<vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices>)"
     R"(<triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
 
-TEST_F(BadFiles, CutShortAnywhereAreReadInPartOrRefusedInASentence) {
+TEST_F(BadFiles, TruncatedAnywhereAreReadInPartOrRefusedInOneSentence) {
   for (const char* name : {"a.dxf",
                            "a.stl",
                            "a.ply",
@@ -69,7 +69,7 @@ TEST_F(BadFiles, CutShortAnywhereAreReadInPartOrRefusedInASentence) {
   }
 }
 
-TEST_F(BadFiles, OfOneKindUnderTheNameOfAnotherAreRefused) {
+TEST_F(BadFiles, WithTheExtensionOfAnotherFormatAreRefused) {
   const std::array names{"a.dxf", "a.stl", "a.ply", "a.obj", "a.glb", "a.3mf", "a.off", "a.pcd"};
   std::vector<std::string> contents;
   for (const char* name : names) {
@@ -79,19 +79,19 @@ TEST_F(BadFiles, OfOneKindUnderTheNameOfAnotherAreRefused) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto path = put(names.at(i), contents[k]);
-      if (i == k || std::string(names.at(i)) == "a.obj") continue;  // OBJ skips what it knows not
+      if (i == k || std::string(names.at(i)) == "a.obj") continue;  // OBJ skips unknown lines
       EXPECT_THROW(static_cast<void>(read_mesh(path)), Error) << names.at(i) << names.at(k);
     }
   }
 }
 
-TEST_F(BadFiles, ThatPromiseMoreThanTheyHaveAreRefusedBeforeMemoryIsTaken) {
-  EXPECT_TRUE(says(error_reading("a.off", "OFF\n4000000000 1 0\n0 0 0\n"), "room for"));
-  EXPECT_TRUE(says(error_reading("a.off", "OFF\n1 4000000000 0\n0 0 0\n"), "room for"));
+TEST_F(BadFiles, ThatStateTooLargeCountsAreRefusedBeforeMemoryIsAllocated) {
+  EXPECT_TRUE(says(error_reading("a.off", "OFF\n4000000000 1 0\n0 0 0\n"), "can hold at most"));
+  EXPECT_TRUE(says(error_reading("a.off", "OFF\n1 4000000000 0\n0 0 0\n"), "can hold at most"));
   EXPECT_TRUE(says(error_reading("a.pcd",
                                  "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\n"
                                  "HEIGHT 1\nPOINTS 99999999999\nDATA binary\n0123456789ab"),
-                   "room for"));
+                   "can hold at most"));
   EXPECT_TRUE(
       says(error_reading("a.gltf",
                          R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":9000000000,)"
@@ -104,7 +104,7 @@ TEST_F(BadFiles, ThatPromiseMoreThanTheyHaveAreRefusedBeforeMemoryIsTaken) {
           R"("byteLength":3}],"accessors":[{"bufferView":0,"componentType":5126,"count":)"
           R"(4611686018427387904,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":)"
           R"({"POSITION":0}}]}],"nodes":[{"mesh":0}]})"),
-      "promised beyond"));
+      "exceed their buffer"));
 }
 
 TEST_F(BadFiles, WithIndicesOutOfRangeAreRefused) {
@@ -115,7 +115,7 @@ TEST_F(BadFiles, WithIndicesOutOfRangeAreRefused) {
   EXPECT_TRUE(says(error_reading("a.3mf", three_mf(model)), "vertex 7"));
 }
 
-TEST_F(BadFiles, WithNumbersThatAreNoneAreRefused) {
+TEST_F(BadFiles, WithInvalidNumbersAreRefused) {
   EXPECT_TRUE(says(error_reading("a.xyz", "1 2 3\n1 2 nan\n"), "nan"));
   EXPECT_TRUE(says(error_reading("a.xyz", "1 2 3\n1 two 3\n"), "line 2: 'two'"));
   EXPECT_TRUE(says(error_reading("a.xyz", "1 2\n"), "2 numbers"));
@@ -129,13 +129,13 @@ TEST_F(BadFiles, ThatContainThemselvesAreRefused) {
   const std::string close = "</resources><build><item objectid=\"2\"/></build></model>";
   const std::string loop =
       R"(<object id="2"><components><component objectid="2"/></components></object>)";
-  EXPECT_TRUE(says(error_reading("a.3mf", three_mf(kModel + loop + close)), "part of itself"));
+  EXPECT_TRUE(says(error_reading("a.3mf", three_mf(kModel + loop + close)), "contains itself"));
   EXPECT_TRUE(
       says(error_reading("a.gltf", R"({"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]})"),
-           "its own child"));
+           "its own descendant"));
 }
 
-TEST_F(BadFiles, AsZipBombsAreRefusedByWhatTheyWouldUnpackTo) {
+TEST_F(BadFiles, AsZipBombsAreRefusedByTheirExpandedSize) {
   {
     ZipWriter zip(at("bomb.3mf"));
     zip.begin("3D/3dmodel.model");
@@ -156,7 +156,7 @@ TEST_F(BadFiles, ThatDeclareEntitiesAreRefused) {
                    "document type"));
 }
 
-TEST_F(BadFiles, WithHundredsOfPartsAreReadWhole) {
+TEST_F(BadFiles, WithAHundredPartsAreReadCompletely) {
   std::string model = kModel + "</resources><build>";
   for (int i = 0; i < 100; ++i) {
     model +=
@@ -167,7 +167,7 @@ TEST_F(BadFiles, WithHundredsOfPartsAreReadWhole) {
   EXPECT_FLOAT_EQ(mesh.vertices_mm.back().x(), 297.0F * 25.4F);
 }
 
-TEST_F(BadFiles, OfEveryReaderRefuseAnEmptyFile) {
+TEST_F(BadFiles, ThatAreEmptyAreRefusedByEveryReader) {
   for (const char* name : {"a.dxf", "a.ply", "a.stl", "a.glb", "a.gltf", "a.3mf", "a.off", "a.pcd"})
     static_cast<void>(error_reading(name, ""));
 }

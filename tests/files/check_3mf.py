@@ -1,5 +1,5 @@
-"""Reads a 3MF with lib3mf, the 3MF Consortium's own reader, in strict mode, and prints the number of its
-triangles and whether it is a solid: "TRIANGLES 0|1". Fails when lib3mf warns of anything."""
+"""Reads a 3MF in strict mode with lib3mf, the reader of the 3MF Consortium, and prints the number of its
+triangles and whether it is closed, manifold and oriented: "TRIANGLES 0|1". Fails when lib3mf warns."""
 import ctypes
 import sys
 

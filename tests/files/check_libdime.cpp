@@ -1,4 +1,4 @@
-// Reads a DXF with libdime, which is strict about group codes and 16-bit indices, and prints the
+// Reads a DXF with libdime, which checks group codes and 16-bit indices strictly, and prints the
 // number of its faces and their extents: "FACES LOW_X LOW_Y LOW_Z HIGH_X HIGH_Y HIGH_Z".
 #include <algorithm>
 #include <array>
@@ -37,14 +37,14 @@ void add(Findings& found, const dimeVec3f& place) {
 void add_polyface(Findings& found, dimePolyline& mesh) {
   if (mesh.getType() != dimePolyline::POLYFACE_MESH) refuse("a POLYLINE is not a polyface mesh");
   const int vertices = mesh.getNumCoordVertices();
-  if (mesh.getPolymeshCountM() != vertices) refuse("the count of vertices is not that of group 71");
+  if (mesh.getPolymeshCountM() != vertices) refuse("the number of vertices differs from group 71");
   if (mesh.getPolymeshCountN() != mesh.getNumIndexVertices()) {
-    refuse("the count of faces is not that of group 72");
+    refuse("the number of faces differs from group 72");
   }
   for (int i = 0; i < mesh.getNumIndexVertices(); ++i) {
     for (int corner = 0; corner < 3; ++corner) {
       const int index = mesh.getIndexVertex(i)->getIndex(corner);
-      if (index < 1 || index > vertices) refuse("a face refers to a vertex that is not there");
+      if (index < 1 || index > vertices) refuse("a face refers to a vertex that does not exist");
       add(found, mesh.getCoordVertex(index - 1)->getCoords());
     }
     ++found.faces;

@@ -30,15 +30,9 @@ class WriteDxf : public testing::FolderFixture {
   }
 };
 
-/// Triangle 1 was moved, triangle 2 invented.
-void mark_some(Mesh& mesh) {
-  mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
-  mesh.triangle_marks[1] = Mark::Displaced;
-  mesh.triangle_marks[2] = Mark::Synthesized;
-}
-
-/// A judge answers with the number of faces and then corners of the box around them, low and high.
-void expect_verdict(const Answer& answer, const Mesh& mesh) {
+/// A checker prints the number of faces, then the low and high corners of one or two bounding
+/// boxes.
+void expect_complete(const Answer& answer, const Mesh& mesh) {
   ASSERT_TRUE(answer.succeeded) << answer.text;
   std::istringstream words(answer.text);
   std::size_t faces = 0;
@@ -60,22 +54,21 @@ void expect_verdict(const Answer& answer, const Mesh& mesh) {
 
 TEST_F(WriteDxf, PassesTheAuditOfEzdxfWithAllFacesAndExactExtents) {
   if (!testing::have_ezdxf()) GTEST_SKIP() << "python3-ezdxf is missing; ./run setup installs it";
-  Mesh mesh = testing::measured_sheet(30);
-  mark_some(mesh);
+  const Mesh mesh = testing::marked_sheet(30);
   for (const DxfVariant variant : {DxfVariant::Faces, DxfVariant::Polyface, DxfVariant::Mesh})
-    expect_verdict(testing::ask_ezdxf(write(mesh, variant)), mesh);
+    expect_complete(testing::ask_ezdxf(write(mesh, variant)), mesh);
 }
 
-TEST_F(WriteDxf, IsReadByLibdimeWithAllFacesAlsoBeyondSixteenBits) {
+TEST_F(WriteDxf, IsReadByLibdimeWithAllFacesEvenBeyond16BitIndices) {
   if (std::string(FRANGIA_CHECK_LIBDIME).empty()) {
     GTEST_SKIP() << "libdime-dev is missing; ./run setup installs it, then configure again";
   }
-  const Mesh mesh = testing::sheet(200);  // 40 000 vertices, 79 202 triangles
+  const Mesh mesh = testing::marked_sheet(200);  // 40 000 vertices, 79 202 triangles
   for (const DxfVariant variant : kVariants)
-    expect_verdict(testing::ask_libdime(write(mesh, variant)), mesh);
+    expect_complete(testing::ask_libdime(write(mesh, variant)), mesh);
 }
 
-TEST_F(WriteDxf, WritesCoordinatesToATenThousandthAndNoLonger) {
+TEST_F(WriteDxf, RoundsCoordinatesToATenThousandthWithoutTrailingZeros) {
   Mesh mesh;
   mesh.vertices_mm = {{0.00004F, -0.00016F, 12.5F}, {-1.0F, 0.0F, 1234.5F}, {0.1F, 10.01F, 0.0F}};
   mesh.triangles = {{0, 1, 2}};
@@ -92,19 +85,20 @@ TEST_F(WriteDxf, WritesCoordinatesToATenThousandthAndNoLonger) {
   EXPECT_NE(text.find("$EXTMAX\n 10\n0.1\n 20\n10.01\n 30\n1234.5\n"), std::string::npos);
 }
 
-TEST_F(WriteDxf, LeavesOutWhatIsWrittenAlikeAndKeepsItOutOfTheExtents) {
+TEST_F(WriteDxf, OmitsTrianglesThatRoundToNothing) {
   Mesh mesh = testing::sheet(4);
   const auto plain = write(mesh, DxfVariant::Faces);
   const std::string expected = bytes_in("part.dxf");
   mesh.vertices_mm.emplace_back(500.0F, 500.0F, 500.0F);
-  mesh.vertices_mm.emplace_back(500.00001F, 500.0F, 500.0F);  // another place, but not in the file
+  mesh.vertices_mm.emplace_back(
+      500.00001F, 500.0F, 500.0F);  // differs only below the resolution of the file
   mesh.triangles.push_back({3, 3, 4});
   mesh.triangles.push_back({3, 16, 17});
   const auto more = write(mesh, DxfVariant::Faces);
   EXPECT_EQ(bytes_in("part.dxf"), expected);
 }
 
-TEST_F(WriteDxf, RefusesAMeshWithoutAFaceOfAnySize) {
+TEST_F(WriteDxf, RefusesAMeshWithoutAFaceAboveTheResolution) {
   Mesh mesh = testing::sheet(3);
   for (auto& vertex : mesh.vertices_mm)
     vertex *= 1e-6F;
@@ -114,14 +108,15 @@ TEST_F(WriteDxf, RefusesAMeshWithoutAFaceOfAnySize) {
   EXPECT_TRUE(folder_is_empty());
 }
 
-TEST_F(WriteDxf, RefusesAVertexOutOfThisWorld) {
+TEST_F(WriteDxf, RefusesAVertexBeyondAThousandKilometres) {
   Mesh mesh = testing::sheet(3);
   mesh.vertices_mm[4].x() = 2e9F;
   EXPECT_NE(error_writing(mesh).find("1 000 km"), std::string::npos);
   EXPECT_TRUE(folder_is_empty());
 }
 
-/// The same surface: as many triangles of each mark, in the same box, with the same area.
+/// Expects the same number of vertices, of triangles and of triangles of each mark, and the same
+/// centroid of the vertices.
 void expect_alike(const Mesh& a, const Mesh& b) {
   ASSERT_EQ(a.triangles.size(), b.triangles.size());
   EXPECT_EQ(a.vertices_mm.size(), b.vertices_mm.size());
@@ -142,14 +137,13 @@ void expect_alike(const Mesh& a, const Mesh& b) {
 
 using ReadDxf = WriteDxf;
 
-TEST_F(ReadDxf, GivesBackWhatEachVariantWroteWithItsMarks) {
-  Mesh mesh = testing::sheet(200);  // several polyfaces
-  mark_some(mesh);
+TEST_F(ReadDxf, ReadsEveryVariantBackWithItsMarks) {
+  const Mesh mesh = testing::marked_sheet(200);  // several polyfaces
   for (const DxfVariant variant : {DxfVariant::Faces, DxfVariant::Polyface, DxfVariant::Mesh})
     expect_alike(read_dxf(write(mesh, variant)), mesh);
 }
 
-TEST_F(ReadDxf, ReadsWhatEzdxfWritesAndNamesWhatItLeavesOut) {
+TEST_F(ReadDxf, ReadsWhatEzdxfWritesAndListsWhatItSkips) {
   if (!testing::have_ezdxf()) GTEST_SKIP() << "python3-ezdxf is missing; ./run setup installs it";
   static_cast<void>(put("make.py",
                         "import sys, ezdxf\n"
@@ -181,12 +175,12 @@ TEST_F(ReadDxf, ReadsWhatEzdxfWritesAndNamesWhatItLeavesOut) {
   EXPECT_NE(warning.find("1 CIRCLE, 2 LINE, 1 LWPOLYLINE, 1 TEXT"), std::string::npos) << warning;
 }
 
-TEST_F(ReadDxf, SaysWhatIsThereWhenThereIsNoMesh) {
+TEST_F(ReadDxf, ListsTheEntitiesOfAFileWithoutAMesh) {
   const auto path = put("line.dxf", "0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n0\nENDSEC\n0\nEOF\n");
   EXPECT_NE(error_of([&] { return read_dxf(path); }).find("only 1 LINE"), std::string::npos);
 }
 
-TEST_F(ReadDxf, NamesTheLineOfAFault) {
+TEST_F(ReadDxf, NamesTheLineOfAnError) {
   const std::string start = "0\nSECTION\n2\nENTITIES\n";
   const auto error = [&](const std::string& rest) {
     const auto path = put("bad.dxf", start + rest);
@@ -194,7 +188,7 @@ TEST_F(ReadDxf, NamesTheLineOfAFault) {
   };
   EXPECT_NE(error("0\n3DFACE\n10\nx\n").find("line 8: 'x' is not a number"), std::string::npos);
   EXPECT_NE(error("0\n3DFACE\n10\nnan\n0\nEOF\n").find("not finite"), std::string::npos);
-  EXPECT_NE(error("0\n3DFACE\n10").find("cut short"), std::string::npos);
+  EXPECT_NE(error("0\n3DFACE\n10").find("truncated"), std::string::npos);
   EXPECT_NE(error("hello\n").find("code of a group"), std::string::npos);
   EXPECT_NE(
       error("0\nPOLYLINE\n70\n64\n0\nVERTEX\n70\n192\n10\n1\n0\nVERTEX\n70\n128\n71\n1\n72\n2\n"
@@ -207,8 +201,8 @@ TEST_F(ReadDxf, NamesTheLineOfAFault) {
                 .find("vertex 7"),
             std::string::npos);
   const std::string face = "0\n3DFACE\n10\n0\n11\n1\n12\n0\n22\n1\n13\n0\n23\n1\n";
-  EXPECT_NE(error(face + "0\n").find("cut short"), std::string::npos);
-  EXPECT_NE(error(face).find("after 1 triangles"), std::string::npos);
+  EXPECT_NE(error(face + "0\n").find("truncated"), std::string::npos);
+  EXPECT_NE(error(face).find("after 1 triangle"), std::string::npos);
   const auto binary = put("binary.dxf", std::string("AutoCAD Binary DXF\r\n\x1a\0", 22));
   EXPECT_NE(error_of([&] { return read_dxf(binary); }).find("save it as text"), std::string::npos);
 }

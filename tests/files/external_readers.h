@@ -9,7 +9,7 @@
 
 namespace frangia::testing {
 
-/// What a program printed, and whether it was succeeded.
+/// The output of a program and whether it succeeded.
 struct Answer {
   bool succeeded = false;
   std::string text;
@@ -55,7 +55,7 @@ inline bool have_pcl() {
   return ask("/usr/bin/python3 -c 'import pcl'").succeeded;
 }
 
-/// The faces that assimp finds in a file; -1 when it does not like it.
+/// The number of faces that assimp finds in a file; -1 when it cannot read it.
 inline int assimp_faces(const std::filesystem::path& path) {
   const Answer answer = ask("assimp info " + path.string());
   const std::size_t line = answer.text.find("\nFaces:");

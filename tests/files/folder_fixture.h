@@ -11,7 +11,7 @@
 
 namespace frangia::testing {
 
-/// A test with a folder of its own, empty before and gone after it.
+/// A test with its own temporary folder.
 class FolderFixture : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_); }

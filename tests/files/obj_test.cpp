@@ -23,7 +23,7 @@ const std::string kSquare =
     "mtllib part.mtl\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\n"
     "vt 0 0\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\ns off\n";
 
-TEST_F(ReadObj, ReadsBackWhatWriteObjWroteToTheLastBit) {
+TEST_F(ReadObj, ReadsBackWhatWriteObjWroteExactly) {
   const Mesh mesh = testing::measured_sheet(9);
   write_obj(at("part.obj"), mesh);
   const Mesh back = read_obj(at("part.obj"));
@@ -38,7 +38,7 @@ TEST_F(ReadObj, ReadsPointsWithoutFaces) {
   expect_same_surface(read_obj(at("points.obj")), points);
 }
 
-TEST_F(ReadObj, UnderstandsEveryWayToWriteACorner) {
+TEST_F(ReadObj, ReadsEveryFormOfACorner) {
   const std::vector<Mesh::Triangle> fan{{0, 1, 2}, {0, 2, 3}};
   for (const char* face : {"f 1 2 3 4",
                            "f 1/1 2/1 3/1 4/1\r",
@@ -55,7 +55,7 @@ TEST_F(ReadObj, UnderstandsEveryWayToWriteACorner) {
   }
 }
 
-TEST_F(ReadObj, CountsBackFromTheLastVertexSoFar) {
+TEST_F(ReadObj, ResolvesNegativeIndicesFromTheLastVertexSoFar) {
   const Mesh mesh = read_obj(put("part.obj", kSquare + "f -4 -3 -2\nv 2 2 2\nf -4 -3 -2\n"));
   EXPECT_EQ(mesh.triangles, (std::vector<Mesh::Triangle>{{0, 1, 2}, {1, 2, 3}}));
 }
@@ -73,13 +73,13 @@ TEST_F(ReadObj, RefusesAndNamesTheLine) {
   EXPECT_NE(error_reading(kSquare + "f 1 2 1.5\n").find("'1.5'"), std::string::npos);
 }
 
-TEST_F(ReadObj, RefusesAFaceOfAVertexThatIsNotThere) {
+TEST_F(ReadObj, RefusesAVertexIndexOutOfRange) {
   EXPECT_NE(error_reading(kSquare + "f 1 2 5\n").find("refers to vertex 4, counted from 0"),
             std::string::npos);
 }
 
-TEST_F(ReadObj, RefusesWhatHasNoVertex) {
-  EXPECT_NE(error_reading("\x01\x02 solid\n").find("no OBJ file"), std::string::npos);
+TEST_F(ReadObj, RefusesAFileWithoutVertices) {
+  EXPECT_NE(error_reading("\x01\x02 solid\n").find("not an OBJ file"), std::string::npos);
 }
 
 TEST_F(ReadObj, RefusesAVertexThatIsNotFinite) {

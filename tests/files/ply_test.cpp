@@ -26,7 +26,7 @@ class ReadPly : public testing::FolderFixture {
 };
 using WritePly = ReadPly;
 
-/// The bytes of a number, highest first or lowest first.
+/// The bytes of a number in either byte order.
 template <typename Number>
 std::string raw(Number value, bool big_endian) {
   std::string bytes(sizeof value, '\0');
@@ -41,7 +41,7 @@ const std::string kSquareHeader =
     "property uchar red\nproperty list uchar int links\nproperty float sigma_mm\n"
     "element face 1\nproperty uchar flags\nproperty list uchar uint vertex_index\nend_header\n";
 
-/// A square of four corners with every kind of thing beside it that is to be skipped.
+/// A square with every kind of property and element that the reader must skip.
 std::string square(bool big_endian) {
   std::string bytes =
       big_endian ? "ply\nformat binary_big_endian" : "ply\nformat binary_little_endian";
@@ -84,7 +84,7 @@ TEST_F(ReadPly, ReadsPointsWithoutFaces) {
   expect_same_surface(read_ply(at("points.ply")), points);
 }
 
-TEST_F(ReadPly, FindsTheSameInAsciiAndInBothByteOrders) {
+TEST_F(ReadPly, ReadsAsciiAndBothByteOrdersAlike) {
   Mesh expected;
   expected.vertices_mm = {{0, 0, 0.25F}, {1, 0, 0.25F}, {1, 1, 0.25F}, {0, 1, 0.25F}};
   expected.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -96,7 +96,7 @@ TEST_F(ReadPly, FindsTheSameInAsciiAndInBothByteOrders) {
   }
 }
 
-TEST_F(ReadPly, TakesLineEndsOfEitherKind) {
+TEST_F(ReadPly, AcceptsBothKindsOfLineEnds) {
   std::string windows;
   for (const char c : kAsciiSquare)
     windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -104,7 +104,7 @@ TEST_F(ReadPly, TakesLineEndsOfEitherKind) {
                       read_ply(put("unix.ply", kAsciiSquare)));
 }
 
-TEST_F(ReadPly, MakesANormalZeroThatIsNotFinite) {
+TEST_F(ReadPly, SetsNormalsThatAreNotFiniteToZero) {
   const Mesh mesh = read_ply(put("part.ply",
                                  "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
                                  "property float y\nproperty float z\nproperty float nx\n"
@@ -113,7 +113,7 @@ TEST_F(ReadPly, MakesANormalZeroThatIsNotFinite) {
   EXPECT_EQ(mesh.normals, (std::vector<Eigen::Vector3f>{{0, 0, 0}, {0, 1, 0}}));
 }
 
-TEST_F(ReadPly, RefusesAFileCutAnywhere) {
+TEST_F(ReadPly, RefusesAFileTruncatedAnywhere) {
   for (const std::string& whole : {square(false), square(true), kAsciiSquare}) {
     for (std::size_t size = 0; size < whole.size(); size += 3) {
       const std::string message = error_reading(whole.substr(0, size));
@@ -122,16 +122,16 @@ TEST_F(ReadPly, RefusesAFileCutAnywhere) {
   }
 }
 
-TEST_F(ReadPly, RefusesACountThatTheFileHasNoRoomForBeforeItAllocates) {
+TEST_F(ReadPly, RefusesATooLargeCountBeforeItAllocates) {
   for (const std::string& whole : {square(false), kAsciiSquare}) {
     std::string lying = whole;
     lying.replace(lying.find("vertex 4"), 8, "vertex 9000000000000000000");
-    EXPECT_NE(error_reading(lying).find("promises 9000000000000000000 of 'vertex'"),
+    EXPECT_NE(error_reading(lying).find("states 9000000000000000000 of 'vertex'"),
               std::string::npos);
   }
 }
 
-TEST_F(ReadPly, RefusesALineOfTheHeaderThatItDoesNotKnowByItsNumber) {
+TEST_F(ReadPly, NamesTheLineOfAnErrorInTheHeader) {
   EXPECT_NE(error_reading("ply\nformat ascii 1.0\nelement vertex four\n").find("line 3"),
             std::string::npos);
   EXPECT_NE(error_reading("ply\nformat ascii 1.0\nrubbish\n").find("line 3: 'rubbish'"),
@@ -145,7 +145,7 @@ std::string ascii_triangle(const std::string& first_vertex, const std::string& f
          first_vertex + "\n1 0 0\n0 1 0\n" + face + "\n";
 }
 
-TEST_F(ReadPly, RefusesWhatIsNoMesh) {
+TEST_F(ReadPly, RefusesInvalidMeshes) {
   EXPECT_NE(error_reading(ascii_triangle("0 0 0", "3 0 1 3")).find("refers to vertex 3"),
             std::string::npos);
   EXPECT_NE(error_reading(ascii_triangle("0 0 0", "3 0 1 -1")).find("refers to vertex -1"),
@@ -166,7 +166,7 @@ TEST_F(ReadPly, RefusesTriangleStrips) {
             std::string::npos);
 }
 
-TEST_F(WritePly, RefusesNormalsThatAreNotOneAVertex) {
+TEST_F(WritePly, RefusesAWrongNumberOfNormals) {
   Mesh mesh = testing::measured_sheet(3);
   mesh.normals.pop_back();
   EXPECT_NE(error_of([&] { return write_ply(at("part.ply"), mesh), 0; }).find("8 normals"),

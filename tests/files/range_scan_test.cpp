@@ -14,7 +14,7 @@ namespace {
 
 using testing::TemporaryFolder;
 
-/// Three by three points, the middle of the upper row missing.
+/// A grid of 3 x 3 points without the one in the middle of the first row.
 std::string small_grid(int columns) {
   std::string text = "ply\nformat ascii 1.0\nobj_info num_cols " + std::to_string(columns) +
                      "\nobj_info num_rows 3\nelement vertex 8\nproperty float x\n"
@@ -33,12 +33,12 @@ void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
 }
 
-TEST(RangeScan, JoinsTheNeighboursOfAGridSeenFromAbove) {
+TEST(RangeScan, ConnectsNeighboursOfAGridWithTrianglesThatFaceUp) {
   const TemporaryFolder folder;
   write(folder.path() / "grid.ply", small_grid(3));
   const Mesh mesh = read_range_scan(folder.path() / "grid.ply").mesh;
   EXPECT_EQ(mesh.vertices_mm.size(), 8U);
-  ASSERT_EQ(mesh.triangles.size(), 6U);  // eight less the two that need the missing point
+  ASSERT_EQ(mesh.triangles.size(), 6U);  // eight minus the two at the missing point
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3f normal = (mesh.vertices_mm[b] - mesh.vertices_mm[a])
                                        .cross(mesh.vertices_mm[c] - mesh.vertices_mm[a]);
@@ -46,13 +46,13 @@ TEST(RangeScan, JoinsTheNeighboursOfAGridSeenFromAbove) {
   }
 }
 
-TEST(RangeScan, RefusesAGridThatIsNotWhatItSays) {
+TEST(RangeScan, RefusesAGridThatDoesNotMatchItsStatedSize) {
   const TemporaryFolder folder;
   write(folder.path() / "grid.ply", small_grid(4));
   EXPECT_THROW(static_cast<void>(read_range_scan(folder.path() / "grid.ply")), Error);
 }
 
-TEST(RangeScan, TurnsByTheConjugateOfAConfsQuaternion) {
+TEST(RangeScan, RotatesByTheConjugateOfTheQuaternionInAConf) {
   const TemporaryFolder folder;
   write(folder.path() / "grid.ply", small_grid(3));
   write(folder.path() / "all.conf",
@@ -63,7 +63,7 @@ TEST(RangeScan, TurnsByTheConjugateOfAConfsQuaternion) {
   EXPECT_TRUE(turned.isApprox(Eigen::Vector3d(1.0, 1.0, 3.0), 1e-6)) << turned.transpose();
 }
 
-TEST(RangeScan, NamesTheLineOfAConfThatItCannotRead) {
+TEST(RangeScan, NamesTheInvalidLineOfAConf) {
   const TemporaryFolder folder;
   write(folder.path() / "all.conf", "\nbmesh grid.ply 1 2\n");
   try {

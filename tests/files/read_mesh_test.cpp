@@ -21,7 +21,7 @@ class ReadMesh : public testing::FolderFixture {
   }
 };
 
-TEST_F(ReadMesh, ReadsEachEndingInEitherCase) {
+TEST_F(ReadMesh, IgnoresTheCaseOfTheExtension) {
   const Mesh mesh = testing::sheet(5);
   for (const char* name : {"part.stl", "part.PLY", "Part.Obj"}) {
     write_mesh(at(name), mesh);
@@ -29,23 +29,23 @@ TEST_F(ReadMesh, ReadsEachEndingInEitherCase) {
   }
 }
 
-TEST_F(ReadMesh, ListsTheEndingsThatItKnows) {
+TEST_F(ReadMesh, ListsTheKnownExtensions) {
   EXPECT_NE(error_reading("part.step").find(".xyz or .pcd"), std::string::npos);
 }
 
-TEST_F(ReadMesh, SaysWhenThereIsNoFile) {
+TEST_F(ReadMesh, RefusesMissingFilesAndFolders) {
   EXPECT_NE(error_reading("part.stl").find("no such file"), std::string::npos);
   std::filesystem::create_directory(at("folder.ply"));
-  EXPECT_NE(error_reading("folder.ply").find("not a file"), std::string::npos);
+  EXPECT_NE(error_reading("folder.ply").find("not a regular file"), std::string::npos);
 }
 
-TEST_F(ReadMesh, MakesOfADamagedFileAnErrorOrAWholeMesh) {
+TEST_F(ReadMesh, ReadsADamagedFileAsAnErrorOrAConsistentMesh) {
   std::mt19937 random(1997);
   for (const char* name : {"part.stl", "part.ply", "part.obj"}) {
     write_mesh(at(name), testing::measured_sheet(4));
     const std::string whole = bytes_in(name);
     int errors = 0;
-    for (int round = 0; round < 300; ++round) {
+    for (int trial = 0; trial < 300; ++trial) {
       std::string damaged = whole;
       for (int hit = 0; hit < 3; ++hit)
         damaged[random() % damaged.size()] = static_cast<char>(random());

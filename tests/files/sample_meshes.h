@@ -10,8 +10,8 @@
 
 namespace frangia::testing {
 
-/// A rolling sheet of side x side vertices, 2 (side - 1)^2 triangles, with coordinates of all
-/// digits.
+/// A wavy open sheet of side x side vertices and 2 (side - 1)^2 triangles, whose coordinates use
+/// all digits of a float.
 inline Mesh sheet(std::uint32_t side) {
   Mesh mesh;
   for (std::uint32_t y = 0; y < side; ++y) {
@@ -29,7 +29,7 @@ inline Mesh sheet(std::uint32_t side) {
   return mesh;
 }
 
-/// The same with normals, sigma and views.
+/// `sheet` with normals, sigma and views.
 inline Mesh measured_sheet(std::uint32_t side) {
   Mesh mesh = sheet(side);
   mesh.normals = vertex_normals(mesh);
@@ -40,12 +40,23 @@ inline Mesh measured_sheet(std::uint32_t side) {
   return mesh;
 }
 
+/// `measured_sheet` whose triangles are displaced in every fifth place and synthesized in the next.
+inline Mesh marked_sheet(std::uint32_t side) {
+  Mesh mesh = measured_sheet(side);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    mesh.triangle_marks.push_back(i % 5 == 1   ? Mark::Displaced
+                                  : i % 5 == 2 ? Mark::Synthesized
+                                               : Mark::Measured);
+  }
+  return mesh;
+}
+
 inline void expect_same_surface(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.vertices_mm, b.vertices_mm);
   EXPECT_EQ(a.triangles, b.triangles);
 }
 
-/// The sentence of the Error that `work` throws; empty, and a failed test, when it throws none.
+/// The message of the Error that `work` throws; fails the test when it throws none.
 template <typename Work>
 std::string error_of(Work&& work) {
   try {

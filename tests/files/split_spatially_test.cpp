@@ -36,12 +36,12 @@ TEST(SplitSpatially, PutsEachTriangleIntoOneGroupWithinTheLimits) {
   EXPECT_EQ(seen, all_of(mesh));
 }
 
-TEST(SplitSpatially, KeepsWhatFitsInOneGroup) {
+TEST(SplitSpatially, DoesNotSplitWhatFitsInOneGroup) {
   const Mesh mesh = testing::sheet(5);
   EXPECT_EQ(split_spatially(mesh, all_of(mesh), 32).size(), 1U);
 }
 
-TEST(SplitSpatially, SplitsLooseTrianglesThatHaveMoreVerticesThanFaces) {
+TEST(SplitSpatially, LimitsTheVerticesOfUnconnectedTriangles) {
   Mesh loose;
   for (std::uint32_t i = 0; i < 40; ++i) {
     for (int corner = 0; corner < 3; ++corner)
@@ -52,7 +52,7 @@ TEST(SplitSpatially, SplitsLooseTrianglesThatHaveMoreVerticesThanFaces) {
     EXPECT_LE(group.size(), 13U);
 }
 
-TEST(SplitSpatially, MakesGroupsThatHardlyOverlap) {
+TEST(SplitSpatially, MakesCompactGroups) {
   const Mesh mesh = testing::sheet(60);
   const auto area_of = [&](const std::vector<std::uint32_t>& group) {
     Eigen::AlignedBox2f box;
@@ -68,7 +68,7 @@ TEST(SplitSpatially, MakesGroupsThatHardlyOverlap) {
   EXPECT_LT(sum, 1.2F * area_of(all_of(mesh)));
 }
 
-TEST(SplitSpatially, RefusesALimitThatNoTriangleFits) {
+TEST(SplitSpatially, RefusesALimitBelowThree) {
   const Mesh mesh = testing::sheet(3);
   EXPECT_THROW(static_cast<void>(split_spatially(mesh, all_of(mesh), 2)), Error);
 }

@@ -39,7 +39,7 @@ std::string ascii_of(const Mesh& mesh) {
   return text + "endsolid facet of a diamond\n";
 }
 
-/// Where the corners of all triangles lie, in order: what an STL is.
+/// The corners of all triangles in order: the content of an STL.
 std::vector<Eigen::Vector3f> corners_of(const Mesh& mesh) {
   std::vector<Eigen::Vector3f> corners;
   for (const auto& triangle : mesh.triangles) {
@@ -49,7 +49,7 @@ std::vector<Eigen::Vector3f> corners_of(const Mesh& mesh) {
   return corners;
 }
 
-TEST_F(ReadStl, ReadsBackWhatWriteStlWroteWithItsVerticesShared) {
+TEST_F(ReadStl, ReadsBackWhatWriteStlWroteWithSharedVertices) {
   const Mesh mesh = testing::sheet(9);
   write_stl(at("part.stl"), mesh);
   const Mesh back = read_stl(at("part.stl"));
@@ -57,13 +57,13 @@ TEST_F(ReadStl, ReadsBackWhatWriteStlWroteWithItsVerticesShared) {
   EXPECT_EQ(back.vertices_mm.size(), mesh.vertices_mm.size());
 }
 
-TEST_F(ReadStl, FindsTheSameInAsciiAndBinary) {
+TEST_F(ReadStl, ReadsAsciiAndBinaryAlike) {
   const Mesh mesh = testing::sheet(5);
   testing::expect_same_surface(read_stl(put("ascii.stl", ascii_of(mesh))),
                                read_stl(put("binary.stl", binary_of(mesh))));
 }
 
-TEST_F(ReadStl, KnowsABinaryFileThatBeginsWithSolid) {
+TEST_F(ReadStl, RecognizesABinaryFileThatBeginsWithSolid) {
   const Mesh mesh = testing::sheet(5);
   std::string bytes = binary_of(mesh);
   bytes.replace(0, 5, "solid");
@@ -75,14 +75,14 @@ TEST_F(ReadStl, ReadsUpperCaseAndSeveralSolids) {
   EXPECT_EQ(read_stl(put("part.stl", two)).triangles.size(), 2U);
 }
 
-TEST_F(ReadStl, LeavesOutTrianglesWithTwoCornersAtOnePlace) {
+TEST_F(ReadStl, OmitsTrianglesWithTwoIdenticalCorners) {
   Mesh mesh = testing::sheet(3);
   const std::size_t whole = mesh.triangles.size();
   mesh.triangles.push_back({0, 1, 0});
   EXPECT_EQ(read_stl(put("part.stl", binary_of(mesh))).triangles.size(), whole);
 }
 
-TEST_F(ReadStl, RefusesAFileCutAnywhere) {
+TEST_F(ReadStl, RefusesAFileTruncatedAnywhere) {
   const Mesh mesh = testing::sheet(2);
   for (const std::string& whole : {binary_of(mesh), ascii_of(mesh)}) {
     const std::size_t least = whole.find("endsolid") == std::string::npos
@@ -109,11 +109,10 @@ TEST_F(ReadStl, RefusesACornerThatIsNotFinite) {
   EXPECT_NE(error_reading(bytes).find("vertex 0"), std::string::npos);
 }
 
-TEST_F(ReadStl, NamesTheLineOfAWordOutOfPlace) {
+TEST_F(ReadStl, NamesTheLineOfAnUnexpectedWord) {
   std::string text = ascii_of(testing::sheet(2));
   text.replace(text.find("outer"), 5, "inner");
-  EXPECT_NE(error_reading(text).find("line 3: 'inner' stands where 'outer' is due"),
-            std::string::npos);
+  EXPECT_NE(error_reading(text).find("line 3: expected 'outer', found 'inner'"), std::string::npos);
 }
 
 using WriteStl = ReadStl;

@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-TEST(TextReader, ReadsNumbersAsPeopleAndProgramsWriteThem) {
+TEST(TextReader, ReadsEveryNotationOfNumbers) {
   EXPECT_EQ(parse_float("+1.5e+01"), 15.0F);
   EXPECT_EQ(parse_float("-.5"), -0.5F);
   EXPECT_EQ(parse_float("1e-60"), 0.0F);
@@ -33,14 +33,14 @@ TEST(TextReader, ReadsEveryFloatBackFromItsShortestDigits) {
   }));
 }
 
-TEST(TextReader, RefusesWordsThatOnlyBeginAsNumbers) {
+TEST(TextReader, RefusesWordsThatOnlyBeginWithANumber) {
   for (const char* word : {"", "+", "+-1", "1,5", "1.5mm", "0x10", "one"})
     EXPECT_FALSE(parse_float(word)) << word;
   for (const char* word : {"", "1.0", "99999999999999999999"})
     EXPECT_FALSE(parse_integer(word)) << word;
 }
 
-TEST(TextReader, EndsALineOnlyWhereItEnds) {
+TEST(TextReader, SeparatesWordsAndLines) {
   TextReader reader("a.txt", "one  two\r\n\n three");
   EXPECT_EQ(reader.word_on_line(), "one");
   EXPECT_EQ(reader.word_on_line(), "two");
@@ -49,7 +49,7 @@ TEST(TextReader, EndsALineOnlyWhereItEnds) {
   EXPECT_EQ(reader.word(), "");
 }
 
-TEST(TextReader, ShowsNothingThatATerminalWouldObey) {
+TEST(TextReader, ReplacesControlCharactersInMessages) {
   TextReader reader("a.txt", "\n\x1b[2Jabcdefghijklmnopqrstuvwxyz 1");
   EXPECT_EQ(testing::error_of([&] { return reader.real(); }),
             "a.txt, line 2: '?[2Jabcdefghijklmnopqrst...' is not a number");

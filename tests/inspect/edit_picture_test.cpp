@@ -25,7 +25,7 @@ bool is_blue(const Rgb& color) {
   return color[2] > 1.3 * color[0];
 }
 
-/// Pixels of a kind in the left or the right half.
+/// The number of pixels in the left or the right half that satisfy a predicate.
 template <typename Is>
 int count_in(const Image<Rgb>& picture, bool right, const Is& is) {
   int count = 0;

@@ -11,7 +11,8 @@ namespace {
 
 using testing::box;
 
-/// Camera at the origin looking along z, projector beside it, both at a cube 500 mm away.
+/// A camera at the origin that looks along z and a projector beside it, aimed at a cube 500 mm
+/// away.
 Rig two_eyes() {
   Rig rig;
   rig.camera.model = {.width_px = 200,
@@ -25,7 +26,7 @@ Rig two_eyes() {
   return rig;
 }
 
-TEST(SurfaceCompleteness, OfTheWholeIsOneAndOfAHalfIsItsArea) {
+TEST(SurfaceCompleteness, IsTheShareOfTheCoveredArea) {
   const Mesh cube = box({-10, -10, 0}, {10, 10, 20});
   Mesh half = cube;
   half.triangles.resize(6);
@@ -40,7 +41,7 @@ TEST(SurfaceCompleteness, CountsOnlyWhatTheRigCanMeasure) {
   const RayScene cube(box({-10, -10, -10}, {10, 10, 10}));
   const std::vector<Eigen::Isometry3d> poses{rig.rig_from_object(0.0)};
   const auto seen = surface_completeness(cube, cube, MeasurementViews{rig, poses});
-  // Of the cube's six faces camera and projector both face one; others are seen at grazing angles.
+  // Camera and projector both face one of the six faces; others are seen at grazing angles.
   EXPECT_NEAR(static_cast<double>(seen.count) / 100000.0, 1.0 / 6.0, 1e-3);
   const std::vector<Eigen::Isometry3d> turned{rig.rig_from_object(0.0),
                                               rig.rig_from_object(0.5 * kPi)};
@@ -51,7 +52,7 @@ TEST(SurfaceCompleteness, CountsOnlyWhatTheRigCanMeasure) {
       1e-3);
 }
 
-TEST(IsMeasurable, WantsLightAndSightAndASquareLook) {
+TEST(IsMeasurable, NeedsUnoccludedCameraAndProjectorThatTheSurfaceFaces) {
   const Rig rig = two_eyes();
   const std::vector<Eigen::Isometry3d> poses{rig.rig_from_object(0.0)};
   const MeasurementViews view{rig, poses};
@@ -62,7 +63,7 @@ TEST(IsMeasurable, WantsLightAndSightAndASquareLook) {
   EXPECT_TRUE(measurable(nothing, {1, 0, 0}));  // x points to the camera
   EXPECT_FALSE(measurable(nothing, {-1, 0, 0}));
   EXPECT_FALSE(measurable(nothing, {0.2, 0, 1}));
-  // Something in the way of the camera, then of the projector (y points away from it).
+  // An obstacle in front of the camera, then of the projector (y points away from it).
   EXPECT_FALSE(measurable(RayScene(box({100, -1, -1}, {101, 1, 1})), {1, 0, 0}));
   const double side = rig.rig_from_object(0.0).inverse().operator*(rig.projector.position_mm).y();
   const auto y = static_cast<float>(side / 5.0);
@@ -70,7 +71,7 @@ TEST(IsMeasurable, WantsLightAndSightAndASquareLook) {
   EXPECT_TRUE(measurable(RayScene(box({100, -y - 1, -1}, {101, -y + 1, 1})), {1, 0, 0}));
 }
 
-TEST(IsMeasurable, KeepsToThePictureAndTheField) {
+TEST(IsMeasurable, IsLimitedToTheFieldsOfCameraAndProjector) {
   Rig rig = two_eyes();
   const std::vector<Eigen::Isometry3d> poses{rig.rig_from_object(0.0)};
   const RayScene nothing((Mesh()));
@@ -78,13 +79,13 @@ TEST(IsMeasurable, KeepsToThePictureAndTheField) {
     return is_measurable(nothing, {0, y, 0}, {1, 0, 0}, MeasurementViews{rig, poses}, 1.3);
   };
   EXPECT_TRUE(measurable(60.0));
-  EXPECT_FALSE(measurable(65.0));  // 100 px at 500 mm and 800 px of focal length are 62.5 mm
+  EXPECT_FALSE(measurable(65.0));  // half the picture is 100 px / 800 px * 500 mm = 62.5 mm
   rig.projector.model = AngularModel{rad_from_deg(-1.0), rad_from_deg(1.0)};
   EXPECT_TRUE(measurable(0.0));
   EXPECT_FALSE(measurable(60.0));
 }
 
-TEST(SurfaceCompleteness, RefusesATruthWithoutSurface) {
+TEST(SurfaceCompleteness, RefusesAReferenceWithoutTriangles) {
   EXPECT_THROW(static_cast<void>(surface_completeness(RayScene(Mesh{}), RayScene(Mesh{}))), Error);
 }
 

@@ -12,7 +12,7 @@ namespace {
 using testing::box;
 using testing::sphere;
 
-TEST(SurfaceError, OfTheTruthItselfIsZero) {
+TEST(SurfaceError, OfTheReferenceItselfIsZero) {
   const Mesh mesh = sphere({1, 2, 3}, 20.0);
   const SurfaceError error = surface_error(mesh, RayScene(mesh));
   EXPECT_EQ(error.count, mesh.vertices_mm.size());
@@ -27,7 +27,7 @@ TEST(SurfaceError, OfALargerSphereIsTheDifferenceOfTheRadii) {
   EXPECT_NEAR(error.max_mm, 0.1, 0.008);
 }
 
-TEST(SurfaceError, OfASmallerOneHasANegativeBias) {
+TEST(SurfaceError, OfASmallerSphereHasANegativeBias) {
   const SurfaceError error =
       surface_error(sphere({0, 0, 0}, 19.9, 120), RayScene(sphere({0, 0, 0}, 20.0, 120)));
   EXPECT_NEAR(error.bias_mm, -0.1, 0.004);
@@ -51,7 +51,7 @@ TEST(SurfaceError, PercentilesAreThoseOfNormalNoise) {
   EXPECT_NEAR(error.p99_mm, 0.1288, 0.004);
 }
 
-TEST(SurfaceError, CountsWhatIsFarWithoutHidingIt) {
+TEST(SurfaceError, IncludesOutliersAndStatesTheirShare) {
   Mesh mesh = box({-10, -10, 0}, {10, 10, 10});
   const auto first = static_cast<std::uint32_t>(mesh.vertices_mm.size());
   for (const float x : {0.0F, 1.0F})
@@ -76,10 +76,10 @@ TEST(SurfaceError, DoesNotCountVerticesWithoutATriangle) {
   EXPECT_LT(error.max_mm, 1e-6);
 }
 
-TEST(SurfaceError, SamplesAreMeasuredInsteadOfVerticesWhenAsked) {
+TEST(SurfaceError, MeasuresSamplesInsteadOfVerticesOnRequest) {
   SurfaceErrorOptions options;
   options.samples = 5000;
-  // All vertices of the coarse sphere lie on the fine one, its facets inside.
+  // The vertices of the coarse sphere lie on the fine one, its facets inside.
   const SurfaceError error =
       surface_error(sphere({0, 0, 0}, 20.0, 12), RayScene(sphere({0, 0, 0}, 20.0, 240)), options);
   EXPECT_EQ(error.count, 5000U);
@@ -92,7 +92,7 @@ TEST(SurfaceError, RefusesAnEmptyMesh) {
   EXPECT_THROW(static_cast<void>(surface_error(truth.mesh(), RayScene(Mesh{}))), Error);
 }
 
-TEST(VertexErrors, AreSignedAndOneAVertex) {
+TEST(VertexErrors, AreSignedAndOnePerVertex) {
   const Mesh mesh = box({-10, -10, 0}, {10, 10, 11});
   const auto errors = vertex_errors_mm(mesh, RayScene(box({-20, -20, -5}, {20, 20, 10})));
   ASSERT_EQ(errors.size(), 8U);

@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-TEST(SurfaceValidity, FindsNoFaultInTheTruthItself) {
+TEST(SurfaceValidity, FindsNoDefectInTheReferenceItself) {
   const Mesh truth = make_part("bracket");
   const SurfaceValidity found = surface_validity(truth, RayScene(truth));
   EXPECT_EQ(found.non_manifold_edges, 0U);
@@ -18,7 +18,7 @@ TEST(SurfaceValidity, FindsNoFaultInTheTruthItself) {
   EXPECT_TRUE(std::isnan(found.sigma_ratio));
 }
 
-TEST(SurfaceValidity, CountsTrianglesThatWereTurned) {
+TEST(SurfaceValidity, CountsReversedTriangles) {
   const Mesh truth = make_part("bracket");
   Mesh turned = truth;
   for (const std::size_t i : {std::size_t{5}, turned.triangles.size() / 2})
@@ -28,11 +28,11 @@ TEST(SurfaceValidity, CountsTrianglesThatWereTurned) {
   EXPECT_GE(found.non_manifold_edges, 4U);
 }
 
-TEST(SurfaceValidity, ComparesErrorsWithTheirSigma) {
+TEST(SurfaceValidity, ComparesErrorsWithSigma) {
   const Mesh truth = make_part("plate");
   Mesh off = truth;
   for (auto& vertex : off.vertices_mm)
-    vertex.z() += 100.0F;  // far above, where the nearest point is below
+    vertex.z() += 100.0F;  // 100 mm above the reference
   off.sigma_mm.assign(off.vertices_mm.size(), 1e6F);
   EXPECT_LT(surface_validity(off, RayScene(truth)).sigma_ratio, 1e-3);
 }

@@ -8,58 +8,59 @@
 
 namespace frangia {
 
-/// How a frame is exposed.
+/// Exposure settings of a camera.
 struct CameraSettings {
   double exposure_ms = 10.0;
   double gain_db = 0.0;
-  double black_level_counts = 0.0;  ///< what the camera adds, so that noise is not cut off at 0
+  double black_level_counts = 0.0;  ///< offset that keeps noise from being clipped at 0
 };
 
-/// What a camera is; does not change while it is open.
+/// Properties of a camera; constant while it is open.
 struct CameraInfo {
   int width_px = 0;
   int height_px = 0;
-  int white_level = 255;  ///< the largest value of a pixel: 255, 1023, 4095, 65535
+  int white_level = 255;  ///< largest pixel value: 255, 1023, 4095, 65535
   double min_exposure_ms = 0.01;
   double max_exposure_ms = 10'000.0;
   double max_gain_db = 0.0;  ///< 0 when the gain cannot be set
 };
 
-/// What a frame is taken for. A real camera does not care; a replay finds its file by it, and the
-/// simulated one its noise, so that a frame taken later is still the same frame.
+/// Identifies a frame within a scan. Real cameras ignore it; a replay uses it to find the file, and
+/// the simulated camera to seed its noise, so that a repeated capture gives the same frame.
 struct FrameLabel {
   int view = 0;
   std::string pattern;
   int frame = 0;
   int exposure = 0;  ///< index into the pattern's exposures
-  int attempt = 0;   ///< 0, then 1, 2 ... when the set is taken again
+  int attempt = 0;   ///< 0 for the first capture of the set, then 1, 2, ...
 };
 
-/// One frame, and how it came about.
+/// One frame with its metadata.
 struct CapturedFrame {
-  Frame frame;                   ///< of the size that `info` tells
-  CameraSettings settings;       ///< those it was taken with, as the camera reports them
-  std::uint64_t id = 0;          ///< the camera's own count
-  double timestamp_s = 0.0;      ///< of the camera's own clock
-  bool complete = true;          ///< false: parts are missing, the pixels are not to be used
-  std::string incomplete_cause;  ///< "12 of 900 packets lost"; empty for a complete one
+  Frame frame;                   ///< of the size in `info`
+  CameraSettings settings;       ///< in effect, as the camera reports them
+  std::uint64_t id = 0;          ///< frame counter of the camera
+  double timestamp_s = 0.0;      ///< clock of the camera
+  bool complete = true;          ///< false: data is missing; do not use the pixels
+  std::string incomplete_cause;  ///< "12 of 900 packets lost"; empty for a complete frame
 };
 
-/// A camera that takes one frame when told to.
+/// A camera that captures single frames on request.
 class CameraDevice : public Device {
  public:
   [[nodiscard]] virtual const CameraInfo& info() const = 0;
 
-  /// Sets what the next frames are taken with, and returns what the camera made of it (it may round
-  /// to its own steps).
+  /// Sets the exposure of the following frames and returns the settings in effect, which the camera
+  /// may round.
+  ///
   /// errors   Error(Device) when a value is out of the camera's range
   virtual CameraSettings configure(const CameraSettings& settings, const Deadline& deadline) = 0;
 
-  /// Triggers one exposure and waits for its frame. The exposure begins after the call does: a
-  /// frame that was already under way is never handed out.
+  /// Triggers one exposure and waits for its frame. The exposure starts after the call; a frame
+  /// that was already being exposed is discarded.
   ///
-  /// An incomplete frame is returned as such, for the caller to count and to take again.
-  /// errors   Error(Device) when no frame has come by the deadline, or the camera is gone
+  /// missing  an incomplete frame is returned and marked as such; the caller captures it again
+  /// errors   Error(Device) when no frame arrives by the deadline, or the camera is disconnected
   [[nodiscard]] virtual CapturedFrame capture(const FrameLabel& label,
                                               const Deadline& deadline) = 0;
 

@@ -10,13 +10,13 @@
 
 namespace frangia {
 
-/// Until when a device may take, and whether somebody asked to stop. Every call to a device has
-/// one: nothing waits for ever.
+/// Time limit and stop request of a call to a device. Every such call has one, so none blocks
+/// forever.
 struct Deadline {
   using Clock = std::chrono::steady_clock;
 
   Clock::time_point time;
-  double timeout_s = 0.0;  ///< as it was at the start, for the sentence that tells of it
+  double timeout_s = 0.0;  ///< the initial time limit, for messages
   std::stop_token stop;
 
   [[nodiscard]] static Deadline in(double seconds, std::stop_token stop = {}) {
@@ -24,17 +24,17 @@ struct Deadline {
     return {
         Clock::now() + std::chrono::duration_cast<Clock::duration>(span), seconds, std::move(stop)};
   }
-  /// The earlier of this one and `seconds` from now.
+  /// The earlier of this deadline and `seconds` from now.
   [[nodiscard]] Deadline at_most(double seconds) const {
     Deadline sooner = in(seconds, stop);
     return sooner.time < time ? sooner : *this;
   }
   [[nodiscard]] bool passed() const { return Clock::now() >= time; }
-  /// Throws Error(Cancelled) once a stop was asked for.
+  /// Throws Error(Cancelled) when a stop was requested.
   void check() const {
     if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "stopped by the user");
   }
-  /// Sleeps in short pieces, so that a stop is heard. Ends early when the deadline does.
+  /// Sleeps in short intervals to react to a stop request. Returns early at the deadline.
   void sleep(double seconds) const {
     const Deadline until = at_most(seconds);
     while (!until.passed()) {

@@ -8,10 +8,10 @@
 
 namespace frangia {
 
-/// What every device of a rig can do, whatever it is.
+/// Common interface of all devices of a rig.
 ///
-/// A device is opened by its `Driver`, starts disabled (light off, motor off) and is made safe when
-/// it is destroyed. It is used by one thread at a time.
+/// A `Driver` opens a device. It starts disabled (light off, motor off) and makes itself safe when
+/// destroyed. Only one thread at a time may use it.
 class Device {
  public:
   Device() = default;
@@ -21,19 +21,21 @@ class Device {
   Device& operator=(Device&&) = delete;
   virtual ~Device() = default;
 
-  /// What a person would call it: "camera Basler-22817 at 192.168.0.7". Begins all its errors.
+  /// Name for messages: "camera Basler-22817 at 192.168.0.7". All errors of the device begin with
+  /// it.
   [[nodiscard]] virtual std::string name() const = 0;
 
-  /// Asks the device whether it works, without moving or lighting anything; what it says of itself.
-  /// errors   Error(Device) when it is silent or unwell
+  /// Checks that the device works, without motion or light, and returns a description of it.
+  ///
+  /// errors   Error(Device) when it does not answer or reports a fault
   [[nodiscard]] virtual std::string test(const Deadline& deadline) = 0;
 
-  /// Light off, motion stopped and disabled, as fast as can be. Called on any fault, on a signal
-  /// and at the end; must never throw, whatever state the device is in.
+  /// Switches light off and stops and disables motion as fast as possible. Called on any fault, on
+  /// a signal and at the end; never throws.
   virtual void make_safe() noexcept = 0;
 };
 
-/// Throws Error(Device), "NAME: WHAT". `what` says what happened and what to do.
+/// Throws Error(Device) with "NAME: WHAT". `what` states the fault and what to do.
 [[noreturn]] inline void fail_device(const Device& device, std::string_view what) {
   throw Error(ErrorKind::Device, device.name() + ": " + std::string(what));
 }

@@ -47,7 +47,7 @@ bool DeviceSettings::flag_or(std::string_view key, bool otherwise) {
 
 std::string DeviceSettings::text(std::string_view key) {
   const std::string* value = std::get_if<std::string>(&at(key));
-  if (value == nullptr) fail(key, "must be a text in quotes");
+  if (value == nullptr) fail(key, "must be a string in quotes");
   return *value;
 }
 
@@ -108,7 +108,7 @@ std::vector<std::string> DeviceSettings::texts_or(std::string_view key,
                                                   const std::vector<std::string>& otherwise) {
   if (!has(key)) return otherwise;
   const auto* values = std::get_if<std::vector<std::string>>(&at(key));
-  if (values == nullptr) fail(key, "must be a list of texts in quotes");
+  if (values == nullptr) fail(key, "must be a list of strings in quotes");
   return *values;
 }
 
@@ -116,7 +116,7 @@ void DeviceSettings::warn_of_unused_keys(const Run& run) const {
   for (const auto& value : values_) {
     if (used_.contains(value.first)) continue;
     run.warn(fmt::format(
-        "{}: devices.{}.{} is not known and ignored", file_.string(), device_, value.first));
+        "{}: devices.{}.{} is unknown and ignored", file_.string(), device_, value.first));
   }
 }
 

@@ -31,7 +31,7 @@ const Driver& driver_for(DeviceSettings& settings, const std::vector<Driver>& dr
     names.push_back(driver.name);
   }
   settings.fail("driver",
-                fmt::format("is \"{}\"; for [devices.{}] there are {}",
+                fmt::format("is \"{}\"; the drivers for [devices.{}] are {}",
                             wanted,
                             settings.device(),
                             fmt::join(names, ", ")));

@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-/// Every driver for devices that can be bought. Devices opened by one list may share a board; open
-/// those of one rig by one list.
+/// The drivers of all supported hardware. Devices on the same board share its connection when one
+/// list opens them, so open all devices of a rig with one list.
 [[nodiscard]] std::vector<Driver> hardware_drivers();
 
 }  // namespace frangia

@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-/// The place of x on the broken line through (xs, ys); xs rise.
+/// Linear interpolation of (xs, ys) at x, clamped; xs ascend.
 double interpolate_linearly(const std::vector<double>& xs,
                             const std::vector<double>& ys,
                             double x) {
@@ -38,7 +38,7 @@ void PhaseCurve::check(const std::string& whose) const {
   }
   throw Error(ErrorKind::Input,
               fmt::format("{}: a phase curve needs two points or more, rising commands and as many "
-                          "phases that only rise or only fall; run frangia calibrate piezo anew",
+                          "phases that only rise or only fall; calibrate the phase shifter again",
                           whose));
 }
 
@@ -55,7 +55,7 @@ double PhaseCurve::command_for(double phase_rad) const {
   if (phase > high) phase -= kTwoPi * std::ceil((phase - high) / kTwoPi);
   if (phase < low) {
     throw Error(ErrorKind::Input,
-                fmt::format("the phase curve spans {:.1f} degrees, which do not hold a shift of "
+                fmt::format("the phase curve spans {:.1f} degrees and cannot reach a shift of "
                             "{:.1f}; widen the range of the phase shifter",
                             deg_from_rad(high - low),
                             deg_from_rad(phase_rad)));
@@ -75,7 +75,7 @@ PhaseCurve read_phase_curve(DeviceSettings& settings, double min_command, double
   } else {
     const double per_turn = settings.number("command_per_turn");
     if (per_turn == 0.0)
-      settings.fail("command_per_turn", "is 0; it must be the command of a turn");
+      settings.fail("command_per_turn", "is 0; it must be the command for one turn of phase");
     curve.commands = {min_command, max_command};
     curve.phases_rad = {0.0, kTwoPi * (max_command - min_command) / per_turn};
   }

@@ -4,21 +4,22 @@
 
 namespace frangia {
 
-/// Brings fringes to a phase through a phase shifter: by its curve, with a correction for what the
-/// frames have shown of it, and always from below, so that hysteresis does no harm.
+/// Sets phase shifts through a phase shifter with its curve and a correction factor from the
+/// measured shifts. Approaches every command from below to avoid hysteresis.
 class PhaseShiftController {
  public:
   explicit PhaseShiftController(PhaseShifter& shifter) : shifter_(shifter) {}
 
-  /// To the lowest command: every set of frames begins from there.
+  /// Drives to the lowest command, where every set of frames starts.
   void return_to_start(const Deadline& deadline);
 
-  /// To a shift from the phase at rest; by way of rest when that is below the last one.
+  /// Drives to a shift from the phase at rest; from rest when the shift is below the previous one.
+  ///
   /// units    rad
-  /// errors   Error(Device) as the shifter; Error(Input) when its curve does not span the shift
+  /// errors   Error(Device) as the shifter; Error(Input) when its curve does not contain the shift
   void shift_to(double shift_rad, const Deadline& deadline);
 
-  /// The factor on all shifts asked for; 1 at first.
+  /// Sets the factor on all requested shifts; initially 1.
   [[nodiscard]] double scale() const { return scale_; }
   void set_scale(double scale) { scale_ = scale; }
 

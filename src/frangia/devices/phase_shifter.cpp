@@ -10,8 +10,8 @@ void PhaseShifter::set_fringe_frequency(double fringes_per_degree, const Deadlin
   const double own = info().fringes_per_degree;
   if (own == 0.0 || std::abs(fringes_per_degree / own - 1.0) < 1e-6) return;
   fail_device(*this,
-              fmt::format("its fringes are {:g} a degree and the pattern asks for {:g}; scan with "
-                          "patterns of its own pitch",
+              fmt::format("its pitch is {:g} fringes per degree, but the pattern needs {:g}; "
+                          "scan with patterns of its own pitch",
                           own,
                           fringes_per_degree));
 }

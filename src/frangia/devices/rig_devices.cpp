@@ -8,11 +8,12 @@
 namespace frangia {
 namespace {
 
-/// The device as the class that its kind promises.
+/// Casts a device to the class of its kind.
 template <typename T>
 void assign_as(std::unique_ptr<Device> device, std::unique_ptr<T>& place) {
   auto* as = dynamic_cast<T*>(device.get());
-  if (as == nullptr) fail_device(*device, "its driver opened a device of another kind");
+  if (as == nullptr)
+    fail_device(*device, "the driver opened a device of another kind; choose another driver");
   static_cast<void>(device.release());
   place.reset(as);
 }
@@ -67,13 +68,13 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
   }
   if (devices.shifter && !rig.projector.is_angular()) {
     throw Error(ErrorKind::Input,
-                fmt::format("{}: [devices.fringes] shifts an interferometer's fringes, but "
+                fmt::format("{}: [devices.fringes] is a phase shifter, but "
                             "projector.model is \"pinhole\"",
                             file.string()));
   }
 }
 
-/// Light first; null where the rig has none.
+/// Adds the devices that exist, light first.
 std::array<Device*, 6> devices_of(const RigDevices& rig) {
   return {rig.light.get(),
           rig.laser_sheet.get(),

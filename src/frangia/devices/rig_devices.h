@@ -14,8 +14,8 @@
 
 namespace frangia {
 
-/// The devices of a rig, each null where the rig has none. When destroyed, or on any fault, all of
-/// them are made safe: light first, then motion.
+/// The devices of a rig, null where it has none. On destruction and on any fault all are made safe:
+/// first light, then motion.
 struct RigDevices {
   RigDevices() = default;
   RigDevices(const RigDevices&) = delete;
@@ -31,16 +31,16 @@ struct RigDevices {
   std::unique_ptr<SwitchDevice> light;
   std::unique_ptr<TurntableDevice> turntable;
 
-  /// All that there are, light first.
+  /// All devices of the rig, light first.
   [[nodiscard]] std::vector<Device*> all() const;
   void make_safe() noexcept;
 };
 
-/// Opens the devices that the `[devices.*]` tables of a rig.toml describe.
+/// Opens the devices in the `[devices.*]` tables of a rig.toml.
 ///
-/// errors   Error(Input) that names file and key: an unknown driver, a table that is none, a
-///          setting that is missing or wrong, a camera or display of another size than the rig
-///          says; Error(Device) when one does not answer by the deadline
+/// errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or
+///          setting, a camera or display whose size differs from the rig; Error(Device) when a
+///          device does not answer by the deadline
 [[nodiscard]] RigDevices open_devices(const std::filesystem::path& rig_file,
                                       const Rig& rig,
                                       const std::vector<Driver>& drivers,

@@ -4,16 +4,16 @@
 
 namespace frangia {
 
-/// Something that is on or off: the laser or lamp of the fringes (`light`), or the source of the
-/// single plane of light (`line`). Off when opened and after `make_safe`.
+/// A light that is on or off: the laser or lamp of the fringes (`light`), or the source of the
+/// laser sheet (`line`). Off when opened and after `make_safe`.
 class SwitchDevice : public Device {
  public:
-  /// Returns when the light has changed.
+  /// Switches and returns when the light has changed.
   virtual void set(bool on, const Deadline& deadline) = 0;
   [[nodiscard]] virtual bool is_on() const = 0;
 };
 
-/// The source of the single plane of light.
+/// The source of the laser sheet.
 using LaserSheetSource = SwitchDevice;
 
 }  // namespace frangia

@@ -5,7 +5,8 @@
 
 namespace frangia {
 
-/// A file name's extension in lower case, with its point: ".stl" of "Part.STL"; empty without one.
+/// The extension of a file name in lower case, with its dot: ".stl" for "Part.STL". Empty when the
+/// name has no extension.
 [[nodiscard]] inline std::string lowercase_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension)

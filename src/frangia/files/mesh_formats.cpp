@@ -18,17 +18,20 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Formats whose reader has nothing to tell, and whose writer takes no options.
+/// Formats whose reader gives no warnings and whose writer has no options.
 template <Mesh (*Read)(const Path&), void (*Write)(const Path&, const Mesh&)>
 MeshFormat silent_format(const char* extension) {
   return {extension,
           [](const Path& path, const Run&) { return Read(path); },
-          [](const Path& path, const Mesh& mesh, const WriteOptions&) { Write(path, mesh); }};
+          [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run&) {
+            Write(path, mesh);
+          }};
 }
 
+/// Formats whose reader may warn.
 template <Mesh (*Read)(const Path&, const Run&), void (*Write)(const Path&, const Mesh&)>
 MeshFormat warning_format(const char* extension) {
-  return {extension, Read, [](const Path& path, const Mesh& mesh, const WriteOptions&) {
+  return {extension, Read, [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run&) {
             Write(path, mesh);
           }};
 }
@@ -37,19 +40,23 @@ const std::vector<MeshFormat>& formats() {
   static const std::vector<MeshFormat> kAll{
       {".dxf",
        read_dxf,
-       [](const Path& path, const Mesh& mesh, const WriteOptions& options) {
+       [](const Path& path, const Mesh& mesh, const WriteOptions& options, const Run&) {
          write_dxf(path, mesh, options.dxf);
        }},
       {".stl",
        [](const Path& path, const Run&) { return read_stl(path); },
-       [](const Path& path, const Mesh& mesh, const WriteOptions& options) {
+       [](const Path& path, const Mesh& mesh, const WriteOptions& options, const Run&) {
          write_stl(path, mesh, options.stl);
        }},
       silent_format<read_ply, write_ply>(".ply"),
       silent_format<read_obj, write_obj>(".obj"),
       warning_format<read_gltf, write_gltf>(".glb"),
       warning_format<read_gltf, write_gltf>(".gltf"),
-      warning_format<read_3mf, write_3mf>(".3mf"),
+      {".3mf",
+       read_3mf,
+       [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run& run) {
+         write_3mf(path, mesh, run);
+       }},
       silent_format<read_off, write_off>(".off"),
       silent_format<read_xyz, write_xyz>(".xyz"),
       warning_format<read_pcd, write_pcd>(".pcd"),

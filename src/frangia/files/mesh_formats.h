@@ -9,17 +9,17 @@
 
 namespace frangia {
 
-/// A file format by its extension.
+/// Reader and writer of one file format.
 struct MeshFormat {
-  std::string extension;  ///< lower case, with its point
+  std::string extension;  ///< lower case, with its dot
   Mesh (*read)(const std::filesystem::path&, const Run&);
-  void (*write)(const std::filesystem::path&, const Mesh&, const WriteOptions&);
+  void (*write)(const std::filesystem::path&, const Mesh&, const WriteOptions&, const Run&);
 };
 
-/// The format that a file's extension names, in either case; nullptr for one that is not known.
+/// The format of a file by its extension, upper or lower case; nullptr for an unknown extension.
 [[nodiscard]] const MeshFormat* find_mesh_format(const std::filesystem::path& path);
 
-/// ".dxf, .stl, ... or .pcd": all endings, as a sentence has them.
+/// All known extensions for a message: ".dxf, .stl, ... or .pcd".
 [[nodiscard]] std::string mesh_extensions();
 
 }  // namespace frangia

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/median.h"
 #include "frangia/files/internal/ply_source.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/ply.h"
@@ -20,14 +21,14 @@ namespace {
 
 constexpr std::int64_t kNoPoint = -1;
 
-/// Which point is where.
+/// The grid of a range scan: a point index for each cell.
 struct Grid {
   std::size_t columns = 0;
   std::size_t rows = 0;
-  std::vector<std::int64_t> points;  ///< row by row; kNoPoint where there is none
+  std::vector<std::int64_t> points;  ///< row-major; kNoPoint in an empty cell
 };
 
-/// The number after "obj_info KEY" in the header; 0 when there is none.
+/// The number after "obj_info KEY" in the header; 0 when the header has no such line.
 std::size_t read_obj_info(std::string_view header, const std::string& key) {
   const auto found = header.find("obj_info " + key + " ");
   if (found == std::string_view::npos) return 0;
@@ -37,7 +38,7 @@ std::size_t read_obj_info(std::string_view header, const std::string& key) {
   return number;
 }
 
-/// Reads over a property; the last value of a list, or kNoPoint when it is empty.
+/// Reads a property and returns the last value of a list, or kNoPoint for an empty list.
 template <typename Source>
 std::int64_t last_of(Source& source, const PlyProperty& property) {
   std::int64_t last = kNoPoint;
@@ -80,13 +81,13 @@ Grid read_range_grid(const std::filesystem::path& path) {
           ? read_grid(AsciiPlySource(path, bytes, header.body), header)
           : read_grid(BinaryPlySource(path, all.substr(header.body), header.format), header);
   if (grid.columns == 0 || grid.points.size() != grid.columns * grid.rows) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("{}: its grid holds {} places, but obj_info says {} columns and {} rows",
-                    path.string(),
-                    grid.points.size(),
-                    grid.columns,
-                    grid.rows));
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: its range_grid has {} cells, but obj_info states {} columns and "
+                            "{} rows; export it again",
+                            path.string(),
+                            grid.points.size(),
+                            grid.columns,
+                            grid.rows));
   }
   return grid;
 }
@@ -99,22 +100,22 @@ double median_spacing(const Mesh& mesh, const Grid& grid) {
     const auto& b = mesh.vertices_mm[static_cast<std::size_t>(grid.points[i + 1])];
     lengths.push_back(static_cast<double>((a - b).norm()));
   }
-  if (lengths.empty()) return 0.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return median_in_place(std::span(lengths));
 }
 
 void triangulate_grid(Mesh& mesh, const Grid& grid, const std::filesystem::path& path) {
-  constexpr double kLongest = 6.0;  // spacings
+  constexpr double kMaxEdge = 6.0;  // median spacings; a longer edge bridges a depth step
   for (const std::int64_t point : grid.points) {
     if (point >= static_cast<std::int64_t>(mesh.vertices_mm.size())) {
       throw Error(
           ErrorKind::Input,
-          fmt::format("{}: its grid names point {}, which is not there", path.string(), point));
+          fmt::format(
+              "{}: its range_grid refers to point {}, which does not exist; export it again",
+              path.string(),
+              point));
     }
   }
-  const auto longest = static_cast<float>(kLongest * median_spacing(mesh, grid));
+  const auto longest = static_cast<float>(kMaxEdge * median_spacing(mesh, grid));
   double up = 0.0;
   const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
     if (a < 0 || b < 0 || c < 0) return;
@@ -136,9 +137,9 @@ void triangulate_grid(Mesh& mesh, const Grid& grid, const std::filesystem::path&
       const auto b = grid.points[at + 1];
       const auto c = grid.points[at + grid.columns + 1];
       const auto d = grid.points[at + grid.columns];
-      const bool other_way = a < 0 || c < 0;  // one corner may be missing
-      add(a, b, other_way ? d : c);
-      add(other_way ? b : a, c, d);
+      const bool diagonal_bd = a < 0 || c < 0;  // use the diagonal whose corners both exist
+      add(a, b, diagonal_bd ? d : c);
+      add(diagonal_bd ? b : a, c, d);
     }
   }
   if (up < 0.0) {
@@ -167,25 +168,31 @@ std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path) {
     std::string what;
     std::string file;
     if (!(words >> what) || what != "bmesh") continue;
-    Eigen::Vector3d move;
-    Eigen::Vector4d turn;
-    words >> file >> move.x() >> move.y() >> move.z() >> turn[0] >> turn[1] >> turn[2] >> turn[3];
-    if (!words || !(turn.norm() > 0.0)) {
+    Eigen::Vector3d translation;
+    Eigen::Vector4d quaternion;
+    words >> file;
+    for (double& value : translation)
+      words >> value;
+    for (double& value : quaternion)
+      words >> value;
+    if (!words || !(quaternion.norm() > 0.0)) {
       throw Error(
           ErrorKind::Input,
           fmt::format(
-              "{}: line {}: a scan is \"bmesh FILE tx ty tz qx qy qz qw\"", path.string(), number));
+              "{}, line {}: write \"bmesh FILE tx ty tz qx qy qz qw\"", path.string(), number));
     }
     RangeScan scan = read_range_scan(path.parent_path() / file);
-    const Eigen::Quaterniond as_written(turn[3], turn[0], turn[1], turn[2]);
-    scan.world_from_scan.linear() = as_written.normalized().conjugate().toRotationMatrix();
-    scan.world_from_scan.translation() = move;
+    const Eigen::Quaterniond scan_from_world(
+        quaternion[3], quaternion[0], quaternion[1], quaternion[2]);
+    scan.world_from_scan.linear() = scan_from_world.normalized().conjugate().toRotationMatrix();
+    scan.world_from_scan.translation() = translation;
     scan.posed = true;
     scans.push_back(std::move(scan));
   }
-  if (!(!scans.empty())) {
+  if (scans.empty()) {
     throw Error(ErrorKind::Input,
-                fmt::format("{}: names no scan; a line \"bmesh ...\" does", path.string()));
+                fmt::format("{}: it lists no scan; add a line \"bmesh FILE tx ty tz qx qy qz qw\"",
+                            path.string()));
   }
   return scans;
 }

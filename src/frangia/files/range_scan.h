@@ -9,27 +9,29 @@
 
 namespace frangia {
 
-/// One range scan that another program made.
+/// One range scan from another program.
 struct RangeScan {
   std::filesystem::path path;
-  Mesh mesh;  ///< its points, in its own frame; triangles between neighbours, none of loose points
+  Mesh mesh;  ///< in the scan's own frame; without triangles when the file holds loose points
   Eigen::Isometry3d world_from_scan = Eigen::Isometry3d::Identity();
-  bool posed = false;  ///< by a .conf; else the scan is in a frame that others may or may not share
+  bool posed = false;  ///< whether a .conf file gave the pose
 };
 
-/// A PLY: with faces, with Stanford's `range_grid` (`obj_info num_cols` and `num_rows`), whose
-/// neighbours become triangles seen from +z, or of points alone.
+/// Reads a PLY with faces, with Stanford's `range_grid` (`obj_info num_cols` and `num_rows`), or
+/// with points alone. Neighbours in the grid are connected by triangles that face +z.
 ///
-/// units    as in the file, taken for mm
-/// missing  empty places of the grid; no triangle spans a step of more than six times the spacing
-/// errors   Error(Input) as read_ply, and when the grid does not hold what it says
-/// source   Stanford 3D Scanning Repository: Curless & Levoy 1996
+/// units    as in the file, assumed to be mm
+/// missing  empty cells of the grid; no triangle has an edge longer than six times the median
+///          spacing of neighbours
+/// errors   Error(Input) as read_ply, and when the grid does not match its stated size
+/// source   Stanford 3D Scanning Repository; Curless & Levoy 1996
 [[nodiscard]] RangeScan read_range_scan(const std::filesystem::path& path);
 
-/// The scans that a `.conf` names, where it says: `bmesh FILE tx ty tz qx qy qz qw`. Its
-/// quaternions are the conjugate of the scan's rotation.
+/// Reads the scans that a Stanford `.conf` file lists, with their poses: each line is `bmesh FILE
+/// tx ty tz qx qy qz qw`, whose quaternion is the conjugate of the scan's rotation.
 ///
-/// errors   Error(Input) that names the line
+/// units    translations as in the scans, assumed to be mm
+/// errors   Error(Input) that names the file and the line
 [[nodiscard]] std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path);
 
 }  // namespace frangia

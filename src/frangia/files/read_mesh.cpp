@@ -10,10 +10,10 @@ namespace frangia {
 Mesh read_mesh(const std::filesystem::path& path, const Run& run) {
   const MeshFormat* format = find_mesh_format(path);
   if (format == nullptr) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format(
-            "{}: a mesh is read from {}; name such a file", path.string(), mesh_extensions()));
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: unknown mesh format; use a file that ends in {}",
+                            path.string(),
+                            mesh_extensions()));
   }
   return format->read(path, run);
 }

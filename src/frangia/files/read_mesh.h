@@ -7,11 +7,11 @@
 
 namespace frangia {
 
-/// The mesh of a file; the extension, in either case, says which of mesh_formats.h it is.
+/// Reads a mesh; the extension selects the format (mesh_formats.h).
 ///
-/// units    mm: formats that state others are turned, the rest are taken for mm
-/// missing  what a reader leaves out it tells to `run`
-/// errors   Error(Input) for another extension; else as the format's own reader
+/// units    mm: converted where the file states its unit, otherwise assumed
+/// missing  the reader reports what it skips through `run`
+/// errors   Error(Input) for an unknown extension; otherwise as the reader of the format
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const Run& run = {});
 
 }  // namespace frangia

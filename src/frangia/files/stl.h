@@ -6,27 +6,26 @@
 
 namespace frangia {
 
-/// An STL file, binary or ascii: its size says which.
+/// Reads an STL file. Its size decides whether it is binary or ascii.
 ///
-/// shape    corners at the same place become one vertex; the file's normals are not kept
-/// units    as in the file, taken for mm
-/// missing  a triangle with two corners at one place is left out
-/// errors   Error(Input) that names the file and what is wrong with it: cut short, a count that
-///          does not fit its size, a corner that is not finite
+/// shape    corners with identical coordinates become one vertex; the normals in the file are
+///          ignored units as in the file, assumed to be mm missing a triangle with two identical
+///          corners is omitted errors Error(Input) that names the file and the fault: truncated, a
+///          count that does not match the size, a coordinate that is not finite
 /// source   3D Systems, Stereolithography Interface Specification, 1989
 [[nodiscard]] Mesh read_stl(const std::filesystem::path& path);
 
 struct StlOptions {
-  bool ascii = false;  ///< as text: five times as large, but anyone can read it
+  bool ascii = false;  ///< text instead of binary; about five times as large
 };
 
-/// Each triangle with its own normal; binary, or text with the shortest digits that read back as
-/// the same numbers.
+/// Writes an STL file with one normal per triangle. Text has the shortest digits that read back to
+/// the same number.
 ///
 /// units    mm
-/// missing  normals of vertices, sigma_mm, views and marks have no place
-/// errors   Error(Input) when the mesh is not whole or has no triangle; Error(File) when it cannot
-///          be written
+/// missing  vertex normals, sigma, views and marks are not stored
+/// errors   Error(Input) when check_mesh fails or the mesh has no triangle; Error(File) when the
+///          file cannot be written
 void write_stl(const std::filesystem::path& path, const Mesh& mesh, const StlOptions& options = {});
 
 }  // namespace frangia

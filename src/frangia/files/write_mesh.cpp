@@ -7,9 +7,12 @@
 
 namespace frangia {
 
-void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const WriteOptions& options) {
+void write_mesh(const std::filesystem::path& path,
+                const Mesh& mesh,
+                const WriteOptions& options,
+                const Run& run) {
   check_mesh_extension(path);
-  find_mesh_format(path)->write(path, mesh, options);
+  find_mesh_format(path)->write(path, mesh, options, run);
 }
 
 void check_mesh_extension(const std::filesystem::path& path) {
@@ -17,7 +20,7 @@ void check_mesh_extension(const std::filesystem::path& path) {
   throw Error(
       ErrorKind::Input,
       fmt::format(
-          "{}: a mesh is written as {}; name such a file", path.string(), mesh_extensions()));
+          "{}: unknown mesh format; use a name that ends in {}", path.string(), mesh_extensions()));
 }
 
 }  // namespace frangia

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "frangia/core/run.h"
 #include "frangia/files/dxf.h"
 #include "frangia/files/stl.h"
 #include "frangia/geometry/mesh.h"
@@ -13,18 +14,22 @@ struct WriteOptions {
   StlOptions stl;
 };
 
-/// Writes a mesh, whole or not at all; the extension, in either case, says which of mesh_formats.h.
+/// Writes a mesh; the extension selects the format (mesh_formats.h). The file appears under its
+/// name when it is complete; until then an existing file of that name stays.
 ///
-/// units    mm; glTF in m
-/// missing  .ply, .glb and .gltf keep sigma_mm, views and marks; .obj, .xyz and .pcd normals too;
-///          .dxf, .3mf, .obj and .off keep marks alone; .xyz and .pcd keep no triangles
-/// errors   Error(Input) for another extension; else as the format's own writer
+/// units    mm; metres in glTF
+/// missing  sigma and views are kept in .ply, .glb, .gltf and .pcd; marks also in .dxf, .3mf, .obj
+///          and .off (as colours); normals in .ply, .glb, .gltf, .obj, .xyz and .pcd; .xyz and .pcd
+///          store no triangles. `run` is warned when the mesh does not suit the format.
+/// errors   Error(Input) for an unknown extension; otherwise as the writer of the format
 void write_mesh(const std::filesystem::path& path,
                 const Mesh& mesh,
-                const WriteOptions& options = {});
+                const WriteOptions& options = {},
+                const Run& run = {});
 
-/// Throws as write_mesh would for an extension that it does not know: to ask before long work, not
-/// after it.
+/// Checks an output path before long work.
+///
+/// errors   Error(Input) as write_mesh for an unknown extension
 void check_mesh_extension(const std::filesystem::path& path);
 
 }  // namespace frangia

@@ -9,7 +9,7 @@
 namespace frangia {
 namespace {
 
-/// Mean of the source pixels that a target pixel covers, edges by their share.
+/// Mean of the source pixels that a target pixel covers, weighted by area.
 Rgb area_mean(const Image<Rgb>& picture, double x0, double x1, double y0, double y1) {
   std::array<double, 3> sum{};
   double weight = 0.0;
@@ -53,12 +53,12 @@ Image<Rgb> contact_sheet(const std::vector<std::vector<Image<Rgb>>>& rows,
   for (const auto& row : rows) {
     int row_width = gap_px;
     for (const auto& picture : row) {
-      require(!picture.empty(), "contact_sheet: a picture is empty");
+      require(!picture.empty(), "a picture of the contact sheet is empty");
       row_width += scaled_width(picture, row_height_px) + gap_px;
     }
     width = std::max(width, row_width);
   }
-  require(width > gap_px, "contact_sheet: there is no picture");
+  require(width > gap_px, "a contact sheet needs at least one picture");
   const int height = gap_px + static_cast<int>(rows.size()) * (row_height_px + gap_px);
   Image<Rgb> sheet(width, height, Rgb{255, 255, 255});
   int top = gap_px;

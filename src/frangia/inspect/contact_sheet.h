@@ -7,15 +7,18 @@
 
 namespace frangia {
 
-/// Pictures side by side, each row of them as high as `row_height_px`, on white.
+/// Arranges pictures in rows on white. Pictures are scaled to `row_height_px` by area averaging.
 ///
-/// Pictures are scaled by averaging areas; shorter rows are padded.
-/// errors   Error(Input) when there is no picture
+/// shape    as wide as the widest row
+/// units    pixels
+/// errors   Error(Input) without pictures, or when one is empty
 [[nodiscard]] Image<Rgb> contact_sheet(const std::vector<std::vector<Image<Rgb>>>& rows,
                                        int row_height_px,
                                        int gap_px = 12);
 
-/// The part of a picture within a margin around what is not black.
+/// Crops a picture to its pixels that are not black, plus a margin.
+///
+/// missing  a black picture is returned unchanged
 [[nodiscard]] Image<Rgb> crop_to_content(const Image<Rgb>& picture, int margin_px);
 
 }  // namespace frangia

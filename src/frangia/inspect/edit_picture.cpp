@@ -22,7 +22,7 @@ struct Direction {
   }
 };
 
-/// Where viewers may stand: the usual place first.
+/// Candidate view directions, the default first.
 std::vector<Direction> directions(const RenderOptions& options) {
   constexpr int kAround = 12;
   std::vector<Direction> all{{options.azimuth_rad, options.elevation_rad}};
@@ -35,7 +35,7 @@ std::vector<Direction> directions(const RenderOptions& options) {
   return all;
 }
 
-/// The areas of selected triangles, as each viewer sees them.
+/// Adds the projected areas of the selected triangles for each view direction.
 void add_visible_areas(const Mesh& mesh,
                        const Selection& selection,
                        const std::vector<Vector3d>& viewers,
@@ -65,7 +65,8 @@ RenderOptions choose_view_direction(const Mesh& before,
   add_visible_areas(before, preview.removed, viewers, seen);
   add_visible_areas(after.mesh, preview.added, viewers, seen);
   add_visible_areas(after.mesh, after.selection, viewers, seen);
-  constexpr double kMinGain = 1.05;
+  constexpr double kMinGain =
+      1.05;  // keeps the default direction unless another shows clearly more
   std::size_t best = 0;
   for (std::size_t i = 1; i < all.size(); ++i)
     if (seen[i] > kMinGain * seen[best]) best = i;
@@ -87,8 +88,10 @@ Image<Rgb> edit_picture(const Mesh& before,
   options.fit_to_mm.insert(
       options.fit_to_mm.end(), after.mesh.vertices_mm.begin(), after.mesh.vertices_mm.end());
   options.highlighted = preview.removed;
+  options.highlight_label = "removed or moved";
   std::vector<Image<Rgb>> pictures{render_mesh(before, options, run)};
   options.highlighted = after.selection;
+  options.highlight_label = "selected";
   if (!after.mesh.empty()) pictures.push_back(render_mesh(after.mesh, options, run));
   return contact_sheet({pictures}, options.height_px);
 }

@@ -7,11 +7,11 @@
 
 namespace frangia {
 
-/// What an edit would do: the mesh before it, where it would take or move something in violet;
-/// beside it the mesh after it, marks in their colours, what is selected in violet. Both are seen
-/// from where most of what changes, or is selected, faces.
+/// Shows the effect of an edit: on the left the mesh before it, with triangles that it removes or
+/// moves in violet; on the right the mesh after it, with marks in their colors and the selection in
+/// violet. Both are seen from the direction that shows most of the changed or selected area.
 ///
-/// missing  an empty mesh after the edit is left out
+/// missing  an empty mesh after the edit is not drawn
 /// errors   Error(Input) as render_mesh for the mesh before
 [[nodiscard]] Image<Rgb> edit_picture(const Mesh& before,
                                       const EditState& after,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "frangia/core/angles.h"
@@ -15,34 +16,40 @@ namespace frangia {
 struct RenderOptions {
   int width_px = 1200;
   int height_px = 900;
-  int samples_across = 4;                     ///< rays a pixel are its square
+  int samples_across = 4;                     ///< a pixel has the square of this many rays
   double azimuth_rad = rad_from_deg(35.0);    ///< of the viewer about z, from x towards y
   double elevation_rad = rad_from_deg(20.0);  ///< of the viewer above the ground
   bool perspective = true;                    ///< false: parallel projection
-  bool ground = true;                         ///< the part's shadow on what it stands on
-  double crease_rad = rad_from_deg(40.0);     ///< sharper edges stay sharp
+  bool ground = true;                         ///< draw the shadow of the part on the ground
+  double crease_rad = rad_from_deg(40.0);     ///< edges with a larger angle are shaded sharp
 
-  bool show_edges = false;  ///< of the triangles, as thin lines
-  bool show_marks = false;  ///< what was moved in yellow, what was invented in blue
+  bool show_edges = false;  ///< draw the edges of the triangles
+  bool show_marks = false;  ///< displaced triangles in yellow, synthesized ones in blue
 
-  Selection highlighted;  ///< triangles shown in violet; empty: none
-  /// What the picture must hold, so that two meshes are seen from one place; empty: the mesh.
+  Selection highlighted;                     ///< triangles shown in violet; empty: none
+  std::string highlight_label = "selected";  ///< in the legend
+  /// Points that the picture must contain, to give two meshes the same view; empty: the mesh.
   std::vector<Eigen::Vector3f> fit_to_mm;
 
-  std::vector<float> values;  ///< one a vertex, shown as colours; empty for plain plaster
-  float value_min = 0.0F;     ///< the colour map's two ends
+  std::vector<float> values;  ///< one per vertex, shown as colors; empty: plain
+  float value_min = 0.0F;     ///< values at the ends of the color map
   float value_max = 1.0F;
   ColorMap color_map = ColorMap::Viridis;
+  std::string value_label;    ///< quantity and unit of the values for the scale: "deviation, mm"
+  bool whole_values = false;  ///< the values are counts
+  bool legend = true;         ///< add the color scale and the meaning of other colors at the right
 };
 
-/// A picture of a mesh, fitted to its bounds, as a product photograph shows it.
+/// Renders a mesh, fitted to the picture, with soft shadows and, where it shows values, marks or
+/// highlights, a legend at the right.
 ///
-/// Gouraud shading with two lights, a rim and a soft sky; the inside shows in red where a hole lets
-/// one see it.
+/// Smooth shading with a key, a fill and a back light and ambient light from the sky. The inside of
+/// the surface is magenta, a color that is on no scale.
+///
+/// shape    height_px high; the legend adds to width_px
 /// missing  vertices whose value is NaN are grey
-/// errors   Error(Input) for an empty mesh, values that are not one a vertex, highlights that are
-/// not
-///          one a triangle, or an empty picture
+/// errors   Error(Input) for a mesh without triangles, a wrong number of values or highlights, or
+///          an empty picture
 [[nodiscard]] Image<Rgb> render_mesh(const Mesh& mesh,
                                      const RenderOptions& options = {},
                                      const Run& run = {});

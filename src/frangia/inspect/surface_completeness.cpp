@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-/// How far a ray starts off the surface it leaves, mm.
+/// Offset of the start of a ray from the surface, mm.
 constexpr double kRayOffset_mm = 1e-3;
 
 bool in_image(const CameraModel& model, const Eigen::Vector3d& point) {
@@ -31,18 +31,18 @@ bool in_projector_field(const Projector& projector, const Eigen::Vector3d& point
   return psi >= field.field_min_rad && psi <= field.field_max_rad;
 }
 
-/// What became of a sample of the truth.
+/// Whether a sample of the reference counts and has mesh near it.
 enum class SampleStatus : std::uint8_t { Excluded, Missed, Covered };
 
 using SampleFilter = std::function<bool(const SurfaceSample&)>;
 
-SurfaceCompleteness completeness_of(const RayScene& truth,
+SurfaceCompleteness completeness_of(const RayScene& reference,
                                     const RayScene& mesh,
                                     const SampleFilter& counts,
                                     const CompletenessOptions& options,
                                     const Run& run) {
-  const auto samples = sample_surface(truth.mesh(), options.samples, options.seed);
-  require(!samples.empty(), "surface_completeness: the truth has no surface");
+  const auto samples = sample_surface(reference.mesh(), options.samples, options.seed);
+  require(!samples.empty(), "the reference has no triangles; completeness needs a surface");
   std::vector<SampleStatus> found(samples.size(), SampleStatus::Excluded);
   constexpr std::size_t kChunk = 1024;
   parallel_chunks(samples.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -86,23 +86,23 @@ bool is_measurable(const RayScene& scene,
       });
 }
 
-SurfaceCompleteness surface_completeness(const RayScene& truth,
+SurfaceCompleteness surface_completeness(const RayScene& reference,
                                          const RayScene& mesh,
                                          const CompletenessOptions& options,
                                          const Run& run) {
   return completeness_of(
-      truth, mesh, [](const SurfaceSample&) { return true; }, options, run);
+      reference, mesh, [](const SurfaceSample&) { return true; }, options, run);
 }
 
-SurfaceCompleteness surface_completeness(const RayScene& truth,
+SurfaceCompleteness surface_completeness(const RayScene& reference,
                                          const RayScene& mesh,
                                          const MeasurementViews& views,
                                          const CompletenessOptions& options,
                                          const Run& run) {
   const auto counts = [&](const SurfaceSample& sample) {
-    return is_measurable(truth, sample.point_mm, sample.normal, views, options.max_angle_rad);
+    return is_measurable(reference, sample.point_mm, sample.normal, views, options.max_angle_rad);
   };
-  return completeness_of(truth, mesh, counts, options, run);
+  return completeness_of(reference, mesh, counts, options, run);
 }
 
 }  // namespace frangia

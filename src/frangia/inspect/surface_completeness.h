@@ -14,41 +14,43 @@
 namespace frangia {
 
 struct CompletenessOptions {
-  double within_mm = 0.2;        ///< a truth point with mesh this near is covered
-  std::size_t samples = 100000;  ///< spread evenly over the truth's area
+  double within_mm = 0.2;        ///< a reference point with mesh within this distance is covered
+  std::size_t samples = 100000;  ///< distributed evenly over the area of the reference
   std::uint64_t seed = 1;
-  double max_angle_rad = rad_from_deg(75.0);  ///< between the normal and the light or the camera
+  double max_angle_rad =
+      rad_from_deg(75.0);  ///< between the normal and the direction to the projector or the camera
 };
 
-/// How much of the truth a mesh covers, of what could be seen at all.
+/// Share of a reference surface that a mesh covers.
 struct SurfaceCompleteness {
-  std::size_t count = 0;  ///< truth samples that count
-  double share = 0.0;     ///< of them covered, 0 to 1
+  std::size_t count = 0;  ///< reference samples that count
+  double share = 0.0;     ///< share of them that is covered, 0 to 1
 };
 
-/// Share of the truth's area that has mesh near it.
+/// Share of the reference's area with mesh within `within_mm`.
 ///
-/// errors   Error(Input) when the truth is empty
-[[nodiscard]] SurfaceCompleteness surface_completeness(const RayScene& truth,
+/// units    mm
+/// errors   Error(Input) when the reference has no triangles
+[[nodiscard]] SurfaceCompleteness surface_completeness(const RayScene& reference,
                                                        const RayScene& mesh,
                                                        const CompletenessOptions& options = {},
                                                        const Run& run = {});
 
-/// The views of a scan: where the object stood in each, in the rig that saw it.
+/// The views of a scan: the rig and the pose of the object in each view.
 struct MeasurementViews {
   const Rig& rig;
   std::span<const Eigen::Isometry3d> rig_from_object;
 };
 
-/// The same over the part of the truth that at least one view can measure: in the camera's picture
-/// and in the projector's field, hidden from neither by the truth itself, facing both.
-[[nodiscard]] SurfaceCompleteness surface_completeness(const RayScene& truth,
+/// Completeness of the part of the reference that at least one view can measure: inside the fields
+/// of camera and projector, occluded from neither by the reference itself, and facing both.
+[[nodiscard]] SurfaceCompleteness surface_completeness(const RayScene& reference,
                                                        const RayScene& mesh,
                                                        const MeasurementViews& views,
                                                        const CompletenessOptions& options = {},
                                                        const Run& run = {});
 
-/// Whether a point of the surface, with its outward normal, can be measured in one view.
+/// Whether a point of the surface, with its outward normal, can be measured in at least one view.
 [[nodiscard]] bool is_measurable(const RayScene& scene,
                                  const Eigen::Vector3d& point_mm,
                                  const Eigen::Vector3d& normal,

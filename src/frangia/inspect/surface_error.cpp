@@ -10,17 +10,17 @@ namespace frangia {
 namespace {
 
 std::vector<float> signed_distances(const std::vector<Eigen::Vector3d>& points,
-                                    const RayScene& truth,
+                                    const RayScene& reference,
                                     const Run& run) {
-  require(!truth.mesh().empty(), "surface_error: the truth has no triangles");
+  require(!reference.mesh().empty(), "the reference has no triangles; deviations need a surface");
   constexpr std::size_t kChunk = 2048;
-  constexpr std::size_t kBlock = 64 * kChunk;  // between two looks at whether to stop
+  constexpr std::size_t kBlock = 64 * kChunk;  // between checks for cancellation
   std::vector<float> distances(points.size());
   for (std::size_t done = 0; done < points.size(); done += kBlock) {
     const std::size_t size = std::min(kBlock, points.size() - done);
     parallel_chunks(size, kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = done + begin; i < done + end; ++i) {
-        distances[i] = static_cast<float>(truth.nearest(points[i])->signed_distance_mm);
+        distances[i] = static_cast<float>(reference.nearest(points[i])->signed_distance_mm);
       }
     });
     run.report(static_cast<double>(done + size) / static_cast<double>(points.size()));
@@ -47,7 +47,7 @@ std::vector<Eigen::Vector3d> points_of(const Mesh& mesh, const SurfaceErrorOptio
   return points;
 }
 
-/// The value that a share of the sorted ones does not exceed.
+/// The smallest value that at least this share of the sorted values does not exceed.
 double percentile(const std::vector<float>& sorted, double share) {
   const double rank = std::ceil(share * static_cast<double>(sorted.size())) - 1.0;
   return static_cast<double>(sorted[static_cast<std::size_t>(std::max(rank, 0.0))]);
@@ -56,12 +56,12 @@ double percentile(const std::vector<float>& sorted, double share) {
 }  // namespace
 
 SurfaceError surface_error(const Mesh& mesh,
-                           const RayScene& truth,
+                           const RayScene& reference,
                            const SurfaceErrorOptions& options,
                            const Run& run) {
   const std::vector<Eigen::Vector3d> points = points_of(mesh, options);
-  require(!points.empty(), "surface_error: the mesh has no surface");
-  std::vector<float> distances = signed_distances(points, truth, run);
+  require(!points.empty(), "the mesh has no triangles; deviations need a surface");
+  std::vector<float> distances = signed_distances(points, reference, run);
 
   SurfaceError error;
   error.count = distances.size();
@@ -92,12 +92,12 @@ SurfaceError surface_error(const Mesh& mesh,
   return error;
 }
 
-std::vector<float> vertex_errors_mm(const Mesh& mesh, const RayScene& truth, const Run& run) {
+std::vector<float> vertex_errors_mm(const Mesh& mesh, const RayScene& reference, const Run& run) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(mesh.vertices_mm.size());
   for (const auto& vertex : mesh.vertices_mm)
     points.emplace_back(vertex.cast<double>());
-  return signed_distances(points, truth, run);
+  return signed_distances(points, reference, run);
 }
 
 }  // namespace frangia

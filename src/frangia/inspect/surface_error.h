@@ -12,18 +12,20 @@
 namespace frangia {
 
 struct SurfaceErrorOptions {
-  std::size_t samples = 0;  ///< points spread evenly over the area; 0 takes the vertices
+  std::size_t samples = 0;  ///< points distributed evenly over the area; 0: the vertices
   std::uint64_t seed = 1;   ///< of the samples
-  /// Farther points are not the part but something else; they are counted apart, never hidden.
+  /// Points beyond it count as outliers in share_beyond; all other statistics but rms_within_mm
+  /// include them.
   double max_distance_mm = std::numeric_limits<double>::infinity();
 };
 
-/// How far a mesh lies from the truth. Distances without sign, but for `bias_mm`.
+/// Statistics of the distances of a mesh from a reference. All but `bias_mm` are of absolute
+/// distances.
 struct SurfaceError {
   std::size_t count = 0;
   double rms_mm = 0.0;
   double mean_mm = 0.0;
-  double bias_mm = 0.0;  ///< mean of the signed distances, positive outside the truth
+  double bias_mm = 0.0;  ///< mean of the signed distances, positive outside the reference
   double p95_mm = 0.0;
   double p99_mm = 0.0;
   double max_mm = 0.0;
@@ -31,18 +33,22 @@ struct SurfaceError {
   double share_beyond = 0.0;   ///< of the points farther than max_distance_mm, 0 to 1
 };
 
-/// Distances from a mesh to the truth; every point counts, none is trimmed.
+/// Measures the distances from a mesh to the nearest points of a reference, without trimming.
 ///
-/// missing  vertices without a triangle are not surface and do not count
-/// errors   Error(Input) when either mesh is empty
+/// units    mm
+/// missing  vertices without a triangle do not count
+/// errors   Error(Input) when either mesh has no triangles
 [[nodiscard]] SurfaceError surface_error(const Mesh& mesh,
-                                         const RayScene& truth,
+                                         const RayScene& reference,
                                          const SurfaceErrorOptions& options = {},
                                          const Run& run = {});
 
-/// The signed distance of each vertex, positive outside the truth: what a colour map shows.
+/// The signed distance of each vertex from a reference, positive outside.
+///
+/// units    mm
+/// errors   Error(Input) when the reference has no triangles
 [[nodiscard]] std::vector<float> vertex_errors_mm(const Mesh& mesh,
-                                                  const RayScene& truth,
+                                                  const RayScene& reference,
                                                   const Run& run = {});
 
 }  // namespace frangia

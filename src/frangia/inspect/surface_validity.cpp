@@ -14,9 +14,9 @@
 namespace frangia {
 namespace {
 
-double sigma_ratio(const Mesh& mesh, const RayScene& truth, const Run& run) {
+double sigma_ratio(const Mesh& mesh, const RayScene& reference, const Run& run) {
   if (mesh.sigma_mm.empty()) return kMissing;
-  const std::vector<float> errors = vertex_errors_mm(mesh, truth, run);
+  const std::vector<float> errors = vertex_errors_mm(mesh, reference, run);
   double squares = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -28,33 +28,33 @@ double sigma_ratio(const Mesh& mesh, const RayScene& truth, const Run& run) {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : kMissing;
 }
 
-/// Against the truth at its middle: by more than a right angle and a half, which a triangle that
-/// only rounds an edge off never is.
-bool is_inward(const Mesh& mesh, const Mesh::Triangle& triangle, const RayScene& truth) {
+/// Whether the normal of a triangle opposes that of the reference at the nearest point: by more
+/// than 135 degrees, which a triangle that rounds off an edge does not reach.
+bool is_inward(const Mesh& mesh, const Mesh::Triangle& triangle, const RayScene& reference) {
   const Eigen::Vector3d a = mesh.vertices_mm[triangle[0]].cast<double>();
   const Eigen::Vector3d b = mesh.vertices_mm[triangle[1]].cast<double>();
   const Eigen::Vector3d c = mesh.vertices_mm[triangle[2]].cast<double>();
   const Eigen::Vector3d normal = (b - a).cross(c - a);
-  const auto nearest = truth.nearest((a + b + c) / 3.0);
+  const auto nearest = reference.nearest((a + b + c) / 3.0);
   if (!(normal.norm() > 0.0) || !nearest) return false;
-  const auto& corners = truth.mesh().triangles[nearest->triangle];
-  const Eigen::Vector3d origin = truth.mesh().vertices_mm[corners[0]].cast<double>();
+  const auto& corners = reference.mesh().triangles[nearest->triangle];
+  const Eigen::Vector3d origin = reference.mesh().vertices_mm[corners[0]].cast<double>();
   const Eigen::Vector3d outward =
-      (truth.mesh().vertices_mm[corners[1]].cast<double>() - origin)
-          .cross(truth.mesh().vertices_mm[corners[2]].cast<double>() - origin);
-  constexpr double kMaxInwardCosine = -0.7;
+      (reference.mesh().vertices_mm[corners[1]].cast<double>() - origin)
+          .cross(reference.mesh().vertices_mm[corners[2]].cast<double>() - origin);
+  constexpr double kMaxInwardCosine = -0.7;  // cos 135 deg
   return normal.normalized().dot(outward.normalized()) < kMaxInwardCosine;
 }
 
 }  // namespace
 
-SurfaceValidity surface_validity(const Mesh& mesh, const RayScene& truth, const Run& run) {
+SurfaceValidity surface_validity(const Mesh& mesh, const RayScene& reference, const Run& run) {
   std::vector<std::uint8_t> inward(mesh.triangles.size());
   parallel_chunks(inward.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      inward[i] = is_inward(mesh, mesh.triangles[i], truth) ? 1 : 0;
+      inward[i] = is_inward(mesh, mesh.triangles[i], reference) ? 1 : 0;
   });
-  return {sigma_ratio(mesh, truth, run),
+  return {sigma_ratio(mesh, reference, run),
           count_non_manifold_edges(mesh),
           static_cast<std::size_t>(std::count(inward.begin(), inward.end(), 1))};
 }

@@ -9,17 +9,20 @@
 
 namespace frangia {
 
-/// Whether a mesh is what it says: its sigma honest, its triangles the right way round.
+/// Validity of a mesh: whether its sigma predicts its errors and its triangles form an oriented
+/// manifold.
 struct SurfaceValidity {
-  double sigma_ratio = kMissing;       ///< RMS of error over predicted sigma, by vertex
-  std::size_t non_manifold_edges = 0;  ///< of more than two triangles, or of two against each other
-  std::size_t inward_triangles = 0;    ///< that face against the truth beside them
+  double sigma_ratio = kMissing;  ///< RMS of error / sigma over the vertices; 1 when sigma is right
+  std::size_t non_manifold_edges =
+      0;  ///< with more than two triangles, or two of opposite orientation
+  std::size_t inward_triangles = 0;  ///< that face against the nearest reference surface
 };
 
-/// shape    the mesh against a truth whose triangles face outward
-/// missing  `sigma_ratio` is NaN of a mesh without sigma
+/// Compares a mesh with a reference whose triangles face outward.
+///
+/// missing  `sigma_ratio` is NaN for a mesh without sigma
 [[nodiscard]] SurfaceValidity surface_validity(const Mesh& mesh,
-                                               const RayScene& truth,
+                                               const RayScene& reference,
                                                const Run& run = {});
 
 }  // namespace frangia

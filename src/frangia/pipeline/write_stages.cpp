@@ -12,6 +12,7 @@
 #include "frangia/core/error.h"
 #include "frangia/frames/float_tiff.h"
 #include "frangia/frames/map_picture.h"
+#include "frangia/frames/picture_legend.h"
 #include "frangia/pipeline/stage_pictures.h"
 
 namespace frangia {
@@ -45,7 +46,8 @@ class StageWriter {
     numbers(name, values, fmt::format("{}, {}", what, unit));
     const ValueRange range = percentile_range(values);
     picture(name,
-            map_picture(values, range, ColorMap::Viridis),
+            add_legend(map_picture(values, range, ColorMap::Viridis),
+                       {.scales = {{ColorMap::Viridis, range, unit}}}),
             fmt::format(
                 "{}: {:.4g} (dark blue) to {:.4g} {} (yellow)", what, range.low, range.high, unit));
   }
@@ -101,7 +103,8 @@ void write_wrapped(const WrappedPhase& level, StageWriter& out) {
   out.numbers(name + "-wrapped", level.phase_rad, "phase modulo 2 pi, rad");
   // As in the paper's Fig. 4: the phase modulo 2 pi, from black to white.
   out.picture(name + "-wrapped",
-              map_picture(level.phase_rad, {-3.14159265F, 3.14159265F}, ColorMap::Gray),
+              add_legend(map_picture(level.phase_rad, {-3.14159265F, 3.14159265F}, ColorMap::Gray),
+                         {.scales = {{ColorMap::Gray, {-3.14159265F, 3.14159265F}, "rad"}}}),
               "phase modulo 2 pi: -pi (black) to pi rad (white)");
   out.picture(name + "-residues",
               residue_picture(level.phase_rad),

@@ -14,7 +14,7 @@ namespace frangia {
 namespace {
 
 constexpr int kBuffers = 3;
-/// A whole frame may be lost on the way: this long after its exposure it is not coming any more.
+/// Time limit for a frame after its exposure; all packets of a frame may be lost.
 constexpr double kLateFrame_s = 1.0;
 
 struct Unref {
@@ -23,7 +23,7 @@ struct Unref {
 template <typename T>
 using Ref = std::unique_ptr<T, Unref>;
 
-/// Collects Aravis' word for what went wrong; freed with it.
+/// Owns a GError of Aravis.
 class GlibError {
  public:
   GlibError() = default;
@@ -55,15 +55,15 @@ int white_level_of(const std::string& pixel_format) {
 const char* cause_of(ArvBufferStatus status) {
   switch (status) {
     case ARV_BUFFER_STATUS_TIMEOUT:
-      return "its last packets did not come in time";
+      return "its last packets did not arrive in time";
     case ARV_BUFFER_STATUS_MISSING_PACKETS:
-      return "packets of it were lost";
+      return "some of its packets were lost";
     case ARV_BUFFER_STATUS_WRONG_PACKET_ID:
-      return "its packets are numbered wrongly";
+      return "its packet numbers are wrong";
     case ARV_BUFFER_STATUS_SIZE_MISMATCH:
-      return "it is larger than the camera said";
+      return "it is larger than the stated size";
     default:
-      return "its transfer broke off";
+      return "its transfer was aborted";
   }
 }
 
@@ -82,7 +82,7 @@ class AravisCamera final : public CameraDevice {
     name_ = settings.id.empty() ? "camera" : "camera " + settings.id;
     camera_.reset(arv_camera_new(id, fault.out()));
     if (!camera_) {
-      fail(fmt::format("cannot be opened ({}); 'frangia devices' lists the cameras there are",
+      fail(fmt::format("cannot be opened ({}); run 'frangia devices' to list the cameras",
                        fault.text()));
     }
     const char* serial = arv_camera_get_device_serial_number(camera_.get(), fault.out());
@@ -113,7 +113,7 @@ class AravisCamera final : public CameraDevice {
   [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
     GlibError fault;
     const double exposure_us = arv_camera_get_exposure_time(camera_.get(), fault.out());
-    check("tell its exposure", fault);
+    check("report its exposure", fault);
     return fmt::format("{} x {} pixels, white at {}, exposure {:.3g} ms",
                        info_.width_px,
                        info_.height_px,
@@ -168,7 +168,7 @@ class AravisCamera final : public CameraDevice {
       fail(fmt::format("no frame within {:.3g} s; check its cable and the firewall",
                        deadline.timeout_s));
     }
-    return incomplete("no packet of it came");
+    return incomplete("none of its packets arrived");
   }
 
  private:
@@ -180,7 +180,7 @@ class AravisCamera final : public CameraDevice {
     throw Error(ErrorKind::Device, name_ + ": " + what);
   }
   [[noreturn]] void fail_lost() const {
-    fail("control of it was lost; is it unplugged, or has another program taken it?");
+    fail("control was lost; check that it is plugged in and no other program uses it");
   }
   void check(const char* what, const GlibError& fault) const {
     if (control_lost_) fail_lost();
@@ -190,21 +190,21 @@ class AravisCamera final : public CameraDevice {
   void prepare(const AravisSettings& settings) {
     GlibError fault;
     ArvCamera* camera = camera_.get();
-    arv_camera_stop_acquisition(camera, fault.out());  // whoever had it before may have left it on
+    arv_camera_stop_acquisition(camera, fault.out());  // the previous user may have left it running
     arv_camera_set_pixel_format_from_string(camera, settings.pixel_format.c_str(), fault.out());
-    check(("take the pixel format " + settings.pixel_format).c_str(), fault);
+    check(("set the pixel format " + settings.pixel_format).c_str(), fault);
     auto [x, y, width, height] = settings.region_px;
     if (width == 0 || height == 0) {
       arv_camera_get_sensor_size(camera, &width, &height, fault.out());
-      check("tell its size", fault);
+      check("report its size", fault);
     }
     arv_camera_set_region(camera, x, y, width, height, fault.out());
-    check(fmt::format("take the region {} x {} at {}, {}", width, height, x, y).c_str(), fault);
+    check(fmt::format("set the region {} x {} at {}, {}", width, height, x, y).c_str(), fault);
     arv_camera_get_region(camera, &x, &y, &info_.width_px, &info_.height_px, fault.out());
-    check("tell its region", fault);
+    check("report its region", fault);
     info_.white_level = white_level_of(settings.pixel_format);
     arv_camera_set_trigger(camera, "Software", fault.out());
-    check("be triggered by software", fault);
+    check("use the software trigger", fault);
     read_ranges();
     read_back();
   }
@@ -215,7 +215,7 @@ class AravisCamera final : public CameraDevice {
     double least_us = 0.0;
     double most_us = 0.0;
     arv_camera_get_exposure_time_bounds(camera, &least_us, &most_us, fault.out());
-    check("tell its exposures", fault);
+    check("report its exposure range", fault);
     info_.min_exposure_ms = least_us / 1000.0;
     info_.max_exposure_ms = most_us / 1000.0;
     has_gain_ = arv_camera_is_gain_available(camera, fault.out()) != FALSE;
@@ -227,7 +227,7 @@ class AravisCamera final : public CameraDevice {
   void read_back() {
     GlibError fault;
     settings_.exposure_ms = arv_camera_get_exposure_time(camera_.get(), fault.out()) / 1000.0;
-    check("tell its exposure", fault);
+    check("report its exposure", fault);
     if (has_gain_) settings_.gain_db = arv_camera_get_gain(camera_.get(), fault.out());
     if (has_black_level_) {
       settings_.black_level_counts = arv_camera_get_black_level(camera_.get(), fault.out());
@@ -239,7 +239,7 @@ class AravisCamera final : public CameraDevice {
     stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, fault.out()));
     if (!stream_) fail(fmt::format("has no stream ({})", fault.text()));
     const guint payload = arv_camera_get_payload(camera_.get(), fault.out());
-    check("tell the size of its frames", fault);
+    check("report the size of its frames", fault);
     for (int i = 0; i < kBuffers; ++i)
       arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
     start_acquisition();
@@ -252,7 +252,7 @@ class AravisCamera final : public CameraDevice {
     streaming_ = true;
   }
 
-  /// A frame that was under way before the trigger is not the one that is asked for.
+  /// Whether a frame was exposed before the trigger.
   void discard_old_frames() {
     while (ArvBuffer* old = arv_stream_try_pop_buffer(stream_.get()))
       arv_stream_push_buffer(stream_.get(), old);
@@ -261,7 +261,7 @@ class AravisCamera final : public CameraDevice {
   CapturedFrame frame_of(Ref<ArvBuffer> buffer) {
     CapturedFrame captured = incomplete("");
     const ArvBufferStatus status = arv_buffer_get_status(buffer.get());
-    // A buffer that failed must not even be asked for its width.
+    // The width of a failed buffer must not be queried.
     if (status != ARV_BUFFER_STATUS_SUCCESS) {
       captured.incomplete_cause = cause_of(status);
     } else {
@@ -279,7 +279,7 @@ class AravisCamera final : public CameraDevice {
         static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(info_.height_px);
     if (arv_buffer_get_image_width(&buffer) != info_.width_px ||
         arv_buffer_get_image_height(&buffer) != info_.height_px || size < pixels * bytes) {
-      captured.incomplete_cause = "it is of another size than the camera said";
+      captured.incomplete_cause = "its size differs from that of the camera";
       return;
     }
     if (bytes == 1) {

@@ -16,10 +16,10 @@ struct AravisSettings {
   std::array<int, 4> region_px = {0, 0, 0, 0};  ///< x, y, width, height; width 0: the whole sensor
 };
 
-/// A camera by Aravis, waiting for its software trigger. Defined where Aravis was there to build
-/// with.
+/// Opens a camera with Aravis, set to software trigger. Only defined in builds with Aravis.
 ///
-/// errors   Error(Device) when there is none, it is in use, or does not do the format or region
+/// errors   Error(Device) when the camera does not exist, is in use, or does not support the format
+///          or region
 [[nodiscard]] std::unique_ptr<CameraDevice> open_aravis_camera(const AravisSettings& settings,
                                                                const Deadline& deadline);
 

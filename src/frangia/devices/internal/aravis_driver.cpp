@@ -31,7 +31,7 @@ Driver aravis_driver() {
   Driver driver;
   driver.name = "aravis";
   driver.kind = DeviceKind::Camera;
-  driver.description = "GigE Vision and USB3 Vision cameras, by Aravis";
+  driver.description = "GigE Vision and USB3 Vision cameras through Aravis";
   driver.open = open;
   driver.find = find_aravis_cameras;
   return driver;
@@ -47,7 +47,7 @@ Driver aravis_driver() {
   driver.open =
       [](DeviceSettings& settings, const Rig&, const Deadline&) -> std::unique_ptr<Device> {
     settings.fail("driver",
-                  "is \"aravis\", which this build of frangia was made without; install "
+                  "is \"aravis\", which this build does not include; install "
                   "libaravis-dev and libusb-1.0-0-dev and build again");
   };
   return driver;

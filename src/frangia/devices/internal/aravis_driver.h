@@ -4,11 +4,11 @@
 
 namespace frangia {
 
-/// Industrial cameras, GigE Vision and USB3 Vision, by Aravis. A build without Aravis has the
-/// driver, too: it says so when it is chosen.
+/// Driver of GigE Vision and USB3 Vision cameras through Aravis. In a build without Aravis the
+/// driver exists and names the missing library when chosen.
 ///
-/// Settings: `id` (a name or address as `frangia devices` lists it; else the first camera found),
-/// `pixel_format`, `region_px` = [x, y, width, height] (else the whole sensor).
+/// Settings: `id` (name or address as the list of devices shows it; default the first camera
+/// found), `pixel_format`, `region_px` = [x, y, width, height] (default the whole sensor).
 [[nodiscard]] Driver aravis_driver();
 
 }  // namespace frangia

@@ -26,7 +26,7 @@ struct Firmware {
                                             const MotionControllerSettings&);
 };
 
-/// The boards that are open, by their lines.
+/// The open boards by the names of their lines.
 using Boards = std::map<std::string, std::weak_ptr<MotionController>>;
 
 MotionControllerSettings read_firmware(DeviceSettings& settings) {
@@ -81,10 +81,9 @@ std::vector<FoundDevice> find_ports(const std::string& driver) {
   for (const auto& entry : std::filesystem::directory_iterator("/dev", none)) {
     const std::string name = entry.path().filename().string();
     if (name.rfind("ttyUSB", 0) != 0 && name.rfind("ttyACM", 0) != 0) continue;
-    // Not opened: that would reset a board that may be at work.
+    // Opening the port would reset a board that may be in use.
     found.push_back(
-        {fmt::format("serial port {}; what is on it shows when it is opened",
-                     entry.path().string()),
+        {fmt::format("serial port {}; opening it shows what is connected", entry.path().string()),
          fmt::format("driver = \"{}\"\nport = \"{}\"\n", driver, entry.path().string())});
   }
   return found;

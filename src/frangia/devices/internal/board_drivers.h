@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-/// Turntables on boards with GRBL, Marlin or Horus, and lamps and lasers on their outputs. Devices
-/// that name the same port share its board.
+/// Drivers of turntables on boards with GRBL, Marlin or Horus firmware, and of lamps and lasers on
+/// their outputs. Devices with the same port share the board.
 [[nodiscard]] std::vector<Driver> board_drivers();
 
 }  // namespace frangia

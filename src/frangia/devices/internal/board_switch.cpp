@@ -27,7 +27,7 @@ void BoardSwitch::make_safe() noexcept {
 
 void BoardSwitch::set(bool on, const Deadline& deadline) {
   stop_count_ = board_->stop_count();
-  on_ = true;  // for all that is known, until the board has said "ok" to off
+  on_ = true;  // assume on until the board acknowledges off
   board_->command(on ? on_command_ : off_command_, deadline);
   on_ = on;
 }

@@ -8,8 +8,8 @@
 
 namespace frangia {
 
-/// A lamp or laser on an output of the turntable's board: GRBL's spindle (M3, M5) or coolant (M8,
-/// M9), a laser of the Ciclop (M71T1, M70T1). When it cannot be switched off the board is stopped.
+/// A lamp or laser on an output of the turntable board: spindle (M3, M5) or coolant (M8, M9) of
+/// GRBL, a laser of the Ciclop (M71T1, M70T1). When switching off fails, the board is stopped.
 class BoardSwitch final : public SwitchDevice {
  public:
   BoardSwitch(std::shared_ptr<MotionController> board, std::string on, std::string off);
@@ -29,7 +29,7 @@ class BoardSwitch final : public SwitchDevice {
   std::shared_ptr<MotionController> board_;
   std::string on_command_;
   std::string off_command_;
-  int stop_count_ = 0;  ///< of the board when the light was set: a stop puts it out
+  int stop_count_ = 0;  ///< of the board when the light was set; a stop switches it off
   bool on_ = false;
 };
 

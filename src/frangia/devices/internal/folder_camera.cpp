@@ -23,7 +23,7 @@ std::vector<std::filesystem::path> sorted_entries(const std::filesystem::path& f
   return entries;
 }
 
-/// The view folders of a scan, and its first frame.
+/// The view folders of a scan and its first frame.
 std::vector<std::filesystem::path> views_of(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> views;
   for (const auto& entry : sorted_entries(folder / "views"))
@@ -47,8 +47,8 @@ class FolderCamera final : public CameraDevice {
     if (first.empty()) {
       settings.fail(
           "folder",
-          fmt::format("is \"{}\", but there is no frame such as views/000/fringe-0.png in "
-                      "it; name a scan folder",
+          fmt::format("is \"{}\", but it contains no frame such as views/000/fringe-0.png; "
+                      "name a scan folder",
                       folder_.string()));
     }
     const Frame frame = read_png(first);
@@ -75,16 +75,16 @@ class FolderCamera final : public CameraDevice {
     deadline.check();
     const auto view = static_cast<std::size_t>(label.view);
     if (view >= views_.size()) {
-      fail_device(*this, fmt::format("has {} views; ask for no more with --views", views_.size()));
+      fail_device(*this, fmt::format("has {} views; capture no more than that", views_.size()));
     }
     const auto bracketed =
         views_[view] / fmt::format("{}-{}@{}.png", label.pattern, label.frame, label.exposure);
     const auto plain = views_[view] / fmt::format("{}-{}.png", label.pattern, label.frame);
     const auto& file = std::filesystem::exists(bracketed) ? bracketed : plain;
     if (!std::filesystem::exists(file)) {
-      fail_device(*this,
-                  fmt::format("{} is missing; put it there, or ask for the patterns that there are",
-                              file.string()));
+      fail_device(
+          *this,
+          fmt::format("{} is missing; add it, or use the patterns that exist", file.string()));
     }
     CapturedFrame captured;
     captured.frame = read_png(file);
@@ -107,7 +107,7 @@ Driver folder_camera_driver() {
   Driver driver;
   driver.name = "folder";
   driver.kind = DeviceKind::Camera;
-  driver.description = "the frames of a scan folder, replayed";
+  driver.description = "replays the frames of a scan folder";
   driver.open =
       [](DeviceSettings& settings, const Rig& rig, const Deadline&) -> std::unique_ptr<Device> {
     return std::make_unique<FolderCamera>(settings, rig);

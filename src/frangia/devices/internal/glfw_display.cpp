@@ -16,20 +16,20 @@ namespace {
   throw Error(ErrorKind::Device, name + ": " + what);
 }
 
-/// GLFW's own word for what went wrong.
+/// The last error of GLFW.
 std::string glfw_error() {
   const char* text = nullptr;
   glfwGetError(&text);
   return text != nullptr ? text : "no reason given";
 }
 
-/// GLFW counts nobody: it is begun for each user and ended with the last one.
+/// Initializes GLFW for the first user and terminates it after the last, since GLFW does not count.
 class Glfw {
  public:
   Glfw() {
     if (glfwInit() == GLFW_FALSE) {
       fail("monitor",
-           fmt::format("there is no screen ({}); run this in a desktop session, or set DISPLAY",
+           fmt::format("no screen found ({}); run this in a desktop session, or set DISPLAY",
                        glfw_error()));
     }
     ++users();
@@ -83,7 +83,7 @@ class GlfwDisplay final : public PatternDisplay {
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] const DisplayInfo& info() const override { return info_; }
   [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
-    return fmt::format("{} x {} pixels, {:.1f} ms a picture",
+    return fmt::format("{} x {} pixels, {:.1f} ms per image",
                        info_.width_px,
                        info_.height_px,
                        info_.refresh_period_ms);
@@ -91,7 +91,7 @@ class GlfwDisplay final : public PatternDisplay {
   void make_safe() noexcept override {
     try {
       show_dark(Deadline::in(1.0));
-    } catch (...) {  // a window that is gone lights nothing
+    } catch (...) {  // a closed window shows nothing
       return;
     }
   }
@@ -99,7 +99,7 @@ class GlfwDisplay final : public PatternDisplay {
   void show(const Image<float>& light, const Deadline& deadline) override {
     if (light.width() != info_.width_px || light.height() != info_.height_px) {
       fail(name_,
-           fmt::format("a picture of {} x {} pixels does not fit its {} x {}",
+           fmt::format("an image of {} x {} pixels does not fit its {} x {}",
                        light.width(),
                        light.height(),
                        info_.width_px,
@@ -120,7 +120,7 @@ class GlfwDisplay final : public PatternDisplay {
  private:
   GLFWmonitor* find(const std::string& wanted) {
     const auto monitors = Glfw::monitors();
-    if (monitors.empty()) fail("monitor", "there is none; plug the projector in");
+    if (monitors.empty()) fail("monitor", "no monitor found; connect the projector");
     std::string names;
     for (std::size_t i = 0; i < monitors.size(); ++i) {
       const bool last = wanted.empty() && i + 1 == monitors.size();
@@ -130,7 +130,7 @@ class GlfwDisplay final : public PatternDisplay {
       }
       names += (names.empty() ? "" : ", ") + name_of(i, monitors[i]);
     }
-    fail("monitor " + wanted, "there is no such one; there are: " + names);
+    fail("monitor " + wanted, "it does not exist; the monitors are: " + names);
   }
 
   void open_window(GLFWmonitor* monitor, const GLFWvidmode& mode) {
@@ -141,11 +141,12 @@ class GlfwDisplay final : public PatternDisplay {
     glfwWindowHint(GLFW_REFRESH_RATE, mode.refreshRate);
     glfwWindowHint(GLFW_DECORATED, GLFW_FALSE);
     glfwWindowHint(GLFW_AUTO_ICONIFY,
-                   GLFW_FALSE);  // it stays when the operator's own window is used
+                   GLFW_FALSE);  // keep it open when another window gets the focus
     glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
     glfwWindowHint(GLFW_SAMPLES, 0);
     window_ = glfwCreateWindow(mode.width, mode.height, "frangia", monitor, nullptr);
-    if (window_ == nullptr) fail(name_, fmt::format("no window opens on it ({})", glfw_error()));
+    if (window_ == nullptr)
+      fail(name_, fmt::format("cannot open a window on it ({})", glfw_error()));
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetInputMode(window_, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
@@ -154,10 +155,10 @@ class GlfwDisplay final : public PatternDisplay {
     int height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     if (width != info_.width_px || height != info_.height_px)
-      fail(name_, "the desktop scales it; set its scale to 100 %");
+      fail(name_, "the desktop scales its image; set the scale to 100 %");
   }
 
-  /// Light to level: in 4096 steps, which is finer than the 256 levels that come out.
+  /// Converts light to levels with a table of 4096 steps, finer than the 256 output levels.
   void fill_table() {
     table_.resize(4096);
     for (std::size_t i = 0; i < table_.size(); ++i) {
@@ -178,7 +179,7 @@ class GlfwDisplay final : public PatternDisplay {
     glPixelZoom(1.0F, -1.0F);
     glDrawPixels(info_.width_px, info_.height_px, GL_LUMINANCE, GL_UNSIGNED_BYTE, levels_.data());
     glfwSwapBuffers(window_);
-    glFinish();  // returns when the swap has happened
+    glFinish();  // returns after the buffer swap
     glfwPollEvents();
     if (glfwWindowShouldClose(window_) == GLFW_TRUE) fail(name_, "its window was closed");
     deadline.sleep(settings_.delay_s);
@@ -210,7 +211,7 @@ std::vector<FoundDevice> find_glfw_monitors() {
                      name_of(i, monitors[i]),
                      mode->width,
                      mode->height,
-                     i == 0 ? ", the desktop's first" : ""),
+                     i == 0 ? ", the primary monitor" : ""),
          fmt::format("driver = \"monitor\"\nmonitor = \"{}\"\n", glfwGetMonitorName(monitors[i]))});
   }
   return found;

@@ -12,15 +12,16 @@
 namespace frangia {
 
 struct GlfwSettings {
-  std::string monitor;                    ///< its name or its number from 0; empty: the last one
-  double delay_s = 0.05;                  ///< from the swap until the projector shows it
-  std::optional<ResponseCurve> response;  ///< of the projector, to be undone
+  std::string monitor;    ///< name or number from 0; empty: the last monitor
+  double delay_s = 0.05;  ///< from the buffer swap until the projector shows the image
+  std::optional<ResponseCurve> response;  ///< of the projector, which the display compensates
 };
 
-/// A projector that hangs on this machine as a monitor: a borderless full-screen window, pixel by
-/// pixel. Defined where GLFW was there to build with; used from the main thread only.
+/// Opens a borderless full-screen window on a monitor of this machine, pixel by pixel. Only defined
+/// in builds with GLFW; use it from the main thread only.
 ///
-/// errors   Error(Device) when there is no such monitor, no screen at all, or it scales pictures
+/// errors   Error(Device) when the monitor does not exist, when there is no screen, or when the
+///          desktop scales images
 [[nodiscard]] std::unique_ptr<PatternDisplay> open_glfw_display(const GlfwSettings& settings);
 
 [[nodiscard]] std::vector<FoundDevice> find_glfw_monitors();

@@ -9,7 +9,7 @@ Driver glfw_driver() {
   driver.name = "monitor";
   driver.kind = DeviceKind::PatternDisplay;
 #ifdef FRANGIA_WITH_GLFW
-  driver.description = "a projector that is a monitor of this machine, by GLFW";
+  driver.description = "a projector connected as a monitor, through GLFW";
   driver.open =
       [](DeviceSettings& settings, const Rig& rig, const Deadline&) -> std::unique_ptr<Device> {
     GlfwSettings display;
@@ -24,11 +24,11 @@ Driver glfw_driver() {
     return screen ? find_glfw_monitors() : std::vector<FoundDevice>{};
   };
 #else
-  driver.description = "a projector that is a monitor of this machine; not in this build";
+  driver.description = "a projector connected as a monitor; not in this build";
   driver.open =
       [](DeviceSettings& settings, const Rig&, const Deadline&) -> std::unique_ptr<Device> {
     settings.fail("driver",
-                  "is \"monitor\", which this build of frangia was made without; install "
+                  "is \"monitor\", which this build does not include; install "
                   "libglfw3-dev and build again");
   };
 #endif

@@ -19,7 +19,7 @@ const char* meaning_of_alarm(int code) {
     case 1:
       return "a limit switch was hit";
     case 2:
-      return "the target lies beyond the travel set in $130 to $132";
+      return "the target is beyond the travel set in $130 to $132";
     case 3:
       return "it was reset while it moved";
     case 6:
@@ -28,7 +28,7 @@ const char* meaning_of_alarm(int code) {
     case 9:
       return "homing failed; check the home switch";
     default:
-      return "see GRBL's list of alarms";
+      return "see the list of alarms of GRBL";
   }
 }
 
@@ -37,21 +37,21 @@ const char* meaning_of_error(int code) {
     case 5:
       return "homing is not enabled; set $22=1, or home = \"here\"";
     case 8:
-      return "it does that at standstill only";
+      return "that is only possible at standstill";
     case 9:
       return "it is locked after an alarm; home the table again";
     case 15:
-      return "the target lies beyond its travel";
+      return "the target is beyond its travel";
     case 20:
-      return "it does not know this command";
+      return "the command is unknown";
     default:
-      return "see GRBL's list of errors";
+      return "see the list of errors of GRBL";
   }
 }
 
-/// "ALARM:3" and "error:9" end in the number.
+/// The number at the end of "ALARM:3" or "error:9".
 int number_after_colon(const std::string& line) {
-  return std::atoi(line.c_str() + line.find(':') + 1);  // NOLINT(cert-err34-c) 0 is no code
+  return std::atoi(line.c_str() + line.find(':') + 1);  // NOLINT(cert-err34-c) 0 is not a code
 }
 
 bool is_greeting(const std::string& line) {
@@ -66,15 +66,15 @@ class Grbl final : public MotionController {
   [[nodiscard]] const std::string& name() const override { return transport_->name(); }
 
   void connect(const Deadline& deadline) override {
-    // Opening the port resets most boards: let it boot, a byte now may land in its boot loader.
+    // Opening the port resets most boards. Wait, since a byte now may reach the boot loader.
     if (!wait_for_greeting(deadline.at_most(settings_.boot_s))) {
       transport_->write(kReset, deadline);
       if (!wait_for_greeting(deadline)) {
         fail_device(name(),
                     last_line_.empty()
-                        ? fmt::format("no greeting from GRBL within {:.3g} s; is this the port?",
+                        ? fmt::format("no greeting from GRBL within {:.3g} s; check the port",
                                       deadline.timeout_s)
-                        : fmt::format("does not speak GRBL: it said '{}'; check port and baud",
+                        : fmt::format("does not run GRBL: it sent '{}'; check port and baud",
                                       printable(last_line_)));
       }
     }
@@ -89,7 +89,7 @@ class Grbl final : public MotionController {
     }
   }
 
-  // GRBL holds its motor as long as $1 says; there is no command for it.
+  // GRBL holds its motor according to $1; there is no command for it.
   void enable_motor(bool /*on*/, const Deadline& deadline) override {
     static_cast<void>(identify(deadline));
   }
@@ -108,7 +108,7 @@ class Grbl final : public MotionController {
     try {
       command(fmt::format("G21 G90 G1 {}{:.4f} F{:.3f}", settings_.axis, units, 60.0 * units_per_s),
               deadline);
-      // "ok" to a move says that it is queued. A dwell is answered when the queue has run empty.
+      // GRBL answers "ok" to a move when it is queued, but to a dwell when the queue is empty.
       command("G4 P0.01", deadline);
     } catch (const Error&) {
       stop();
@@ -125,14 +125,13 @@ class Grbl final : public MotionController {
     try {
       const Deadline soon = Deadline::in(1.0);
       transport_->write(kHold, soon);
-      // Reset turns spindle and coolant off, which is where lasers hang.
+      // A reset switches off spindle and coolant, to which lasers are connected.
       transport_->write(kReset, soon);
       if (!wait_for_greeting(soon)) return;
-      // Answers to what was given up may still be on their way.
+      // Answers to abandoned commands may still arrive.
       while (transport_->try_read('\n', Deadline::in(kQuiet_s))) {
       }
-    } catch (
-        const Error&) {  // NOLINT(bugprone-empty-catch) the line is dead: nothing more can be done
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is broken
     }
   }
 
@@ -145,7 +144,7 @@ class Grbl final : public MotionController {
     return false;
   }
 
-  /// The lines that come before "ok".
+  /// The lines before "ok".
   std::map<int, double> answer_to(const std::string& line, const Deadline& deadline) {
     transport_->write(line + "\n", deadline);
     std::map<int, double> values;
@@ -162,14 +161,14 @@ class Grbl final : public MotionController {
                                 meaning_of_alarm(number_after_colon(answer))));
       }
       if (is_greeting(answer)) {
-        fail_device(name(), "the board started anew; its angle is lost, home the table again");
+        fail_device(name(), "the board restarted; its angle is lost, home the table again");
       }
       if (answer.rfind('$', 0) == 0 && answer.find('=') != std::string::npos) {
-        values[std::atoi(answer.c_str() + 1)] =  // NOLINT(cert-err34-c) a setting of no number is 0
+        values[std::atoi(answer.c_str() + 1)] =  // NOLINT(cert-err34-c) 0 without a number
             std::atof(answer.c_str() + answer.find('=') + 1);  // NOLINT(cert-err34-c)
       } else if (!answer.empty() && answer.front() != '[' && answer.front() != '<') {
         fail_device(name(),
-                    fmt::format("answered '{}' to {}; is it GRBL, and the baud rate right?",
+                    fmt::format("answered '{}' to {}; check that it runs GRBL at this baud rate",
                                 printable(answer),
                                 line));
       }
@@ -184,10 +183,10 @@ class Grbl final : public MotionController {
     const int key = 100 + (settings_.axis == 'Y' ? 1 : settings_.axis == 'Z' ? 2 : 0);
     const auto values = answer_to("$$", deadline);
     const auto found = values.find(key);
-    if (found == values.end()) fail_device(name(), fmt::format("does not tell its ${}", key));
+    if (found == values.end()) fail_device(name(), fmt::format("does not report its ${}", key));
     if (std::abs(found->second - settings_.steps_per_unit) < 1e-3) return;
-    // Only where it differs: the memory wears, and while it is written the board hears nothing,
-    // so that nothing else may be on the way before its "ok".
+    // Write only when different: the EEPROM wears, and the board loses bytes that arrive while it
+    // writes, so wait for "ok" before sending more.
     command(fmt::format("${}={:.3f}", key, settings_.steps_per_unit), deadline);
   }
 

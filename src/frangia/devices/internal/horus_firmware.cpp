@@ -19,7 +19,7 @@ class Horus final : public MotionController {
     if (!wait_for_greeting(deadline.at_most(settings_.boot_s))) {
       transport_->write("\x18\r\n", deadline);
       if (!wait_for_greeting(deadline)) {
-        fail_device(name(), "does not greet as Horus 0.2; check port and firmware");
+        fail_device(name(), "does not identify as Horus 0.2; check port and firmware");
       }
     }
     transport_->discard_input();
@@ -51,13 +51,13 @@ class Horus final : public MotionController {
       command(fmt::format("G1F{:.3f}", units_per_s), deadline);
       const auto started = Deadline::Clock::now();
       command(fmt::format("G1X{:.4f}", units), deadline);
-      // Some boards answer when the move is queued and have no word for its end: wait for as long
-      // as the way takes, and a little for speeding up and slowing down.
+      // Some boards answer when the move is queued and do not report its end. Wait for the duration
+      // of the move plus a margin for acceleration.
       const double travel_s = std::abs(units - position_) / units_per_s + 0.2;
       const std::chrono::duration<double> gone = Deadline::Clock::now() - started;
       deadline.sleep(travel_s - gone.count());
       if (deadline.passed()) {
-        fail_device(name(), fmt::format("the move takes over {:.3g} s", deadline.timeout_s));
+        fail_device(name(), fmt::format("the move takes more than {:.3g} s", deadline.timeout_s));
       }
       position_ = units;
     } catch (const Error&) {
@@ -72,7 +72,7 @@ class Horus final : public MotionController {
       const std::string answer = read_line(*transport_, deadline);
       if (answer == "ok") return;
       if (answer.rfind("Horus", 0) == 0) {
-        fail_device(name(), "the board started anew; its angle is lost, home the table again");
+        fail_device(name(), "the board restarted; its angle is lost, home the table again");
       }
       if (!answer.empty()) {
         fail_device(name(), fmt::format("answered '{}' to {}", printable(answer), line));
@@ -83,9 +83,9 @@ class Horus final : public MotionController {
   void stop() noexcept override {
     record_stop();
     try {
-      transport_->write("!\x18", Deadline::in(1.0));  // hold, then reset: lasers and motor go off
-    } catch (
-        const Error&) {  // NOLINT(bugprone-empty-catch) the line is dead: nothing more can be done
+      transport_->write(
+          "!\x18", Deadline::in(1.0));  // hold, then reset, which switches lasers and motor off
+    } catch (const Error&) {            // NOLINT(bugprone-empty-catch) the line is broken
     }
   }
 

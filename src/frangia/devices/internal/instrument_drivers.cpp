@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-/// What rig.toml says takes the place of what the language has by itself.
+/// Replaces the defaults of a protocol by the settings in rig.toml.
 void read_language(DeviceSettings& settings, MessageInstrument::Language& language) {
   language.error_query = settings.text_or("error_query", language.error_query);
   language.no_error = settings.text_or("no_error", language.no_error);
@@ -67,8 +67,8 @@ Driver light_driver(const std::string& name, DeviceKind kind) {
   Driver driver;
   driver.name = name;
   driver.kind = kind;
-  driver.description = scpi ? "lamp or laser behind an output that speaks SCPI"
-                            : "lamp or laser behind any instrument, by its manual's commands";
+  driver.description = scpi ? "lamp or laser on an output with SCPI"
+                            : "lamp or laser on any instrument, by the commands in its manual";
   driver.open = [scpi](DeviceSettings& settings,
                        const Rig& /*rig*/,
                        const Deadline& deadline) -> std::unique_ptr<Device> {
@@ -93,7 +93,7 @@ Driver light_driver(const std::string& name, DeviceKind kind) {
 std::vector<Driver> instrument_drivers() {
   std::vector<Driver> drivers;
   drivers.push_back(shifter_driver("scpi",
-                                   "piezo on a function generator or supply that speaks SCPI",
+                                   "piezo on a function generator or power supply with SCPI",
                                    "V",
                                    [](DeviceSettings& /*settings*/) { return scpi_protocol(); }));
   drivers.push_back(shifter_driver(
@@ -102,7 +102,7 @@ std::vector<Driver> instrument_drivers() {
       }));
   drivers.push_back(
       shifter_driver("commands",
-                     "piezo behind any instrument, by its manual's commands",
+                     "piezo on any instrument, by the commands in its manual",
                      "V",
                      [](DeviceSettings& /*settings*/) { return ActuatorProtocol{}; }));
   for (const char* name : {"scpi", "commands"}) {

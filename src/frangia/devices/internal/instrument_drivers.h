@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-/// Phase shifters and lights behind instruments on a line: SCPI, PI's GCS 2, and any other by the
-/// commands that its manual gives.
+/// Drivers of phase shifters and lights on instruments: SCPI, GCS 2 of Physik Instrumente, and
+/// others by the commands in their manuals.
 [[nodiscard]] std::vector<Driver> instrument_drivers();
 
 }  // namespace frangia

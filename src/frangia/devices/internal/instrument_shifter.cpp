@@ -55,7 +55,7 @@ void InstrumentShifter::wait_until_settled(const Deadline& deadline) {
       deadline.sleep(0.005);
     }
   } catch (const Error& error) {
-    // The question that the deadline cuts off is not what is wrong.
+    // A query that the deadline interrupts is not the cause.
     if (!answered || error.kind() != ErrorKind::Device || !deadline.passed()) throw;
     fail_device(*this, fmt::format("has not settled within {:.3g} s", deadline.timeout_s));
   }

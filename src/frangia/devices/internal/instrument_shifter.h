@@ -8,10 +8,10 @@
 
 namespace frangia {
 
-/// A piezo behind any instrument of one value. Nothing beyond `info`'s range is ever sent.
+/// A piezo driven by an instrument with one value. Never sends a value outside the range of `info`.
 class InstrumentShifter final : public PhaseShifter {
  public:
-  /// errors   Error(Device) when the instrument does not take its `start`
+  /// errors   Error(Device) when the instrument rejects the commands in `start`
   InstrumentShifter(std::unique_ptr<Transport> transport,
                     ActuatorProtocol protocol,
                     ShifterInfo info,
@@ -38,7 +38,7 @@ class InstrumentShifter final : public PhaseShifter {
   MessageInstrument instrument_;
   ActuatorProtocol protocol_;
   ShifterInfo info_;
-  double settle_s_ = 0.0;  ///< after the instrument says that it is there
+  double settle_s_ = 0.0;  ///< after the instrument reports that it has settled
   bool started_ = false;
 };
 

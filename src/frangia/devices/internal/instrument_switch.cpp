@@ -26,7 +26,7 @@ void InstrumentSwitch::make_safe() noexcept {
 }
 
 void InstrumentSwitch::set(bool on, const Deadline& deadline) {
-  is_on_ = true;  // for all that is known, until off was taken
+  is_on_ = true;  // assume on until off is acknowledged
   for (const std::string& command : on ? on_ : off_)
     instrument_.send(command, deadline);
   is_on_ = on;

@@ -9,7 +9,7 @@
 
 namespace frangia {
 
-/// A lamp or laser behind an instrument on a line: a supply's output, a relay.
+/// A lamp or laser switched by an instrument: an output of a power supply, a relay.
 class InstrumentSwitch final : public SwitchDevice {
  public:
   /// Switches off first.

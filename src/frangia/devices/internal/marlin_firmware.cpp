@@ -26,7 +26,7 @@ class Marlin final : public MotionController {
     while (auto line = transport_->try_read('\n', booted)) {
       if (begins(*line, "start")) break;
     }
-    // Whatever it says on its way up ends before the answer to this.
+    // The messages of the boot end before the answer to this.
     transport_->discard_input();
     transport_->write("M110 N0\n", deadline);
     while (!begins(read_line(*transport_, deadline), "ok")) {
@@ -58,7 +58,7 @@ class Marlin final : public MotionController {
     try {
       command(fmt::format("G1 {}{:.4f} F{:.3f}", settings_.axis, units, 60.0 * units_per_s),
               deadline);
-      command("M400", deadline);  // answered when every move has ended
+      command("M400", deadline);  // answered when all moves have ended
     } catch (const Error&) {
       stop();
       throw;
@@ -77,7 +77,7 @@ class Marlin final : public MotionController {
       if (was_accepted(line, deadline)) return;
     }
     fail_device(name(),
-                fmt::format("asked {} times to have '{}' again; the cable or the baud rate is bad",
+                fmt::format("requested '{1}' again {0} times; check the cable and the baud rate",
                             kMostResends + 1,
                             line));
   }
@@ -86,14 +86,13 @@ class Marlin final : public MotionController {
     record_stop();
     try {
       const Deadline soon = Deadline::in(1.0);
-      transport_->write("M410\nM107\nM5\n", soon);  // quick stop, and what may shine goes off
-    } catch (
-        const Error&) {  // NOLINT(bugprone-empty-catch) the line is dead: nothing more can be done
+      transport_->write("M410\nM107\nM5\n", soon);  // quick stop, fan output and spindle off
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is broken
     }
   }
 
  private:
-  /// False when the board did not understand the line and asks for it again.
+  /// False when the board requests the line again.
   bool was_accepted(const std::string& line, const Deadline& deadline) {
     bool again = false;
     std::string trouble;
@@ -107,15 +106,15 @@ class Marlin final : public MotionController {
       }
       if (begins(answer, "Resend:") || begins(answer, "rs ")) again = true;
       if (begins(answer, "start")) {
-        fail_device(name(), "the board started anew; its angle is lost, home the table again");
+        fail_device(name(), "the board restarted; its angle is lost, home the table again");
       }
       if (answer.find("halted") != std::string::npos || begins(answer, "!!")) {
         fail_device(name(),
-                    fmt::format("halted itself ('{}'); switch it off and on, then home again",
+                    fmt::format("halted ('{}'); switch it off and on, then home the table again",
                                 printable(answer)));
       }
       if (begins(answer, "Error:")) trouble = answer.substr(6);
-      // "echo:busy: processing" and reports: it lives, the answer is still to come.
+      // "echo:busy: processing" and reports: the board is alive and the answer follows.
     }
   }
 

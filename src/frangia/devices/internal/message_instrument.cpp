@@ -13,9 +13,11 @@ void MessageInstrument::send(const std::string& command, const Deadline& deadlin
   transport_->write(command + language_.terminator, deadline);
   if (language_.error_query.empty()) return;
   const std::string answer = ask(language_.error_query, deadline);
-  const std::size_t sign = answer.rfind('+', 0) == 0 ? 1 : 0;  // some say +0,"No error"
+  const std::size_t sign = answer.rfind('+', 0) == 0 ? 1 : 0;  // some answer +0,"No error"
   if (answer.compare(sign, language_.no_error.size(), language_.no_error) != 0) {
-    fail_device(name(), fmt::format("says {} after '{}'", printable(answer), command));
+    fail_device(
+        name(),
+        fmt::format("reports {} after '{}'; check the command", printable(answer), command));
   }
 }
 
@@ -25,7 +27,7 @@ std::string MessageInstrument::ask(const std::string& question, const Deadline& 
 }
 
 std::string MessageInstrument::identify(const Deadline& deadline) {
-  if (language_.identify.empty()) return "open; it has no way to tell of itself";
+  if (language_.identify.empty()) return "open; it cannot identify itself";
   return printable(ask(language_.identify, deadline));
 }
 
@@ -33,7 +35,7 @@ void MessageInstrument::send_unchecked(const std::vector<std::string>& commands)
   try {
     for (const std::string& command : commands)
       transport_->write(command + language_.terminator, Deadline::in(1.0));
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is dead
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is broken
   }
 }
 

@@ -8,24 +8,24 @@
 
 namespace frangia {
 
-/// Commands to an instrument on a line, each followed by the question whether it went well.
+/// An instrument that takes commands as lines of text, each followed by an error query.
 class MessageInstrument {
  public:
   struct Language {
-    std::string error_query;        ///< asked after each command; empty: never
-    std::string no_error;           ///< how an answer begins that tells of no error
+    std::string error_query;        ///< sent after each command; empty: not used
+    std::string no_error;           ///< beginning of the answer when there is no error
     std::string terminator = "\n";  ///< of each line
-    std::string identify;           ///< "*IDN?"; empty: it cannot tell
+    std::string identify;           ///< "*IDN?"; empty: not supported
   };
 
   MessageInstrument(std::unique_ptr<Transport> transport, Language language);
 
   [[nodiscard]] const std::string& name() const { return transport_->name(); }
-  /// errors   Error(Device) when it is silent, or says that something is wrong
+  /// errors   Error(Device) when it does not answer or reports an error
   void send(const std::string& command, const Deadline& deadline);
   [[nodiscard]] std::string ask(const std::string& question, const Deadline& deadline);
   [[nodiscard]] std::string identify(const Deadline& deadline);
-  /// Sends them without a question, whatever state the instrument is in.
+  /// Sends commands without error queries, in any state of the instrument.
   void send_unchecked(const std::vector<std::string>& commands) noexcept;
   void discard_input() { transport_->discard_input(); }
 

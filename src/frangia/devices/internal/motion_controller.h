@@ -7,8 +7,8 @@
 
 namespace frangia {
 
-/// How the board that turns a table is spoken to, in the board's own units along its axis.
-/// `connect` comes first. A call that throws leaves the board stopped, its position unknown.
+/// A motion board, in the board's own units along its axis. Call `connect` first. A call that
+/// throws leaves the board stopped and its position unknown.
 class MotionController {
  public:
   MotionController() = default;
@@ -19,23 +19,23 @@ class MotionController {
   virtual ~MotionController() = default;
 
   [[nodiscard]] virtual const std::string& name() const = 0;
-  /// Waits for the board to be up, its outputs off and its motor still.
+  /// Waits until the board has booted with outputs off and motor at rest.
   virtual void connect(const Deadline& deadline) = 0;
-  /// What the board says of itself, without moving anything.
+  /// A description from the board, without motion.
   [[nodiscard]] virtual std::string identify(const Deadline& deadline) = 0;
-  /// Lets the motor hold, or lets go of it, on boards that can.
+  /// Enables or disables the motor, on boards that support it.
   virtual void enable_motor(bool on, const Deadline& deadline) = 0;
-  /// Runs to the home switch; the axis is at 0 afterwards.
+  /// Moves to the home switch; the position is 0 afterwards.
   virtual void home(const Deadline& deadline) = 0;
-  /// Calls the place where the axis stands 0.
+  /// Sets the present position to 0.
   virtual void set_zero(const Deadline& deadline) = 0;
-  /// Goes there and returns at standstill.
+  /// Moves to a position and returns at standstill.
   virtual void move_to(double units, double units_per_s, const Deadline& deadline) = 0;
-  /// One line of the board's language, for lamps and lasers: "M3 S1000".
+  /// Sends one line in the language of the board, such as "M3 S1000" for a laser.
   virtual void command(const std::string& line, const Deadline& deadline) = 0;
-  /// Motion and outputs end at once. Never throws: it is called when all else has failed.
+  /// Stops motion and outputs at once. Never throws.
   virtual void stop() noexcept = 0;
-  /// How often it was stopped: what was known of positions and outputs before is void.
+  /// The number of stops so far. A stop invalidates known positions and outputs.
   [[nodiscard]] int stop_count() const { return stop_count_; }
 
  protected:
@@ -47,22 +47,25 @@ class MotionController {
 
 struct MotionControllerSettings {
   char axis = 'X';
-  double boot_s = 2.5;          ///< a board that resets when its port is opened is up within this
-  double steps_per_unit = 0.0;  ///< GRBL: written to the board where it differs; 0 leaves it
+  double boot_s = 2.5;          ///< boot time of a board that resets when its port is opened
+  double steps_per_unit = 0.0;  ///< GRBL: written to the board when different; 0: unchanged
 };
 
-/// GRBL 1.1 and what descends from it.
+/// GRBL 1.1 and derived firmware.
+///
 /// source   github.com/gnea/grbl/wiki, Grbl v1.1 Interface
 [[nodiscard]] std::unique_ptr<MotionController> make_grbl(
     std::unique_ptr<Transport> transport, const MotionControllerSettings& settings = {});
 
-/// Marlin: lines with numbers and checksums, sent again when asked for.
+/// Marlin, with line numbers and checksums; lines are sent again on request.
+///
 /// source   marlinfw.org/docs/gcode, RepRap wiki "G-code"
 [[nodiscard]] std::unique_ptr<MotionController> make_marlin(
     std::unique_ptr<Transport> transport, const MotionControllerSettings& settings = {});
 
-/// Horus 0.2, the firmware of the Ciclop scanner's ZUM board; units are degrees, X the only axis,
-/// and there is no home switch.
+/// Horus 0.2, the firmware of the ZUM board of the Ciclop scanner; units are degrees, X is the only
+/// axis, and there is no home switch.
+///
 /// source   github.com/bqlabs/horus-fw
 [[nodiscard]] std::unique_ptr<MotionController> make_horus(
     std::unique_ptr<Transport> transport, const MotionControllerSettings& settings = {});

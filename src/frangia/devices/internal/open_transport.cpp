@@ -19,11 +19,11 @@ namespace {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-/// A device that talks without ever ending a line does not speak our language.
+/// Limit of a line; a device that exceeds it uses another protocol or baud rate.
 constexpr std::size_t kLongestLine = 65536;
 
-/// Runs what was started on the context until `done`; on a stop or at the deadline calls `cancel`
-/// and lets the handlers end. Returns whether it was done in time.
+/// Runs the context until `done`. On a stop request or at the deadline it calls `cancel` and lets
+/// the handlers finish. Returns whether the operation completed in time.
 bool run_until(asio::io_context& context,
                const bool& done,
                const Deadline& deadline,
@@ -61,7 +61,8 @@ class AsioTransport final : public Transport {
                         done = true;
                       });
     if (!run_until(context_, done, deadline, [this] { cancel(); })) {
-      fail_device(name_, fmt::format("takes no bytes for {:.3g} s", deadline.timeout_s));
+      fail_device(name_,
+                  fmt::format("accepts no data for {:.3g} s; check the cable", deadline.timeout_s));
     }
     if (failure) fail_closed(failure);
   }
@@ -75,9 +76,9 @@ class AsioTransport final : public Transport {
         return text;
       }
       if (received_.size() > kLongestLine) {
-        fail_device(
-            name_,
-            fmt::format("sends without end ('{}'); is the baud rate right?", printable(received_)));
+        fail_device(name_,
+                    fmt::format("sends a line without end ('{}'); check the baud rate",
+                                printable(received_)));
       }
       if (!receive(deadline)) return std::nullopt;
     }
@@ -99,7 +100,7 @@ class AsioTransport final : public Transport {
       received = count;
       done = true;
     });
-    // What has come already counts even when the deadline has passed.
+    // Bytes that have already arrived count even after the deadline.
     context_.restart();
     context_.poll();
     const bool in_time = done || run_until(context_, done, deadline, [this] { cancel(); });
@@ -112,7 +113,9 @@ class AsioTransport final : public Transport {
     stream_.cancel(ignored);
   }
   [[noreturn]] void fail_closed(const error_code& code) const {
-    fail_device(name_, fmt::format("the connection broke ({}); is it plugged in?", code.message()));
+    fail_device(
+        name_,
+        fmt::format("the connection broke ({}); check that it is plugged in", code.message()));
   }
 
   std::string name_;
@@ -148,17 +151,18 @@ std::unique_ptr<Transport> open_serial(const SerialSettings& settings) {
                 fmt::format("cannot be opened ({}); {}",
                             failure.message(),
                             forbidden ? "join the group dialout and log in again"
-                                      : "'frangia devices' lists the ports there are"));
+                                      : "run 'frangia devices' to list the ports"));
   }
-  // Two programs that talk to one motor would make a third thing of it.
+  // Two programs on one port would mix their commands.
   if (::flock(port.native_handle(), LOCK_EX | LOCK_NB) != 0) {
-    fail_device(settings.port, "is in use by another program; end that first");
+    fail_device(settings.port, "is in use by another program; close that first");
   }
   try {
     configure_port(port, settings);
   } catch (const boost::system::system_error& error) {
-    fail_device(settings.port,
-                fmt::format("cannot do {} baud ({})", settings.baud, error.code().message()));
+    fail_device(
+        settings.port,
+        fmt::format("does not support {} baud ({})", settings.baud, error.code().message()));
   }
   return transport;
 }
@@ -186,9 +190,11 @@ std::unique_ptr<Transport> open_tcp(const std::string& host, int port, const Dea
     transport->stream().close(ignored);
   };
   if (!run_until(transport->context(), done, deadline, cancel)) {
-    fail_device(transport->name(),
-                fmt::format("no connection within {:.3g} s; is the device on and on this network?",
-                            deadline.timeout_s));
+    fail_device(
+        transport->name(),
+        fmt::format(
+            "no connection within {:.3g} s; check that the device is on and on this network",
+            deadline.timeout_s));
   }
   if (failure) {
     fail_device(transport->name(),

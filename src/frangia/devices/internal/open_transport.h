@@ -16,11 +16,15 @@ struct SerialSettings {
   int stop_bits = 1;  ///< 1 or 2
 };
 
-/// errors   Error(Device) when there is no such port, it may not be opened, another program has it,
-///          or it cannot do the baud rate
+/// Opens a serial port.
+///
+/// errors   Error(Device) when the port does not exist, may not be opened, is in use, or does not
+///          support the baud rate
 [[nodiscard]] std::unique_ptr<Transport> open_serial(const SerialSettings& settings);
 
-/// errors   Error(Device) when nobody answers at host:port before the deadline
+/// Opens a TCP connection.
+///
+/// errors   Error(Device) when host:port does not answer before the deadline
 [[nodiscard]] std::unique_ptr<Transport> open_tcp(const std::string& host,
                                                   int port,
                                                   const Deadline& deadline);

@@ -15,14 +15,14 @@ class PrologixTransport final : public Transport {
 
   [[nodiscard]] const std::string& name() const override { return name_; }
 
-  /// Each line is one message: the adapter adds the terminator and EOI itself.
+  /// Each line is one message; the adapter adds the terminator and EOI.
   void write(std::string_view bytes, const Deadline& deadline) override {
     while (!bytes.empty() && (bytes.back() == '\n' || bytes.back() == '\r')) {
       bytes.remove_suffix(1);
     }
     std::string message;
     for (const char c : bytes) {
-      // These would be read by the adapter itself.
+      // The adapter itself would interpret these.
       if (c == '\n' || c == '\r' || c == '+' || c == '\x1b') message += '\x1b';
       message += c;
     }
@@ -45,7 +45,7 @@ class PrologixTransport final : public Transport {
  private:
   std::unique_ptr<Transport> adapter_;
   std::string name_;
-  bool asked_ = false;  ///< the instrument was told to talk and has not ended yet
+  bool asked_ = false;  ///< the instrument is addressed to talk
 };
 
 }  // namespace
@@ -61,9 +61,9 @@ std::unique_ptr<Transport> open_prologix(std::unique_ptr<Transport> adapter,
   const std::string version = read_line(*adapter, deadline);
   if (version.find("Prologix") == std::string::npos && version.find("GPIB") == std::string::npos) {
     fail_device(adapter->name(),
-                fmt::format("is no Prologix adapter: it answered '{}'", printable(version)));
+                fmt::format("is not a Prologix adapter: it answered '{}'", printable(version)));
   }
-  // Not saved to its EEPROM; no read after write of its own; EOI ends messages; CR LF after them.
+  // Do not save to EEPROM; no automatic read after write; EOI ends messages; append CR LF.
   for (const char* command : {"++savecfg 0", "++mode 1", "++auto 0", "++eoi 1", "++eos 0"}) {
     adapter->write(fmt::format("{}\n", command), deadline);
   }

@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-/// A GPIB instrument behind a Prologix GPIB-Ethernet (or USB) adapter, as if it hung on a line of
-/// its own. A read asks the adapter to let the instrument talk until it signals the end (EOI).
+/// A GPIB instrument behind a Prologix GPIB-Ethernet or GPIB-USB adapter, as a line of its own. A
+/// read asks the adapter to address the instrument to talk until EOI.
 ///
 /// errors   those of the line; Error(Input) when the address is not 0 to 30
 /// source   Prologix GPIB-ETHERNET Controller User Manual, 1.6

@@ -50,7 +50,7 @@ std::vector<DeviceSettings> read_device_settings(const std::filesystem::path& ri
       auto setting = value_of(value);
       const std::string place = fmt::format("devices.{}.{}", name, std::string(key.str()));
       if (!setting)
-        reader.fail(place, "must be a number, a text, true or false, or a list of those");
+        reader.fail(place, "must be a number, a string, true or false, or a list of those");
       values.emplace(std::string(key.str()), std::move(*setting));
     }
     all.emplace_back(rig, name, std::move(values));

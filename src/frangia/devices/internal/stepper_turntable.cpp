@@ -34,7 +34,7 @@ void StepperTurntable::enable(bool on, const Deadline& deadline) {
 }
 
 void StepperTurntable::home(const Deadline& deadline) {
-  if (!enabled_) fail_device(*this, "it is not enabled and cannot look for its home");
+  if (!enabled_) fail_device(*this, "it is not enabled; enable it before homing");
   angle_rad_.reset();
   backlash_taken_up_ = false;
   if (options_.info.can_home) {
@@ -47,16 +47,16 @@ void StepperTurntable::home(const Deadline& deadline) {
 }
 
 std::optional<double> StepperTurntable::angle_rad() const {
-  // A lamp on the same board may have stopped it.
+  // A lamp on the same board may have stopped the board.
   return stop_count_ == board_->stop_count() ? angle_rad_ : std::nullopt;
 }
 
 void StepperTurntable::move_to(double angle_rad, const Deadline& deadline) {
   check_target(angle_rad);
   const double target_deg = deg_from_rad(angle_rad);
-  // Until it is there, nobody knows where it is.
+  // The angle is unknown until the move has ended.
   const double from_deg = deg_from_rad(*std::exchange(angle_rad_, std::nullopt));
-  // Every stop ends upwards, so that a further one upwards has no slack left to take.
+  // Every move ends upwards, so a further upward move meets no backlash.
   const double min_travel_deg = backlash_taken_up_ ? 0.0 : options_.backlash_deg;
   if (options_.backlash_deg > 0.0 && target_deg - from_deg < min_travel_deg) {
     command_angle(target_deg - options_.backlash_deg, deadline);
@@ -75,8 +75,8 @@ void StepperTurntable::check_target(double angle_rad) const {
                             deg_from_rad(options_.info.min_rad),
                             deg_from_rad(options_.info.max_rad)));
   }
-  if (!enabled_) fail_device(*this, "it is not enabled");
-  if (!this->angle_rad()) fail_device(*this, "its angle is not known; home it first");
+  if (!enabled_) fail_device(*this, "it is not enabled; enable it first");
+  if (!this->angle_rad()) fail_device(*this, "its angle is unknown; home it first");
 }
 
 void StepperTurntable::command_angle(double angle_deg, const Deadline& deadline) {

@@ -11,19 +11,19 @@ namespace frangia {
 
 struct StepperTurntableOptions {
   TurntableInfo info;
-  double units_per_degree = 1.0;  ///< the board's units for a degree of the table
-  bool reversed = false;          ///< the board's positive turns the table the negative way
-  double backlash_deg = 0.0;      ///< every stop is reached upwards, after a way down from this far
-                                  ///< below it, which may be beyond the limits
+  double units_per_degree = 1.0;  ///< units of the board per degree of the table
+  bool reversed = false;      ///< positive motion of the board is negative rotation of the table
+  double backlash_deg = 0.0;  ///< targets are approached upwards; after a downward move from this
+                              ///< far below, which may be beyond the limits
   double speed_deg_per_s = 20.0;
-  double settle_s = 0.0;  ///< how long the part swings after standstill
+  double settle_s = 0.0;  ///< time for the part to stop vibrating
 };
 
-/// A turntable on a stepper motor board. Any call that fails stops the board and loses the angle:
-/// it then refuses to move until it is homed again, rather than go on from where it may not be.
+/// A turntable on a stepper motor board. Any failed call stops the board and invalidates the angle;
+/// the table then refuses to move until it is homed.
 class StepperTurntable final : public TurntableDevice {
  public:
-  /// The board is connected already; lamps may share it.
+  /// `board` is already connected; lamps may share it.
   explicit StepperTurntable(std::shared_ptr<MotionController> board,
                             const StepperTurntableOptions& options = {});
   StepperTurntable(const StepperTurntable&) = delete;
@@ -50,7 +50,7 @@ class StepperTurntable final : public TurntableDevice {
   std::optional<double> angle_rad_;
   int stop_count_ = 0;  ///< of the board when the angle was found
   bool enabled_ = false;
-  bool backlash_taken_up_ = false;  ///< the last move took the slack up
+  bool backlash_taken_up_ = false;  ///< the last move ended upwards
 };
 
 }  // namespace frangia

@@ -7,9 +7,10 @@ namespace frangia {
 std::string read_until(Transport& transport, char end, const Deadline& deadline) {
   std::optional<std::string> text = transport.try_read(end, deadline);
   if (!text) {
-    fail_device(transport.name(),
-                fmt::format("no answer within {:.3g} s; is the device on, and is this its port?",
-                            deadline.timeout_s));
+    fail_device(
+        transport.name(),
+        fmt::format("no answer within {:.3g} s; check that the device is on and this is its port",
+                    deadline.timeout_s));
   }
   return std::move(*text);
 }

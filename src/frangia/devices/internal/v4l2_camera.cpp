@@ -32,11 +32,10 @@ class V4l2Camera final : public CameraDevice {
         name_("camera " + settings.path),
         file_(system_->open(settings.path.c_str())) {
     if (file_ < 0) {
-      fail(errno == EBUSY
-               ? "is in use by another program; close that one"
-               : fmt::format("cannot be opened ({}); 'frangia devices' lists the cameras "
-                             "there are, and your user must be in the group video",
-                             std::generic_category().message(errno)));
+      fail(errno == EBUSY ? "is in use by another program; close that one"
+                          : fmt::format("cannot be opened ({}); run 'frangia devices' to list the "
+                                        "cameras, and check that your user is in the group video",
+                                        std::generic_category().message(errno)));
     }
     try {
       prepare();
@@ -55,7 +54,7 @@ class V4l2Camera final : public CameraDevice {
   [[nodiscard]] const CameraInfo& info() const override { return info_; }
   [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
     auto capability = zeroed<v4l2_capability>();
-    control("tell what it is", VIDIOC_QUERYCAP, capability);
+    control("report its capabilities", VIDIOC_QUERYCAP, capability);
     return fmt::format("{}, {} x {} pixels, {}",
                        reinterpret_cast<const char*>(capability.card),  // NOLINT
                        info_.width_px,
@@ -83,7 +82,8 @@ class V4l2Camera final : public CameraDevice {
     for (;;) {
       deadline.check();
       if (deadline.passed()) {
-        fail(fmt::format("no frame within {:.3g} s; is it plugged in?", deadline.timeout_s));
+        fail(fmt::format("no frame within {:.3g} s; check that it is plugged in",
+                         deadline.timeout_s));
       }
       constexpr int kPiece_ms = 20;
       const int ready = system_->wait_readable(file_, kPiece_ms);
@@ -94,7 +94,8 @@ class V4l2Camera final : public CameraDevice {
         if (errno == EAGAIN) continue;
         fail_lost();
       }
-      // The stamp is of the exposure's end: one that began before it was asked for is not wanted.
+      // The time stamp is of the end of the exposure. Frames that began before the request are
+      // skipped.
       const double stamp_s = static_cast<double>(buffer.timestamp.tv_sec) +
                              1e-6 * static_cast<double>(buffer.timestamp.tv_usec);
       const bool old = stamp_s - 1e-3 * exposure_ms_ < asked_s || skipped < settings_.skip_frames;
@@ -116,7 +117,7 @@ class V4l2Camera final : public CameraDevice {
   }
   [[noreturn]] void fail_lost() const {
     fail(errno == ENODEV ? "is unplugged; plug it in and scan again"
-                         : fmt::format("its frames stopped ({}); unplug it and plug it in again",
+                         : fmt::format("its frames stopped ({}); reconnect it",
                                        std::generic_category().message(errno)));
   }
   template <typename T>
@@ -130,7 +131,7 @@ class V4l2Camera final : public CameraDevice {
   }
   void set(const char* what, unsigned id, int value) {
     v4l2_control setting{id, value};
-    control(fmt::format("have {} set", what).c_str(), VIDIOC_S_CTRL, setting);
+    control(fmt::format("set {}", what).c_str(), VIDIOC_S_CTRL, setting);
   }
   static v4l2_buffer empty_buffer(unsigned index) {
     auto buffer = zeroed<v4l2_buffer>();
@@ -142,14 +143,14 @@ class V4l2Camera final : public CameraDevice {
 
   void prepare() {
     auto capability = zeroed<v4l2_capability>();
-    control("tell what it is", VIDIOC_QUERYCAP, capability);
+    control("report its capabilities", VIDIOC_QUERYCAP, capability);
     const unsigned able = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0
                               ? capability.device_caps
                               : capability.capabilities;
     if ((able & V4L2_CAP_VIDEO_CAPTURE) == 0 || (able & V4L2_CAP_STREAMING) == 0)
-      fail("is no camera; name another of 'frangia devices'");
+      fail("is not a camera; run 'frangia devices' to list the cameras");
     choose_format();
-    // Webcams meter for themselves; a scan needs every frame exposed alike.
+    // Webcams meter automatically, but a scan needs equal exposures.
     v4l2_control manual{V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL};
     static_cast<void>(system_->ioctl(file_, VIDIOC_S_CTRL, &manual));
     for (const std::uint32_t automatic :
@@ -159,7 +160,7 @@ class V4l2Camera final : public CameraDevice {
     }
     auto range = zeroed<v4l2_queryctrl>();
     range.id = V4L2_CID_EXPOSURE_ABSOLUTE;
-    control("have its exposure set", VIDIOC_QUERYCTRL, range);
+    control("report its exposure range", VIDIOC_QUERYCTRL, range);
     info_.min_exposure_ms = kExposureUnit_ms * range.minimum;
     info_.max_exposure_ms = kExposureUnit_ms * range.maximum;
     map_buffers();
@@ -184,8 +185,8 @@ class V4l2Camera final : public CameraDevice {
       return;
     }
     fail(
-        "gives neither grey nor YUYV pictures, only compressed ones, whose artefacts no phase "
-        "survives; take another camera or a smaller size");
+        "delivers only compressed images, whose artefacts corrupt the phase, not grey or YUYV; "
+        "use another camera or a smaller size");
   }
 
   void map_buffers() {
@@ -193,12 +194,12 @@ class V4l2Camera final : public CameraDevice {
     request.count = kMappedBuffers;
     request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     request.memory = V4L2_MEMORY_MMAP;
-    control("lend its memory", VIDIOC_REQBUFS, request);
+    control("share its buffers", VIDIOC_REQBUFS, request);
     for (unsigned i = 0; i < request.count; ++i) {
       v4l2_buffer buffer = empty_buffer(i);
-      control("lend its memory", VIDIOC_QUERYBUF, buffer);
+      control("share its buffers", VIDIOC_QUERYBUF, buffer);
       void* memory = system_->map(buffer.length, file_, buffer.m.offset);
-      if (memory == nullptr) fail("cannot lend its memory");
+      if (memory == nullptr) fail("cannot share its buffers");
       mapped_.push_back({memory, buffer.length});
     }
   }
@@ -236,11 +237,11 @@ class V4l2Camera final : public CameraDevice {
         static_cast<std::size_t>(row_bytes_) * static_cast<std::size_t>(info_.height_px);
     if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytesused < wanted) {
       captured.complete = false;
-      captured.incomplete_cause = fmt::format("{} of {} bytes came", buffer.bytesused, wanted);
+      captured.incomplete_cause = fmt::format("{} of {} bytes arrived", buffer.bytesused, wanted);
       return captured;
     }
     const std::size_t step =
-        format_ == V4L2_PIX_FMT_GREY ? 1 : 2;  // YUYV: every other is brightness
+        format_ == V4L2_PIX_FMT_GREY ? 1 : 2;  // YUYV: every other byte is luminance
     const auto* pixels = static_cast<const std::uint8_t*>(mapped_.at(buffer.index).memory);
     Image<std::uint8_t> image(info_.width_px, info_.height_px, Uninitialized{});
     for (int y = 0; y < info_.height_px; ++y) {
@@ -294,7 +295,7 @@ Driver v4l2_driver() {
   Driver driver;
   driver.name = "v4l2";
   driver.kind = DeviceKind::Camera;
-  driver.description = "webcams, by Video4Linux2";
+  driver.description = "webcams through Video4Linux2";
   driver.open =
       [](DeviceSettings& settings, const Rig& rig, const Deadline&) -> std::unique_ptr<Device> {
     V4l2Settings camera;

@@ -12,19 +12,20 @@ namespace frangia {
 
 struct V4l2Settings {
   std::string path = "/dev/video0";
-  int width_px = 0;  ///< wanted; the rig's
+  int width_px = 0;  ///< required by the rig
   int height_px = 0;
-  int skip_frames = 1;  ///< that the camera has under way when a frame is asked for
+  int skip_frames = 1;  ///< frames in the pipeline of the camera at a request
 };
 
-/// A webcam of Linux' Video4Linux2: grey, or the brightness of its YUYV pictures. It has no
-/// trigger: frames that were under way when one is asked for are thrown away, by their time stamps.
+/// Opens a webcam with Video4Linux2 in a grey or YUYV format, of which the luminance is used.
+/// Webcams have no trigger: frames exposed before the request are discarded by their time stamps.
 ///
-/// errors   Error(Device) when there is none, it is in use, or does not do the size or a format
+/// errors   Error(Device) when the camera does not exist, is in use, or does not support the size
+///          or a format
 [[nodiscard]] std::unique_ptr<CameraDevice> open_v4l2_camera(const V4l2Settings& settings,
                                                              std::shared_ptr<V4l2System> system);
 
-/// The cameras among /dev/video*.
+/// Lists the cameras among /dev/video*.
 [[nodiscard]] std::vector<FoundDevice> find_v4l2_cameras(V4l2System& system);
 
 /// The driver "v4l2".

@@ -23,7 +23,7 @@ class KernelV4l2 final : public V4l2System {
   [[nodiscard]] void* map(std::size_t length, int file, std::size_t offset) override {
     void* memory = ::mmap(
         nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, file, static_cast<::off_t>(offset));
-    return memory == MAP_FAILED ? nullptr : memory;  // NOLINT: the macro's own cast
+    return memory == MAP_FAILED ? nullptr : memory;  // NOLINT: cast in the macro
   }
   void unmap(void* memory, std::size_t length) override { ::munmap(memory, length); }
   [[nodiscard]] int wait_readable(int file, int milliseconds) override {

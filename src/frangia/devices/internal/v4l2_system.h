@@ -5,8 +5,8 @@
 
 namespace frangia {
 
-/// What the V4L2 camera asks of the operating system; a test stands in for a camera here. Each
-/// answers as the system call of its name: below 0, or null, with errno set, when it failed.
+/// The system calls of the V4L2 camera; tests substitute a fake camera. Each returns as the system
+/// call of its name: negative or null with errno on failure.
 class V4l2System {
  public:
   V4l2System() = default;
@@ -19,16 +19,16 @@ class V4l2System {
   [[nodiscard]] virtual int open(const char* path) = 0;
   virtual void close(int file) = 0;
   [[nodiscard]] virtual int ioctl(int file, unsigned long request, void* argument) = 0;
-  /// Null when it failed.
+  /// Null on failure.
   [[nodiscard]] virtual void* map(std::size_t length, int file, std::size_t offset) = 0;
   virtual void unmap(void* memory, std::size_t length) = 0;
-  /// Whether a frame can be had; 0 when none came within the time.
+  /// Positive when a frame is available; 0 when none arrived in time.
   [[nodiscard]] virtual int wait_readable(int file, int milliseconds) = 0;
-  /// Of the clock that stamps the frames.
+  /// The clock of the frame time stamps.
   [[nodiscard]] virtual double now_s() = 0;
 };
 
-/// The one of the kernel.
+/// The system calls of the kernel.
 [[nodiscard]] std::shared_ptr<V4l2System> kernel_v4l2();
 
 }  // namespace frangia

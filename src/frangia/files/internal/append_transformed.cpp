@@ -14,31 +14,32 @@ void append_transformed(Mesh& mesh,
                         const Mesh& part,
                         const Eigen::Affine3d& mesh_from_part,
                         const std::filesystem::path& path) {
-  constexpr std::size_t kMost = 50'000'000;
+  constexpr std::size_t kMaxCount = 50'000'000;
   const auto fail = [&](const char* why) {
     throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
   };
-  if (!mesh_from_part.matrix().allFinite()) fail("a part is moved to no place; export it again");
-  if (!mesh.empty() && (mesh.vertices_mm.size() + part.vertices_mm.size() > kMost ||
-                        mesh.triangles.size() + part.triangles.size() > kMost)) {
-    fail("its parts are repeated to more than 50 million triangles; export fewer of them");
+  if (!mesh_from_part.matrix().allFinite())
+    fail("the transform of a part is not finite; export it again");
+  if (!mesh.empty() && (mesh.vertices_mm.size() + part.vertices_mm.size() > kMaxCount ||
+                        mesh.triangles.size() + part.triangles.size() > kMaxCount)) {
+    fail("its repeated parts exceed 50 million vertices or triangles; export fewer copies");
   }
   const std::size_t first_vertex = mesh.vertices_mm.size();
   const std::size_t first_triangle = mesh.triangles.size();
   append_mesh(mesh, part);
   for (std::size_t i = first_vertex; i < mesh.vertices_mm.size(); ++i)
     mesh.vertices_mm[i] = (mesh_from_part * mesh.vertices_mm[i].cast<double>()).cast<float>();
-  const Eigen::Matrix3d turn = mesh_from_part.linear();
+  const Eigen::Matrix3d linear = mesh_from_part.linear();
   if (!mesh.normals.empty()) {
-    const Eigen::Matrix3d normal_turn = turn.inverse().transpose();
+    const Eigen::Matrix3d normal_transform = linear.inverse().transpose();
     for (std::size_t i = first_vertex; i < mesh.normals.size(); ++i) {
-      const Eigen::Vector3d normal = (normal_turn * mesh.normals[i].cast<double>());
+      const Eigen::Vector3d normal = (normal_transform * mesh.normals[i].cast<double>());
       mesh.normals[i] = normal.allFinite()
                             ? Eigen::Vector3f(normal.stableNormalized().cast<float>())
                             : Eigen::Vector3f(Eigen::Vector3f::Zero());
     }
   }
-  if (turn.determinant() < 0.0) {
+  if (linear.determinant() < 0.0) {
     for (std::size_t i = first_triangle; i < mesh.triangles.size(); ++i)
       std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
   }

@@ -8,11 +8,12 @@
 
 namespace frangia {
 
-/// Appends a part where a transform puts it, facing outwards as it did.
+/// Appends a transformed part. A mirroring transform reverses the triangles, so the part keeps its
+/// orientation.
 ///
-/// errors   Error(Input) that names the file when the transform is not finite, or the whole grows
-///          beyond 50 million vertices or triangles: a file that names its parts often enough can
-///          be small and its mesh larger than any memory
+/// errors   Error(Input) that names the file when the transform is not finite, or when the result
+///          exceeds 50 million vertices or triangles: a small file that repeats its parts could
+///          otherwise exhaust the memory
 void append_transformed(Mesh& mesh,
                         const Mesh& part,
                         const Eigen::Affine3d& mesh_from_part,

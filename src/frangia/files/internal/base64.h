@@ -6,12 +6,12 @@
 
 namespace frangia {
 
-/// Bytes as letters, four for each three.
+/// Encodes bytes as base64.
 ///
 /// source   RFC 4648
 [[nodiscard]] std::string encode_base64(std::string_view bytes);
 
-/// The bytes of letters; nothing when they are not base64.
+/// Decodes base64; nothing when a character is not base64.
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view letters);
 
 }  // namespace frangia

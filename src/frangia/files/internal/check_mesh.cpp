@@ -21,7 +21,7 @@ void check_finite(const std::vector<Eigen::Vector3f>& vectors,
     const Eigen::Vector3f& v = vectors[i];
     if (v.allFinite()) continue;
     refuse(path,
-           fmt::format("{} {} (counted from 0) is {} {} {}, which is no place; remove it",
+           fmt::format("{} {} (counted from 0) is {} {} {}, which is not finite; remove it",
                        what,
                        i,
                        v.x(),
@@ -38,9 +38,8 @@ void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   check_finite(mesh.normals, "normal", path);
   const auto check_count = [&](std::size_t has, const char* what) {
     if (has != 0 && has != count) {
-      refuse(
-          path,
-          fmt::format("{} {} for {} vertices; there must be one each, or none", has, what, count));
+      refuse(path,
+             fmt::format("{} {} for {} vertices; give one per vertex, or none", has, what, count));
     }
   };
   check_count(mesh.normals.size(), "normals");
@@ -49,7 +48,7 @@ void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   check_count(mesh.vertex_marks.size(), "marks");
   if (!mesh.triangle_marks.empty() && mesh.triangle_marks.size() != mesh.triangles.size()) {
     refuse(path,
-           fmt::format("{} marks for {} triangles; there must be one each, or none",
+           fmt::format("{} marks for {} triangles; give one per triangle, or none",
                        mesh.triangle_marks.size(),
                        mesh.triangles.size()));
   }
@@ -58,7 +57,7 @@ void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
       if (corner < count) continue;
       refuse(path,
              fmt::format("triangle {} refers to vertex {}, counted from 0, of only {}; "
-                         "the mesh is damaged, export it again",
+                         "export the mesh again",
                          i,
                          corner,
                          count));
@@ -69,7 +68,7 @@ void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
 void check_triangles(const Mesh& mesh, const std::filesystem::path& path) {
   check_mesh(mesh, path);
   if (!mesh.triangles.empty()) return;
-  refuse(path, "there is no triangle to write; points alone can be written as .ply or .obj");
+  refuse(path, "there is no triangle to write; write points as .ply, .obj, .xyz or .pcd");
 }
 
 }  // namespace frangia

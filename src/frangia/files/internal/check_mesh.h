@@ -6,16 +6,16 @@
 
 namespace frangia {
 
-/// What must hold of a mesh on its way out of or into a file.
+/// Checks the consistency of a mesh after reading or before writing.
 ///
-/// errors   Error(Input) that names the file and the place: a vertex or normal that is not finite,
-///          a triangle that refers to a vertex that is not there, normals, sigma or views that are
-///          not one a vertex
+/// errors   Error(Input) that names the file and the element: a vertex or normal that is not
+///          finite, a triangle with a vertex index out of range, or normals, sigma, views or marks
+///          whose number differs from that of the vertices or triangles
 void check_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
-/// The same, for a format that holds triangles only.
+/// As check_mesh, for a format that cannot store points alone.
 ///
-/// errors   Error(Input) also when there is no triangle
+/// errors   Error(Input) also when the mesh has no triangle
 void check_triangles(const Mesh& mesh, const std::filesystem::path& path);
 
 }  // namespace frangia

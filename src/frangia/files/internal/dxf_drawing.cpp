@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kDecimals = 4;
 constexpr int kStepsPerMm = 10'000;
-constexpr float kFarthestMm = 1e9F;
+constexpr float kMaxCoordinateMm = 1e9F;
 
 using QuantizedPoint = DxfDrawing::QuantizedPoint;
 
@@ -24,7 +24,7 @@ QuantizedPoint quantize(const Eigen::Vector3f& place) {
   return {std::llround(steps.x()), std::llround(steps.y()), std::llround(steps.z())};
 }
 
-/// A coordinate with its point and no more zeros than the one that makes it a real number.
+/// Writes a coordinate with a decimal point and without trailing zeros, but at least one decimal.
 void write_quantized(FileWriter& file, std::int64_t steps) {
   std::array<char, 32> text{};
   char* end = text.data();
@@ -57,7 +57,7 @@ DxfDrawing make_dxf_drawing(const Mesh& mesh, const std::filesystem::path& path)
   DxfDrawing drawing{.mesh = &mesh, .vertices = {}, .triangles = {}};
   drawing.vertices.reserve(mesh.vertices_mm.size());
   for (const Eigen::Vector3f& place : mesh.vertices_mm) {
-    if (place.cwiseAbs().maxCoeff() > kFarthestMm) {
+    if (place.cwiseAbs().maxCoeff() > kMaxCoordinateMm) {
       throw Error(ErrorKind::Input,
                   fmt::format("{}: a vertex lies more than 1 000 km away; check the mesh's units",
                               path.string()));
@@ -78,11 +78,10 @@ DxfDrawing make_dxf_drawing(const Mesh& mesh, const std::filesystem::path& path)
       extend(drawing, corner);
   }
   if (!any) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("{}: no triangle is larger than the 0.0001 mm that a DXF is written to; "
-                    "check the mesh's units",
-                    path.string()));
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: no triangle is larger than 0.0001 mm, the resolution of the DXF; "
+                            "check the mesh's units",
+                            path.string()));
   }
   return drawing;
 }

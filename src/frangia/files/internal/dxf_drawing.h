@@ -11,19 +11,21 @@
 
 namespace frangia {
 
-/// Where triangles of each mark lie in a DXF: by number of the Mark.
-inline constexpr std::array<std::string_view, 3> kDxfLayers{"SCAN", "SCAN_MOVED", "SCAN_INVENTED"};
-/// Their colours: white, yellow, red.
+/// The layer for the triangles of each mark, indexed by Mark.
+inline constexpr std::array<std::string_view, 3> kDxfLayers{
+    "SCAN", "SCAN_DISPLACED", "SCAN_SYNTHESIZED"};
+/// Their colour numbers: white, yellow, red.
 inline constexpr std::array<int, 3> kDxfColors{7, 2, 1};
 
-/// A mesh as it will stand in a DXF. Everything is counted in the steps that are written, so that
-/// equal, different and extreme coordinates are the same in the file as here.
+/// A mesh with the coordinates that the DXF will hold. Coordinates are integers in units of the
+/// written resolution, so equality and extents are exactly those of the file.
 struct DxfDrawing {
-  using QuantizedPoint = std::array<std::int64_t, 3>;  ///< ten thousandths of a mm
+  using QuantizedPoint = std::array<std::int64_t, 3>;  ///< in units of 0.0001 mm
 
   const Mesh* mesh = nullptr;
   std::vector<QuantizedPoint> vertices;
-  std::array<std::vector<std::uint32_t>, 3> triangles;  ///< by mark; those whose corners differ
+  std::array<std::vector<std::uint32_t>, 3>
+      triangles;  ///< indices by mark, without degenerate triangles
   QuantizedPoint low{};
   QuantizedPoint high{};
 
@@ -35,14 +37,15 @@ struct DxfDrawing {
 /// errors   Error(Input) as write_dxf
 [[nodiscard]] DxfDrawing make_dxf_drawing(const Mesh& mesh, const std::filesystem::path& path);
 
-/// Group codes 10, 20, 30 for the first corner of an entity, 11, 21, 31 for its second, ...
+/// Writes a point with group codes 10, 20, 30 for corner 0 of an entity, 11, 21, 31 for corner 1,
+/// ...
 void write_dxf_point(FileWriter& file,
                      const DxfDrawing::QuantizedPoint& place,
                      std::size_t corner = 0);
 
 void write_dxf_count(FileWriter& file, std::string_view code, std::size_t count);
 
-/// A DXF of release 2000 (AC1015), which has the entity MESH: one for each layer in use.
+/// Writes a DXF of release 2000 (AC1015) with one MESH entity per layer in use.
 void write_dxf_2000(FileWriter& file, const DxfDrawing& drawing);
 
 }  // namespace frangia

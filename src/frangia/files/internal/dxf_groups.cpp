@@ -40,9 +40,9 @@ bool DxfGroups::next() {
     if (code.empty() && position_ == text_.size()) return false;
     const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), code_);
     if (error != std::errc() || end != code.data() + code.size()) {
-      fail(fmt::format("{} stands where the code of a group is due", in_quotes(code)));
+      fail(fmt::format("expected the code of a group, found {}", in_quotes(code)));
     }
-    if (position_ == text_.size()) fail("the last group has no value; the file was cut short");
+    if (position_ == text_.size()) fail("the last group has no value; the file is truncated");
     value_ = line();
   } while (code_ == kComment);
   return true;

@@ -7,18 +7,18 @@
 
 namespace frangia {
 
-/// Walks over the groups of a DXF: a code on one line, its value on the next. It keeps a view: the
-/// text must outlive it.
+/// Iterates over the groups of a DXF: a code on one line, its value on the next. Holds a view of
+/// the text, which must outlive it.
 ///
 /// errors   Error(Input) that names the file and the line
 class DxfGroups {
  public:
   DxfGroups(std::filesystem::path path, std::string_view text);
 
-  /// Goes to the next group; false at the end of the text. Comments are passed over.
+  /// Advances to the next group, skipping comments; false at the end of the text.
   bool next();
   [[nodiscard]] int code() const { return code_; }
-  /// Without the blanks around it.
+  /// The value without surrounding white space.
   [[nodiscard]] std::string_view value() const { return value_; }
   [[nodiscard]] bool is(int code, std::string_view value) const {
     return code_ == code && value_ == value;

@@ -12,8 +12,7 @@
 
 namespace frangia {
 
-/// Gathers small pieces of text or binary into large writes to a file that appears when it is
-/// whole.
+/// Buffers small pieces of text or binary data for an AtomicFile.
 ///
 /// errors   as AtomicFile
 class FileWriter {
@@ -24,13 +23,13 @@ class FileWriter {
     buffer_.append(piece);
     if (buffer_.size() >= kBlock) flush();
   }
-  /// The shortest digits that read back as the same number.
+  /// Writes the shortest digits that read back to the same number.
   void number(float value);
   void number(std::size_t value);
-  /// A line: a keyword and three numbers.
+  /// Writes a line of a keyword and three numbers.
   void line(std::string_view keyword, const Eigen::Vector3f& vector);
 
-  /// The bytes of a number, lowest first.
+  /// Writes a number in little-endian byte order.
   template <typename Number>
   void binary(Number value) {
     static_assert(std::is_arithmetic_v<Number> && std::endian::native == std::endian::little);

@@ -7,26 +7,27 @@
 
 namespace frangia {
 
-/// A glTF 2.0 file, .glb or .gltf with its buffers inside it or beside it: the triangles of the
-/// scene, each placed by its nodes.
+/// Reads the triangles of a glTF 2.0 scene, each transformed by its nodes: a .glb, or a .gltf with
+/// its buffers embedded or in files beside it.
 ///
-/// shape    normals are kept when every part has them, and _SIGMA_MM, _VIEWS and _MARK, which
-///          write_gltf writes; marks of triangles come back from the names of its materials
-/// units    m with y up become mm with z up
-/// missing  points, lines, skins and morphs are left out; `run` is warned of what was
-/// errors   Error(Input) that names the file and what is wrong with it: JSON that is none, lengths
-///          and counts that the file has no room for, a vertex that is not there, a node that is
-///          its own child, buffers elsewhere, sparse or compressed data, triangle strips
+/// shape    normals are read when every primitive has them, and the attributes _SIGMA_MM, _VIEWS
+///          and _MARK that write_gltf writes; marks of triangles follow from the names of materials
+/// units    metres with y up are converted to mm with z up
+/// missing  points, lines, skins and morph targets are skipped; points and lines with a warning
+///          through `run`
+/// errors   Error(Input) that names the file and the fault: invalid JSON, lengths and counts larger
+///          than the file, a vertex index out of range, a cycle of nodes, a buffer elsewhere,
+///          sparse or compressed data, triangle strips
 /// source   Khronos Group, glTF 2.0 specification
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& path, const Run& run = {});
 
-/// One node with the mesh; .glb binary, .gltf as text with the buffer inside. Triangles are parted
-/// by mark into materials "measured", "moved" (yellow) and "invented" (red).
+/// Writes one node with the mesh: .glb in binary, .gltf as JSON with the buffer embedded. There is
+/// one primitive per mark, with material "measured", "displaced" (yellow) or "synthesized" (red).
 ///
-/// units    m: coordinates are kept in mm, and the node scales them and turns z up to y up
+/// units    coordinates are stored in mm; the node scales them to metres and turns z up to y up
 /// missing  nothing: _SIGMA_MM, _VIEWS and _MARK are attributes of vertices
-/// errors   Error(Input) when the mesh is not whole, has no triangle, or is larger than the 4 GB
-///          that the format holds; Error(File) when it cannot be written
+/// errors   Error(Input) when check_mesh fails, when the mesh has no triangle, or when it exceeds
+///          the 4 GB of the format; Error(File) when the file cannot be written
 void write_gltf(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace frangia

@@ -28,7 +28,7 @@ std::pair<std::string_view, std::string_view> chunks_of(const GltfDocument& docu
                                                         std::string_view bytes) {
   constexpr std::size_t kHeader = 12;
   if (bytes.size() < kHeader + 8 || u32_at(bytes, 4) != 2) {
-    document.fail("it is no glTF of version 2, or was cut short");
+    document.fail("it is not glTF 2.0, or it is truncated; export it again");
   }
   std::string_view text;
   std::string_view binary;
@@ -36,10 +36,10 @@ std::pair<std::string_view, std::string_view> chunks_of(const GltfDocument& docu
     const std::size_t length = u32_at(bytes, place);
     const std::string_view kind = bytes.substr(place + 4, 4);
     if (length > bytes.size() - place - 8) {
-      document.fail(
-          fmt::format("a chunk of {} bytes is promised where {} are left; the file was cut short",
-                      length,
-                      bytes.size() - place - 8));
+      document.fail(fmt::format(
+          "a chunk of {} bytes exceeds the {} bytes that are left; the file is truncated",
+          length,
+          bytes.size() - place - 8));
     }
     const std::string_view chunk = bytes.substr(place + 8, length);
     if (kind == "JSON" && text.empty()) text = chunk;
@@ -55,7 +55,7 @@ std::string outside_buffer(const GltfDocument& document, const std::string& uri)
                       uri.find(':') == std::string::npos && uri.find('%') == std::string::npos;
   if (!beside) {
     document.fail(
-        fmt::format("its buffer {} is not a file beside it; export it as .glb", in_quotes(uri)));
+        fmt::format("its buffer {} is not in a file beside it; export it as .glb", in_quotes(uri)));
   }
   return read_bytes(document.path.parent_path() / name);
 }
@@ -70,17 +70,15 @@ std::string buffer_of(const GltfDocument& document, const json& buffer, std::str
     const std::size_t comma = uri.find(";base64,");
     if (uri.starts_with("data:") && comma != std::string::npos) {
       auto decoded = decode_base64(std::string_view(uri).substr(comma + 8));
-      if (!decoded) document.fail("a buffer in it is not base64");
+      if (!decoded) document.fail("an embedded buffer is not base64; export it again");
       bytes = std::move(*decoded);
     } else {
       bytes = outside_buffer(document, uri);
     }
   }
   if (length > bytes.size()) {
-    document.fail(
-        fmt::format("a buffer of {} bytes is promised, and {} are there; it was cut short",
-                    length,
-                    bytes.size()));
+    document.fail(fmt::format(
+        "a buffer of {} bytes holds only {}; the file is truncated", length, bytes.size()));
   }
   bytes.resize(length);
   return bytes;
@@ -126,7 +124,7 @@ double component_at(const std::string& bytes, std::size_t place, std::uint64_t t
   }
 }
 
-/// How large an integer must be to stand for 1, when they are normalized.
+/// The integer that stands for 1 in normalized components.
 double full_scale(std::uint64_t type) {
   switch (type) {
     case 5120:
@@ -151,7 +149,8 @@ void GltfDocument::fail(const std::string& why) const {
 const json& GltfDocument::item(const char* list, std::uint64_t index) const {
   const auto found = json.find(list);
   if (found == json.end() || !found->is_array() || index >= found->size()) {
-    fail(fmt::format("it refers to number {} of its {}, which is not there", index, list));
+    fail(fmt::format(
+        "it refers to element {} of its {}, which does not exist; export it again", index, list));
   }
   return (*found)[index];
 }
@@ -159,17 +158,18 @@ const json& GltfDocument::item(const char* list, std::uint64_t index) const {
 std::vector<double> GltfDocument::numbers(std::uint64_t accessor, std::size_t width) const {
   const nlohmann::json& a = item("accessors", accessor);
   if (a.contains("sparse") || !a.contains("bufferView")) {
-    fail("sparse or compressed data is not read; export it without");
+    fail("sparse and compressed data are not supported; export it without them");
   }
   const auto type = a.at("componentType").get<std::uint64_t>();
   const std::size_t size = bytes_of_component(type);
   const auto count = a.at("count").get<std::uint64_t>();
   const std::string shape = a.at("type").get<std::string>();
   const std::size_t has = shape == "SCALAR" ? 1 : shape == "VEC3" ? 3 : 0;
-  if (size == 0 || has != width) fail(fmt::format("accessor {} is of another kind", accessor));
+  if (size == 0 || has != width)
+    fail(fmt::format("accessor {} has the wrong type; export it again", accessor));
   const nlohmann::json& view = item("bufferViews", a.at("bufferView").get<std::uint64_t>());
   const auto buffer = view.at("buffer").get<std::uint64_t>();
-  if (buffer >= buffers.size()) fail("it refers to a buffer that is not there");
+  if (buffer >= buffers.size()) fail("it refers to a buffer that does not exist; export it again");
   const std::string& bytes = buffers[buffer];
   const auto begin = view.value("byteOffset", std::uint64_t{0});
   const auto length = view.at("byteLength").get<std::uint64_t>();
@@ -180,8 +180,8 @@ std::vector<double> GltfDocument::numbers(std::uint64_t accessor, std::size_t wi
                     count <= (length - offset + stride - size * width) / stride;
   if (!fits) {
     fail(
-        fmt::format("{} elements are promised beyond the end of their buffer; the file was cut "
-                    "short or its counts are wrong",
+        fmt::format("{} elements exceed their buffer; the file is truncated or its "
+                    "counts are wrong",
                     count));
   }
   const double unit = a.value("normalized", false) ? full_scale(type) : 1.0;
@@ -201,7 +201,7 @@ GltfDocument read_gltf_document(const std::filesystem::path& path) {
   std::string_view binary;
   if (text.starts_with("glTF")) std::tie(text, binary) = chunks_of(document, bytes);
   document.json = nlohmann::json::parse(text, nullptr, false);
-  if (!document.json.is_object()) document.fail("its JSON is damaged; export it again");
+  if (!document.json.is_object()) document.fail("its JSON is invalid; export it again");
   if (const auto found = document.json.find("buffers"); found != document.json.end()) {
     for (const auto& buffer : *found)
       document.buffers.push_back(buffer_of(document, buffer, binary));

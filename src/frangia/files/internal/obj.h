@@ -6,24 +6,25 @@
 
 namespace frangia {
 
-/// A Wavefront OBJ file: v, vn and f, with corners written a, a/b, a//c or a/b/c, also counted back
-/// from the end. Groups named moved and invented mark their triangles. Everything else is skipped.
+/// Reads a Wavefront OBJ file: v, vn and f with corners as a, a/b, a//c or a/b/c, including
+/// negative (relative) indices. Triangles of groups named displaced and synthesized get that mark.
+/// Other lines are skipped.
 ///
-/// shape    polygons become fans of triangles. Normals are kept when there is one a vertex, in the
-///          vertices' order, and dropped otherwise (an OBJ may give one vertex many).
-/// units    as in the file, taken for mm
-/// errors   Error(Input) that names the file and the line or triangle: a number that is none, a
-///          face with fewer than three corners or of a vertex that is not there, a vertex that is
-///          not finite
+/// shape    polygons become fans of triangles; normals are read only when every corner uses the
+///          normal with the index of its vertex, since an OBJ may give one vertex several
+/// units    as in the file, assumed to be mm
+/// errors   Error(Input) that names the file and the line or triangle: an invalid number, a face
+///          with fewer than three corners, a vertex index out of range, a coordinate that is not
+///          finite
 /// source   Wavefront, Advanced Visualizer manual, appendix B1
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& path);
 
-/// The shortest digits that read back as the same numbers; normals when the mesh has them;
-/// triangles in groups named measured, moved and invented when it has marks.
+/// Writes vertices, normals and faces with the shortest digits that read back to the same numbers.
+/// A mesh with marks has its triangles in groups named measured, displaced and synthesized.
 ///
 /// units    mm
-/// missing  sigma_mm and views have no place in an OBJ
-/// errors   Error(Input) when the mesh is not whole; Error(File) when it cannot be written
+/// missing  sigma and views are not stored
+/// errors   Error(Input) when check_mesh fails; Error(File) when the file cannot be written
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace frangia

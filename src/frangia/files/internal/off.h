@@ -6,23 +6,23 @@
 
 namespace frangia {
 
-/// An OFF file, text: OFF, COFF, NOFF and their like.
+/// Reads a text OFF file: OFF, COFF, NOFF, STOFF and their combinations.
 ///
-/// shape    polygons become fans of triangles; colours, normals and texture places are skipped
-/// units    as in the file, taken for mm
-/// errors   Error(Input) that names the file and the line: counts that the file has no room for, a
-///          face with fewer than three corners or of a vertex that is not there, a vertex that is
-///          not finite, the binary form
+/// shape    polygons become fans of triangles; colours, normals and texture coordinates are skipped
+/// units    as in the file, assumed to be mm
+/// errors   Error(Input) that names the file and the line: counts larger than the file can hold, a
+///          face with fewer than three corners, a vertex index out of range, a coordinate that is
+///          not finite, a binary OFF
 /// source   Geomview manual, OFF Files
 [[nodiscard]] Mesh read_off(const std::filesystem::path& path);
 
-/// The shortest digits that read back as the same numbers. Triangles that were moved are yellow,
-/// invented ones red.
+/// Writes vertices and faces with the shortest digits that read back to the same numbers. Displaced
+/// triangles are yellow, synthesized ones red.
 ///
 /// units    mm
-/// missing  normals, sigma_mm and views have no place
-/// errors   Error(Input) when the mesh is not whole or has no triangle; Error(File) when it cannot
-///          be written
+/// missing  normals, sigma and views are not stored
+/// errors   Error(Input) when check_mesh fails or the mesh has no triangle; Error(File) when the
+///          file cannot be written
 void write_off(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace frangia

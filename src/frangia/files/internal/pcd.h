@@ -7,24 +7,24 @@
 
 namespace frangia {
 
-/// A cloud of the Point Cloud Library, ascii or binary.
+/// Reads a point cloud of the Point Cloud Library, ascii or binary.
 ///
-/// shape    points without triangles. Kept: x y z, normal_x normal_y normal_z when all are there,
-///          sigma_mm; other fields are skipped
-/// units    as in the file, taken for mm
-/// missing  points that are not finite, which an organised cloud has where nothing was seen, are
-///          left out; `run` is told how many
-/// errors   Error(Input) that names the file and what is wrong: no x y z, counts that the file has
-///          no room for, cut short, the compressed form
+/// shape    points without triangles; the fields read are x y z, normal_x normal_y normal_z when
+///          all three exist, and sigma_mm
+/// units    as in the file, assumed to be mm
+/// missing  points that are not finite, which an organized cloud has at unmeasured pixels, are
+///          omitted; `run` gets their number
+/// errors   Error(Input) that names the file and the fault: no x y z, counts larger than the file
+///          can hold, truncated, compressed data
 /// source   PCL, The PCD file format 0.7
 [[nodiscard]] Mesh read_pcd(const std::filesystem::path& path, const Run& run = {});
 
-/// Binary: x y z, normals and sigma_mm when the mesh has them, all float; views and mark as
-/// unsigned integers.
+/// Writes a binary cloud: x y z, then normals and sigma_mm where the mesh has them (all float),
+/// views and mark as unsigned integers.
 ///
 /// units    mm
-/// missing  triangles have no place
-/// errors   Error(Input) when the mesh is not whole; Error(File) when it cannot be written
+/// missing  triangles are not stored
+/// errors   Error(Input) when check_mesh fails; Error(File) when the file cannot be written
 void write_pcd(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace frangia

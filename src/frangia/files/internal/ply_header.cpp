@@ -34,7 +34,8 @@ PlyType read_type(TextReader& reader) {
   const std::string_view word = reader.word_on_line();
   const auto* const found = std::find_if(
       kTypes.begin(), kTypes.end(), [&](const auto& entry) { return entry.first == word; });
-  if (found == kTypes.end()) reader.fail(fmt::format("{} is no type of number", in_quotes(word)));
+  if (found == kTypes.end())
+    reader.fail(fmt::format("{} is not a number type of PLY", in_quotes(word)));
   return found->second;
 }
 
@@ -43,8 +44,9 @@ PlyFormat read_format(TextReader& reader) {
   if (word == "ascii") return PlyFormat::Ascii;
   if (word == "binary_little_endian") return PlyFormat::LittleEndian;
   if (word != "binary_big_endian") {
-    reader.fail(fmt::format("the format {} is not ascii, binary_little_endian or binary_big_endian",
-                            in_quotes(word)));
+    reader.fail(
+        fmt::format("the format is {}; it must be ascii, binary_little_endian or binary_big_endian",
+                    in_quotes(word)));
   }
   return PlyFormat::BigEndian;
 }
@@ -53,7 +55,8 @@ PlyElement read_element(TextReader& reader) {
   PlyElement element;
   element.name = reader.word_on_line();
   const std::int64_t count = reader.integer();
-  if (count < 0) reader.fail(fmt::format("{} is no count of {}", count, in_quotes(element.name)));
+  if (count < 0)
+    reader.fail(fmt::format("{} is not a valid count of {}", count, in_quotes(element.name)));
   element.count = static_cast<std::uint64_t>(count);
   return element;
 }
@@ -79,7 +82,8 @@ std::size_t bytes_of(PlyType type) {
 
 PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view bytes) {
   TextReader reader(path, bytes);
-  if (reader.word_on_line() != "ply") reader.fail("a PLY file begins with the word ply");
+  if (reader.word_on_line() != "ply")
+    reader.fail("not a PLY file: it does not begin with the word ply");
   PlyHeader header;
   bool has_format = false;
   for (;;) {
@@ -94,10 +98,10 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view b
     } else if (keyword == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(read_property(reader));
     } else if (keyword != "comment" && keyword != "obj_info") {
-      reader.fail(fmt::format("{} is not a line of a PLY header", in_quotes(keyword)));
+      reader.fail(fmt::format("{} is not a keyword of a PLY header", in_quotes(keyword)));
     }
   }
-  if (!has_format) reader.fail("the header names no format");
+  if (!has_format) reader.fail("the header states no format");
   reader.skip_line();
   header.body = reader.position();
   return header;

@@ -15,8 +15,8 @@ enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::Float32;    ///< of the value, or of each value of a list
-  std::optional<PlyType> count_type;  ///< of a list's length; nothing for a single value
+  PlyType type = PlyType::Float32;    ///< of the value, or of the elements of a list
+  std::optional<PlyType> count_type;  ///< of the length of a list; empty for a single value
 };
 
 struct PlyElement {
@@ -28,14 +28,15 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;
-  std::size_t body = 0;  ///< where the first element begins in the file
+  std::size_t body = 0;  ///< offset of the first element in the file, bytes
 };
 
-/// What the first lines of a PLY file say of the rest.
+/// Parses the header of a PLY file.
 ///
 /// errors   Error(Input) that names the file and the line
 [[nodiscard]] PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view bytes);
 
+/// Size of a number, bytes.
 [[nodiscard]] std::size_t bytes_of(PlyType type);
 
 }  // namespace frangia

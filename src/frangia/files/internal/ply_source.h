@@ -17,7 +17,7 @@
 
 namespace frangia {
 
-/// The values of an ascii PLY, in order.
+/// Reads the values of an ascii PLY in order.
 class AsciiPlySource {
  public:
   AsciiPlySource(const std::filesystem::path& path, std::string_view bytes, std::size_t body)
@@ -30,8 +30,8 @@ class AsciiPlySource {
     const bool real = type == PlyType::Float32 || type == PlyType::Float64;
     return real ? reader_.real() : static_cast<double>(reader_.integer());
   }
-  /// How many elements of so many values can still follow: each takes a digit and a blank, but the
-  /// file's last blank may be missing.
+  /// Upper bound on the number of further elements: each value takes at least a digit and a
+  /// separator, and the last separator may be missing.
   [[nodiscard]] std::uint64_t max_count(const PlyElement& element) const {
     return (reader_.bytes_left() + 1) / (2 * element.properties.size());
   }
@@ -41,7 +41,7 @@ class AsciiPlySource {
   TextReader reader_;
 };
 
-/// The values of a binary PLY, in order.
+/// Reads the values of a binary PLY in order.
 class BinaryPlySource {
  public:
   BinaryPlySource(std::filesystem::path path, std::string_view body, PlyFormat format)
@@ -84,7 +84,7 @@ class BinaryPlySource {
   template <typename Number>
   Number read_value() {
     std::array<char, sizeof(Number)> bytes{};
-    if (left_.size() < bytes.size()) fail("the file ends too early; it was cut short");
+    if (left_.size() < bytes.size()) fail("the file is truncated");
     std::memcpy(bytes.data(), left_.data(), bytes.size());
     left_.remove_prefix(bytes.size());
     if (swapped_) std::reverse(bytes.begin(), bytes.end());

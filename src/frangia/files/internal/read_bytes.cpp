@@ -15,12 +15,14 @@ std::string read_bytes(const std::filesystem::path& path) {
   };
   std::error_code error;
   if (!std::filesystem::exists(path, error)) fail("there is no such file; check its name");
-  if (!std::filesystem::is_regular_file(path, error)) fail("this is not a file; name one");
+  if (!std::filesystem::is_regular_file(path, error))
+    fail("this is not a regular file; name a file");
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail("it cannot be opened; check the right to read it");
+  if (!stream) fail("it cannot be opened; check its read permission");
   std::string bytes(static_cast<std::size_t>(std::filesystem::file_size(path)), '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) fail("it cannot be read to its end; the disk is failing or the file is changing");
+  if (!stream)
+    fail("it cannot be read completely; check the disk, and whether another program is writing it");
   return bytes;
 }
 

@@ -5,9 +5,9 @@
 
 namespace frangia {
 
-/// The whole of a file, as it is on the disk.
+/// Reads a whole file.
 ///
-/// errors   Error(Input) that names the file: missing, a folder, not readable
+/// errors   Error(Input) that names the file: it does not exist, is a folder, or cannot be read
 [[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
 
 }  // namespace frangia

@@ -12,6 +12,7 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/gltf_document.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -26,7 +27,7 @@ Eigen::Affine3d transform_of(const GltfDocument& document, const json& node) {
     if (!node.contains(key)) return usual;
     auto found = node.at(key).get<std::vector<double>>();
     if (found.size() != usual.size())
-      document.fail(fmt::format("the {} of a node is damaged", key));
+      document.fail(fmt::format("the {} of a node has the wrong length; export it again", key));
     return found;
   };
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
@@ -58,7 +59,7 @@ class GltfReader {
   GltfReader(const GltfDocument& document, const Run& run) : document_(document), run_(run) {}
 
   Mesh read() {
-    // m with y up become mm with z up.
+    // Metres with y up to mm with z up.
     Eigen::Affine3d mm_from_scene = Eigen::Affine3d::Identity();
     mm_from_scene.linear() << 1000, 0, 0, 0, 0, -1000, 0, 1000, 0;
     const json& all = document_.json;
@@ -76,22 +77,26 @@ class GltfReader {
         if (!children.contains(node)) visit(node, mm_from_scene);
     }
     if (skipped_ > 0) {
-      run_.warn(fmt::format("{}: left out {} sets of points or lines, which are no triangles",
+      run_.warn(fmt::format("{}: skipped {} primitive{} of points or lines",
                             document_.path.string(),
-                            skipped_));
+                            skipped_,
+                            skipped_ == 1 ? "" : "s"));
     }
-    if (mesh_.empty()) document_.fail("there is no triangle in its scene");
+    if (mesh_.empty()) document_.fail("its scene has no triangle");
     if (!all_have_normals_) mesh_.normals.clear();
     return std::move(mesh_);
   }
 
  private:
-  /// A tree by its definition: whoever comes twice is no tree. Depth is kept small for the stack.
+  /// glTF requires a strict tree, so a node that is visited twice is an error. The depth is limited
+  /// because the traversal is recursive.
   void visit(std::uint64_t number, const Eigen::Affine3d& parent, int depth = 0) {
-    constexpr int kDeepest = 256;
+    constexpr int kMaxDepth = 256;
     const json& node = document_.item("nodes", number);
-    if (!seen_.insert(number).second || depth > kDeepest) {
-      document_.fail("a node has two parents, is its own child or lies too deep");
+    if (!seen_.insert(number).second || depth > kMaxDepth) {
+      document_.fail(
+          "a node has two parents, is its own descendant, or is nested too deeply; export it "
+          "again");
     }
     const Eigen::Affine3d mm_from_node = parent * transform_of(document_, node);
     if (node.contains("mesh")) {
@@ -102,7 +107,7 @@ class GltfReader {
       visit(child, mm_from_node, depth + 1);
   }
 
-  /// Primitives that share their vertices become one part.
+  /// Adds the primitives of a mesh. Consecutive primitives with the same attributes share vertices.
   void add_primitives(const json& mesh, const Eigen::Affine3d& mm_from_node) {
     Mesh part;
     json attributes;
@@ -112,7 +117,8 @@ class GltfReader {
         ++skipped_;
         continue;
       }
-      if (mode > kTriangles) document_.fail("triangle strips are not read; export it as triangles");
+      if (mode > kTriangles)
+        document_.fail("triangle strips and fans are not supported; export it as triangles");
       if (primitive.contains("extensions") &&
           primitive.at("extensions").contains("KHR_draco_mesh_compression")) {
         document_.fail("it is compressed (Draco); export it without compression");
@@ -137,7 +143,8 @@ class GltfReader {
       if (attributes.contains(name)) {
         found = document_.numbers(attributes.at(name).get<std::uint64_t>(), width);
         if (found.size() != width * count) {
-          document_.fail(fmt::format("there is not one {} a vertex", name));
+          document_.fail(
+              fmt::format("its {} values are not one per vertex; export it again", name));
         }
       }
       return found;
@@ -162,10 +169,7 @@ class GltfReader {
     if (!primitive.contains("material")) return Mark::Measured;
     const json& material =
         document_.item("materials", primitive.at("material").get<std::uint64_t>());
-    const std::string name = material.value("name", "");
-    return name == "moved"      ? Mark::Displaced
-           : name == "invented" ? Mark::Synthesized
-                                : Mark::Measured;
+    return mark_of_name(material.value("name", ""));
   }
 
   void add_triangles(Mesh& part, const json& primitive) const {
@@ -177,7 +181,8 @@ class GltfReader {
       for (std::size_t i = 0; i < count; ++i)
         corners.push_back(static_cast<double>(i));
     }
-    if (corners.size() % 3 != 0) document_.fail("its last triangle lacks a corner");
+    if (corners.size() % 3 != 0)
+      document_.fail("the number of its indices is not a multiple of three; export it again");
     const Mark mark = mark_of_material(primitive);
     for (std::size_t i = 0; i < corners.size(); i += 3) {
       Mesh::Triangle triangle{};
@@ -185,7 +190,9 @@ class GltfReader {
         const double corner = corners[i + k];
         if (!(corner >= 0.0 && corner < static_cast<double>(count))) {
           document_.fail(fmt::format(
-              "a triangle refers to vertex {}, counted from 0, of only {}", corner, count));
+              "a triangle refers to vertex {}, counted from 0, of only {}; export it again",
+              corner,
+              count));
         }
         triangle.at(k) = static_cast<std::uint32_t>(corner);
       }
@@ -212,7 +219,7 @@ Mesh read_gltf(const std::filesystem::path& path, const Run& run) {
   } catch (const json::exception& error) {
     throw Error(
         ErrorKind::Input,
-        fmt::format("{}: it is no valid glTF ({}); export it again", path.string(), error.what()));
+        fmt::format("{}: it is not valid glTF ({}); export it again", path.string(), error.what()));
   }
 }
 

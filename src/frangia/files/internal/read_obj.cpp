@@ -10,6 +10,7 @@
 #include "frangia/core/error.h"
 #include "frangia/files/internal/add_polygon.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
@@ -28,18 +29,18 @@ Eigen::Vector3f read_vector(TextReader& reader) {
   return vector;
 }
 
-/// An index of the file, which counts from 1, or from -1 back from the last one so far.
+/// Converts an index of the file: from 1, or negative, relative to the last element so far.
 std::uint32_t read_index(const TextReader& reader, std::string_view word, std::size_t so_far) {
   const std::optional<std::int64_t> number = parse_integer(word);
   const auto count = static_cast<std::int64_t>(so_far);
   const std::int64_t index = number.value_or(0) < 0 ? count + *number : number.value_or(0) - 1;
   if (!number || index < 0 || index > std::numeric_limits<std::uint32_t>::max()) {
-    reader.fail(fmt::format("{} is not the number of a vertex or normal", in_quotes(word)));
+    reader.fail(fmt::format("{} is not the index of a vertex or normal", in_quotes(word)));
   }
   return static_cast<std::uint32_t>(index);
 }
 
-/// What follows the second slash of a/b/c or a//c; empty when nothing does.
+/// The text after the second slash of a/b/c or a//c; empty without one.
 std::string_view normal_of(std::string_view corner) {
   const std::size_t slash = corner.find('/');
   if (slash == std::string_view::npos) return {};
@@ -61,10 +62,7 @@ class ObjReader {
       } else if (keyword == "f") {
         read_face();
       } else if (keyword == "g") {
-        const std::string_view name = reader_.word_on_line();
-        mark_ = name == "moved"      ? Mark::Displaced
-                : name == "invented" ? Mark::Synthesized
-                                     : Mark::Measured;
+        mark_ = mark_of_name(reader_.word_on_line());
       }
     }
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {
@@ -84,10 +82,12 @@ class ObjReader {
                              read_index(reader_, normal, mesh_.normals.size()) == corners_.back();
     }
     if (corners_.size() < 3) {
-      reader_.fail(fmt::format("a face has {} corners; it needs three", corners_.size()));
+      reader_.fail(fmt::format("a face has {} corner{}; it needs three",
+                               corners_.size(),
+                               corners_.size() == 1 ? "" : "s"));
     }
     add_polygon(mesh_, corners_);
-    if (mark_ != Mark::Measured) {  // those before are measured
+    if (mark_ != Mark::Measured) {  // earlier triangles are measured
       mesh_.triangle_marks.resize(mesh_.triangles.size() - (corners_.size() - 2), Mark::Measured);
       mesh_.triangle_marks.resize(mesh_.triangles.size(), mark_);
     } else if (!mesh_.triangle_marks.empty()) {
@@ -109,7 +109,7 @@ Mesh read_obj(const std::filesystem::path& path) {
   Mesh mesh = ObjReader(path, text).read();
   if (mesh.vertices_mm.empty()) {
     throw Error(ErrorKind::Input,
-                fmt::format("{}: no vertex is in it; it is empty, or no OBJ file", path.string()));
+                fmt::format("{}: it has no vertex; it is empty or not an OBJ file", path.string()));
   }
   check_mesh(mesh, path);
   return mesh;

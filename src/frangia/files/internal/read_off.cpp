@@ -21,13 +21,13 @@ class OffReader {
   Mesh read() {
     const std::string_view keyword = word();
     if (!keyword.ends_with("OFF") || keyword.find_first_of("4n") != std::string_view::npos) {
-      reader_.fail(fmt::format("{} stands where 'OFF' is due", in_quotes(keyword)));
+      reader_.fail(fmt::format("expected 'OFF', found {}", in_quotes(keyword)));
     }
     const std::string_view first = word();
-    if (first == "BINARY") reader_.fail("this is a binary OFF; save it as text");
+    if (first == "BINARY") reader_.fail("this is a binary OFF; save it as text (ASCII) OFF");
     const auto vertices = count_of(first, "vertices", kVertexBytes);
     const auto faces = count_of(word(), "faces", kFaceBytes);
-    reader_.skip_line();  // the count of edges, which nobody keeps right
+    reader_.skip_line();  // the number of edges, which writers often get wrong
     Mesh mesh;
     mesh.vertices_mm.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i)
@@ -39,7 +39,7 @@ class OffReader {
   }
 
  private:
-  static constexpr std::size_t kVertexBytes = 6;  // three digits and what parts them
+  static constexpr std::size_t kVertexBytes = 6;  // three digits and three separators
   static constexpr std::size_t kFaceBytes = 8;
 
   std::string_view word() {
@@ -54,50 +54,51 @@ class OffReader {
   std::size_t count_of(std::string_view number, const char* what, std::size_t bytes) {
     const auto count = parse_integer(number);
     if (!count || *count < 0) {
-      reader_.fail(fmt::format("{} is not the count of {}", in_quotes(number), what));
+      reader_.fail(fmt::format("{} is not a valid number of {}", in_quotes(number), what));
     }
-    const auto room = (reader_.bytes_left() + bytes) / bytes;
-    if (static_cast<std::uint64_t>(*count) > room) {
+    const auto max_count = (reader_.bytes_left() + bytes) / bytes;
+    if (static_cast<std::uint64_t>(*count) > max_count) {
       reader_.fail(
-          fmt::format("{} {} are promised, but the file has room for {} at most; it was "
-                      "cut short or its counts are wrong",
+          fmt::format("the header states {} {}, but the file can hold at most {}; it is "
+                      "truncated or its counts are wrong",
                       *count,
                       what,
-                      room));
+                      max_count));
     }
     return static_cast<std::size_t>(*count);
   }
 
   Eigen::Vector3f read_vertex() {
-    Eigen::Vector3f place;
-    for (float& coordinate : place) {
+    Eigen::Vector3f vertex;
+    for (float& coordinate : vertex) {
       const std::string_view found = word();
       const auto number = parse_float(found);
       if (!number) reader_.fail(fmt::format("{} is not a coordinate", in_quotes(found)));
       coordinate = *number;
     }
     reader_.skip_line();
-    return place;
+    return vertex;
   }
 
   void read_face(Mesh& mesh) {
     const std::string_view size = word();
     const auto count = parse_integer(size);
     if (!count || *count < 3) {
-      reader_.fail(fmt::format("a face has {} corners; it needs three", in_quotes(size)));
+      reader_.fail(fmt::format("the number of corners of a face is {}; it must be at least 3",
+                               in_quotes(size)));
     }
     corners_.clear();
     for (std::int64_t i = 0; i < *count; ++i) {
       const std::string_view found = reader_.word_on_line();
       const auto index = parse_integer(found);
       if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= mesh.vertices_mm.size()) {
-        reader_.fail(fmt::format("{} is not the number, counted from 0, of one of {} vertices",
+        reader_.fail(fmt::format("{} is not a vertex index from 0 to {}",
                                  in_quotes(found),
-                                 mesh.vertices_mm.size()));
+                                 static_cast<std::int64_t>(mesh.vertices_mm.size()) - 1));
       }
       corners_.push_back(static_cast<std::uint32_t>(*index));
     }
-    reader_.skip_line();  // a colour, or nothing
+    reader_.skip_line();  // an optional colour
     add_polygon(mesh, corners_);
   }
 

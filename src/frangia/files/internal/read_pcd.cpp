@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kKept{
     "x", "y", "z", "normal_x", "normal_y", "normal_z", "sigma_mm"};
-constexpr std::uint64_t kMostInField = 65'536;
+constexpr std::uint64_t kMaxFieldCount = 65'536;
 
 struct Field {
   std::string_view name;
@@ -44,7 +44,7 @@ class PcdReader {
   Mesh read(std::size_t& left_out) {
     read_header();
     if (slot_of("x") == kNone || slot_of("y") == kNone || slot_of("z") == kNone) {
-      reader_.fail("its points lack an x, y or z");
+      reader_.fail("its points have no x, y or z");
     }
     has_normals_ = slot_of("normal_x") != kNone && slot_of("normal_y") != kNone &&
                    slot_of("normal_z") != kNone;
@@ -94,7 +94,7 @@ class PcdReader {
       } else if (key == "DATA") {
         header_.data = reader_.word_on_line();
       } else if (key != "VERSION" && key != "VIEWPOINT" && !key.starts_with('#')) {
-        reader_.fail(fmt::format("{} is no line of a PCD's header", in_quotes(key)));
+        reader_.fail(fmt::format("{} is not a keyword of a PCD header", in_quotes(key)));
       }
       reader_.skip_line();
     }
@@ -118,7 +118,7 @@ class PcdReader {
   char letter() {
     const std::string_view word = reader_.word_on_line();
     if (word != "F" && word != "I" && word != "U") {
-      reader_.fail(fmt::format("{} is not the type of a field", in_quotes(word)));
+      reader_.fail(fmt::format("{} is not a field type; it must be F, I or U", in_quotes(word)));
     }
     return word[0];
   }
@@ -128,25 +128,28 @@ class PcdReader {
       reader_.fail("this PCD is compressed; save it as binary (pcl_convert_pcd_ascii_binary)");
     }
     if (header_.data != "ascii" && header_.data != "binary") {
-      reader_.fail(fmt::format("{} is not a kind of data", in_quotes(header_.data)));
+      reader_.fail(
+          fmt::format("the data is {}; it must be ascii or binary", in_quotes(header_.data)));
     }
     std::uint64_t bytes = 0;
     for (const Field& field : header_.fields) {
       const bool fits = field.type == 'F' ? field.bytes == 4 || field.bytes == 8
                                           : std::has_single_bit(field.bytes) && field.bytes <= 8;
-      if (!fits || field.count > kMostInField) {
-        reader_.fail(fmt::format(
-            "a field of {} x {} bytes of type {} cannot be", field.count, field.bytes, field.type));
+      if (!fits || field.count > kMaxFieldCount) {
+        reader_.fail(fmt::format("a field of {} x {} bytes of type {} is not valid PCD",
+                                 field.count,
+                                 field.bytes,
+                                 field.type));
       }
       bytes += field.count * (header_.data == "ascii" ? 2 : field.bytes);
     }
-    const std::uint64_t room = (reader_.bytes_left() + 1) / std::max<std::uint64_t>(bytes, 1);
-    if (header_.points > room) {
+    const std::uint64_t max_count = (reader_.bytes_left() + 1) / std::max<std::uint64_t>(bytes, 1);
+    if (header_.points > max_count) {
       reader_.fail(
-          fmt::format("{} points are promised, but the file has room for {} at most; it "
-                      "was cut short or its header is wrong",
+          fmt::format("the header states {} points, but the file can hold at most {}; it "
+                      "is truncated or its header is wrong",
                       header_.points,
-                      room));
+                      max_count));
     }
   }
 
@@ -168,12 +171,12 @@ class PcdReader {
           if (k == 0 && slots[f] < kept.size()) kept.at(slots[f]) = value;
         }
       }
-      const Eigen::Vector3f place(kept[0], kept[1], kept[2]);
-      if (!place.allFinite()) {
+      const Eigen::Vector3f point(kept[0], kept[1], kept[2]);
+      if (!point.allFinite()) {
         ++left_out;
         continue;
       }
-      mesh.vertices_mm.push_back(place);
+      mesh.vertices_mm.push_back(point);
       const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
       if (has_normals_) {
         mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
@@ -196,9 +199,9 @@ class PcdReader {
   }
 
   float binary(const Field& field, std::string_view& body) {
-    if (body.size() < field.bytes) reader_.fail("the file ends too early; it was cut short");
+    if (body.size() < field.bytes) reader_.fail("the file is truncated");
     if (field.type == 'F') return field.bytes == 4 ? take<float>(body) : take<double>(body);
-    body.remove_prefix(field.bytes);  // no integer field is kept
+    body.remove_prefix(field.bytes);  // no integer field is read
     return 0.0F;
   }
 
@@ -217,7 +220,10 @@ Mesh read_pcd(const std::filesystem::path& path, const Run& run) {
   Mesh mesh = PcdReader(path, text).read(left_out);
   check_mesh(mesh, path);
   if (left_out > 0) {
-    run.note(fmt::format("{}: {} points without a place were left out", path.string(), left_out));
+    run.note(fmt::format("{}: omitted {} point{} without finite coordinates",
+                         path.string(),
+                         left_out,
+                         left_out == 1 ? "" : "s"));
   }
   return mesh;
 }

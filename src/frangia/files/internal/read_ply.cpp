@@ -20,8 +20,8 @@ constexpr std::array<std::string_view, 9> kKeptOfVertices{
 constexpr std::size_t kViews = 7;
 constexpr std::size_t kMark = 8;
 
-/// For each property of a vertex its place in kKeptOfVertices; the size of kKeptOfVertices for one
-/// that is skipped.
+/// For each property of a vertex its index in kKeptOfVertices; for a skipped property the size of
+/// kKeptOfVertices.
 std::vector<std::size_t> slots_of(const PlyElement& element) {
   std::vector<std::size_t> slots;
   for (const PlyProperty& property : element.properties) {
@@ -47,7 +47,7 @@ template <typename Source>
 std::uint64_t list_length(Source& source, const PlyProperty& property) {
   const double length = source.value(property.count_type.value_or(PlyType::Uint8));
   if (!(length >= 0.0) || length != std::floor(length)) {
-    source.fail(fmt::format("a list '{}' of {} values cannot be", property.name, length));
+    source.fail(fmt::format("a list '{}' states {} values", property.name, length));
   }
   return static_cast<std::uint64_t>(length);
 }
@@ -59,7 +59,7 @@ void skip(Source& source, const PlyProperty& property) {
     static_cast<void>(source.value(property.type));
 }
 
-/// A mark of another program's making is taken for none.
+/// Other values come from other programs and count as measured.
 Mark mark_from(double value) {
   return value == 1.0 ? Mark::Displaced : value == 2.0 ? Mark::Synthesized : Mark::Measured;
 }
@@ -71,7 +71,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
   const bool has_sigma = has(slots, 6, 1);
   const bool has_views = has(slots, kViews, 1);
   const bool has_marks = has(slots, kMark, 1);
-  if (!has(slots, 0, 3)) source.fail("its vertices lack an x, y or z");
+  if (!has(slots, 0, 3)) source.fail("its vertices have no x, y or z");
   mesh.vertices_mm.reserve(element.count);
   std::array<float, kKeptOfVertices.size()> kept{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -98,13 +98,15 @@ void read_polygon(Source& source,
                   std::vector<std::uint32_t>& corners,
                   Mesh& mesh) {
   const std::uint64_t count = list_length(source, list);
-  if (count < 3) source.fail(fmt::format("a face has {} corners; it needs three", count));
+  if (count < 3)
+    source.fail(
+        fmt::format("a face has {} corner{}; it needs three", count, count == 1 ? "" : "s"));
   corners.clear();
   for (std::uint64_t i = 0; i < count; ++i) {
     const double index = source.value(list.type);
     if (!(index >= 0.0 && index <= std::numeric_limits<std::uint32_t>::max()) ||
         index != std::floor(index)) {
-      source.fail(fmt::format("a face refers to vertex {}, which cannot be", index));
+      source.fail(fmt::format("a face refers to vertex {}, which is not a valid index", index));
     }
     corners.push_back(static_cast<std::uint32_t>(index));
   }
@@ -146,14 +148,14 @@ Mesh read_elements(Source source, const PlyHeader& header) {
   Mesh mesh;
   bool has_vertices = false;
   for (const PlyElement& element : header.elements) {
-    if (element.properties.empty()) continue;  // nothing of it is in the file
-    if (const std::uint64_t room = source.max_count(element); element.count > room) {
+    if (element.properties.empty()) continue;  // it occupies no bytes
+    if (const std::uint64_t max_count = source.max_count(element); element.count > max_count) {
       source.fail(
-          fmt::format("the header promises {} of '{}', but the file has room for {} at most; "
-                      "it was cut short or its header is wrong",
+          fmt::format("the header states {} of '{}', but the file can hold at most {}; "
+                      "it is truncated or its header is wrong",
                       element.count,
                       element.name,
-                      room));
+                      max_count));
     }
     if (element.name == "vertex") {
       read_vertices(source, element, mesh);
@@ -161,7 +163,7 @@ Mesh read_elements(Source source, const PlyHeader& header) {
     } else if (element.name == "face") {
       read_faces(source, element, mesh);
     } else if (element.name == "tristrips") {
-      source.fail("triangle strips are not read; export it with faces");
+      source.fail("triangle strips are not supported; export it with faces");
     } else {
       for (std::uint64_t i = 0; i < element.count; ++i) {
         for (const PlyProperty& property : element.properties)
@@ -169,7 +171,7 @@ Mesh read_elements(Source source, const PlyHeader& header) {
       }
     }
   }
-  if (!has_vertices) source.fail("there is no element 'vertex' in it");
+  if (!has_vertices) source.fail("it has no element 'vertex'");
   return mesh;
 }
 

@@ -22,7 +22,7 @@ constexpr std::size_t kFacetBytes = 50;   // normal, three corners, two unused b
 
 using Corners = std::vector<Eigen::Vector3f>;
 
-std::size_t promised_bytes(std::string_view bytes) {
+std::size_t stated_bytes(std::string_view bytes) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + kHeaderBytes - sizeof count, sizeof count);
   return kHeaderBytes + kFacetBytes * std::size_t{count};
@@ -33,14 +33,14 @@ Corners binary_corners(std::string_view bytes) {
   corners.reserve(3 * (bytes.size() / kFacetBytes));
   for (std::size_t facet = kHeaderBytes; facet < bytes.size(); facet += kFacetBytes) {
     for (std::size_t corner = 1; corner <= 3; ++corner) {
-      Eigen::Vector3f& place = corners.emplace_back();
-      std::memcpy(place.data(), bytes.data() + facet + 12 * corner, 12);
+      Eigen::Vector3f& vertex = corners.emplace_back();
+      std::memcpy(vertex.data(), bytes.data() + facet + 12 * corner, 12);
     }
   }
   return corners;
 }
 
-/// Keywords are lower case in the specification and upper case in some programs.
+/// Compares without case: some programs write keywords in upper case.
 bool is(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == b;
@@ -50,7 +50,7 @@ bool is(std::string_view word, std::string_view keyword) {
 void expect(TextReader& reader, std::string_view keyword) {
   const std::string_view word = reader.word();
   if (!is(word, keyword)) {
-    reader.fail(fmt::format("{} stands where '{}' is due", in_quotes(word), keyword));
+    reader.fail(fmt::format("expected '{}', found {}", keyword, in_quotes(word)));
   }
 }
 
@@ -82,27 +82,28 @@ Corners ascii_corners(const std::filesystem::path& path, std::string_view text) 
       read_facet(reader, corners);
     } else if (is(word, open ? "endsolid" : "solid")) {
       open = !open;
-      reader.skip_line();  // a name, or nothing
+      reader.skip_line();  // an optional name
     } else {
       reader.fail(fmt::format(
-          "{} stands where '{}' is due", in_quotes(word), open ? "facet' or 'endsolid" : "solid"));
+          "expected '{}', found {}", open ? "facet' or 'endsolid" : "solid", in_quotes(word)));
     }
   }
 }
 
 Corners read_corners(const std::filesystem::path& path, std::string_view bytes) {
-  // Size first: many a binary file begins with "solid" too.
+  // The size decides first, since some binary files also begin with "solid".
   const bool has_header = bytes.size() >= kHeaderBytes;
-  if (has_header && promised_bytes(bytes) == bytes.size()) return binary_corners(bytes);
+  if (has_header && stated_bytes(bytes) == bytes.size()) return binary_corners(bytes);
   TextReader reader(path, bytes);
   const bool text = bytes.find('\0') == std::string_view::npos;
   if (text && is(reader.word(), "solid")) return ascii_corners(path, bytes);
-  throw Error(ErrorKind::Input,
-              fmt::format("{}: it is {} bytes long, where its header promises {}; it was cut short "
-                          "or is not an STL file",
-                          path.string(),
-                          bytes.size(),
-                          has_header ? promised_bytes(bytes) : kHeaderBytes));
+  throw Error(
+      ErrorKind::Input,
+      fmt::format("{}: it has {} bytes, but its header states {}; it is truncated or not an "
+                  "STL file",
+                  path.string(),
+                  bytes.size(),
+                  has_header ? stated_bytes(bytes) : kHeaderBytes));
 }
 
 }  // namespace

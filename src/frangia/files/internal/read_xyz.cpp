@@ -14,7 +14,7 @@
 namespace frangia {
 namespace {
 
-/// Rounded to two decimals at worst.
+/// Whether v is a unit vector, with tolerance for files with two decimals.
 bool is_unit(const Eigen::Vector3f& v) {
   return std::abs(v.norm() - 1.0F) < 0.02F || v.isZero();
 }
@@ -40,7 +40,9 @@ Mesh read_xyz(const std::filesystem::path& path) {
       ++count;
     }
     if (count == 0) continue;
-    if (count < 3) reader.fail(fmt::format("{} numbers; a point has three", count));
+    if (count < 3)
+      reader.fail(
+          fmt::format("it has {} number{}; a point needs three", count, count == 1 ? "" : "s"));
     mesh.vertices_mm.emplace_back(numbers[0], numbers[1], numbers[2]);
     const Eigen::Vector3f normal(numbers[3], numbers[4], numbers[5]);
     has_normals = has_normals && count == kWithNormals && is_unit(normal);

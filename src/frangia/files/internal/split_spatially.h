@@ -9,15 +9,15 @@
 
 namespace frangia {
 
-/// The triangles of a mesh in groups that lie together, none larger than `most` in triangles or in
-/// vertices. Each group is halved at the median of its longest side until it fits.
+/// Splits triangles of a mesh into spatially compact groups of at most `max_count` triangles and
+/// vertices, by recursive bisection at the median along the longest side.
 ///
 /// shape    `triangles` are indices into mesh.triangles; each is in exactly one group, ascending
-/// errors   Error(Input) when `most` is below 3, which no triangle fits
+/// errors   Error(Input) when `max_count` is below 3
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> split_spatially(
-    const Mesh& mesh, std::span<const std::uint32_t> triangles, std::size_t most);
+    const Mesh& mesh, std::span<const std::uint32_t> triangles, std::size_t max_count);
 
-/// The vertices of some triangles of a mesh, each once, in ascending order.
+/// The distinct vertices of triangles of a mesh, ascending.
 [[nodiscard]] std::vector<std::uint32_t> vertices_of(const Mesh& mesh,
                                                      std::span<const std::uint32_t> triangles);
 

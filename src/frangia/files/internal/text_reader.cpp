@@ -35,7 +35,7 @@ std::optional<float> parse_float(std::string_view word) {
   const std::errc error = parse(word, number);
   if (error == std::errc()) return number;
   if (error != std::errc::result_out_of_range) return std::nullopt;
-  double wide = 0.0;  // too small for a float is zero, too large is infinite
+  double wide = 0.0;  // underflow gives zero, overflow infinity
   return parse(word, wide) == std::errc() ? std::optional(static_cast<float>(wide)) : std::nullopt;
 }
 
@@ -88,16 +88,16 @@ void TextReader::fail(const std::string& why) const {
                           path_.string(),
                           line,
                           why,
-                          bytes_left() == 0 ? "; the file may be cut short" : ""));
+                          bytes_left() == 0 ? "; the file may be truncated" : ""));
 }
 
 std::string in_quotes(std::string_view word) {
-  constexpr std::size_t kLongest = 24;
+  constexpr std::size_t kMaxShown = 24;
   if (word.empty()) return "the end";
-  std::string shown(word.substr(0, kLongest));
+  std::string shown(word.substr(0, kMaxShown));
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return fmt::format("'{}{}'", shown, word.size() > kLongest ? "..." : "");
+  return fmt::format("'{}{}'", shown, word.size() > kMaxShown ? "..." : "");
 }
 
 }  // namespace frangia

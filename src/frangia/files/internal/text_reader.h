@@ -10,12 +10,11 @@
 
 namespace frangia {
 
-/// The number that a word is, in full; nothing when it is not one. Any spelling of infinity or NaN
-/// is a number here.
+/// Parses a whole word as a number; nothing when it is not one. Infinity and NaN are accepted.
 [[nodiscard]] std::optional<float> parse_float(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
 
-/// Walks over the words of a text file. It keeps a view: the text must outlive it.
+/// Iterates over the words of a text. Holds a view of the text, which must outlive it.
 ///
 /// errors   Error(Input) that names the file and the line
 class TextReader {
@@ -25,11 +24,11 @@ class TextReader {
 
   /// The next word, on this line or a later one; empty at the end of the text.
   [[nodiscard]] std::string_view word();
-  /// The next word of this line; empty at the line's end.
+  /// The next word of this line; empty at its end.
   [[nodiscard]] std::string_view word_on_line();
   void skip_line();
 
-  /// The next word, which must be this number.
+  /// The next word as a number; fails when it is not one.
   [[nodiscard]] float real();
   [[nodiscard]] std::int64_t integer();
 
@@ -43,7 +42,8 @@ class TextReader {
   std::size_t position_ = 0;
 };
 
-/// A word as an error may show it: short, in quotes, fit for a terminal; "the end" for no word.
+/// A word for a message: quoted, shortened, without control characters; "the end" for an empty
+/// word.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 
 }  // namespace frangia

@@ -7,27 +7,30 @@
 
 namespace frangia {
 
-/// A 3MF package: the meshes that its build names, each where its transforms put it.
+/// Reads the meshes that the build items of a 3MF package refer to, with their transforms.
 ///
-/// shape    marks of triangles come back from base materials named "moved" and "invented"
-/// units    turned into mm from the unit that the model states
-/// missing  supports and solids alike are surface here; textures, beams, slices and models in
-///          further files are left out; `run` is warned of further files
-/// errors   Error(Input) that names the file and what is wrong with it: no zip, damaged, XML that
-///          is none or declares entities, a number that is none, a vertex or an object that is not
-///          there, an object that is part of itself; one that unpacks to far too much
+/// shape    triangles with base materials named "displaced" and "synthesized" get those marks
+/// units    converted to mm from the unit of the model
+/// missing  objects of every type are read as surfaces; textures, beams and slices are skipped, as
+///          are models in further files of the package, with a warning through `run`
+/// errors   Error(Input) that names the file and the fault: not a zip archive, damaged, invalid
+///          XML, XML with entities, an invalid number, an index out of range, an object that does
+///          not exist or contains itself, an entry that expands to far more than a mesh
 /// source   3MF Consortium, 3D Manufacturing Format, Core Specification 1.3
 [[nodiscard]] Mesh read_3mf(const std::filesystem::path& path, const Run& run = {});
 
-/// One object of type "model" and one item that builds it; triangles of each mark in a base
-/// material named "measured", "moved" (yellow) or "invented" (red).
+/// Writes one object of type "model" and one build item; triangles of each mark have a base
+/// material named "measured", "displaced" (yellow) or "synthesized" (red).
 ///
-/// shape    triangles with two corners alike, which the format forbids, are left out; as an open or
-///          non-manifold mesh is no solid, such a one is written as type "surface"
+/// The specification wants a "model" to be closed, and offers "surface" for others. PrusaSlicer 2.5
+/// refuses a build item of type "surface" ("invalid object id") but loads and repairs an open
+/// "model". So an open mesh is written as "model", with a warning through `run`.
+///
+/// shape    triangles with two identical corners, which the format forbids, are omitted
 /// units    mm
-/// missing  normals, sigma_mm and views have no place
-/// errors   Error(Input) when the mesh is not whole or has no triangle; Error(File) when it cannot
-///          be written
-void write_3mf(const std::filesystem::path& path, const Mesh& mesh);
+/// missing  normals, sigma and views are not stored
+/// errors   Error(Input) when check_mesh fails or the mesh has no triangle; Error(File) when the
+///          file cannot be written
+void write_3mf(const std::filesystem::path& path, const Mesh& mesh, const Run& run = {});
 
 }  // namespace frangia

@@ -8,9 +8,9 @@
 namespace frangia {
 namespace {
 
-std::uint64_t hash_of(const Eigen::Vector3f& place) {
+std::uint64_t hash_of(const Eigen::Vector3f& position) {
   std::uint64_t hash = 0;
-  for (const float coordinate : place) {
+  for (const float coordinate : position) {
     const auto bits = std::bit_cast<std::uint32_t>(coordinate + 0.0F);  // -0 is 0
     hash = (hash ^ bits) * 0x9E3779B97F4A7C15U;
     hash ^= hash >> 29U;
@@ -18,19 +18,19 @@ std::uint64_t hash_of(const Eigen::Vector3f& place) {
   return hash;
 }
 
-/// Vertices by place, in an open-addressed table that is at most half full.
+/// Open-addressed hash table of vertices by position, at most half full.
 class VertexTable {
  public:
-  VertexTable(std::size_t most, std::vector<Eigen::Vector3f>& vertices)
-      : slots_(std::bit_ceil(2 * most + 1), kFree), vertices_(vertices) {}
+  VertexTable(std::size_t max_count, std::vector<Eigen::Vector3f>& vertices)
+      : slots_(std::bit_ceil(2 * max_count + 1), kFree), vertices_(vertices) {}
 
-  std::uint32_t index_of(const Eigen::Vector3f& place) {
-    std::size_t slot = hash_of(place) & (slots_.size() - 1);
-    while (slots_[slot] != kFree && vertices_[slots_[slot]] != place)
+  std::uint32_t index_of(const Eigen::Vector3f& position) {
+    std::size_t slot = hash_of(position) & (slots_.size() - 1);
+    while (slots_[slot] != kFree && vertices_[slots_[slot]] != position)
       slot = (slot + 1) & (slots_.size() - 1);
     if (slots_[slot] == kFree) {
       slots_[slot] = static_cast<std::uint32_t>(vertices_.size());
-      vertices_.push_back(place);
+      vertices_.push_back(position);
     }
     return slots_[slot];
   }
@@ -44,9 +44,9 @@ class VertexTable {
 }  // namespace
 
 Mesh weld_vertices(std::span<const Eigen::Vector3f> corners_mm) {
-  require(corners_mm.size() % 3 == 0, "weld_vertices: a triangle has three corners");
+  require(corners_mm.size() % 3 == 0, "the number of corners must be a multiple of three");
   require(corners_mm.size() < std::numeric_limits<std::uint32_t>::max(),
-          "weld_vertices: more than 4 billion corners; decimate the mesh first");
+          "the mesh has more than 4 billion corners; decimate it first");
   Mesh mesh;
   VertexTable table(corners_mm.size(), mesh.vertices_mm);
   mesh.triangles.reserve(corners_mm.size() / 3);

@@ -6,10 +6,11 @@
 
 namespace frangia {
 
-/// The mesh of loose triangles: corners at the very same place become one vertex.
+/// Merges corners with identical coordinates into shared vertices.
 ///
-/// shape    three corners a triangle; vertices are numbered as they first appear
-/// missing  a triangle with two corners at one place has no area and is left out
+/// shape    three corners per triangle; vertices are numbered in order of first appearance
+/// missing  a triangle with two identical corners is omitted
+/// errors   Error(Input) when the number of corners is not a multiple of three or exceeds 32 bits
 [[nodiscard]] Mesh weld_vertices(std::span<const Eigen::Vector3f> corners_mm);
 
 }  // namespace frangia

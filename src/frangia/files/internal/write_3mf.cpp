@@ -20,7 +20,7 @@ void write_number(ZipWriter& file, Number number) {
   file.text({digits.data(), static_cast<std::size_t>(end - digits.data())});
 }
 
-/// Decimals without a power of ten: readers differ on whether a coordinate may have one.
+/// Writes decimals without an exponent, which some readers do not accept.
 void write_real(ZipWriter& file, float number) {
   std::array<char, 64> digits{};
   const char* const end =
@@ -29,12 +29,13 @@ void write_real(ZipWriter& file, float number) {
   file.text({digits.data(), static_cast<std::size_t>(end - digits.data())});
 }
 
-/// Whether every edge is in two triangles that run alike: a solid, as the format wants of a model.
-bool is_solid(const Mesh& mesh) {
+/// Half-edges without exactly one opposite half-edge: 0 for a closed, manifold, oriented mesh.
+std::size_t count_open_edges(const Mesh& mesh) {
   const HalfEdges edges(mesh);
+  std::size_t count = 0;
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge)
-    if (!edges.has_twin(edge)) return false;
-  return true;
+    count += edges.has_twin(edge) ? 0U : 1U;
+  return count;
 }
 
 void write_vertices(ZipWriter& file, const Mesh& mesh) {
@@ -79,12 +80,12 @@ void write_model(ZipWriter& file, const Mesh& mesh) {
       " <resources>\n"
       "  <basematerials id=\"1\">\n"
       "   <base name=\"measured\" displaycolor=\"#C0C0C8\"/>\n"
-      "   <base name=\"moved\" displaycolor=\"#F0C828\"/>\n"
-      "   <base name=\"invented\" displaycolor=\"#DC2828\"/>\n"
+      "   <base name=\"displaced\" displaycolor=\"#F0C828\"/>\n"
+      "   <base name=\"synthesized\" displaycolor=\"#DC2828\"/>\n"
       "  </basematerials>\n");
-  file.text(fmt::format("  <object id=\"2\" type=\"{}\" name=\"scan\" pid=\"1\" pindex=\"0\">\n",
-                        is_solid(mesh) ? "model" : "surface"));
-  file.text("   <mesh>\n");
+  file.text(
+      "  <object id=\"2\" type=\"model\" name=\"scan\" pid=\"1\" pindex=\"0\">\n"
+      "   <mesh>\n");
   write_vertices(file, mesh);
   write_triangles(file, mesh);
   file.text(
@@ -99,7 +100,7 @@ void write_model(ZipWriter& file, const Mesh& mesh) {
 
 }  // namespace
 
-void write_3mf(const std::filesystem::path& path, const Mesh& mesh) {
+void write_3mf(const std::filesystem::path& path, const Mesh& mesh, const Run& run) {
   check_triangles(mesh, path);
   ZipWriter file(path);
   file.begin("[Content_Types].xml");
@@ -118,10 +119,18 @@ void write_3mf(const std::filesystem::path& path, const Mesh& mesh) {
       " <Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
       "</Relationships>\n");
-  constexpr std::uint64_t kMostLine = 128;  // bytes of a vertex or triangle
-  file.begin("3D/3dmodel.model", kMostLine * (mesh.vertices_mm.size() + mesh.triangles.size()));
+  constexpr std::uint64_t kMaxLine = 128;  // bytes of a vertex or triangle
+  file.begin("3D/3dmodel.model", kMaxLine * (mesh.vertices_mm.size() + mesh.triangles.size()));
   write_model(file, mesh);
   file.commit();
+  if (const std::size_t open = count_open_edges(mesh); open > 0) {
+    run.warn(fmt::format(
+        "{}: the mesh has {} open or non-manifold edge{}, but 3MF is meant for closed parts; set "
+        "`watertight` or `fill_holes` to close it before printing",
+        path.string(),
+        open,
+        open == 1 ? "" : "s"));
+  }
 }
 
 }  // namespace frangia

@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kMostInPolyface = 32'767;
+constexpr std::size_t kMaxInPolyface = 32'767;  // signed 16-bit indices
 
 void write_header(FileWriter& file, const DxfDrawing& drawing) {
   file.text("  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1009\n  9\n$EXTMIN\n");
@@ -55,7 +55,8 @@ void write_faces(FileWriter& file, const DxfDrawing& drawing, std::size_t layer)
     write_dxf_point(file, drawing.vertices[a], 0);
     write_dxf_point(file, drawing.vertices[b], 1);
     write_dxf_point(file, drawing.vertices[c], 2);
-    write_dxf_point(file, drawing.vertices[c], 3);  // a triangle is a face whose last corners meet
+    write_dxf_point(
+        file, drawing.vertices[c], 3);  // a 3DFACE has four corners; a triangle repeats the last
   }
 }
 
@@ -63,7 +64,7 @@ void write_polyfaces(FileWriter& file, const DxfDrawing& drawing, std::size_t la
   const std::string_view name = kDxfLayers.at(layer);
   const std::string vertex = fmt::format("  0\nVERTEX\n  8\n{}\n", name);
   std::vector<std::size_t> number_of(drawing.vertices.size());
-  const auto groups = split_spatially(*drawing.mesh, drawing.triangles.at(layer), kMostInPolyface);
+  const auto groups = split_spatially(*drawing.mesh, drawing.triangles.at(layer), kMaxInPolyface);
   for (const auto& group : groups) {
     const std::vector<std::uint32_t> vertices = vertices_of(*drawing.mesh, group);
     file.text(fmt::format("  0\nPOLYLINE\n  8\n{}\n 66\n1\n 10\n0.0\n 20\n0.0\n 30\n0.0\n 70\n64\n",

@@ -9,13 +9,13 @@
 namespace frangia {
 namespace {
 
-/// Every object of a release 2000 drawing has a number of its own.
+/// Issues the unique handles that every object of a release 2000 drawing needs.
 class Handles {
  public:
   std::string next() { return fmt::format("{:X}", ++last_); }
 
  private:
-  unsigned last_ = 0x20;  // those below are named here
+  unsigned last_ = 0x20;  // lower handles are assigned by name below
 };
 
 constexpr std::string_view kModelSpace = "1F";

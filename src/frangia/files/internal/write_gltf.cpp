@@ -12,6 +12,7 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/gltf.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/geometry/vertex_data.h"
 
@@ -24,11 +25,10 @@ constexpr int kFloat = 5126;
 constexpr int kUnsigned = 5125;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementBuffer = 34963;
-constexpr std::array kNames{"measured", "moved", "invented"};
 const std::array<std::array<double, 4>, 3> kColors{
     {{0.75, 0.75, 0.78, 1.0}, {0.94, 0.78, 0.16, 1.0}, {0.86, 0.16, 0.16, 1.0}}};
 
-/// Writes bytes as they are.
+/// Writes raw bytes.
 class PlainSink {
  public:
   explicit PlainSink(FileWriter& file) : file_(file) {}
@@ -42,7 +42,7 @@ class PlainSink {
   FileWriter& file_;
 };
 
-/// Writes bytes as base64, three at a time.
+/// Writes base64 in blocks of a multiple of three bytes.
 class Base64Sink {
  public:
   explicit Base64Sink(FileWriter& file) : file_(file) {}
@@ -64,7 +64,7 @@ class Base64Sink {
   std::string kept_;
 };
 
-/// What the file will hold, in the order of its bytes.
+/// The JSON of the file and the layout of its buffer.
 class Layout {
  public:
   Layout(const Mesh& mesh, const std::filesystem::path& path) : mesh_(mesh) {
@@ -73,11 +73,11 @@ class Layout {
       ++counts.at(static_cast<std::size_t>(mark_of(mesh, i)));
     describe_vertices();
     describe_triangles(counts);
-    constexpr std::uint64_t kMost = 0xFFFFFFFFU - 65'536U;
-    if (bytes_ > kMost) {
+    constexpr std::uint64_t kMaxBytes = 0xFFFFFFFFU - 65'536U;
+    if (bytes_ > kMaxBytes) {
       throw Error(ErrorKind::Input,
-                  fmt::format("{}: the mesh is larger than the 4 GB of a glTF; decimate it, or "
-                              "write a .ply",
+                  fmt::format("{}: the mesh exceeds the 4 GB that glTF can hold; decimate it or "
+                              "write .ply",
                               path.string()));
     }
   }
@@ -89,7 +89,7 @@ class Layout {
     gltf["asset"] = {{"version", "2.0"}, {"generator", "Frangia"}};
     gltf["scene"] = 0;
     gltf["scenes"] = {{{"nodes", {0}}}};
-    // mm with z up, stored; m with y up, shown.
+    // From the stored mm with z up to metres with y up.
     gltf["nodes"] = {{{"name", "scan"},
                       {"mesh", 0},
                       {"matrix", {0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1}}}};
@@ -111,7 +111,7 @@ class Layout {
       sink.number(static_cast<float>(views));
     for (const Mark mark : mesh_.vertex_marks)
       sink.number(static_cast<float>(mark));
-    for (std::size_t mark = 0; mark < kNames.size(); ++mark) {
+    for (std::size_t mark = 0; mark < kMarkNames.size(); ++mark) {
       for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         if (static_cast<std::size_t>(mark_of(mesh_, i)) != mark) continue;
         for (const std::uint32_t corner : mesh_.triangles[i])
@@ -151,7 +151,7 @@ class Layout {
                              {"indices", accessor(3 * counts.at(mark), kUnsigned, "SCALAR")},
                              {"material", materials_.size()},
                              {"mode", 4}});
-      materials_.push_back({{"name", kNames.at(mark)},
+      materials_.push_back({{"name", kMarkNames.at(mark)},
                             {"pbrMetallicRoughness",
                              {{"baseColorFactor", kColors.at(mark)},
                               {"metallicFactor", 0.0},

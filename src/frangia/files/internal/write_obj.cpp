@@ -1,8 +1,6 @@
-#include <array>
-#include <string_view>
-
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
 #include "frangia/geometry/vertex_data.h"
 
@@ -31,14 +29,13 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     file.line("v", vertex);
   for (const Eigen::Vector3f& normal : mesh.normals)
     file.line("vn", normal);
-  constexpr std::array<std::string_view, 3> kGroups{"measured", "moved", "invented"};
   const bool marked = !mesh.vertex_marks.empty() || !mesh.triangle_marks.empty();
   Mark group = Mark::Measured;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (marked && (i == 0 || mark_of(mesh, i) != group)) {
       group = mark_of(mesh, i);
       file.text("g ");
-      file.text(kGroups.at(static_cast<std::size_t>(group)));
+      file.text(kMarkNames.at(static_cast<std::size_t>(group)));
       file.text("\n");
     }
     write_face(file, mesh, i);

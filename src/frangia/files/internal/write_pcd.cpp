@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-/// The header's lines that have a word for each field.
+/// The lines of the header that have one word per field.
 struct Fields {
   std::string names = "FIELDS x y z";
   std::string sizes = "SIZE 4 4 4";

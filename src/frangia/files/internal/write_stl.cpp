@@ -20,7 +20,7 @@ Eigen::Vector3f normal_of(const Mesh& mesh, const Mesh::Triangle& triangle) {
 }
 
 void write_binary(FileWriter& file, const Mesh& mesh) {
-  std::string header = "Frangia; binary STL; lengths in mm";  // "solid" here would look like ascii
+  std::string header = "Frangia; binary STL; lengths in mm";  // must not begin with "solid"
   header.resize(80, ' ');
   file.text(header);
   file.binary(static_cast<std::uint32_t>(mesh.triangles.size()));

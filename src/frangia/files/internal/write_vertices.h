@@ -5,9 +5,9 @@
 
 namespace frangia {
 
-/// All that a mesh knows of its vertices, one after the other as PLY and PCD have it: place and
-/// normal as floats, sigma as a float, views in two bytes, the mark in one; what it does not know
-/// is left out.
+/// Writes the vertices interleaved, as binary PLY and PCD store them: position and normal (floats),
+/// sigma (float), views (2 bytes), mark (1 byte). Attributes that the mesh does not have are
+/// omitted.
 void write_vertices(FileWriter& file, const Mesh& mesh);
 
 }  // namespace frangia

@@ -16,7 +16,7 @@ struct XmlParser::Parser {
   OnEnd on_end;
   std::exception_ptr thrown;
 
-  /// Exceptions must not cross the library's C.
+  /// Keeps exceptions from unwinding through the C library.
   template <typename Work>
   void guard(const Work& work) {
     try {
@@ -40,7 +40,8 @@ struct XmlParser::Parser {
                       const char* /*open*/,
                       int /*inside*/) {
     of(self).guard([] {
-      throw Error(ErrorKind::Input, "its XML declares a document type, which is not allowed");
+      throw Error(ErrorKind::Input,
+                  "its XML declares a document type, which 3MF forbids; export it again");
     });
   }
 
@@ -50,7 +51,7 @@ struct XmlParser::Parser {
     if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
     if (status == XML_STATUS_OK) return;
     throw Error(ErrorKind::Input,
-                fmt::format("its XML is damaged in line {}: {}",
+                fmt::format("its XML is invalid in line {}: {}",
                             XML_GetCurrentLineNumber(parser),
                             XML_ErrorString(XML_GetErrorCode(parser))));
   }

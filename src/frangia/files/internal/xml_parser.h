@@ -13,17 +13,18 @@ namespace frangia {
 class XmlAttributes {
  public:
   explicit XmlAttributes(const char** pairs) : pairs_(pairs) {}
-  /// Empty when there is none of this name.
+  /// The value of an attribute; empty when the element does not have it.
   [[nodiscard]] std::string_view value(std::string_view name) const;
 
  private:
   const char** pairs_;
 };
 
-/// Walks over the elements of an XML text that comes in pieces. Names are "namespace|name".
+/// Parses XML that arrives in pieces and calls a handler for each element. Names are
+/// "namespace|name".
 ///
-/// errors   Error(Input) with the line: not well-formed, or a document type, whose entities can
-///          grow without bound. What a handler throws stops the walk and comes out of `feed`.
+/// errors   Error(Input) with the line: not well-formed, or a document type declaration, whose
+///          entities could expand without bound. An exception of a handler leaves `feed`.
 class XmlParser {
  public:
   using OnBegin = std::function<void(std::string_view, const XmlAttributes&)>;

@@ -15,9 +15,9 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 18U;
-constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30U;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{8} << 30U;
 constexpr std::uint64_t kHarmlessBytes = std::uint64_t{64} << 20U;
-constexpr std::uint64_t kMostRatio = 200;  // text of coordinates packs to a third or a tenth
+constexpr std::uint64_t kMaxRatio = 200;  // text of coordinates compresses 3 to 10 times
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
   throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
@@ -33,9 +33,10 @@ ZipReader::ZipReader(std::filesystem::path path)
     : path_(std::move(path)), archive_(std::make_unique<Archive>()) {
   std::error_code error;
   if (!std::filesystem::exists(path_, error)) fail(path_, "there is no such file; check its name");
-  if (!std::filesystem::is_regular_file(path_, error)) fail(path_, "this is not a file; name one");
+  if (!std::filesystem::is_regular_file(path_, error))
+    fail(path_, "this is not a regular file; name a file");
   archive_->file = unzOpen64(path_.c_str());
-  if (archive_->file == nullptr) fail(path_, "this is no zip archive, or it was cut short");
+  if (archive_->file == nullptr) fail(path_, "it is not a zip archive, or it is truncated");
 }
 
 ZipReader::~ZipReader() {
@@ -50,20 +51,22 @@ bool ZipReader::read(const std::string& name,
   if (unzGetCurrentFileInfo64(
           archive_->file, &info, ignored.data(), ignored.size(), nullptr, 0, nullptr, 0) !=
       UNZ_OK) {
-    fail(path_, "its list of entries is damaged");
+    fail(path_, "the directory of the archive is damaged; copy the file again");
   }
-  const bool bomb = info.uncompressed_size > kMostBytes ||
+  const bool bomb = info.uncompressed_size > kMaxBytes ||
                     (info.uncompressed_size > kHarmlessBytes &&
-                     info.uncompressed_size / kMostRatio > info.compressed_size);
+                     info.uncompressed_size / kMaxRatio > info.compressed_size);
   if (bomb) {
     fail(path_,
-         fmt::format("entry {} would unpack from {} to {} bytes, as no mesh does; it is refused",
+         fmt::format("entry {} would expand from {} to {} bytes, which no mesh does; it is refused",
                      name,
                      info.compressed_size,
                      info.uncompressed_size));
   }
   if (unzOpenCurrentFile(archive_->file) != UNZ_OK) {
-    fail(path_, fmt::format("entry {} is damaged, or packed in a way that is not read", name));
+    fail(path_,
+         fmt::format("entry {} is damaged or uses an unsupported compression; save it with deflate",
+                     name));
   }
   std::vector<char> block(kBlock);
   std::uint64_t unpacked = 0;
@@ -74,7 +77,7 @@ bool ZipReader::read(const std::string& name,
     if (got == 0) break;
     unpacked += static_cast<std::uint64_t>(got);
     if (unpacked > info.uncompressed_size) {
-      fail(path_, fmt::format("entry {} is longer than it says; it is refused", name));
+      fail(path_, fmt::format("entry {} is longer than its stated size; it is refused", name));
     }
     consume({block.data(), static_cast<std::size_t>(got)});
   }
@@ -119,11 +122,12 @@ ZipWriter::~ZipWriter() {
   if (archive_->file != nullptr) zipClose(archive_->file, nullptr);
 }
 
-void ZipWriter::begin(const std::string& name, std::uint64_t most_bytes) {
-  constexpr int kFast = 1;  // a third larger than the best, five times as fast
+void ZipWriter::begin(const std::string& name, std::uint64_t max_bytes) {
+  constexpr int kFast = 1;  // a third larger than level 9 and five times as fast
   archive_->end();
   zip_fileinfo info{};
-  info.tmz_date = {0, 0, 0, 1, 0, 1980};  // the same mesh gives the same bytes
+  info.tmz_date = {
+      0, 0, 0, 1, 0, 1980};  // a fixed date, so that the same mesh gives the same bytes
   archive_->check(zipOpenNewFileInZip64(archive_->file,
                                         name.c_str(),
                                         &info,
@@ -134,7 +138,7 @@ void ZipWriter::begin(const std::string& name, std::uint64_t most_bytes) {
                                         nullptr,
                                         Z_DEFLATED,
                                         kFast,
-                                        most_bytes > 0xFFFF0000U ? 1 : 0));
+                                        max_bytes > 0xFFFF0000U ? 1 : 0));
   archive_->open = true;
 }
 

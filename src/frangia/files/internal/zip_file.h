@@ -9,10 +9,11 @@
 
 namespace frangia {
 
-/// A zip archive that is read, entry by entry.
+/// Reads a zip archive entry by entry.
 ///
-/// errors   Error(Input) that names the file: missing, no zip, damaged; an entry that unpacks to
-///          more than 8 GB, or to more than 200 times its size and 64 MB
+/// errors   Error(Input) that names the file: it does not exist, is not a zip archive or is
+///          damaged; an entry expands to more than 8 GB, or to more than 64 MB and 200 times its
+///          size
 class ZipReader {
  public:
   explicit ZipReader(std::filesystem::path path);
@@ -22,7 +23,7 @@ class ZipReader {
   ZipReader& operator=(ZipReader&&) = delete;
   ~ZipReader();
 
-  /// Hands over an entry in pieces; false when there is none of this name. Names differ by case.
+  /// Passes an entry to `consume` in pieces; false when no entry has this name (case-sensitive).
   bool read(const std::string& name, const std::function<void(std::string_view)>& consume) const;
 
  private:
@@ -31,7 +32,7 @@ class ZipReader {
   std::unique_ptr<Archive> archive_;
 };
 
-/// A zip archive that appears under its name when it is whole.
+/// Writes a zip archive that appears under its name when it is complete.
 ///
 /// errors   Error(File) as AtomicFile
 class ZipWriter {
@@ -43,9 +44,8 @@ class ZipWriter {
   ZipWriter& operator=(ZipWriter&&) = delete;
   ~ZipWriter();
 
-  /// What is written next belongs to this entry, of `most_bytes` at most: beyond 4 GB it takes a
-  /// form that old readers refuse.
-  void begin(const std::string& name, std::uint64_t most_bytes = 0);
+  /// Starts an entry of at most `max_bytes`. Beyond 4 GB it uses zip64, which old readers refuse.
+  void begin(const std::string& name, std::uint64_t max_bytes = 0);
   void text(std::string_view piece);
   void commit();
 

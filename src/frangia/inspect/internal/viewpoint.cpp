@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHalfField = 0.21;  ///< tangent of half the field of view, along the shorter side
-constexpr double kFill = 0.86;       ///< how much of the picture the part takes
+constexpr double kHalfField = 0.21;  ///< tangent of half the field of view along the shorter side
+constexpr double kFill = 0.86;       ///< share of the picture that the part fills
 
 }  // namespace
 

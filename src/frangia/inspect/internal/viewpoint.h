@@ -7,7 +7,7 @@
 
 namespace frangia {
 
-/// Where the viewer stands and what each pixel looks at.
+/// The viewer's position and projection.
 struct Viewpoint {
   Eigen::Matrix3d axes;  ///< rows: right, up, towards the viewer
   Eigen::Vector3d target;
@@ -18,12 +18,12 @@ struct Viewpoint {
   struct Ray {
     Eigen::Vector3d origin, direction;
   };
-  /// The ray through a place of the picture, in halves of its shorter side from the middle.
+  /// The ray through a position in the picture, in halves of its shorter side from the centre.
   [[nodiscard]] Ray ray(double x, double y) const;
 };
 
-/// The viewer of these options, so far away that the whole mesh, or what
-/// it is to fit to, is in the picture with a margin.
+/// The viewpoint of the options, at a distance where the whole mesh (or `fit_to_mm`) fits with a
+/// margin.
 [[nodiscard]] Viewpoint fit_viewpoint(const Mesh& mesh, const RenderOptions& options);
 
 }  // namespace frangia

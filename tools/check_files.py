@@ -1,11 +1,12 @@
-"""Asks programs of others what they read of the files that the program writes, and renews the table
-between the markers of docs/files.md: python3 tools/judge_files.py PROGRAM docs/files.md [JUDGE...]
+"""Reads the files that the program writes with other programs and updates the table between the markers
+of docs/files.md: python3 tools/check_files.py PROGRAM docs/files.md [READER...]
 
-A closed mesh goes out in every format; a cell says whether the other program finds all its triangles (all
-its points, in clouds). What is not installed, or not among the judges named, is left
-as it stands.
+A closed mesh and an open mesh with marks are written in every format. A cell states whether the reader
+finds all triangles (all points, in clouds) of both. Rows of readers that are not installed, or not among
+those named, stay as they are.
 """
 import json
+import math
 import pathlib
 import re
 import shutil
@@ -17,10 +18,10 @@ PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PAGE = pathlib.Path(sys.argv[2])
 ONLY = set(sys.argv[3:])
 HERE = pathlib.Path(__file__).resolve().parent.parent
-WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-judges-"))
-BEGIN, END = "<!-- judges begin -->", "<!-- judges end -->"
+WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-check-files-"))
+BEGIN, END = "<!-- readers begin -->", "<!-- readers end -->"
 
-FORMATS = {  # name of the column: file, options of edit
+FORMATS = {  # column: file, options of frangia edit
     "DXF faces": ("faces.dxf", []),
     "DXF polyface": ("polyface.dxf", ["--dxf", "polyface"]),
     "DXF mesh": ("mesh.dxf", ["--dxf", "mesh"]),
@@ -43,7 +44,7 @@ def program(*arguments):
 
 
 def ask(*command):
-    """What a program says on both channels; empty when it takes longer than a quarter of an hour or fails to start."""
+    """Standard output and error of a program; empty when it cannot start or takes more than 15 minutes."""
     try:
         answer = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=900, errors="replace", cwd=WORK)
     except (OSError, subprocess.TimeoutExpired):
@@ -85,7 +86,7 @@ def prusa(path):
     return number(r"number_of_facets\s*=\s*(\d+)", ask("prusa-slicer", "--info", path))
 
 
-# Debian 12's importer of glTF asks NumPy for a name that it no longer has.
+# The glTF importer of Debian 12 uses numpy.bool, which its NumPy no longer has.
 BLENDER = """
 import bpy, sys, numpy
 numpy.bool = bool
@@ -105,11 +106,11 @@ def blender(path):
     return number(r"FACES (\d+)", ask("blender", "-b", "--python-expr", BLENDER, "--", path))
 
 
-# MeshLab 2020.09 as Debian builds it ends on any OBJ, also on one of a single triangle: it is not asked.
-JUDGES = {  # name: (is it here, how to ask, columns)
+# MeshLab 2020.09 of Debian 12 crashes on any OBJ, even of one triangle, so OBJ is not among its columns.
+READERS = {  # name: (is it installed, how to count, columns)
     "assimp": (shutil.which("assimp"), assimp, ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF", "3MF", "OFF"]),
-    "ezdxf": (ask("/usr/bin/python3", "-c", "import ezdxf; print(1)").strip() == "1", script("judge_ezdxf.py"), ["DXF faces", "DXF polyface", "DXF mesh"]),
-    "lib3mf": (ask("/usr/bin/python3", "-c", "import ctypes; ctypes.CDLL('lib3MF.so.1'); print(1)").strip() == "1", script("judge_3mf.py"), ["3MF"]),
+    "ezdxf": (ask("/usr/bin/python3", "-c", "import ezdxf; print(1)").strip() == "1", script("check_ezdxf.py"), ["DXF faces", "DXF polyface", "DXF mesh"]),
+    "lib3mf": (ask("/usr/bin/python3", "-c", "import ctypes; ctypes.CDLL('lib3MF.so.1'); print(1)").strip() == "1", script("check_3mf.py"), ["3MF"]),
     "admesh": (shutil.which("admesh"), lambda path: number(r"Number of facets\s+:\s+(\d+)", ask("admesh", "-e", path)), ["STL", "STL text"]),
     "NumPy": (True, python("numpy, sys", "print(len(numpy.loadtxt(sys.argv[1])))"), ["XYZ"]),
     "PCL": (ask("/usr/bin/python3", "-c", "import pcl; print(1)").strip() == "1", python("pcl, sys", "print(pcl.load(sys.argv[1]).size)"), ["PCD"]),
@@ -120,6 +121,22 @@ JUDGES = {  # name: (is it here, how to ask, columns)
 }
 
 
+def write_open_mesh(path, side=30):
+    """An open wavy sheet whose triangles are measured, displaced and synthesized in turn."""
+    vertices = [(x / 7, y / 11, math.sin(x / 7) * math.cos(y / 11)) for y in range(side) for x in range(side)]
+    corners = [y * side + x for y in range(side - 1) for x in range(side - 1)]
+    triangles = [t for i in corners for t in ((i, i + 1, i + side), (i + 1, i + side + 1, i + side))]
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", *(f"property float {axis}" for axis in "xyz"),
+             f"element face {len(triangles)}", "property list uchar int vertex_indices", "property uchar mark", "end_header"]
+    lines += ["%f %f %f" % vertex for vertex in vertices]
+    lines += ["3 %d %d %d " % triangle + str(number % 3) for number, triangle in enumerate(triangles)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def compare(found, expected):
+    return "all" if found == expected else "nothing" if not found else found if isinstance(found, str) else f"{found} of {expected}"
+
+
 def main():
     page = PAGE.read_text()
     before, rest = page.split(BEGIN)
@@ -127,24 +144,31 @@ def main():
     kept = {line.split("|")[1].strip(): line for line in old.splitlines() if line.startswith("| ") and "---" not in line}
 
     program("simulate", "bracket", "--rig", "digital", "--views", 2, "-o", WORK / "scan")
-    source = WORK / "source.ply"
-    program("edit", WORK / "scan" / "truth.ply", "--remesh", "4mm", "-o", source)
-    truth = program("edit", source)
-    for name, options in FORMATS.values():
-        program("edit", source, *options, "-o", WORK / name)
+    program("edit", WORK / "scan" / "truth.ply", "--remesh", "4mm", "-o", WORK / "closed.ply")
+    write_open_mesh(WORK / "open.ply")
+    counts = {}
+    for mesh in ("closed", "open"):
+        counts[mesh] = program("edit", WORK / f"{mesh}.ply")
+        (WORK / mesh).mkdir()
+        for name, options in FORMATS.values():
+            program("edit", WORK / f"{mesh}.ply", *options, "-o", WORK / mesh / name)
 
     rows = []
-    for judge, (is_here, question, columns) in JUDGES.items():
-        if not is_here or (ONLY and judge not in ONLY):
-            if judge in kept:
-                rows.append(kept[judge])
+    for reader, (is_installed, count, columns) in READERS.items():
+        if not is_installed or (ONLY and reader not in ONLY):
+            if reader in kept:
+                rows.append(kept[reader])
             continue
         cells = []
         for column, (name, _) in FORMATS.items():
-            wanted = truth["vertices"] if column in ("XYZ", "PCD") else truth["triangles"]
-            found = question(WORK / name) if column in columns else None
-            cells.append("" if column not in columns else "all" if found == wanted else "nothing" if not found else found if isinstance(found, str) else f"{found} of {wanted}")
-        rows.append(f"| {judge} | " + " | ".join(cells) + " |")
+            if column not in columns:
+                cells.append("")
+                continue
+            element = "vertices" if column in ("XYZ", "PCD") else "triangles"
+            results = {mesh: compare(count(WORK / mesh / name), counts[mesh][element]) for mesh in counts}
+            same = len(set(results.values())) == 1
+            cells.append(results["closed"] if same else ", ".join(f"{mesh}: {result}" for mesh, result in results.items()))
+        rows.append(f"| {reader} | " + " | ".join(cells) + " |")
         print(rows[-1], flush=True)
     head = "| | " + " | ".join(FORMATS) + " |\n|" + "---|" * (len(FORMATS) + 1)
     PAGE.write_text(f"{before}{BEGIN}\n{head}\n" + "\n".join(rows) + f"\n{END}{after}")

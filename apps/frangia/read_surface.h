@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/run.h"
+#include "frangia/files/read_mesh.h"
+
+namespace frangia {
+
+/// Reads a mesh that must have triangles.
+///
+/// errors   Error(Input) as read_mesh, and when the file holds points alone
+inline Mesh read_surface(const std::filesystem::path& path, const Run& run = {}) {
+  Mesh mesh = read_mesh(path, run);
+  if (mesh.triangles.empty()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: it has {} point{} and no triangles; name a mesh with a surface",
+                            path.string(),
+                            mesh.vertices_mm.size(),
+                            mesh.vertices_mm.size() == 1 ? "" : "s"));
+  }
+  return mesh;
+}
+
+}  // namespace frangia

@@ -1,0 +1,174 @@
+#include "frangia/files/internal/three_mf_model.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/files/internal/append_transformed.h"
+#include "frangia/files/internal/mark_names.h"
+#include "frangia/files/internal/text_reader.h"
+#include "frangia/geometry/vertex_data.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::string_view kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02|";
+
+[[noreturn]] void fail_3mf(const std::string& why) {
+  throw Error(ErrorKind::Input, why);
+}
+
+/// mm per unit of a model; the specification's default is millimeter.
+double mm_per_unit_of(std::string_view unit) {
+  static const std::map<std::string_view, double> kUnits{{"micron", 0.001},
+                                                         {"millimeter", 1.0},
+                                                         {"", 1.0},
+                                                         {"centimeter", 10.0},
+                                                         {"inch", 25.4},
+                                                         {"foot", 304.8},
+                                                         {"meter", 1000.0}};
+  const auto found = kUnits.find(unit);
+  if (found == kUnits.end())
+    fail_3mf(fmt::format("its unit {} is not defined by 3MF; export it in millimeters",
+                         in_quotes(unit)));
+  return found->second;
+}
+
+std::uint32_t id_of(std::string_view word) {
+  const auto number = parse_integer(word);
+  if (!number || *number < 0 || *number >= 0xFFFFFFFF) {
+    fail_3mf(fmt::format("{} is not a valid id or index", in_quotes(word)));
+  }
+  return static_cast<std::uint32_t>(*number);
+}
+
+float coordinate(const XmlAttributes& attributes, std::string_view name) {
+  const auto number = parse_float(attributes.value(name));
+  if (!number) {
+    fail_3mf(
+        fmt::format("{}={} of a vertex is not a number", name, in_quotes(attributes.value(name))));
+  }
+  return *number;
+}
+
+}  // namespace
+
+void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes) {
+  if (!name.starts_with(kCore)) return;
+  name.remove_prefix(kCore.size());
+  if (name == "vertex") {
+    vertex(attributes);
+  } else if (name == "triangle") {
+    triangle(attributes);
+  } else if (name == "object") {
+    begin_object(attributes);
+  } else if (name == "component") {
+    object().components.push_back(read_reference(attributes));
+  } else if (name == "item") {
+    items_.push_back(read_reference(attributes));
+  } else if (name == "base") {
+    materials_[material_].emplace_back(attributes.value("name"));
+  } else if (name == "basematerials") {
+    material_ = attributes.value("id");
+  } else if (name == "model") {
+    mm_per_unit_ = mm_per_unit_of(attributes.value("unit"));
+  }
+}
+
+Mesh ThreeMfModel::build(const std::filesystem::path& path) const {
+  Mesh mesh;
+  Eigen::Affine3d mm_from_model = Eigen::Affine3d::Identity();
+  mm_from_model.scale(mm_per_unit_);
+  for (const Reference& item : items_)
+    add(mesh, item, mm_from_model, path, 0);
+  return mesh;
+}
+
+ThreeMfModel::Reference ThreeMfModel::read_reference(const XmlAttributes& attributes) {
+  Reference reference{.object = id_of(attributes.value("objectid"))};
+  const std::string_view text = attributes.value("transform");
+  if (text.empty()) return reference;
+  TextReader reader("transform", text);
+  for (int row = 0; row < 4; ++row) {  // rows of the transposed matrix; the last is the translation
+    for (int column = 0; column < 3; ++column)
+      reference.transform.matrix()(column, row) = static_cast<double>(reader.real());
+  }
+  return reference;
+}
+
+ThreeMfModel::Object& ThreeMfModel::object() {
+  const auto found = objects_.find(current_);
+  if (found == objects_.end())
+    fail_3mf("a vertex, triangle or component is outside any object; export it again");
+  return found->second;
+}
+
+void ThreeMfModel::begin_object(const XmlAttributes& attributes) {
+  current_ = id_of(attributes.value("id"));
+  if (objects_.contains(current_)) {
+    fail_3mf(fmt::format("object {} is defined twice; export it again", current_));
+  }
+  objects_[current_].material = attributes.value("pid");
+  objects_[current_].index = attributes.value("pindex");
+}
+
+void ThreeMfModel::vertex(const XmlAttributes& attributes) {
+  object().mesh.vertices_mm.emplace_back(
+      coordinate(attributes, "x"), coordinate(attributes, "y"), coordinate(attributes, "z"));
+}
+
+void ThreeMfModel::triangle(const XmlAttributes& attributes) {
+  Object& owner = object();
+  const std::size_t count = owner.mesh.vertices_mm.size();
+  Mesh::Triangle corners{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    constexpr std::array<std::string_view, 3> kNames{"v1", "v2", "v3"};
+    corners.at(i) = id_of(attributes.value(kNames.at(i)));
+    if (corners.at(i) >= count) {
+      fail_3mf(
+          fmt::format("a triangle of object {} refers to vertex {}, counted from 0, of only {}",
+                      current_,
+                      corners.at(i),
+                      count));
+    }
+  }
+  const bool own = !attributes.value("pid").empty();
+  add_triangle(owner.mesh,
+               corners,
+               mark_of_material(own ? attributes.value("pid") : owner.material,
+                                own ? attributes.value("p1") : owner.index));
+}
+
+Mark ThreeMfModel::mark_of_material(std::string_view id, std::string_view index) const {
+  const auto group = materials_.find(std::string(id));
+  const auto number = parse_integer(index);
+  if (group == materials_.end() || !number || *number < 0 ||
+      static_cast<std::uint64_t>(*number) >= group->second.size()) {
+    return Mark::Measured;
+  }
+  return mark_of_name(group->second[static_cast<std::size_t>(*number)]);
+}
+
+void ThreeMfModel::add(Mesh& mesh,
+                       const Reference& reference,
+                       const Eigen::Affine3d& parent,
+                       const std::filesystem::path& path,
+                       int depth) const {
+  constexpr int kMaxDepth = 64;
+  constexpr std::size_t kMaxInstances = 100'000;
+  const auto found = objects_.find(reference.object);
+  if (found == objects_.end()) {
+    fail_3mf(fmt::format("object {} is built but not defined; export it again", reference.object));
+  }
+  if (depth > kMaxDepth || ++instances_ > kMaxInstances) {
+    fail_3mf(
+        "an object contains itself, or components are nested too deeply or repeated too often");
+  }
+  const Eigen::Affine3d transform = parent * reference.transform;
+  if (!found->second.mesh.empty()) append_transformed(mesh, found->second.mesh, transform, path);
+  for (const Reference& component : found->second.components)
+    add(mesh, component, transform, path, depth + 1);
+}
+
+}  // namespace frangia

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "frangia/core/image.h"
+#include "frangia/frames/map_picture.h"
+
+namespace frangia {
+
+/// A color map with the values at its two ends.
+struct ColorScale {
+  ColorMap map = ColorMap::Viridis;
+  ValueRange range;
+  std::string label;           ///< the quantity and its unit: "deviation, mm"
+  bool whole_numbers = false;  ///< no fractions at the ticks, as for counts
+};
+
+/// A color with a fixed meaning.
+struct LegendEntry {
+  Rgb color{};
+  std::string meaning;
+};
+
+struct PictureLegend {
+  std::vector<ColorScale> scales;
+  std::vector<LegendEntry> entries;
+};
+
+/// A labelled value of a color scale.
+struct ScaleTick {
+  double value = 0.0;
+  std::string text;  ///< with as many decimals as the other ticks, and signed when any is negative
+};
+
+/// Round values between the ends of a scale, at steps of 1, 2 or 5 times a power of ten.
+///
+/// shape    ascending; three to eleven ticks; one for a range of a single value
+[[nodiscard]] std::vector<ScaleTick> scale_ticks(const ColorScale& scale);
+
+/// The picture with a legend to its right: each scale as a bar with numbers, then the entries.
+///
+/// shape    as high as the picture; an empty legend leaves the picture as it is
+[[nodiscard]] Image<Rgb> add_legend(const Image<Rgb>& picture, const PictureLegend& legend);
+
+}  // namespace frangia

@@ -1,0 +1,89 @@
+#include "frangia/inspect/internal/surface_colors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "frangia/core/missing.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/vertex_data.h"
+#include "frangia/inspect/internal/lighting.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d kPlain(0.80, 0.775, 0.74);
+const Vector3d kInside(0.80, 0.06, 0.45);
+const Vector3d kHighlighted(0.46, 0.13, 0.62);
+const Vector3d kDisplaced(0.80, 0.58, 0.12);
+const Vector3d kSynthesized(0.12, 0.36, 0.72);
+
+/// A color of a map in linear light. Maps are defined for the screen, with gamma 2.2.
+Vector3d mapped_color(ColorMap map, float share) {
+  return color_of(map, share).cast<double>().array().pow(2.2);
+}
+
+bool is_open(const Mesh& mesh) {
+  const HalfEdges edges(mesh);
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge)
+    if (edges.is_boundary(edge)) return true;
+  return false;
+}
+
+void add_marks(const Mesh& mesh, PictureLegend& legend) {
+  std::array<bool, 3> has{};
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    has.at(static_cast<std::size_t>(mark_of(mesh, i))) = true;
+  if (has[0]) legend.entries.push_back({screen_color(kPlain), "measured"});
+  if (has[1]) legend.entries.push_back({screen_color(kDisplaced), "displaced"});
+  if (has[2]) legend.entries.push_back({screen_color(kSynthesized), "synthesized"});
+}
+
+}  // namespace
+
+Vector3d inside_color() {
+  return kInside;
+}
+
+Vector3d front_color(const Mesh& mesh, const RenderOptions& options, const RayHit& hit) {
+  if (!options.highlighted.empty() && options.highlighted[hit.triangle] != 0) return kHighlighted;
+  if (options.show_marks && mark_of(mesh, hit.triangle) != Mark::Measured) {
+    return mark_of(mesh, hit.triangle) == Mark::Displaced ? kDisplaced : kSynthesized;
+  }
+  if (options.values.empty()) return kPlain;
+  float value = 0.0F;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    value += static_cast<float>(hit.barycentric[static_cast<Eigen::Index>(corner)]) *
+             options.values[mesh.triangles[hit.triangle][corner]];
+  }
+  const float share = (value - options.value_min) / (options.value_max - options.value_min);
+  return mapped_color(options.color_map, share);
+}
+
+PictureLegend surface_legend(const Mesh& mesh, const RenderOptions& options) {
+  PictureLegend legend;
+  const auto& values = options.values;
+  if (!values.empty()) {
+    legend.scales.push_back({options.color_map,
+                             {options.value_min, options.value_max},
+                             options.value_label,
+                             options.whole_values});
+    if (std::any_of(values.begin(), values.end(), [](float value) { return std::isnan(value); }))
+      legend.entries.push_back(
+          {screen_color(mapped_color(options.color_map, kMissing)), "no value"});
+  }
+  if (options.show_marks) add_marks(mesh, legend);
+  if (std::any_of(options.highlighted.begin(), options.highlighted.end(), [](auto one) {
+        return one != 0;
+      })) {
+    legend.entries.push_back({screen_color(kHighlighted), options.highlight_label});
+  }
+  const bool has_colors = !legend.scales.empty() || !legend.entries.empty();
+  if (has_colors && is_open(mesh)) legend.entries.push_back({screen_color(kInside), "inside"});
+  return legend;
+}
+
+}  // namespace frangia

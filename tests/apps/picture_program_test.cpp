@@ -1,0 +1,80 @@
+// Pictures by `frangia inspect` and `frangia picture`.
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frangia/files/write_mesh.h"
+
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+#include "support/test_meshes.h"
+
+namespace frangia {
+namespace {
+
+using testing::Answer;
+using testing::run_program;
+
+class PictureProgram : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return (folder_.path() / name).string();
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(PictureProgram, ChecksThePathOfThePictureBeforeItReadsAMesh) {
+  const std::string picture = at("nowhere/picture.png");
+  for (const std::string& command :
+       {"inspect " + at("missing.ply") + " --show shape --picture " + picture,
+        "picture " + at("missing.ply") + " -o " + picture}) {
+    const Answer answer = run_program(command);
+    EXPECT_EQ(answer.exit_code, 3) << command;
+    EXPECT_NE(answer.output.find("nowhere"), std::string::npos) << answer.output;
+    EXPECT_EQ(answer.output.find("missing.ply"), std::string::npos) << answer.output;
+  }
+  const Answer answer = run_program("inspect " + at("missing.ply") + " --picture " + at("a.jpg"));
+  EXPECT_NE(answer.output.find("a.jpg: pictures are written as PNG"), std::string::npos)
+      << answer.output;
+}
+
+TEST_F(PictureProgram, NamesAFileOfPointsWithoutTriangles) {
+  std::ofstream(at("points.xyz")) << "0 0 0\n1 0 0\n0 1 0\n";
+  write_mesh(at("part.ply"), testing::box({0, 0, 0}, {10, 20, 30}));
+  for (const std::string& command :
+       {"inspect " + at("points.xyz") + " --show shape --picture " + at("a.png"),
+        "inspect " + at("points.xyz") + " --reference " + at("part.ply"),
+        "inspect " + at("part.ply") + " --reference " + at("points.xyz"),
+        "picture " + at("points.xyz") + " -o " + at("a.png")}) {
+    const Answer answer = run_program(command);
+    EXPECT_EQ(answer.exit_code, 3) << command;
+    EXPECT_NE(answer.output.find("points.xyz: it has 3 points and no triangles"), std::string::npos)
+        << answer.output;
+  }
+}
+
+/// The width in the header of a PNG, pixels.
+int width_of(const std::filesystem::path& png) {
+  std::ifstream stream(png, std::ios::binary);
+  stream.seekg(16);
+  int width = 0;
+  for (int i = 0; i < 4; ++i)
+    width = width * 256 + stream.get();
+  return width;
+}
+
+TEST_F(PictureProgram, AddsAColorScaleUnlessToldNotTo) {
+  write_mesh(at("part.ply"), testing::box({0, 0, 0}, {10, 20, 30}));
+  const std::string command = "inspect " + at("part.ply") + " --reference " + at("part.ply");
+  EXPECT_EQ(run_program(command + " --picture " + at("scale.png")).exit_code, 0);
+  EXPECT_EQ(run_program(command + " --no-legend --picture " + at("bare.png")).exit_code, 0);
+  EXPECT_GT(width_of(at("scale.png")), 1300);
+  EXPECT_EQ(width_of(at("bare.png")), 1200);
+}
+
+}  // namespace
+}  // namespace frangia
