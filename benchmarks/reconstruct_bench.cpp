@@ -2,6 +2,8 @@
 // core.
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -11,6 +13,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/random.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/frames/png.h"
 #include "frangia/pipeline/reconstruct.h"
@@ -40,6 +44,27 @@ std::filesystem::path data_folder() {
   return folder != nullptr ? std::filesystem::path(folder) : std::filesystem::temp_directory_path();
 }
 
+/// Adds what a real camera has in its unlit pixels, too, and what PNG files cannot compress: a
+/// black level of 6 counts and noise of 1 count.
+void add_black_level(const std::filesystem::path& path, std::uint64_t seed) {
+  constexpr double kBlackLevel_counts = 6.0;
+  constexpr double kNoise_counts = 1.0;
+  constexpr std::size_t kNoiseSamples = 1U << 16U;
+  std::vector<float> noise_counts(kNoiseSamples);
+  for (std::size_t i = 0; i < kNoiseSamples; ++i) {
+    const double normal = normal_from(hash(seed, i));
+    noise_counts[i] = static_cast<float>(kBlackLevel_counts + kNoise_counts * normal);
+  }
+  Frame frame = read_png(path);
+  const auto pixels = std::get<Image<std::uint8_t>>(frame).pixels();
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const float noise = noise_counts[hash(seed + 1, i) % kNoiseSamples];
+    const long counts = std::lround(static_cast<float>(pixels[i]) + noise);
+    pixels[i] = static_cast<std::uint8_t>(std::clamp(counts, 0L, 255L));
+  }
+  write_png(path, frame);
+}
+
 /// Eight views of 5 Mpx with twelve frames each, rendered when the folder does not hold them yet.
 Scan large_scan() {
   const std::filesystem::path folder = data_folder() / "chain-scan";
@@ -56,7 +81,19 @@ Scan large_scan() {
   plan.patterns = default_patterns(plan.rig);
   for (int i = 0; i < kViews; ++i)
     plan.views.push_back({kTwoPi * i / kViews, fmt::format("views/{:03}", i), 0});
-  return simulate_scan(make_part("bust"), plan);
+  Scan scan = simulate_scan(make_part("bust"), plan);
+  const std::filesystem::path unfinished = folder / "simulation-not-finished";
+  std::filesystem::rename(folder / "scan.toml", unfinished);
+  std::vector<std::filesystem::path> frames;
+  for (const ScanView& view : scan.views) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder / view.folder))
+      frames.push_back(entry.path());
+  }
+  std::sort(frames.begin(), frames.end());
+  parallel_chunks(
+      frames.size(), 1, [&](std::size_t i, std::size_t) { add_black_level(frames[i], i); });
+  std::filesystem::rename(unfinished, folder / "scan.toml");
+  return scan;
 }
 
 /// Reads every frame of a scan on the calling thread; the seconds that takes.

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/pipeline/reconstruct.h"
 

@@ -1,3 +1,4 @@
+#include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
 
 #include <filesystem>

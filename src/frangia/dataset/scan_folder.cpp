@@ -170,76 +170,6 @@ void read_part_pose(TomlReader reader,
   reader.warn_of_unused_keys(run);
 }
 
-/// The frame number in "NAME-12.png" or "NAME-12@1.png", or -1.
-int frame_number(const std::string& file, const std::string& pattern_name) {
-  const std::string_view ending = ".png";
-  const std::size_t begin = pattern_name.size() + 1;
-  if (file.size() <= begin + ending.size() || file.size() > begin + ending.size() + 9) return -1;
-  if (file.compare(0, begin, pattern_name + "-") != 0) return -1;
-  if (file.compare(file.size() - ending.size(), ending.size(), ending) != 0) return -1;
-  std::string digits = file.substr(begin, file.size() - begin - ending.size());
-  digits.resize(std::min(digits.size(), digits.find('@')));
-  if (digits.empty()) return -1;
-  const bool all_digits = std::all_of(
-      digits.begin(), digits.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
-  return all_digits ? std::stoi(digits) : -1;
-}
-
-void refuse_extra_frames(const std::filesystem::path& folder,
-                         const std::vector<Pattern>& patterns) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string file = entry.path().filename().string();
-    for (const Pattern& pattern : patterns) {
-      if (frame_number(file, pattern.name) < pattern.frame_count()) continue;
-      throw Error(ErrorKind::Input,
-                  fmt::format("{}: is one frame too many: pattern \"{}\" has {} in scan.toml; take "
-                              "the file away or correct scan.toml",
-                              entry.path().string(),
-                              pattern.name,
-                              pattern.frame_count()));
-    }
-  }
-}
-
-int brightest(const Frame& frame) {
-  return std::visit(
-      [](const auto& image) {
-        return static_cast<int>(*std::max_element(image.pixels().begin(), image.pixels().end()));
-      },
-      frame);
-}
-
-void check_frame(const Frame& frame,
-                 const Frame& first,
-                 const Camera& camera,
-                 const std::filesystem::path& path) {
-  const auto fail = [&](const std::string& what) {
-    throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), what));
-  };
-  if (width_of(frame) != camera.model.width_px || height_of(frame) != camera.model.height_px) {
-    fail(fmt::format("is {} x {} pixels, but camera.size_px in rig.toml is {} x {}",
-                     width_of(frame),
-                     height_of(frame),
-                     camera.model.width_px,
-                     camera.model.height_px));
-  }
-  if (frame.index() != first.index()) fail("is of another bit depth than the view's first frame");
-  if (frame.index() == 0) {
-    if (camera.white_level > 255) {
-      fail(
-          fmt::format("has 8 bits, but camera.white_level in rig.toml is {}; 8-bit frames are "
-                      "saturated at 255 or below",
-                      camera.white_level));
-    }
-  } else if (const int top = brightest(frame); top > camera.white_level) {
-    fail(
-        fmt::format("holds the value {}, above camera.white_level = {} in rig.toml; set it to the "
-                    "camera's full scale, such as 4095 for 12 bits",
-                    top,
-                    camera.white_level));
-  }
-}
-
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char letter : text) {
@@ -356,34 +286,6 @@ void write_scan(const Scan& scan) {
   AtomicFile file(scan.folder / "scan.toml");
   file.stream() << text;
   file.commit();
-}
-
-std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Run& run) {
-  const std::filesystem::path folder = scan.folder / scan.views.at(view).folder;
-  if (!std::filesystem::is_directory(folder)) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("{}: there is no such folder, but scan.toml names it", folder.string()));
-  }
-  refuse_extra_frames(folder, scan.patterns);
-  std::vector<FrameStack> stacks;
-  for (const Pattern& pattern : scan.patterns) {
-    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-      FrameStack stack{.pattern = pattern,
-                       .frames = {},
-                       .white_level = scan.rig.camera.white_level,
-                       .exposure = exposure};
-      for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-        run.check();
-        const std::filesystem::path path = folder / frame_file_name(pattern, frame, exposure);
-        stack.frames.push_back(read_png(path));
-        const Frame& first = stacks.empty() ? stack.frames.front() : stacks.front().frames.front();
-        check_frame(stack.frames.back(), first, scan.rig.camera, path);
-      }
-      stacks.push_back(std::move(stack));
-    }
-  }
-  return stacks;
 }
 
 }  // namespace frangia

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -9,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/frames/frame_stack.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/rig/rig.h"
 
@@ -43,14 +41,6 @@ struct Scan {
 
 /// Writes scan.toml and rig.toml into `scan.folder`.
 void write_scan(const Scan& scan);
-
-/// The frames of every pattern of one view, in the order of `scan.patterns`, a stack an exposure.
-///
-/// errors   Error(Input) that names the file: missing, one too many, of another size than the
-///          rig's camera, of another depth than the first, or above the rig's white level
-[[nodiscard]] std::vector<FrameStack> read_frames(const Scan& scan,
-                                                  std::size_t view,
-                                                  const Run& run = {});
 
 /// PATTERN-FRAME.png, or PATTERN-FRAME@EXPOSURE.png of a pattern that is taken at several.
 [[nodiscard]] std::string frame_file_name(const Pattern& pattern, int frame, int exposure = 0);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/estimate_step.h"
 #include "frangia/phase/pooled_gain_error.h"
