@@ -10,6 +10,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/parallel.h"
+#include "frangia/dataset/write_scan.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
@@ -126,9 +127,7 @@ Scan simulate_scan(const Mesh& part,
     render_setup(setup, plan, run);
   write_ply(plan.folder / "truth.ply", part);
   if (!plan.part_poses.empty()) {
-    AtomicFile truth(plan.folder / "truth-setups.toml");
-    truth.stream() << toml_of(plan.part_poses);
-    truth.commit();
+    write_part_poses(plan.folder / "truth-setups.toml", plan.part_poses);
   }
   Scan scan = plan;
   scan.rig = setups.front().scene.known_rig;

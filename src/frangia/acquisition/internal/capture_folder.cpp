@@ -11,6 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/dataset/write_scan.h"
 
 namespace frangia {
 namespace {
