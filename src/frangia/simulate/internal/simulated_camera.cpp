@@ -34,6 +34,8 @@ SimulateOptions read_options(DeviceSettings& settings, const Rig& rig) {
   options.shininess = settings.number_or("shininess", options.shininess);
   options.texture = settings.number_or("texture", options.texture);
   options.speckle = settings.number_or("speckle", options.speckle);
+  if (settings.has("platter_radius_mm"))
+    settings.fail("platter_radius_mm", "is called turntable_top_radius_mm now; rename it");
   options.turntable_top_radius_mm =
       settings.number_or("turntable_top_radius_mm", options.turntable_top_radius_mm);
   if (!rig.projector.is_angular())
