@@ -36,8 +36,7 @@ std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatu
       share(status, PixelStatus::Saturated));
 }
 
-/// The first view's assessments stand for all; of the others only what is suspect is worth a
-/// sentence.
+/// Reports the assessments of the first view, and of the other views only suspected vibration.
 void report_assessments(const Scan& scan,
                         std::size_t view,
                         const std::vector<FrameAssessment>& assessments,
