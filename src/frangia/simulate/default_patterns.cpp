@@ -41,11 +41,12 @@ std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
   const auto& field = std::get<AngularModel>(rig.projector.model);
   const double fringes = finest * deg_from_rad(field.field_max_rad - field.field_min_rad);
   if (!(finest > 0.0 && fringes <= kMaxFringes)) {
-    throw Error(ErrorKind::Input,
-                fmt::format("`fringes_per_degree` is {:g}; it must be above 0 and give at most {:g} "
-                            "fringes over the projector's field",
-                            finest,
-                            kMaxFringes));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("`fringes_per_degree` is {:g}; it must be above 0 and give at most {:g} "
+                    "fringes over the projector's field",
+                    finest,
+                    kMaxFringes));
   }
   require(plan.periods_px.empty(),
           "`periods_px` is for a digital projector, but the rig's projector is angular; set "
@@ -68,10 +69,10 @@ std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
 
 void require_period(double period_px) {
   if (std::isfinite(period_px) && period_px >= kMinPeriod_px) return;
-  throw Error(ErrorKind::Input,
-              fmt::format("a fringe period is {:g} pixels; it must be at least {:g}",
-                          period_px,
-                          kMinPeriod_px));
+  throw Error(
+      ErrorKind::Input,
+      fmt::format(
+          "a fringe period is {:g} pixels; it must be at least {:g}", period_px, kMinPeriod_px));
 }
 
 std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const PatternPlan& plan) {
@@ -98,9 +99,10 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns;
   const bool gray = plan.sequence == "gray";
-  require(!gray || pinhole != nullptr,
-          "Gray code is for a digital projector, but the rig's projector is angular; choose another "
-          "`sequence`");
+  require(
+      !gray || pinhole != nullptr,
+      "Gray code is for a digital projector, but the rig's projector is angular; choose another "
+      "`sequence`");
   require(plan.periods_px.empty(), "set either `periods_px` or `sequence`, not both");
   for (const double fringes :
        gray ? std::vector<double>{plan.fringes} : fringe_sequence(plan.sequence, plan.fringes)) {
