@@ -1,3 +1,5 @@
+// Longer than 250 lines: the functions of a session share its state, and the order of their device
+// calls and manifest entries is what makes an interrupted capture continue with the same bytes.
 #include "frangia/acquisition/capture_scan.h"
 
 #include <algorithm>
@@ -15,6 +17,7 @@
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/frame_store.h"
+#include "frangia/acquisition/internal/set_files.h"
 #include "frangia/acquisition/internal/survey_exposures.h"
 #include "frangia/acquisition/internal/view_assessor.h"
 #include "frangia/core/angles.h"
@@ -68,6 +71,7 @@ class Session {
                       devices.camera->info().min_exposure_ms,
                       devices.camera->info().max_exposure_ms},
         manifest_(plan_.folder),
+        files_(plan_, manifest_),
         store_(manifest_),
         assessor_(plan_, run) {
     const std::size_t damaged = manifest_.forget_damaged();
@@ -79,7 +83,7 @@ class Session {
     const auto begin = Deadline::Clock::now();
     choose_exposures();
     for (std::size_t view = 0; view < plan_.views.size(); ++view)
-      total_ += frames_a_view();
+      total_ += files_.frames_per_view();
     Scan scan = plan_;
     scan.views.clear();
     for (std::size_t view = 0; view < plan_.views.size(); ++view) {
@@ -100,47 +104,19 @@ class Session {
   }
 
  private:
-  [[nodiscard]] std::string set_of(std::size_t view, const Pattern& pattern) const {
-    return (plan_.views[view].folder / pattern.name).generic_string();
-  }
-  [[nodiscard]] std::string file_of(std::size_t view,
-                                    const Pattern& pattern,
-                                    int frame,
-                                    int exposure) const {
-    return (plan_.views[view].folder / frame_file_name(pattern, frame, exposure)).generic_string();
-  }
-  [[nodiscard]] std::size_t frames_a_view() const {
-    int count = 0;
-    for (const Pattern& pattern : plan_.patterns)
-      count += pattern.frame_count() * pattern.exposure_count();
-    return static_cast<std::size_t>(count);
-  }
-  [[nodiscard]] bool has_all_frames(std::size_t view, const Pattern& pattern) const {
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
-        if (!manifest_.has(file_of(view, pattern, frame, exposure))) return false;
-    }
-    return true;
-  }
-  [[nodiscard]] bool is_complete(std::size_t view) const {
-    return std::all_of(plan_.patterns.begin(), plan_.patterns.end(), [&](const Pattern& pattern) {
-      return has_all_frames(view, pattern) && manifest_.is_good(set_of(view, pattern));
-    });
-  }
-
   void skip(std::size_t view, const std::string& why) {
     const double angle_deg = deg_from_rad(plan_.views[view].angle_rad);
     report_.skipped.push_back(
         fmt::format("view {} at {:.6g} degrees: {}", view + 1, angle_deg, why));
     run_.warn("skipped " + report_.skipped.back());
-    count(view * frames_a_view() + frames_a_view() - counted_);
+    count(view * files_.frames_per_view() + files_.frames_per_view() - counted_);
   }
 
   /// Captures the missing frames of a view. Returns the reason of a failure, or an empty text.
   std::string capture_view(std::size_t view) {
-    if (is_complete(view)) {
-      report_.resumed += frames_a_view();
-      count(frames_a_view());
+    if (files_.is_complete(view)) {
+      report_.resumed += files_.frames_per_view();
+      count(files_.frames_per_view());
       return {};
     }
     std::string why;
@@ -194,7 +170,7 @@ class Session {
 
   /// Captures the missing frames of a set; repeats the set while it shows motion.
   void capture_set(std::size_t view, const Pattern& pattern) {
-    const std::string set = set_of(view, pattern);
+    const std::string set = files_.set_of(view, pattern);
     capture_trial_set(view, pattern);
     for (;;) {
       const int attempt = manifest_.attempt_of(set);
@@ -233,12 +209,8 @@ class Session {
         outcome.scale /= 1.0 + kShare * assessment.gain_error;
       }
     }
-    store_.put(set_of(view, pattern), outcome);
+    store_.put(files_.set_of(view, pattern), outcome);
     return outcome.moved;
-  }
-
-  [[nodiscard]] std::filesystem::path rejected(std::size_t view) const {
-    return plan_.folder / plan_.views[view].folder / "rejected";
   }
 
   [[nodiscard]] std::vector<FrameStack> stacks_of(const Pattern& pattern,
@@ -254,12 +226,12 @@ class Session {
 
   /// The frames of a set at all exposures: read where stored, captured otherwise.
   std::vector<FramePtr> acquire_set(std::size_t view, const Pattern& pattern, int attempt) {
-    const bool complete = has_all_frames(view, pattern);
-    const std::vector<bool> stored = stored_frames(view, pattern);
-    const double scale = scale_of(view, pattern);
+    const bool complete = files_.has_all_frames(view, pattern);
+    const std::vector<bool> stored = files_.stored_frames(view, pattern);
+    const double scale = files_.scale_of(view, pattern);
     if (!complete) {
       if (attempt > 0) store_.drain();  // until the rejected frames are written
-      if (attempt > 0) move_to_rejected(view, pattern, attempt - 1);
+      if (attempt > 0) files_.move_to_rejected(view, pattern, attempt - 1);
       devices_.begin_set(pattern, scale);
     }
     std::vector<FramePtr> frames;
@@ -267,7 +239,7 @@ class Session {
       // The shifter passes all positions, stored frames included, for the same hysteresis.
       if (!complete) devices_.show(pattern, frame);
       for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-        const std::string file = file_of(view, pattern, frame, exposure);
+        const std::string file = files_.file_of(view, pattern, frame, exposure);
         if (stored[frames.size()]) {
           frames.push_back(std::make_shared<const Frame>(read_png(plan_.folder / file)));
           ++report_.resumed;
@@ -286,45 +258,10 @@ class Session {
     return frames;
   }
 
-  /// A set that is stored in part keeps its scale.
-  [[nodiscard]] double scale_of(std::size_t view, const Pattern& pattern) const {
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-        const ManifestFrame* stored = manifest_.find(file_of(view, pattern, frame, exposure));
-        if (stored != nullptr) return stored->scale;
-      }
-    }
-    return manifest_.scale();
-  }
-
-  [[nodiscard]] std::vector<bool> stored_frames(std::size_t view, const Pattern& pattern) const {
-    std::vector<bool> stored;
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
-        stored.push_back(manifest_.has(file_of(view, pattern, frame, exposure)));
-    }
-    return stored;
-  }
-
   [[nodiscard]] double exposure_of(const Pattern& pattern, int exposure) const {
     if (!pattern.exposures_ms.empty())
       return pattern.exposures_ms[static_cast<std::size_t>(exposure)];
     return exposure_ms_;
-  }
-
-  /// Raw frames are never changed or deleted.
-  void move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const {
-    const std::filesystem::path folder = plan_.folder / plan_.views[view].folder;
-    make_folder(rejected(view));
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-        const std::string name = frame_file_name(pattern, frame, exposure);
-        const std::filesystem::path to = rejected(view) / fmt::format("{}-{}", attempt, name);
-        const bool counts = manifest_.has(file_of(view, pattern, frame, exposure));
-        if (!counts && std::filesystem::exists(folder / name) && !std::filesystem::exists(to))
-          std::filesystem::rename(folder / name, to);
-      }
-    }
   }
 
   void count(std::size_t frames) {
@@ -368,6 +305,7 @@ class Session {
   CaptureDevices devices_;
   ExposureRange camera_range_;
   CaptureManifest manifest_;
+  SetFiles files_;
   FrameStore store_;
   ViewAssessor assessor_;
   CaptureReport report_;
