@@ -241,7 +241,8 @@ INSTANTIATE_TEST_SUITE_P(All,
 TEST(WriteScan, KeepsEveryKindOfPatternAndEverySetup) {
   const SmallFolder folder;
   Scan scan = read_scan(folder.path());
-  scan.rig.projector.model = PinholeModel{.width_px = 1280, .height_px = 800, .focal_px = {1900.0, 1900.0}};
+  scan.rig.projector.model =
+      PinholeModel{.width_px = 1280, .height_px = 800, .focal_px = {1900.0, 1900.0}};
   const double third_rad = rad_from_deg(120.0);
   scan.patterns = {{.name = "fine", .period_px = 20.0},
                    {.name = "code", .kind = PatternKind::Gray},

@@ -19,10 +19,10 @@ constexpr double kMaxFringes = 1e6;
 
 void require_fringes(double fringes) {
   if (std::isfinite(fringes) && fringes >= 1.0 && fringes <= kMaxFringes) return;
-  throw Error(ErrorKind::Input,
-              fmt::format("fringes over the field are {:g}; they must be from 1 to {:g}",
-                          fringes,
-                          kMaxFringes));
+  throw Error(
+      ErrorKind::Input,
+      fmt::format(
+          "fringes over the field are {:g}; they must be from 1 to {:g}", fringes, kMaxFringes));
 }
 
 }  // namespace
