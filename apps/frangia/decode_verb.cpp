@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/stage_pictures.h"

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/dataset/read_frames.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/frames/map_picture.h"
 #include "frangia/inspect/contact_sheet.h"

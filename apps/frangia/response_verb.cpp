@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/phase/measure_fringe_response.h"
 #include "frangia/phase/measure_response.h"

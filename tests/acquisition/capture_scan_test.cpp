@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/pipeline/reconstruct.h"
 
@@ -137,7 +138,8 @@ TEST_F(CaptureScan, LostFrameHasItsViewTakenAgain) {
   devices_["camera"] += "faults = [\"lost 1 fringe 2\"]\n";
   EXPECT_TRUE(capture().skipped.empty());
   ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_TRUE(holds(warnings_.front(), "view 2 is tried again: simulated camera: no frame came"));
+  EXPECT_TRUE(
+      holds(warnings_.front(), "view 2 is captured again: simulated camera: no frame came"));
 }
 
 TEST_F(CaptureScan, StuckTableIsTriedAgainThenTheViewIsSkippedAndNamed) {

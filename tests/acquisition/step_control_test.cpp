@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/sweep_piezo.h"
+#include "frangia/dataset/read_frames.h"
 #include "frangia/phase/fit_algorithm.h"
 #include "frangia/phase/wrap_phase.h"
 #include "frangia/simulate/internal/light_sample.h"

@@ -3,9 +3,13 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/angles.h"
+#include "frangia/dataset/read_frames.h"
+#include "frangia/dataset/write_scan.h"
 #include "frangia/frames/png.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/read_rig.h"
@@ -108,7 +112,7 @@ TEST(ReadScanFault, AMissingFrameIsNamed) {
   expect_names(complaint(folder), "fringe-2.png");
 }
 
-TEST(ReadScanFault, AFrameTooManyIsNamed) {
+TEST(ReadScanFault, ASurplusFrameIsNamed) {
   const SmallFolder folder;
   std::filesystem::copy_file(folder.view() / "fringe-2.png", folder.view() / "fringe-4.png");
   expect_names(complaint(folder), "fringe-4.png");
@@ -186,7 +190,98 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"angle_deg = 45.0", "angle_deg = \"45\"", "view[0].angle_deg"},
                       Fault{"folder = \"views/000\"", "folder = \"views/001\"", "views/001"},
                       Fault{"folder = \"views/000\"", "folder = \"/views\"", "relative"},
+                      Fault{"folder = \"views/000\"", "folder = \"../../etc\"", "inside"},
+                      Fault{"folder = \"views/000\"", "folder = \"views/../..\"", "inside"},
+                      Fault{"folder = \"views/000\"", "folder = \"\"", "inside"},
+                      Fault{"angle_deg", "round = 1\nangle_deg", "is called setup now"},
+                      Fault{
+                          "[[view]]", "[[round]]\nround = 1\n[[view]]", "is called [[setup]] now"},
+                      Fault{"[[view]]", "[[setup]]\nround = 1\n[[view]]", "is called number now"},
+                      Fault{"[[view]]",
+                            "[[setup]]\nnumber = 1\nshift_mm = [0, 0, 1]\n[[view]]",
+                            "is called translation_mm now"},
+                      Fault{"version = 1", "version = 3", "reads versions up to 2"},
                       Fault{"[[view]]", "[[vue]]", "[[view]]"}));
+
+TEST(ReadScanFault, AViewsFolderThatIsALinkOutOfTheScanIsNamed) {
+  const SmallFolder folder;
+  const TemporaryFolder outside;
+  std::filesystem::remove_all(folder.view());
+  std::filesystem::create_directory_symlink(outside.path(), folder.view());
+  expect_names(complaint(folder), "view[0].folder");
+}
+
+TEST(ReadScan, AcceptsAScanFolderThatIsALinkItself) {
+  const SmallFolder folder;
+  const TemporaryFolder outside;
+  const std::filesystem::path link = outside.path() / "scan";
+  std::filesystem::create_directory_symlink(folder.path(), link);
+  EXPECT_EQ(read_frames(read_scan(link), 0).size(), 2U);
+}
+
+class UnfinishedScan : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(UnfinishedScan, IsSaidToBeNotComplete) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / GetParam().first);
+  try {
+    static_cast<void>(read_scan(folder.path()));
+    FAIL();
+  } catch (const Error& error) {
+    expect_names(error.what(), "the scan is not complete");
+    expect_names(error.what(), GetParam().second);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         UnfinishedScan,
+                         ::testing::Values(std::pair{"capture", "`scan`"},
+                                           std::pair{"simulation-not-finished", "`simulate`"}));
+
+TEST(WriteScan, KeepsEveryKindOfPatternAndEverySetup) {
+  const SmallFolder folder;
+  Scan scan = read_scan(folder.path());
+  scan.rig.projector.model =
+      PinholeModel{.width_px = 1280, .height_px = 800, .focal_px = {1900.0, 1900.0}};
+  const double third_rad = rad_from_deg(120.0);
+  scan.patterns = {{.name = "fine", .period_px = 20.0},
+                   {.name = "code", .kind = PatternKind::Gray},
+                   {.name = "ramp", .kind = PatternKind::Ramp}};
+  scan.patterns[0].direction = FringeDirection::Horizontal;
+  scan.patterns[0].shifts_rad = {0.0, third_rad, 2.0 * third_rad};
+  scan.patterns[0].exposures_ms = {2.5, 10.0};
+  scan.patterns[1].bits = 8;
+  scan.patterns[1].stripe_px = 10.0;
+  scan.patterns[2].levels = {0.0, 0.5, 1.0};
+  scan.views.push_back({third_rad, "views/001", 1});
+  scan.part_poses[1] = Eigen::Translation3d(0.0, 0.5, 70.0) *
+                       Eigen::AngleAxisd(0.3, Eigen::Vector3d(1.0, 2.0, 2.0) / 3.0);
+  write_scan(scan);
+  const Scan back = read_scan(folder.path());
+  EXPECT_EQ(back.patterns[0].direction, FringeDirection::Horizontal);
+  EXPECT_EQ(back.patterns[0].period_px, 20.0);
+  EXPECT_EQ(back.patterns[0].exposures_ms, scan.patterns[0].exposures_ms);
+  ASSERT_EQ(back.patterns[0].shifts_rad.size(), 3U);
+  EXPECT_NEAR(back.patterns[0].shifts_rad[2], 2.0 * third_rad, 1e-12);
+  EXPECT_EQ(back.patterns[1].bits, 8);
+  EXPECT_EQ(back.patterns[1].stripe_px, 10.0);
+  EXPECT_EQ(back.patterns[2].levels, scan.patterns[2].levels);
+  EXPECT_EQ(back.views[0].setup, 0);
+  EXPECT_EQ(back.views[1].setup, 1);
+  EXPECT_NEAR(back.views[1].angle_rad, third_rad, 1e-12);
+  EXPECT_TRUE(back.part_poses.at(1).isApprox(scan.part_poses.at(1), 1e-10));
+}
+
+TEST(WriteScan, WritesRoundNumbersAsPeopleDo) {
+  const SmallFolder folder;
+  Scan scan = read_scan(folder.path());
+  scan.views[0].angle_rad = rad_from_deg(120.0);
+  write_scan(scan);
+  std::ifstream in(folder.path() / "scan.toml");
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  expect_names(text, "angle_deg = 120.0\n");
+  expect_names(text, "version = 2\n");
+}
 
 TEST(ReadScanFault, ALinePatternNeedsAPlaneInTheRig) {
   const SmallFolder folder;

@@ -54,6 +54,11 @@ TEST(PlanSequence, IsTheShortestSequenceWithinTheLimit) {
   EXPECT_EQ(plan_sequence(1.0, 0.1).fringes, Numbers{1.0});
 }
 
+TEST(PlanSequence, RefusesMoreFringesThanAnyCameraResolves) {
+  EXPECT_THROW(static_cast<void>(plan_sequence(1e300, 0.1)), Error);
+  EXPECT_THROW(static_cast<void>(fringe_sequence("doubling", 1e300)), Error);
+}
+
 TEST(PlanSequence, RefusesNoiseTooLargeForAnySequence) {
   EXPECT_THROW(static_cast<void>(plan_sequence(64.0, 2.0)), Error);
   EXPECT_THROW(static_cast<void>(plan_sequence(64.0, std::nan(""))), Error);

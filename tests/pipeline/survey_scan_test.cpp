@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/pipeline/decode_view.h"
 
 #include "support/small_scan.h"

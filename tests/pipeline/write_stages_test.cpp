@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/range/triangulate.h"
 
 #include "support/small_scan.h"

@@ -48,6 +48,21 @@ TEST(DefaultPatterns, TakeGivenPeriodsFromCoarseToFine) {
   EXPECT_EQ(patterns[2].frame_count(), 3);
 }
 
+TEST(DefaultPatterns, RefuseWhatTheProjectorCannotShow) {
+  const auto refuses = [](const char* preset, const PatternPlan& plan) {
+    EXPECT_THROW(static_cast<void>(default_patterns(rig_preset(preset), plan)), Error);
+  };
+  PatternPlan periods;
+  periods.periods_px = {1280.0, 160.0, 20.0};
+  refuses("angular", periods);
+  periods.sequence = "doubling";
+  refuses("digital", periods);
+  refuses("digital", {.periods_px = {1280.0, 1.0}});
+  refuses("digital", {.sequence = "doubling", .fringes = 1280.0});
+  refuses("digital", {.sequence = "doubling", .fringes = 1e300});
+  refuses("angular", {.fringes_per_degree = 1e300});
+}
+
 TEST(DefaultPatterns, RefuseTwoShiftsAndNoPitch) {
   PatternPlan two;
   two.shifts = 2;

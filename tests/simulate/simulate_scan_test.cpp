@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/dataset/read_frames.h"
 #include "frangia/files/ply.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"

@@ -1,3 +1,5 @@
+// Longer than 250 lines: the functions of a session share its state, and the order of their device
+// calls and manifest entries is what makes an interrupted capture continue with the same bytes.
 #include "frangia/acquisition/capture_scan.h"
 
 #include <algorithm>
@@ -15,6 +17,7 @@
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/frame_store.h"
+#include "frangia/acquisition/internal/set_files.h"
 #include "frangia/acquisition/internal/survey_exposures.h"
 #include "frangia/acquisition/internal/view_assessor.h"
 #include "frangia/core/angles.h"
@@ -26,7 +29,7 @@ namespace {
 
 using FramePtr = std::shared_ptr<const Frame>;
 
-/// What must be the same again for a session to go on, besides patterns, views and rig.
+/// The options that must not change between the sessions of one scan, in words.
 std::string describe(const CaptureOptions& options) {
   static constexpr std::array kChoices = {"given", "automatic", "bracketed"};
   return fmt::format(
@@ -45,7 +48,7 @@ std::vector<double> angles_of(const Scan& plan) {
   return angles_rad;
 }
 
-/// Noise in counts grows with the gain; the scan's own rig.toml must tell what its frames have.
+/// The plan with the noise model at a camera gain: noise in counts grows with the gain.
 Scan with_gain(Scan plan, double gain_db) {
   if (!plan.rig.camera.noise || gain_db == 0.0) return plan;
   const double gain = std::pow(10.0, gain_db / 20.0);
@@ -56,7 +59,7 @@ Scan with_gain(Scan plan, double gain_db) {
   return plan;
 }
 
-/// One run of the program over a plan.
+/// One session of a capture: all views of the plan, from the first missing frame on.
 class Session {
  public:
   Session(Scan plan, RigDevices& devices, const CaptureOptions& options, const Run& run)
@@ -68,18 +71,19 @@ class Session {
                       devices.camera->info().min_exposure_ms,
                       devices.camera->info().max_exposure_ms},
         manifest_(plan_.folder),
+        files_(plan_, manifest_),
         store_(manifest_),
         assessor_(plan_, run) {
     const std::size_t damaged = manifest_.forget_damaged();
     if (damaged > 0)
-      run_.warn(fmt::format("{} frames are gone or damaged and are taken again", damaged));
+      run_.warn(fmt::format("frames missing or damaged on the disk, captured again: {}", damaged));
   }
 
   CaptureReport capture() {
     const auto begin = Deadline::Clock::now();
     choose_exposures();
     for (std::size_t view = 0; view < plan_.views.size(); ++view)
-      total_ += frames_a_view();
+      total_ += files_.frames_per_view();
     Scan scan = plan_;
     scan.views.clear();
     for (std::size_t view = 0; view < plan_.views.size(); ++view) {
@@ -100,47 +104,19 @@ class Session {
   }
 
  private:
-  [[nodiscard]] std::string set_of(std::size_t view, const Pattern& pattern) const {
-    return (plan_.views[view].folder / pattern.name).generic_string();
-  }
-  [[nodiscard]] std::string file_of(std::size_t view,
-                                    const Pattern& pattern,
-                                    int frame,
-                                    int exposure) const {
-    return (plan_.views[view].folder / frame_file_name(pattern, frame, exposure)).generic_string();
-  }
-  [[nodiscard]] std::size_t frames_a_view() const {
-    int count = 0;
-    for (const Pattern& pattern : plan_.patterns)
-      count += pattern.frame_count() * pattern.exposure_count();
-    return static_cast<std::size_t>(count);
-  }
-  [[nodiscard]] bool has_all_frames(std::size_t view, const Pattern& pattern) const {
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
-        if (!manifest_.has(file_of(view, pattern, frame, exposure))) return false;
-    }
-    return true;
-  }
-  [[nodiscard]] bool is_complete(std::size_t view) const {
-    return std::all_of(plan_.patterns.begin(), plan_.patterns.end(), [&](const Pattern& pattern) {
-      return has_all_frames(view, pattern) && manifest_.is_good(set_of(view, pattern));
-    });
-  }
-
   void skip(std::size_t view, const std::string& why) {
     const double angle_deg = deg_from_rad(plan_.views[view].angle_rad);
     report_.skipped.push_back(
         fmt::format("view {} at {:.6g} degrees: {}", view + 1, angle_deg, why));
     run_.warn("skipped " + report_.skipped.back());
-    count(view * frames_a_view() + frames_a_view() - counted_);
+    count(view * files_.frames_per_view() + files_.frames_per_view() - counted_);
   }
 
-  /// Captures what is missing of a view; why it could not be, or nothing.
+  /// Captures the missing frames of a view. Returns the reason of a failure, or an empty text.
   std::string capture_view(std::size_t view) {
-    if (is_complete(view)) {
-      report_.resumed += frames_a_view();
-      count(frames_a_view());
+    if (files_.is_complete(view)) {
+      report_.resumed += files_.frames_per_view();
+      count(files_.frames_per_view());
       return {};
     }
     std::string why;
@@ -158,18 +134,18 @@ class Session {
         devices_.make_safe();
         if (error.kind() != ErrorKind::Device) throw;
         store_.drain();
-        devices_.check_health();  // a device that is gone ends the scan
+        devices_.check_health();  // throws when a device is lost
         why = error.what();
         counted_ = counted;
         if (attempt + 1 < options_.view_attempts)
-          run_.warn(fmt::format("view {} is tried again: {}", view + 1, why));
+          run_.warn(fmt::format("view {} is captured again: {}", view + 1, why));
       }
     }
     return why;
   }
 
-  /// A set that is not kept, before the first one that is: it tells how far off the steps are, so
-  /// that all views are taken with the same ones.
+  /// Captures a set that is not stored, before the first stored one: it measures the step error, so
+  /// that all views are captured with corrected steps.
   void capture_trial_set(std::size_t view, const Pattern& pattern) {
     const bool due = options_.control_steps && devices_.has_phase_shifter() &&
                      pattern.kind == PatternKind::Fringe && !manifest_.is_good("trial");
@@ -188,26 +164,26 @@ class Session {
     if (assessment.step_found) outcome.scale = 1.0 / (1.0 + assessment.gain_error);
     store_.put("trial", outcome);
     run_.note(
-        fmt::format("steps of the phase shifter: {:+.2f} % off, corrected from the first set on",
+        fmt::format("step error of the phase shifter: {:+.2f} %, corrected from the first set on",
                     100.0 * assessment.gain_error));
   }
 
-  /// Takes what is missing of a set, until it shows no motion.
+  /// Captures the missing frames of a set; repeats the set while it shows motion.
   void capture_set(std::size_t view, const Pattern& pattern) {
-    const std::string set = set_of(view, pattern);
+    const std::string set = files_.set_of(view, pattern);
     capture_trial_set(view, pattern);
     for (;;) {
       const int attempt = manifest_.attempt_of(set);
       std::vector<FramePtr> frames = acquire_set(view, pattern, attempt);
       if (!manifest_.is_good(set) && shows_motion(view, pattern, frames, attempt)) {
         ++report_.set_retakes;
-        run_.warn(fmt::format("view {}: the frames of \"{}\" show motion and are taken again",
+        run_.warn(fmt::format("view {}: the frames of \"{}\" show motion and are captured again",
                               view + 1,
                               pattern.name));
         counted_ -= frames.size();
         continue;
       }
-      // In the order of read_frames: an exposure after the other.
+      // The order of read_frames: one exposure after the other.
       const auto exposures = static_cast<std::size_t>(pattern.exposure_count());
       for (std::size_t exposure = 0; exposure < exposures; ++exposure) {
         for (std::size_t i = exposure; i < frames.size(); i += exposures)
@@ -217,7 +193,7 @@ class Session {
     }
   }
 
-  /// Judges a set that was just completed, and writes the outcome down.
+  /// Assesses a complete set and stores the outcome.
   bool shows_motion(std::size_t view,
                     const Pattern& pattern,
                     const std::vector<FramePtr>& frames,
@@ -228,17 +204,13 @@ class Session {
           stacks_of(pattern, frames), plan_.rig.camera.noise, devices_.has_phase_shifter());
       outcome.moved = assessment.moved && attempt + 1 < options_.set_attempts;
       if (options_.control_steps && assessment.step_found && !assessment.moved) {
-        // The trial told most; these only trim, for each has the jitter of its steps.
+        // The trial set corrected the gain error; each further set has the jitter of its own steps.
         constexpr double kShare = 0.5;
         outcome.scale /= 1.0 + kShare * assessment.gain_error;
       }
     }
-    store_.put(set_of(view, pattern), outcome);
+    store_.put(files_.set_of(view, pattern), outcome);
     return outcome.moved;
-  }
-
-  [[nodiscard]] std::filesystem::path rejected(std::size_t view) const {
-    return plan_.folder / plan_.views[view].folder / "rejected";
   }
 
   [[nodiscard]] std::vector<FrameStack> stacks_of(const Pattern& pattern,
@@ -252,22 +224,22 @@ class Session {
     return stacks;
   }
 
-  /// The frames of a set, each at all its exposures: those that lie there, and the rest taken.
+  /// The frames of a set at all exposures: read where stored, captured otherwise.
   std::vector<FramePtr> acquire_set(std::size_t view, const Pattern& pattern, int attempt) {
-    const bool complete = has_all_frames(view, pattern);
-    const std::vector<bool> stored = stored_frames(view, pattern);
-    const double scale = scale_of(view, pattern);
+    const bool complete = files_.has_all_frames(view, pattern);
+    const std::vector<bool> stored = files_.stored_frames(view, pattern);
+    const double scale = files_.scale_of(view, pattern);
     if (!complete) {
-      if (attempt > 0) store_.drain();  // the frames that are to be moved aside
-      if (attempt > 0) move_to_rejected(view, pattern, attempt - 1);
+      if (attempt > 0) store_.drain();  // until the rejected frames are written
+      if (attempt > 0) files_.move_to_rejected(view, pattern, attempt - 1);
       devices_.begin_set(pattern, scale);
     }
     std::vector<FramePtr> frames;
     for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      // The light goes the whole way even where frames lie there: it must come as it did then.
+      // The shifter passes all positions, stored frames included, for the same hysteresis.
       if (!complete) devices_.show(pattern, frame);
       for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-        const std::string file = file_of(view, pattern, frame, exposure);
+        const std::string file = files_.file_of(view, pattern, frame, exposure);
         if (stored[frames.size()]) {
           frames.push_back(std::make_shared<const Frame>(read_png(plan_.folder / file)));
           ++report_.resumed;
@@ -286,45 +258,10 @@ class Session {
     return frames;
   }
 
-  /// A set that was begun goes on as it began.
-  [[nodiscard]] double scale_of(std::size_t view, const Pattern& pattern) const {
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-        const ManifestFrame* stored = manifest_.find(file_of(view, pattern, frame, exposure));
-        if (stored != nullptr) return stored->scale;
-      }
-    }
-    return manifest_.scale();
-  }
-
-  [[nodiscard]] std::vector<bool> stored_frames(std::size_t view, const Pattern& pattern) const {
-    std::vector<bool> stored;
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
-        stored.push_back(manifest_.has(file_of(view, pattern, frame, exposure)));
-    }
-    return stored;
-  }
-
   [[nodiscard]] double exposure_of(const Pattern& pattern, int exposure) const {
     if (!pattern.exposures_ms.empty())
       return pattern.exposures_ms[static_cast<std::size_t>(exposure)];
     return exposure_ms_;
-  }
-
-  /// Raw frames are never changed or thrown away.
-  void move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const {
-    const std::filesystem::path folder = plan_.folder / plan_.views[view].folder;
-    make_folder(rejected(view));
-    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-        const std::string name = frame_file_name(pattern, frame, exposure);
-        const std::filesystem::path to = rejected(view) / fmt::format("{}-{}", attempt, name);
-        const bool counts = manifest_.has(file_of(view, pattern, frame, exposure));
-        if (!counts && std::filesystem::exists(folder / name) && !std::filesystem::exists(to))
-          std::filesystem::rename(folder / name, to);
-      }
-    }
   }
 
   void count(std::size_t frames) {
@@ -332,7 +269,7 @@ class Session {
     run_.report(std::min(1.0, static_cast<double>(counted_) / static_cast<double>(total_)));
   }
 
-  /// Settles how long frames are exposed, once for the whole scan.
+  /// Chooses the exposures for the whole scan.
   void choose_exposures() {
     exposure_ms_ = options_.camera.exposure_ms;
     if (options_.exposure != ExposureChoice::Given) {
@@ -347,7 +284,7 @@ class Session {
       if (options_.exposure == ExposureChoice::Bracketed && fringes)
         pattern.exposures_ms = report_.exposures_ms;
       if (fringes && !pattern.exposures_ms.empty()) {
-        exposure_ms_ = pattern.exposures_ms.front();  // of the line, too
+        exposure_ms_ = pattern.exposures_ms.front();  // also for the laser sheet
         report_.exposures_ms = pattern.exposures_ms;
       }
     }
@@ -368,11 +305,12 @@ class Session {
   CaptureDevices devices_;
   ExposureRange camera_range_;
   CaptureManifest manifest_;
+  SetFiles files_;
   FrameStore store_;
   ViewAssessor assessor_;
   CaptureReport report_;
   double exposure_ms_ = 10.0;
-  std::vector<FramePtr> frames_;  ///< of the view at hand, in the order of read_frames
+  std::vector<FramePtr> frames_;  ///< of the current view, in the order of read_frames
   std::size_t total_ = 0;
   std::size_t counted_ = 0;
 };
@@ -384,14 +322,15 @@ CaptureReport capture_scan(const Scan& plan,
                            const CaptureOptions& options,
                            const Run& run) {
   require(!plan.patterns.empty() && !plan.views.empty(),
-          "a scan needs at least one pattern and one view");
+          "a scan needs at least one pattern and one view; add them to the plan");
   const SafeStateGuard safe(devices);
   check_devices(devices, plan.rig, plan.patterns, angles_of(plan));
   Scan real = with_gain(plan, options.camera.gain_db);
   const bool begun = claim_folder(real, describe(options));
   if (begun && devices.turntable && !devices.turntable->info().can_home) {
-    run.warn(fmt::format("{} has no home switch: it must stand where the scan began, at 0",
-                         devices.turntable->name()));
+    run.warn(
+        fmt::format("{} has no home switch: move it to the position where the scan began, at 0",
+                    devices.turntable->name()));
   }
   return Session(std::move(real), devices, options, run).capture();
 }

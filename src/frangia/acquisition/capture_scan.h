@@ -7,16 +7,17 @@
 
 namespace frangia {
 
-/// Captures `plan` into `plan.folder`, or the rest of it when that was interrupted: at the first
-/// frame that is missing, to the same bytes as without an interruption on the same rig.
+/// Captures `plan` into `plan.folder`. An interrupted capture continues at the first missing frame
+/// and gives the same bytes as an uninterrupted one on the same rig.
 ///
-/// Each frame is on the disk, with its checksum in the manifest, while the next but one is taken.
-/// Frames once stored are never changed; those of a set that is taken again move to the view's
-/// folder `rejected`. A view that fails is tried again, then skipped and named. scan.toml is
-/// written last and holds the views that are complete. Whatever happens, light and motion are off
-/// at the end.
-/// errors   Error(Input) when the folder holds another scan, or the devices do not suit the plan;
-///          Error(Device) when a device is gone, or no view could be captured; Error(File)
+/// A frame and its checksum in the manifest are on the disk before the next but one is exposed.
+/// Stored frames are never changed; the frames of a set that is captured again move to the folder
+/// `rejected` of their view. A failing view is retried, then skipped with a warning. scan.toml is
+/// written last and holds the complete views. Lights and motion are off when the function returns
+/// or throws.
+/// errors   Error(Input) when the folder holds another scan, or the devices cannot capture the
+///          plan; Error(Device) when a device is lost or no view could be captured; Error(File)
+///          when a file cannot be written
 [[nodiscard]] CaptureReport capture_scan(const Scan& plan,
                                          RigDevices& devices,
                                          const CaptureOptions& options = {},

@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-/// The commands as shifts of a pattern: what the curve makes of them so far.
+/// The commands as shifts of a pattern, by the shifter's current curve.
 Pattern pattern_of(const ShifterInfo& info, const SweepOptions& options) {
   Pattern pattern{.name = "sweep"};
   pattern.fringes_per_degree =
@@ -55,7 +55,7 @@ PiezoSweep sweep_piezo(RigDevices& devices,
       devices.camera && devices.shifter,
       "calibrating a piezo needs [devices.camera] and a phase shifter in [devices.fringes]; add "
       "them to rig.toml");
-  require(options.steps >= 6, "a sweep needs six steps or more");
+  require(options.steps >= 6, "`steps` must be at least 6");
   const SafeStateGuard safe(devices);
   const FrameStack stack = take_sweep(devices, rig, options, run);
   const NoiseModel noise = rig.camera.noise ? *rig.camera.noise : estimate_noise({&stack, 1});
@@ -66,8 +66,8 @@ PiezoSweep sweep_piezo(RigDevices& devices,
   if (!found.found) {
     throw Error(
         ErrorKind::Numeric,
-        fmt::format("{}: no phases explain the frames of the sweep ({:.1f} times the noise is "
-                    "left over); keep the rig still, light the part evenly, or correct "
+        fmt::format("{}: no phase steps fit the frames of the sweep (residual variance {:.1f} "
+                    "times the noise); keep the rig still, light the part evenly, or correct "
                     "command_per_turn",
                     devices.shifter->name(),
                     sweep.residual_ratio));

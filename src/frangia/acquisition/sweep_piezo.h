@@ -9,24 +9,25 @@ namespace frangia {
 
 struct SweepOptions {
   int steps = 25;                   ///< commands, evenly over the shifter's range
-  double fringes_per_degree = 1.0;  ///< for an interferometer whose pitch is set
-  CaptureOptions capture;           ///< exposure, attempts, patience
+  double fringes_per_degree = 1.0;  ///< for an interferometer with adjustable pitch
+  CaptureOptions capture;           ///< exposure, attempts, timeouts
 };
 
-/// What a sweep over a phase shifter's commands showed.
+/// Result of a sweep over a phase shifter's commands.
 struct PiezoSweep {
   PhaseCurve curve;  ///< phase over command, 0 at the first one
   double residual_ratio =
-      0.0;  ///< variance that no phases explain, over that of the camera's noise
+      0.0;  ///< residual variance of the fit over the variance of the camera's noise
 };
 
-/// Drives a phase shifter from its lowest command to its highest, takes a frame at each, and finds
-/// the phase of each from the frames alone (AIA): how its command becomes phase.
+/// Measures the curve of phase over command of a phase shifter: drives it from the lowest command
+/// to the highest, takes a frame at each step and estimates the phase steps from the frames alone.
 ///
-/// The curve that it has now is the first guess, and must not be off by more than some tenths of a
-/// fringe from one step to the next.
-/// errors   Error(Input) when the rig has no phase shifter, or fewer than six steps are asked for;
-///          Error(Numeric) when no phases explain the frames; Error(Device)
+/// The shifter's current curve is the initial guess. Its error from one step to the next must stay
+/// below a few tenths of a fringe.
+/// source   advanced iterative algorithm (AIA), Wang and Han 2004
+/// errors   Error(Input) when the rig has no phase shifter, or for fewer than 6 steps;
+///          Error(Numeric) when no phase steps fit the frames; Error(Device)
 [[nodiscard]] PiezoSweep sweep_piezo(RigDevices& devices,
                                      const Rig& rig,
                                      const SweepOptions& options = {},

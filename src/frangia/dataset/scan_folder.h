@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -9,50 +8,42 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/frames/frame_stack.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
 
+/// The `version` that `write_scan` writes and the newest that `read_scan` accepts.
+/// Version 2 calls a clamping of the part a setup: `setup` and `[[setup]]`.
+inline constexpr int kScanVersion = 2;
+
 struct ScanView {
-  double angle_rad = 0.0;        ///< commanded table angle
-  std::filesystem::path folder;  ///< relative to the scan
-  int setup = 0;  ///< views of one setup share one part pose of the part on the table
+  double angle_rad = 0.0;        ///< commanded turntable angle
+  std::filesystem::path folder;  ///< relative to the scan folder, inside it
+  int setup = 0;                 ///< views of one setup share one pose of the part on the turntable
 };
 
-/// What scan.toml and rig.toml say: everything but the images.
+/// The content of scan.toml and rig.toml: everything but the images.
 struct Scan {
   std::filesystem::path folder;
   std::string name;
   Rig rig;
-  std::vector<Pattern> patterns;  ///< in the order captured
+  std::vector<Pattern> patterns;  ///< in the order of capture
   std::vector<ScanView> views;
-  /// Roughly how the part stands in a setup, where that is known: what takes it from its place in
-  /// setup 0, in the object frame.
+  /// Approximate part poses of setups, where known: part pose · (point of setup 0) = point of this
+  /// setup, both in the object frame.
   std::map<int, Eigen::Isometry3d> part_poses{};
 };
 
-/// A scan folder, as docs/scan-format.md describes it. Keys it does not know are warned of by name.
+/// Reads scan.toml and rig.toml of a scan folder, see docs/scan-format.md. Unknown keys are warned
+/// of by name and ignored.
 ///
-/// errors   Error(Input) that names the file and the key
+/// errors   Error(Input) that names the file and the key: a missing or wrong value, a key of
+///          version 1 that was renamed, a newer version, a view's folder outside of the scan;
+///          or the folder, when its capture or simulation is not complete
 [[nodiscard]] Scan read_scan(const std::filesystem::path& folder, const Run& run = {});
 
-/// The `[[setup]]` tables of part_poses, as scan.toml has them.
-[[nodiscard]] std::string toml_of(const std::map<int, Eigen::Isometry3d>& part_poses);
-
-/// Writes scan.toml and rig.toml into `scan.folder`.
-void write_scan(const Scan& scan);
-
-/// The frames of every pattern of one view, in the order of `scan.patterns`, a stack an exposure.
-///
-/// errors   Error(Input) that names the file: missing, one too many, of another size than the
-///          rig's camera, of another depth than the first, or above the rig's white level
-[[nodiscard]] std::vector<FrameStack> read_frames(const Scan& scan,
-                                                  std::size_t view,
-                                                  const Run& run = {});
-
-/// PATTERN-FRAME.png, or PATTERN-FRAME@EXPOSURE.png of a pattern that is taken at several.
+/// PATTERN-FRAME.png, or PATTERN-FRAME@EXPOSURE.png for a pattern with several exposures.
 [[nodiscard]] std::string frame_file_name(const Pattern& pattern, int frame, int exposure = 0);
 
 }  // namespace frangia

@@ -14,6 +14,17 @@ namespace {
 /// Least ratio of a plan. Below it more frames per map are better than more maps.
 constexpr double kMinRatio = 1.1;
 
+/// Far more fringes than any camera has columns; beyond it the sums lose whole fringes.
+constexpr double kMaxFringes = 1e6;
+
+void require_fringes(double fringes) {
+  if (std::isfinite(fringes) && fringes >= 1.0 && fringes <= kMaxFringes) return;
+  throw Error(
+      ErrorKind::Input,
+      fmt::format(
+          "fringes over the field are {:g}; they must be from 1 to {:g}", fringes, kMaxFringes));
+}
+
 }  // namespace
 
 double wrong_order_probability(double sigma_rad) {
@@ -21,7 +32,7 @@ double wrong_order_probability(double sigma_rad) {
 }
 
 std::vector<double> fringe_sequence(const std::string& name, double fringes) {
-  require(std::isfinite(fringes) && fringes >= 1.0, "a sequence needs at least one fringe");
+  require_fringes(fringes);
   std::vector<double> all = {fringes};
   if (name == "doubling") {
     while (all.back() > 1.0)
@@ -58,7 +69,7 @@ double sigma_for_wrong_order_probability(double probability) {
 }
 
 SequencePlan plan_sequence(double fringes, double sigma_rad, double max_wrong_order) {
-  require(std::isfinite(fringes) && fringes >= 1.0, "a plan needs at least one fringe");
+  require_fringes(fringes);
   require(std::isfinite(sigma_rad) && sigma_rad > 0.0, "a plan needs a sigma above 0 rad");
   for (int steps = 0;; ++steps) {
     const double ratio = steps == 0 ? 1.0 : std::pow(fringes, 1.0 / steps);

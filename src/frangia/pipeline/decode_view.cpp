@@ -21,8 +21,8 @@
 namespace frangia {
 namespace {
 
-/// The fringe patterns that number the projector's columns (or its rows, when there are only
-/// those), coarse to fine.
+/// The vertical fringe patterns, or the horizontal ones if there are no vertical ones, coarse to
+/// fine.
 std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks) {
   std::vector<const FrameStack*> fringes;
   for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
@@ -35,7 +35,7 @@ std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks) {
     }
     if (!fringes.empty()) break;
   }
-  require(!fringes.empty(), "scan.toml has no pattern of kind \"fringe\"; nothing can be measured");
+  require(!fringes.empty(), "scan.toml has no pattern of kind \"fringe\"; add one");
   std::stable_sort(fringes.begin(), fringes.end(), [](const auto* a, const auto* b) {
     return a->pattern.fringes_per_unit() < b->pattern.fringes_per_unit();
   });
@@ -49,12 +49,12 @@ const FrameStack* line_of(std::span<const FrameStack> stacks) {
   return found == stacks.end() ? nullptr : &*found;
 }
 
-/// All exposures of the pattern whose first one is `stack`.
+/// The stacks of all exposures of a pattern; `stack` is the first.
 std::span<const FrameStack> exposures_of(const FrameStack* stack) {
   return {stack, static_cast<std::size_t>(stack->pattern.exposure_count())};
 }
 
-/// Gray code that runs as the fringes do, at all its exposures.
+/// The Gray code in the direction of the fringes, at all exposures; empty if the scan has none.
 std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDirection direction) {
   for (const FrameStack& stack : stacks) {
     if (stack.pattern.kind == PatternKind::Gray && stack.pattern.direction == direction)
@@ -63,7 +63,7 @@ std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDi
   return {};
 }
 
-/// The camera's noise: as the rig gives it, else from some views, else from this one.
+/// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
 NoiseModel noise_of(std::span<const FrameStack> stacks,
                     const Rig& rig,
                     const DecodeOptions& options) {
@@ -71,13 +71,14 @@ NoiseModel noise_of(std::span<const FrameStack> stacks,
   return options.survey.noise ? *options.survey.noise : estimate_noise(stacks);
 }
 
-/// Distance at which the camera's axis meets the middle of the lit field: the paper's x0.
+/// Distance at which the camera's axis crosses the centre of the projected field: x0 of the paper.
 double crossing_distance(const Pattern& pattern, const Rig& rig) {
   const double middle = phase_range(pattern, rig.projector).center_rad();
   return intersect_fringe({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
 }
 
-/// The way up by several patterns, beats of two among them; empty where there is none.
+/// The unwrapping levels of several patterns, beats of two patterns included; empty if the patterns
+/// do not determine the order.
 std::vector<UnwrapLevel> unwrap_levels_of(std::span<const FrameStack* const> fringes,
                                           const Projector& projector) {
   std::vector<Pattern> patterns;
@@ -86,11 +87,10 @@ std::vector<UnwrapLevel> unwrap_levels_of(std::span<const FrameStack* const> fri
   return patterns.size() > 1 ? find_unwrap_levels(patterns, projector) : std::vector<UnwrapLevel>{};
 }
 
-/// Whether each step of a ladder is safe for every pixel that wrapping keeps, without a look at its
-/// neighbours.
+/// Whether every unwrapping level is safe for each single pixel that wrapping keeps.
 bool is_pixelwise_safe(std::span<const UnwrapLevel> levels, const DecodeOptions& options) {
-  constexpr double kRare = 1e-6;
-  return is_safe(levels, options.wrap.max_sigma_rad, kRare);
+  constexpr double kMaxWrongOrder = 1e-6;  // probability per pixel
+  return is_safe(levels, options.wrap.max_sigma_rad, kMaxWrongOrder);
 }
 
 /// The algorithm for one pattern's frames.
@@ -98,7 +98,7 @@ FittedAlgorithm fit(const FrameStack& taken,
                     const NoiseModel& noise,
                     const DecodeOptions& options,
                     const Run& run) {
-  Run warnings = run;  // the assessment tells the algorithm: one sentence a pattern is enough
+  Run warnings = run;  // no notes: the frame assessment names the algorithm
   warnings.on_note = nullptr;
   std::optional<double> gain_error;
   const auto known = options.survey.gain_error.find(taken.pattern.name);
@@ -106,7 +106,7 @@ FittedAlgorithm fit(const FrameStack& taken,
   return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
 }
 
-/// Undoes the projector's response, where it is to be undone, in the map found last.
+/// Removes the effect of the projector's response from the last wrapped map, if `response` is set.
 void apply_response_correction(const DecodeOptions& options,
                                const PhaseAlgorithm& algorithm,
                                const std::vector<double>& shifts_rad,
@@ -115,7 +115,7 @@ void apply_response_correction(const DecodeOptions& options,
     correct_response(response_table(*options.response, algorithm, shifts_rad), out.wrapped.back());
 }
 
-/// One pattern's frames to its wrapped phase, and what is to be said of them.
+/// Appends the wrapped phase and the frame assessment of one pattern to `out`.
 void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
   const FittedAlgorithm fitted = fit(taken, out.noise, options, run);
   if (taken.pattern.exposure_count() > 1) {
@@ -138,7 +138,7 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
   apply_response_correction(options, fitted.algorithm, fitted.shifts_rad, out);
 }
 
-/// All patterns in one pass; what is to be said of them comes from some of their rows.
+/// Decodes all patterns in one pass; the assessments are computed from a sample of rows.
 void decode_in_one_pass(std::span<const FrameStack* const> fringes,
                         const Rig& rig,
                         const DecodeOptions& options,

@@ -24,15 +24,17 @@
 namespace frangia {
 
 struct DecodeOptions {
-  std::string algorithm = "auto";  ///< see `fit_algorithm`
-  /// Recover the one saturated frame of four, instead of discarding the pixel as the paper does.
+  std::string algorithm = "auto";  ///< name, see `fit_algorithm`
+  /// Recovers the one saturated frame of four instead of discarding the pixel as the 1997 paper
+  /// does.
   bool recover_saturated = false;
-  /// Of a projector that showed the patterns without its look-up table: undone in the phase.
+  /// Response of a projector that showed the patterns without its look-up table; its effect on the
+  /// phase is removed.
   std::optional<ResponseCurve> response;
-  /// Keep the wrapped maps. Without them a sequence is decoded in one pass over its frames, where
-  /// its steps are safe for all pixels that `wrap` keeps.
+  /// Keeps the wrapped maps. Otherwise a sequence is decoded in one pass over its frames if all its
+  /// unwrapping levels are safe for every pixel that `wrap` keeps.
   bool keep_maps = true;
-  ScanSurvey survey;  ///< what the other views say, too
+  ScanSurvey survey;  ///< noise and gain error pooled over several views
   WrapOptions wrap;
   TemporalUnwrapOptions temporal;
   SpatialUnwrapOptions spatial;
@@ -41,22 +43,27 @@ struct DecodeOptions {
   FillOptions fill;
 };
 
-/// Everything that the frames of one view say about its phase, stage by stage.
+/// The phase of one view and the intermediate results.
 struct DecodedView {
   NoiseModel noise;
-  Pattern coarsest;                          ///< of the fringes
-  std::vector<WrappedPhase> wrapped;         ///< coarse to fine; empty where they were not kept
-  std::vector<FrameAssessment> assessments;  ///< of the frames, one a wrapped phase
-  std::optional<RelativePhase> relative;     ///< of a scan that is unwrapped in space
-  std::vector<ProfilePoint> profile;         ///< of a scan with the laser sheet
+  Pattern coarsest;                          ///< the coarsest fringe pattern
+  std::vector<WrappedPhase> wrapped;         ///< coarse to fine; empty unless `keep_maps`
+  std::vector<FrameAssessment> assessments;  ///< one per fringe pattern, coarse to fine
+  std::optional<RelativePhase> relative;     ///< of a spatially unwrapped scan
+  std::vector<ProfilePoint> profile;         ///< of the laser sheet, where the scan has one
   AbsolutePhase phase;                       ///< of the finest fringes
-  std::vector<UnresolvedRegion> unresolved;  ///< regions whose fringe is not known yet
+  std::vector<UnresolvedRegion> unresolved;  ///< regions without a fringe order
 };
 
-/// Frames to absolute phase: unwrapped in time from an absolute pattern where there is one, else in
-/// space, the whole number of fringes from the laser sheet, or, with neither, from where the
-/// axes of camera and projector come together.
+/// Computes the absolute phase of one view from its frames.
 ///
+/// Fringe orders come from Gray code or from temporal unwrapping, where the patterns allow it.
+/// Otherwise the phase is unwrapped spatially and its order comes from the laser sheet, or, without
+/// one, from the distance at which the axes of camera and projector cross.
+///
+/// shape    `stacks` as read_frames returns them; `rays` as rays_of(rig.camera.model)
+/// units    rad, counts
+/// missing  NaN in a phase; `status` gives the reason
 /// errors   Error(Input) when no pattern holds fringes
 [[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
                                       const Rig& rig,
@@ -64,9 +71,9 @@ struct DecodedView {
                                       const DecodeOptions& options = {},
                                       const Run& run = {});
 
-/// Whether the scan's phase can be told from its patterns alone: it holds an absolute pattern or
-/// the laser sheet. If not, a reconstruction is relative to the fringe through the projection
-/// axis.
+/// Whether the patterns determine fringe orders: one of them is absolute, a Gray code or the laser
+/// sheet, or their beats have one fringe over the field. Otherwise a reconstruction is relative to
+/// the fringe through the projection axis.
 [[nodiscard]] bool has_absolute_phase(std::span<const Pattern> patterns,
                                       const Projector& projector);
 

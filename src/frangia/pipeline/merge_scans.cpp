@@ -18,7 +18,7 @@
 namespace frangia {
 namespace {
 
-/// Where a scan's own camera stands.
+/// The virtual camera of one scan.
 struct VirtualCamera {
   Eigen::Isometry3d rig_from_scan = Eigen::Isometry3d::Identity();
   double radius_mm = 0.0;
@@ -32,8 +32,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The distance of neighbouring points: of triangles their edges, of unorganized points the nearest
-/// one.
+/// Median distance of neighbouring points: shortest edges of triangles, or nearest neighbours.
 double spacing_of(const Mesh& mesh) {
   constexpr std::size_t kSamples = 400;
   std::vector<double> lengths;
@@ -59,7 +58,7 @@ double spacing_of(const Mesh& mesh) {
   return median(lengths);
 }
 
-/// Where the triangles face, weighted by area; of unorganized points +z, as range scanners have it.
+/// Area-weighted mean normal of the triangles; +z for unorganized points, as range scanners use it.
 Eigen::Vector3d mean_normal(const Mesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -72,10 +71,9 @@ Eigen::Vector3d mean_normal(const Mesh& mesh) {
 
 VirtualCamera virtual_camera_of(const RangeScan& scan) {
   if (!(scan.mesh.vertices_mm.size() > 2)) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: holds no surface: it has {} points",
-                            scan.path.string(),
-                            scan.mesh.vertices_mm.size()));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: holds no surface: it has fewer than 3 points", scan.path.string()));
   }
   Eigen::AlignedBox3f box;
   for (const auto& point : scan.mesh.vertices_mm)
@@ -92,7 +90,8 @@ VirtualCamera virtual_camera_of(const RangeScan& scan) {
   return camera;
 }
 
-/// One lens for all scans: it sees the largest, with pixels as far apart as the densest's points.
+/// One camera model for all scans: its field holds the largest scan, and its pixel pitch is the
+/// spacing of the densest.
 CameraModel common_camera_model(std::vector<VirtualCamera>& cameras, bool points_only) {
   constexpr double kFar = 5.0;  // radii
   constexpr int kMax_px = 4000;
@@ -116,7 +115,7 @@ CameraModel common_camera_model(std::vector<VirtualCamera>& cameras, bool points
   return model;
 }
 
-/// Depths where rays meet the triangles.
+/// Fills depths with the first hits of the camera's rays on the triangles.
 void cast_rays(const RayScene& scene,
                const VirtualCamera& camera,
                const Image<Eigen::Vector2f>& rays,
@@ -132,7 +131,7 @@ void cast_rays(const RayScene& scene,
   });
 }
 
-/// Depths of unorganized points, the nearest of each pixel.
+/// Fills depths with the nearest of the unorganized points in each pixel.
 void splat(const Mesh& mesh,
            const VirtualCamera& camera,
            const CameraModel& model,
@@ -148,7 +147,7 @@ void splat(const Mesh& mesh,
   }
 }
 
-/// From second differences, which no plane has.
+/// Standard deviation from the median absolute second difference, which is zero on a plane.
 double noise_of(const Image<float>& depth) {
   std::vector<double> second_differences;
   for (int y = 0; y < depth.height(); ++y) {
@@ -174,9 +173,9 @@ View view_of(const RangeScan& scan,
   } else {
     cast_rays(RayScene(scan.mesh), camera, rays, view.range.depth_mm);
   }
-  constexpr double kLeast = 0.01;  // of the spacing: no scanner is better
+  constexpr double kMinNoise = 0.01;  // of the spacing, for scans without noise
   const auto sigma =
-      static_cast<float>(std::max(noise_of(view.range.depth_mm), kLeast * camera.spacing_mm));
+      static_cast<float>(std::max(noise_of(view.range.depth_mm), kMinNoise * camera.spacing_mm));
   view.range.sigma_mm = Image<float>(model.width_px, model.height_px, kMissing);
   for (std::size_t i = 0; i < view.range.depth_mm.pixels().size(); ++i) {
     if (std::isnan(view.range.depth_mm.pixels()[i])) continue;
@@ -187,14 +186,14 @@ View view_of(const RangeScan& scan,
   return view;
 }
 
-/// The scans, and what our own camera sees of each.
+/// The scans and their resampled views.
 struct ScanViews {
   const std::vector<RangeScan>& scans;
   CameraModel model;
   ViewStore views;
 };
 
-/// Whether the scans' own poses cannot be meant.
+/// Whether poses must be found by shape.
 bool poses_unknown(const ScanViews& all,
                    const std::vector<SurfelMap>& maps,
                    const MergeScansOptions& options) {
@@ -204,13 +203,13 @@ bool poses_unknown(const ScanViews& all,
   return !posed && !are_poses_plausible(all.views, maps, all.model, options.registration.reach_mm);
 }
 
-/// Poses found and refined, as the options say.
+/// Finds and refines poses as the options ask.
 void register_scans(MergedScans& out,
                     ScanViews& all,
                     const MergeScansOptions& options,
                     const Run& run) {
   if (all.scans.size() < 2) {
-    run.note("one scan alone has nothing to be registered with");
+    run.note("a single scan is not registered");
     return;
   }
   if (!options.register_poses && options.poses != ScanPoses::Shape) return;
@@ -235,7 +234,7 @@ void register_scans(MergedScans& out,
 MergedScans merge_scans(const std::vector<RangeScan>& scans,
                         const MergeScansOptions& options,
                         const Run& run) {
-  require(!scans.empty(), "merge_scans: there is no scan to merge");
+  require(!scans.empty(), "there is no scan to merge; name at least one");
   std::vector<VirtualCamera> cameras;
   bool points_only = false;
   for (const RangeScan& scan : scans) {

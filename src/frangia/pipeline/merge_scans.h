@@ -15,11 +15,11 @@
 
 namespace frangia {
 
-/// Where the poses of scans come from, before they are refined.
+/// The source of the scans' initial poses.
 enum class ScanPoses {
-  Auto,   ///< as they are when they can be right or a .conf gave them, else from the shape
-  Given,  ///< as they are
-  Shape   ///< found from the shape alone
+  Auto,   ///< given poses if they are plausible or from a .conf file, else from shape
+  Given,  ///< the poses of the files
+  Shape   ///< pose search by shape alone
 };
 
 struct MergeScansOptions {
@@ -32,21 +32,21 @@ struct MergeScansOptions {
 
 struct MergedScans {
   Mesh mesh;
-  std::size_t points = 0;                 ///< of all scans, as they are looked at
-  std::optional<FoundPoses> found_poses;  ///< when poses were found from the shape
+  std::size_t points = 0;                 ///< of all resampled scans
+  std::optional<FoundPoses> found_poses;  ///< set when poses were found by shape
   std::optional<PosesReport> registration;
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };
 
-/// Range scans of other programs, registered and pasted as views are.
+/// Registers range scans of other scanners and fuses them into one surface.
 ///
-/// Each scan is looked at through a camera of our own, which stands before it where its triangles
-/// face, with pixels as far apart as its points; its noise is estimated from how neighbours
-/// scatter.
-/// units    mm, the frame of the poses; that of the first scan placed when they were found
-/// missing  a scan whose pose cannot be found is named and left out
-/// errors   Error(Input) when a scan has no points or no pose can be found, and as fuse_views
+/// Each scan is resampled by a virtual camera that looks against its mean normal, with a pixel
+/// pitch equal to the spacing of its points. Its noise is estimated from the scatter of neighbours.
+/// units    mm, in the frame of the given poses, or of the first scan when poses are found by shape
+/// missing  a scan whose pose cannot be found is left out with a warning that names it
+/// errors   Error(Input) when a scan has no surface or no pose can be found, and those of
+///          fuse_views
 [[nodiscard]] MergedScans merge_scans(const std::vector<RangeScan>& scans,
                                       const MergeScansOptions& options = {},
                                       const Run& run = {});

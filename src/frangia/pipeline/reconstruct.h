@@ -25,34 +25,36 @@ struct ReconstructOptions {
   MixedPixelOptions mixed_pixels;
   ResolveByViewsOptions resolve_by_views;
   FringeOrderCorrectionOptions fringe_order_correction;
-  bool register_views = true;  ///< refine the turntable's axis and angles by what the views saw
+  bool register_views = true;  ///< refine the turntable's axis and angles by the overlap of views
   RegisterOptions registration;
-  bool keep_turntable_top = false;  ///< else the top of the turntable is found and left out
+  bool keep_turntable_top = false;  ///< otherwise it is found and removed
   TurntableTopOptions turntable_top;
-  double clip_below_mm = -std::numeric_limits<double>::infinity();  ///< height, object frame
-  double clip_radius_mm = std::numeric_limits<double>::infinity();  ///< from the axis
+  double clip_below_mm =
+      -std::numeric_limits<double>::infinity();  ///< removes points below this height, object frame
+  double clip_radius_mm =
+      std::numeric_limits<double>::infinity();  ///< removes points farther from the axis
   FusionOptions fusion;
   FinishOptions finish;
-  bool keep_raw = false;  ///< the registered points, too
+  bool keep_raw = false;  ///< returns the registered points, too
 };
 
 struct Reconstruction {
   Mesh mesh;
-  PointCloud raw;                                  ///< empty unless asked for
-  std::size_t points = 0;                          ///< measured, in all views
-  std::size_t views = 0;                           ///< that held any
-  std::optional<RegistrationReport> registration;  ///< none when it was not asked for or impossible
+  PointCloud raw;                                  ///< empty unless `keep_raw`
+  std::size_t points = 0;                          ///< in all views
+  std::size_t views = 0;                           ///< that hold points
+  std::optional<RegistrationReport> registration;  ///< empty when not done
   double turntable_top_height_mm =
-      std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was left out
+      std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };
 
-/// The whole path of light: frames, phase, range, views, surface.
+/// Reconstructs a surface from a scan: frames, phase, range, registered views, fused mesh.
 ///
 /// units    mm, object frame
 /// missing  a view without a lit pixel is left out with a warning
-/// errors   Error(Input) when no view has a lit pixel, and all that the stages throw
+/// errors   Error(Input) when no view has a lit pixel, and the errors of all stages
 [[nodiscard]] Reconstruction reconstruct(const Scan& scan,
                                          const ReconstructOptions& options = {},
                                          const Run& run = {});

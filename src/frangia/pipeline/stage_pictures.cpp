@@ -16,7 +16,7 @@ constexpr Rgb kMissingColor{36, 40, 52};
 constexpr Rgb kGain{230, 40, 40};
 constexpr Rgb kLoss{40, 110, 250};
 
-/// A square about a loop, large enough to be seen when the whole picture is on a screen.
+/// Draws a square around a loop, large enough to be seen when the picture fills a screen.
 void draw_residue(const Residue& residue, Image<Rgb>& picture) {
   const int reach = std::max(2, picture.width() / 250);
   const int left = std::max(0, residue.x + 1 - reach);

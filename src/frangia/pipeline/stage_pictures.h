@@ -10,32 +10,36 @@
 
 namespace frangia {
 
-/// How a status is drawn, and what to call it.
+/// Colour and caption of a pixel status.
 struct StatusLegend {
   PixelStatus status;
   Rgb color;
   std::string color_name;
   std::string meaning;
 };
-/// A row a status, in their order.
+/// One row per status, in the order of the enumeration.
 [[nodiscard]] const std::vector<StatusLegend>& status_legend();
 
-/// Why each pixel went, in the colours of `status_legend`.
+/// Draws pixel states in the colours of `status_legend`.
 [[nodiscard]] Image<Rgb> status_picture(const Image<PixelStatus>& status);
 
-/// The wrapped phase from black to white with its residues on it: red squares around loops that
-/// gain a turn clockwise, blue ones around those that lose one.
+/// Draws the wrapped phase from black to white with its residues: red squares around loops that
+/// gain 2 pi clockwise, blue squares around loops that lose 2 pi.
 [[nodiscard]] Image<Rgb> residue_picture(const Image<float>& wrapped_rad);
 
-/// From dark blue, where each region's growth began, to yellow, where that of the largest ended.
+/// Draws the order of region growing from dark blue (seeds) to yellow (last pixel).
+///
+/// missing  below 0
 [[nodiscard]] Image<Rgb> growth_picture(const Image<std::int32_t>& order);
 
-/// Numbers such as those of regions or fringes, neighbouring ones in colours far apart; below 0 is
-/// missing.
+/// Draws labels, such as regions or fringe orders; consecutive labels get contrasting colours.
+///
+/// missing  below 0
 [[nodiscard]] Image<Rgb> label_picture(const Image<std::int32_t>& number);
 
-/// The fringe that each pixel of a wrapped phase was given, from 0 for the lowest; -1 where
-/// missing.
+/// Returns the fringe order of each pixel, counted from the lowest order in the view.
+///
+/// missing  -1
 [[nodiscard]] Image<std::int32_t> fringe_orders(const Image<float>& wrapped_rad,
                                                 const Image<float>& absolute_rad);
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/dataset/read_frames.h"
 #include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/estimate_step.h"
 #include "frangia/phase/pooled_gain_error.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr std::size_t kViewsForNoise = 3;
 constexpr std::size_t kViewsForGain = 8;
 
-/// The patterns to look at: those of a phase shifter, or else the finest fringes.
+/// The patterns to read: those of a phase shifter, or else the finest fringes.
 std::vector<Pattern> patterns_of(const Scan& scan) {
   std::vector<Pattern> shifted;
   const Pattern* finest = nullptr;
@@ -39,8 +40,8 @@ void report_gain(const std::string& pattern,
   for (const StepEstimate& view : views)
     found += view.gain_error() / static_cast<double>(views.size());
   run.note(fmt::format(
-      "pattern \"{}\": steps {:+.3f} % off over {} views, of which {:+.3f} % are the phase "
-      "shifter's and corrected for, and the rest their scatter",
+      "pattern \"{}\": mean step error {:+.3f} % over {} views; {:+.3f} % is the phase shifter's "
+      "gain error and is corrected, the rest is scatter",
       pattern,
       100.0 * found,
       views.size(),

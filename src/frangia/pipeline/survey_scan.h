@@ -10,17 +10,18 @@
 
 namespace frangia {
 
-/// What is the same in all views of a scan, and better known from several than from one.
+/// Properties that all views share and that several views determine better than one.
 struct ScanSurvey {
-  std::optional<NoiseModel> noise;           ///< the camera's, from the frames
-  std::map<std::string, double> gain_error;  ///< the phase shifter's, by pattern
+  std::optional<NoiseModel>
+      noise;  ///< of the camera, estimated from frames; empty when rig.toml gives it
+  std::map<std::string, double> gain_error;  ///< of the phase shifter, relative, by pattern name
 };
 
-/// Looks at the fringe frames of some views, evenly over the scan: for the camera's noise where
-/// rig.toml does not give it, and for the phase shifter's gain where the projector has one. A scan
-/// of a single view is not looked at: its own decoding finds the same.
+/// Estimates the camera's noise, unless rig.toml gives it, and the gain error of a phase shifter,
+/// from the fringe frames of several views, evenly over the scan.
 ///
-/// errors   Error(Input) as `read_frames`
+/// missing  both are empty for a scan of one view, whose decoding estimates them itself
+/// errors   as read_frames
 [[nodiscard]] ScanSurvey survey_scan(const Scan& scan, const Run& run = {});
 
 }  // namespace frangia

@@ -26,7 +26,7 @@ class StageWriter {
     std::filesystem::create_directories(folder_, error);
     if (error) {
       throw Error(ErrorKind::File,
-                  fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+                  fmt::format("{}: cannot be created: {}", folder_.string(), error.message()));
     }
   }
   void numbers(const std::string& name, const Image<float>& values, const std::string& what) {
@@ -71,7 +71,7 @@ std::string as_html(const std::string& text) {
   return out;
 }
 
-/// A page that shows the pictures side by side; a click opens one in its own size.
+/// Writes a page with all pictures; a click opens one at full size.
 void write_page(const std::filesystem::path& path, const std::vector<StageFile>& files) {
   AtomicFile file(path);
   file.stream()
@@ -95,7 +95,7 @@ std::string mask_caption(const Image<PixelStatus>& status) {
     if (std::count(status.pixels().begin(), status.pixels().end(), entry.status) > 0)
       parts.push_back(fmt::format("{}: {}", entry.color_name, entry.meaning));
   }
-  return fmt::format("what became of each pixel; {}", fmt::join(parts, "; "));
+  return fmt::format("pixel status; {}", fmt::join(parts, "; "));
 }
 
 void write_wrapped(const WrappedPhase& level, StageWriter& out) {
@@ -108,8 +108,8 @@ void write_wrapped(const WrappedPhase& level, StageWriter& out) {
               "phase modulo 2 pi: -pi (black) to pi rad (white)");
   out.picture(name + "-residues",
               residue_picture(level.phase_rad),
-              "the same with its residues, loops of pixels whose phase jumps do not sum to zero: a "
-              "turn gained clockwise (red), lost (blue)");
+              "the same with its residues, loops of pixels around which the phase gains 2 pi "
+              "clockwise (red) or loses 2 pi (blue)");
   out.map(name + "-modulation", level.modulation_counts, "modulation", "counts");
   out.map(name + "-sigma", level.sigma_rad, "standard deviation of the phase", "rad");
 }
@@ -120,7 +120,7 @@ void write_relative(const RelativePhase& relative, StageWriter& out) {
                 growth_picture(relative.growth_order),
                 "order in which the growth reaches the pixels: first (dark blue) to last (yellow)");
   }
-  out.map("relative", relative.phase_rad, "phase unwrapped in space, region by region", "rad");
+  out.map("relative", relative.phase_rad, "spatially unwrapped phase, region by region", "rad");
   out.picture("regions",
               label_picture(relative.region),
               fmt::format("{} regions that could not be joined safely, a colour each",

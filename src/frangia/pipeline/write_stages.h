@@ -10,19 +10,19 @@
 
 namespace frangia {
 
-/// A file that was written, and what is to be seen in it.
+/// A written file and its caption.
 struct StageFile {
   std::string name;
   std::string caption;
 };
 
-/// The stages of one view as files in `folder`: pictures to look at (.png) and numbers to compute
-/// with (.tiff, 32-bit float), and index.html, which shows the pictures with their captions.
+/// Writes the stages of one view into `folder`: pictures (.png), values (.tiff, 32-bit float), and
+/// index.html, which shows the pictures with their captions.
 ///
-/// For each pattern NAME-wrapped, NAME-residues, NAME-modulation, NAME-sigma. For a phase unwrapped
-/// in space relative, regions and, if its order was kept, growth. For all mask, fringes, absolute,
-/// depth, sigma.
-/// errors   Error(File) when the folder cannot be made or written
+/// each pattern                 NAME-wrapped, NAME-residues, NAME-modulation, NAME-sigma
+/// spatially unwrapped phase    relative, regions, and growth if the growth order was kept
+/// every view                   mask, fringes, absolute, depth, sigma
+/// errors   Error(File) when the folder cannot be created or written
 std::vector<StageFile> write_stages(const DecodedView& decoded,
                                     const RangeGrid& range,
                                     const std::filesystem::path& folder,

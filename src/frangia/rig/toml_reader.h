@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <string>
 #include <string_view>
@@ -139,11 +140,13 @@ class TomlReader {
   std::set<std::string> used_;
 };
 
-/// Parses a file whose `format` key must equal `format` and whose version must be 1.
+/// Parses a file whose `format` key must equal `format` and whose version must be from 1 to
+/// `newest_version`.
 ///
 /// errors   Error(Input) that names the file and the line or key
 [[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
-                                            const std::string& format) {
+                                            const std::string& format,
+                                            int newest_version = 1) {
   if (!std::filesystem::is_regular_file(file)) {
     throw Error(ErrorKind::Input, fmt::format("{}: there is no such file", file.string()));
   }
@@ -159,7 +162,13 @@ class TomlReader {
   }
   TomlReader reader(file, "", table);
   if (reader.text("format") != format) reader.fail("format", fmt::format("must be \"{}\"", format));
-  static_cast<void>(reader.integer("version", 1, 1));
+  const int version = reader.integer("version", 1, std::numeric_limits<int>::max());
+  if (version > newest_version) {
+    reader.fail("version",
+                fmt::format("is {}, but this program reads versions up to {}: update the program",
+                            version,
+                            newest_version));
+  }
   return table;
 }
 

@@ -15,6 +15,11 @@
 namespace frangia {
 namespace {
 
+/// A projector shows bright and dark on neighbouring pixels at best.
+constexpr double kMinPeriod_px = 2.0;
+/// Over the field, as in fringe_sequence.
+constexpr double kMaxFringes = 1e6;
+
 std::vector<double> even_shifts(int count) {
   std::vector<double> shifts;
   shifts.reserve(static_cast<std::size_t>(count));
@@ -33,16 +38,26 @@ Pattern angular_pattern(const std::string& name, double fringes_per_degree, int 
 
 std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
   const double finest = plan.fringes_per_degree;
-  require(std::isfinite(finest) && finest > 0.0, "fringes per degree must be above 0");
+  const auto& field = std::get<AngularModel>(rig.projector.model);
+  const double fringes = finest * deg_from_rad(field.field_max_rad - field.field_min_rad);
+  if (!(finest > 0.0 && fringes <= kMaxFringes)) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("`fringes_per_degree` is {:g}; it must be above 0 and give at most {:g} "
+                    "fringes over the projector's field",
+                    finest,
+                    kMaxFringes));
+  }
+  require(plan.periods_px.empty(),
+          "`periods_px` is for a digital projector, but the rig's projector is angular; set "
+          "`fringes_per_degree` instead");
   if (rig.laser_sheet) {
     Pattern line;
     line.name = "line";
     line.kind = PatternKind::Line;
     return {angular_pattern("fringe", finest, plan.shifts), line};
   }
-  const auto& field = std::get<AngularModel>(rig.projector.model);
-  const double fringes = finest * deg_from_rad(field.field_max_rad - field.field_min_rad);
-  // A whisker of slack: a field of exactly 32 fringes needs five doublings, not six.
+  // 1e-9 absorbs rounding: a field of exactly 32 fringes needs five doublings, not six.
   const int doublings = std::max(0, static_cast<int>(std::ceil(std::log2(fringes) - 1e-9)));
   std::vector<Pattern> patterns;
   for (int i = 0; i <= doublings; ++i) {
@@ -50,6 +65,14 @@ std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
         fmt::format("fringe{}", i), std::ldexp(finest, i - doublings), plan.shifts));
   }
   return patterns;
+}
+
+void require_period(double period_px) {
+  if (std::isfinite(period_px) && period_px >= kMinPeriod_px) return;
+  throw Error(
+      ErrorKind::Input,
+      fmt::format(
+          "a fringe period is {:g} pixels; it must be at least {:g}", period_px, kMinPeriod_px));
 }
 
 std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const PatternPlan& plan) {
@@ -61,7 +84,7 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const Pattern
   std::sort(periods.begin(), periods.end(), std::greater<>());
   std::vector<Pattern> patterns;
   for (const double period : periods) {
-    require(std::isfinite(period) && period > 0.0, "a fringe period must be above 0 pixels");
+    require_period(period);
     Pattern pattern;
     pattern.name = fmt::format("p{:g}", period);
     pattern.period_px = period;
@@ -71,18 +94,22 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const Pattern
   return patterns;
 }
 
-/// A sequence of fringes over the whole field of either projector.
+/// A multi-frequency sequence over the whole field, for either kind of projector.
 std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) {
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns;
   const bool gray = plan.sequence == "gray";
-  require(!gray || pinhole != nullptr,
-          "Gray code is for a digital projector; the rig's is angular");
+  require(
+      !gray || pinhole != nullptr,
+      "Gray code is for a digital projector, but the rig's projector is angular; choose another "
+      "`sequence`");
+  require(plan.periods_px.empty(), "set either `periods_px` or `sequence`, not both");
   for (const double fringes :
        gray ? std::vector<double>{plan.fringes} : fringe_sequence(plan.sequence, plan.fringes)) {
     const std::string name = fmt::format("f{:g}", fringes);
     if (pinhole != nullptr) {
       Pattern pattern{.name = name, .period_px = pinhole->width_px / fringes};
+      require_period(pattern.period_px);
       pattern.shifts_rad = even_shifts(plan.shifts);
       patterns.push_back(pattern);
       continue;
@@ -99,7 +126,7 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
 }  // namespace
 
 std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
-  require(plan.shifts >= 3, "a phase needs at least three shifts");
+  require(plan.shifts >= 3, "`shifts` must be at least 3");
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns = !plan.sequence.empty() ? sequence_patterns(rig, plan)
                                   : pinhole != nullptr   ? pinhole_patterns(*pinhole, plan)
@@ -107,7 +134,7 @@ std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
   for (Pattern& pattern : patterns)
     if (pattern.kind != PatternKind::Line) pattern.exposures_ms = plan.exposures_ms;
   if (plan.ramp > 0) {
-    require(plan.ramp >= 3, "a grey ramp needs three levels or more");
+    require(plan.ramp >= 3, "`ramp` must be at least 3 levels");
     Pattern ramp{.name = "ramp", .kind = PatternKind::Ramp};
     for (int i = 0; i < plan.ramp; ++i)
       ramp.levels.push_back(static_cast<double>(i) / (plan.ramp - 1));

@@ -9,25 +9,27 @@
 namespace frangia {
 
 struct PatternPlan {
-  double fringes_per_degree = 1.0;  ///< angular projector: of the finest pattern
-  std::vector<double> periods_px;   ///< pinhole projector; empty: the width, its 8th and its 64th
-  /// Instead of the above, a sequence of `fringe_sequence` that ends with `fringes` over the field.
+  double fringes_per_degree = 1.0;  ///< angular projector: pitch of the finest pattern
+  std::vector<double> periods_px;   ///< pinhole projector; empty: width, width / 8, width / 64
+  /// Replaces the two above when not empty: a name known to `fringe_sequence`, or "gray" for the
+  /// finest fringes alone with a Gray code that gives their order.
   std::string sequence;
-  /// "gray": the finest fringes alone, numbered by Gray code.
-  double fringes = 64.0;
-  int shifts = 4;                    ///< frames a fringe pattern, evenly over a turn
-  bool inverted = true;              ///< Gray code: each frame again, inverted
-  std::vector<double> exposures_ms;  ///< of fringes and Gray code; empty: one, not told
-  int ramp = 0;                      ///< levels of a grey ramp shown as well; 0 for none
+  double fringes = 64.0;             ///< over the field, of the sequence's finest pattern
+  int shifts = 4;                    ///< frames per fringe pattern, evenly over 2 pi
+  bool inverted = true;              ///< Gray code: shows each frame inverted as well
+  std::vector<double> exposures_ms;  ///< of fringes and Gray code; empty: the camera's exposure
+  int ramp = 0;                      ///< levels of an additional grey ramp; 0 for none
 };
 
-/// Patterns that give a rig absolute phase.
+/// Returns patterns from which a rig's phase is absolute.
 ///
-/// angular with a laser sheet   one fringe pattern, and the line that numbers its fringes
-/// angular without                 from one fringe over the field, doubled up to the finest
-/// pinhole                         the periods, from coarse to fine
+/// angular projector, laser sheet      one fringe pattern and the line that fixes its order
+/// angular projector, no laser sheet   doubled from at most one fringe over the field to the finest
+/// pinhole projector                   the periods, coarse to fine
 ///
-/// errors   Error(Input) for fewer than three shifts, or a period or pitch that is not above 0
+/// errors   Error(Input) for fewer than 3 shifts, a period below 2 pixels, a pitch that is not
+/// above
+///          0 or gives more than 1e6 fringes, or an option that the projector cannot show
 [[nodiscard]] std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan = {});
 
 }  // namespace frangia

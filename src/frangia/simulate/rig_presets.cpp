@@ -13,8 +13,8 @@
 namespace frangia {
 namespace {
 
-/// The turntable's axis for a camera that looks down on the part, as one does to see its top;
-/// `forward` is where it looks, level.
+/// The turntable's axis for a camera that looks down on the part by 28 degrees; `forward` is the
+/// horizontal viewing direction.
 Eigen::Vector3d tilted_axis(const Eigen::Vector3d& forward) {
   constexpr double kDown_rad = rad_from_deg(28.0);
   const Eigen::Vector3d up = -std::cos(kDown_rad) * Eigen::Vector3d::UnitY();
@@ -69,7 +69,7 @@ Rig paper_rig(double focal_px) {
   return rig;
 }
 
-/// 12.5 mm over pixels of 8 um: a field of 160 mm.
+/// 12.5 mm focal length, pixels of 8 um: a field of 160 mm.
 Rig carducci() {
   return paper_rig(12.5 / 0.008);
 }
@@ -77,7 +77,7 @@ Rig carducci() {
 Rig angular() {
   Rig rig = paper_rig(1000.0);
   rig.laser_sheet = laser_sheet_through(rig.projector, rad_from_deg(20.5));
-  // On the laser sheet and leaning within it, so that the line crosses the part at every height.
+  // The axis lies in the laser sheet, so that the line crosses the part at every height.
   const Eigen::Vector3d& normal = rig.laser_sheet->normal;
   const double z_mm = 516.0;
   rig.turntable =

@@ -10,6 +10,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/parallel.h"
+#include "frangia/dataset/write_scan.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
@@ -19,8 +20,7 @@
 namespace frangia {
 namespace {
 
-/// Says in the folder that a simulation is under way, or was interrupted: only then are images that
-/// lie there already ours to replace.
+/// Marks the folder as an unfinished simulation. Only images in a marked folder are replaced.
 std::filesystem::path claim(const std::filesystem::path& folder) {
   std::filesystem::path mark = folder / "simulation-not-finished";
   make_folder(folder);
@@ -39,7 +39,7 @@ struct FrameFile {
   const Frame* frame;
 };
 
-/// Packing a PNG takes longer than rendering it: all frames of a view at once.
+/// Encoding a PNG takes longer than rendering it, so all frames of a view are encoded in parallel.
 void write_frames(const std::filesystem::path& folder, const std::vector<FrameStack>& stacks) {
   std::vector<FrameFile> files;
   for (const FrameStack& stack : stacks) {
@@ -53,7 +53,7 @@ void write_frames(const std::filesystem::path& folder, const std::vector<FrameSt
   });
 }
 
-/// Progress of one view as a part of the whole.
+/// A run whose progress is that of one view of `count`.
 Run part_of(const Run& run, std::size_t index, std::size_t count) {
   Run part = run;
   if (run.progress) {
@@ -64,7 +64,7 @@ Run part_of(const Run& run, std::size_t index, std::size_t count) {
   return part;
 }
 
-/// The views of one setup, and the part as it stands in it.
+/// The views of one setup and the scene with its part pose.
 struct SimulatedSetup {
   std::vector<SimulatedView> views;
   SimulatedScene scene;
@@ -119,16 +119,14 @@ Scan simulate_scan(const Mesh& part,
                    const SimulateOptions& options,
                    const Run& run) {
   require(!plan.patterns.empty() && !plan.views.empty(),
-          "simulate_scan: a scan needs at least one pattern and one view");
+          "a scan needs at least one pattern and one view; add them to the plan");
   const std::vector<SimulatedSetup> setups = make_setups(part, plan, options);
   const std::filesystem::path mark = claim(plan.folder);
   for (const SimulatedSetup& setup : setups)
     render_setup(setup, plan, run);
   write_ply(plan.folder / "truth.ply", part);
   if (!plan.part_poses.empty()) {
-    AtomicFile truth(plan.folder / "truth-setups.toml");
-    truth.stream() << toml_of(plan.part_poses);
-    truth.commit();
+    write_part_poses(plan.folder / "truth-setups.toml", plan.part_poses);
   }
   Scan scan = plan;
   scan.rig = setups.front().scene.known_rig;

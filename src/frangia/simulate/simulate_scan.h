@@ -7,24 +7,27 @@
 
 namespace frangia {
 
-/// Renders a whole scan of a part into `plan.folder`, with the part itself beside it as truth.ply.
+/// Renders a scan of a part into `plan.folder` and writes the part as truth.ply. Returns the scan
+/// as written.
 ///
-/// rig.toml tells what the rig's owner knows, not its faults. scan.toml is written last: a folder
-/// without it was interrupted. Returns the scan as written.
+/// rig.toml describes the rig without its faults. scan.toml is written last: a folder without it is
+/// an interrupted simulation. `plan.part_poses` are the true part poses of the setups; they are
+/// written to truth-setups.toml, not to scan.toml.
 ///
-/// In a setup that `plan.part_poses` names, the part stands as they say; nobody knows that
-/// afterwards: they go into truth-setups.toml, as scan.toml could have them, and not into
-/// scan.toml. units    the part in mm, object frame errors   Error(Input) when the folder holds
-/// anything but an interrupted simulation, or as
-///          make_simulated_scene and render_view; Error(File) when it cannot be written
+/// units    mm, object frame
+/// errors   Error(Input) when the folder holds anything but an interrupted simulation, when the
+/// plan
+///          has no pattern or view, when an option is out of range, or when the rig cannot show a
+///          pattern; Error(File) when a file cannot be written
 [[nodiscard]] Scan simulate_scan(const Mesh& part,
                                  const Scan& plan,
                                  const SimulateOptions& options = {},
                                  const Run& run = {});
 
-/// The part tilted about the x axis, turned about the vertical, and set down on the table.
+/// Returns the pose of a part that is tilted about the x axis, turned about the z axis, and put
+/// down centred on the turntable.
 ///
-/// units    object frame: what takes the part from its place in `part` to the new one
+/// units    mm, object frame: pose * (point of `part`) = posed point
 [[nodiscard]] Eigen::Isometry3d pose_on_table(const Mesh& part, double tilt_rad, double turn_rad);
 
 }  // namespace frangia

@@ -9,12 +9,12 @@ namespace frangia {
 
 struct SimulatedBench;
 
-/// Drivers of devices in software: "simulated" (camera, light, line, turntable), "simulated-piezo"
-/// and "simulated-display". Those of one list share a bench: the camera sees what the others did.
-/// Their settings are in docs/devices.md.
+/// Drivers of simulated devices: "simulated" (camera, light, line, turntable), "simulated-piezo"
+/// and "simulated-display". The devices of one list share a bench: the camera images the state that
+/// the others set. docs/devices.md lists their settings.
 [[nodiscard]] std::vector<Driver> simulated_drivers();
 
-/// The same over a bench that the caller has, too: to show it to another camera.
+/// Drivers over a bench that the caller shares, for example with a camera emulator.
 [[nodiscard]] std::vector<Driver> simulated_drivers(const std::shared_ptr<SimulatedBench>& bench);
 
 }  // namespace frangia

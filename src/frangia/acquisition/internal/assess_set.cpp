@@ -13,16 +13,17 @@
 namespace frangia {
 namespace {
 
-/// A piezo that is a degree off, now and then, does not shake: more than this must be left over.
+/// Ratio of residual to noise variance above which a set with a phase shifter shows vibration.
+/// Piezo steps that are wrong by a degree stay below it.
 constexpr double kVibratingPiezo = 6.0;
-/// A step that is farther off was not found rightly: a fringe too few, something in the way.
+/// Gain errors above this are failed estimates, such as a step wrong by a fringe.
 constexpr double kMaxGainError = 0.3;
 
 NoiseModel noise_of(const FrameStack& stack, const std::optional<NoiseModel>& camera) {
   return camera ? *camera : estimate_noise({&stack, 1});
 }
 
-/// How much longer than asked for the shifts are, by all of them where there are enough.
+/// Estimates the gain error: by a fit to all shifts for six frames or more, else by the mean step.
 void find_gain(const FrameStack& stack, const NoiseModel& noise, SetAssessment& assessment) {
   const std::vector<double>& nominal = stack.pattern.shifts_rad;
   if (nominal.size() >= 6) {

@@ -10,23 +10,24 @@
 
 namespace frangia {
 
-/// What a complete set of fringes tells the session that took it.
+/// Motion and step errors of a complete set of fringe frames.
 struct SetAssessment {
-  bool moved = false;       ///< something moved, or the light flickered, between its frames
-  bool step_found = false;  ///< the frames tell how long the shifts really were
-  double gain_error = 0.0;  ///< the shifts made are those of the pattern times one plus this
+  bool moved = false;       ///< motion, or flicker of the light, between the frames
+  bool step_found = false;  ///< `gain_error` is valid
+  double gain_error = 0.0;  ///< true shift = nominal shift * (1 + gain_error)
 };
 
-/// Assesses the frames of one pattern, at all its exposures: the best exposed ones speak for it.
+/// Assesses the frames of one pattern. Of several exposures, the one with most measured pixels
+/// counts.
 ///
-/// `camera` is the noise of the camera itself: noise that is estimated from the frames would hide
-/// motion; without it nothing counts as moved.
+/// `camera` is the camera's noise model. Without it `moved` is false, because noise estimated from
+/// the frames includes motion.
 /// errors   as fit_algorithm and wrap_phase
 [[nodiscard]] SetAssessment assess_set(std::span<const FrameStack> exposures,
                                        const std::optional<NoiseModel>& camera,
                                        bool shifter);
 
-/// What becomes of each pixel when this set is decoded.
+/// Pixel states of the decoded set.
 [[nodiscard]] Image<PixelStatus> pixel_status_of(const FrameStack& stack,
                                                  const std::optional<NoiseModel>& camera);
 

@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-/// Adds the time it lives to a sum.
+/// Adds its lifetime to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -33,7 +33,7 @@ void check_frame(const Device& camera, const Frame& frame, const Rig& rig) {
   if (width_of(frame) == model.width_px && height_of(frame) == model.height_px) return;
   fail_device(camera,
               fmt::format("its frame is {} x {} pixels, but camera.size_px in rig.toml is {} x "
-                          "{}; correct the one or the other",
+                          "{}; correct one of them",
                           width_of(frame),
                           height_of(frame),
                           model.width_px,
@@ -64,7 +64,7 @@ void check_devices(const RigDevices& devices,
   if (!devices.turntable) {
     require(angles_rad.size() < 2,
             "the rig has no [devices.turntable], which several views need; add it to rig.toml, or "
-            "take --views 1");
+            "set `views` to 1");
     return;
   }
   const TurntableInfo& info = devices.turntable->info();
@@ -156,13 +156,14 @@ CompleteFrame CaptureDevices::capture(const FrameLabel& label) {
     }
     cause = captured.incomplete_cause;
   }
-  fail_device(*devices_.camera,
-              fmt::format("frame {} of \"{}\" came incomplete {} times ({}); check its cable and "
-                          "network",
-                          label.frame,
-                          label.pattern,
-                          options_.frame_attempts,
-                          cause));
+  fail_device(
+      *devices_.camera,
+      fmt::format("frame {} of \"{}\" arrived incomplete {} times ({}); check its cable and "
+                  "network",
+                  label.frame,
+                  label.pattern,
+                  options_.frame_attempts,
+                  cause));
 }
 
 void CaptureDevices::make_safe() noexcept {

@@ -11,39 +11,40 @@
 
 namespace frangia {
 
-/// A frame that came whole, and how often it had to be taken.
+/// A complete frame and the exposures it took.
 struct CompleteFrame {
   Frame frame;
   int attempts = 1;
 };
 
-/// A rig's devices as a capture session uses them: each call with its deadline, light switched and
-/// the table homed where that is due. Counts the time that the devices take.
+/// The devices of a rig for a capture session. Sets a deadline for each call, switches lights,
+/// homes the table when needed, and sums the time of all device calls.
 class CaptureDevices {
  public:
-  /// errors   Error(Input) when the devices do not suit the patterns and angles
+  /// errors   Error(Input) when the devices cannot show the patterns or reach the angles
   CaptureDevices(RigDevices& devices,
                  const Rig& rig,
                  const CaptureOptions& options,
                  const Run& run);
 
-  /// Turns the table, which is enabled and homed first where that is due, and lets it settle.
+  /// Moves the table and waits until it has settled. Enables and homes it first when needed.
   void turn_to(double angle_rad);
-  /// Before the first frame of a set: hysteresis begins anew.
+  /// Prepares the first frame of a set: returns the phase shifter to its start, which resets its
+  /// hysteresis.
   void begin_set(const Pattern& pattern, double scale);
-  /// Brings the light of one frame.
+  /// Projects one frame of a pattern.
   void show(const Pattern& pattern, int frame);
-  /// The light of the fringes alone, wherever they are.
+  /// Switches the fringes' light on and the laser sheet off without moving the phase shifter.
   void light_fringes() { switch_to(Light::Fringes); }
   void expose_for(double exposure_ms);
-  /// Takes a frame, again while it arrives incomplete.
-  /// errors   Error(Device), also when none of many came whole
+  /// Captures a frame and repeats the exposure while it arrives incomplete.
+  /// errors   Error(Device), also when all `frame_attempts` frames are incomplete
   [[nodiscard]] CompleteFrame capture(const FrameLabel& label);
 
-  /// After a fault: all dark and still.
+  /// Switches all lights and motion off after a fault.
   void make_safe() noexcept;
-  /// Whether all devices answer, and the table can find its angle again.
-  /// errors   Error(Device) of the one that does not
+  /// Checks that all devices answer and that the table can find its angle again.
+  /// errors   Error(Device) that names the device
   void check_health();
 
   [[nodiscard]] bool has_phase_shifter() const { return devices_.shifter != nullptr; }
@@ -60,12 +61,12 @@ class CaptureDevices {
   const Run& run_;
   std::optional<PhaseShiftController> shift_;
   Light active_light_ = Light::None;
-  double exposure_ms_ = 0.0;  ///< that the camera was told last
+  double exposure_ms_ = 0.0;  ///< set last; 0 when unknown
   bool enabled_ = false;
   double seconds_ = 0.0;
 };
 
-/// Leaves the devices safe, however what uses them ends; and makes them so first.
+/// Switches lights and motion off on construction and on destruction.
 class SafeStateGuard {
  public:
   explicit SafeStateGuard(RigDevices& devices) : devices_(devices) { devices_.make_safe(); }
@@ -79,7 +80,7 @@ class SafeStateGuard {
   RigDevices& devices_;
 };
 
-/// Whether a rig's devices can take these patterns at these angles.
+/// Checks that the devices can show the patterns and reach the angles.
 ///
 /// errors   Error(Input) that names the table that rig.toml lacks, or the angle
 void check_devices(const RigDevices& devices,

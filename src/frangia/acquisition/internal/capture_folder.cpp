@@ -11,6 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/dataset/write_scan.h"
 
 namespace frangia {
 namespace {
@@ -20,7 +21,7 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The plan as it is kept: scan.toml, rig.toml and options.txt.
+/// Writes scan.toml, rig.toml and options.txt.
 void write_plan(const Scan& plan,
                 const std::filesystem::path& folder,
                 const std::string& options_text) {
@@ -71,10 +72,11 @@ bool claim_folder(const Scan& plan, const std::string& options_text) {
   const bool same = same_plan(kept, fresh);
   std::filesystem::remove_all(fresh);
   if (!same) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: holds another scan than the one asked for; name a new folder, or "
-                            "repeat the options and the rig that it was begun with",
-                            plan.folder.string()));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: holds another scan; name a new folder, or use the options and the rig "
+                    "of the first session",
+                    plan.folder.string()));
   }
   remove_remnants(plan.folder);
   return true;

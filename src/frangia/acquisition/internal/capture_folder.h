@@ -6,14 +6,14 @@
 
 namespace frangia {
 
-/// Lays a plan down in its folder, in `capture/`, or makes sure that it is the one that lies there
-/// already; takes away what a killed session left half written. Returns whether it lay there.
+/// Stores a plan in `capture/` of its folder, or checks that it equals the plan stored there.
+/// Removes the temporary files of a killed session. Returns whether a plan was stored before.
 ///
-/// `options_text` is what else was asked for, in words, and must be the same again.
-/// errors   Error(Input) when the folder holds something else; Error(File)
+/// `options_text` describes the capture options, which must be the same in every session.
+/// errors   Error(Input) when the folder holds anything else; Error(File)
 bool claim_folder(const Scan& plan, const std::string& options_text);
 
-/// Writes the scan's own scan.toml and rig.toml, to outlive a power cut.
+/// Writes scan.toml and rig.toml of the scan and syncs them to the disk.
 void finish_folder(const Scan& scan);
 
 }  // namespace frangia

@@ -15,7 +15,7 @@
 namespace frangia {
 namespace {
 
-/// The value of "key=12", or nothing that can be read.
+/// A stream of the value of "key=12"; an empty stream for another key.
 std::istringstream value_of(const std::string& word, const std::string& key) {
   const bool is_it = word.rfind(key + "=", 0) == 0;
   return std::istringstream(is_it ? word.substr(key.size() + 1) : std::string());
@@ -57,7 +57,7 @@ void CaptureManifest::read_line(const std::string& line, std::size_t number) {
     if (!exposures_ms_.empty()) return;
   }
   throw Error(ErrorKind::Input,
-              fmt::format("{}: line {} makes no sense; begin the scan in a new folder",
+              fmt::format("{}: line {} cannot be read; start the scan in a new folder",
                           (folder_ / "capture" / "manifest.txt").string(),
                           number));
 }

@@ -12,58 +12,58 @@
 
 namespace frangia {
 
-/// What was acknowledged of one frame.
+/// One stored frame.
 struct ManifestFrame {
   std::uint32_t checksum = 0;  ///< CRC-32 of the file
   std::size_t bytes = 0;
-  int attempts = 1;    ///< exposures that it took until one came whole
-  double scale = 1.0;  ///< of the shifts that it was taken with
+  int attempts = 1;    ///< exposures until the frame was complete
+  double scale = 1.0;  ///< of the shifts of its set
 };
 
-/// What was found of a complete set of frames, all those of a pattern in a view.
+/// Outcome of a complete set: all frames of one pattern in one view.
 struct ManifestSet {
-  int attempt = 0;     ///< how often it was begun anew
-  bool moved = false;  ///< its frames show motion and do not count
+  int attempt = 0;     ///< number of retakes before it
+  bool moved = false;  ///< its frames show motion and are rejected
   double scale = 1.0;  ///< for the shifts of the next set
 };
 
-/// The list of what a capture session has on disk: a line a frame, a line a set that was assessed,
+/// The log of a capture on disk: one line per frame and per assessed set.
 ///
 ///     frame views/000/fringe-0.png 1c291ca3 184211 attempts=1 scale=1
 ///     set views/000/fringe 0 good scale=0.952
 ///     exposures 2.5 10
 ///
-/// A frame is acknowledged once its line is on the disk.
+/// A frame counts as stored once its line is on the disk.
 /// errors   Error(File) when it cannot be written, Error(Input) that names the line
 class CaptureManifest {
  public:
-  /// `folder` is the scan's; the list is in capture/manifest.txt.
+  /// Reads capture/manifest.txt in `folder`, the scan folder.
   explicit CaptureManifest(std::filesystem::path folder);
 
-  /// Stores a file durably and acknowledges it, its checksum found here. `file` is relative to the
-  /// folder. For the thread that stores: it touches the disk and nothing else of this.
+  /// Writes a file durably and appends its line with the checksum. `file` is relative to the
+  /// folder. For the storing thread: changes nothing in memory.
   void store(const std::string& file, std::span<const char> bytes, ManifestFrame frame);
-  /// Writes down what was found of a set; likewise.
+  /// Appends the line of a set; for the storing thread, too.
   void store(const std::string& set, const ManifestSet& outcome);
 
-  /// Takes in what is on its way to the disk; for the thread that asks the questions below.
+  /// Records what is being stored; for the thread that calls the queries below.
   void add(const std::string& file, const ManifestFrame& frame) { frames_[file] = frame; }
   void add(const std::string& set, const ManifestSet& outcome);
   void add_exposures(const std::vector<double>& exposures_ms);
 
   [[nodiscard]] bool has(const std::string& file) const { return find(file) != nullptr; }
   [[nodiscard]] const ManifestFrame* find(const std::string& file) const;
-  /// A set that was assessed and counts.
+  /// Whether the set is assessed and not rejected.
   [[nodiscard]] bool is_good(const std::string& set) const;
-  /// How often a set was begun anew.
+  /// Number of retakes of a set so far.
   [[nodiscard]] int attempt_of(const std::string& set) const;
-  /// On the shifts of the next set: as the last one that was assessed says.
+  /// Scale of the next set's shifts, from the last assessed set.
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] const std::vector<double>& exposures_ms() const { return exposures_ms_; }
   [[nodiscard]] std::size_t retries() const;
   [[nodiscard]] std::size_t retakes() const { return retakes_; }
-  /// Forgets the frames whose files are gone or damaged, to be taken again, and returns how many
-  /// there were.
+  /// Drops the frames whose files are missing or damaged, so that they are captured again. Returns
+  /// their number.
   std::size_t forget_damaged();
 
  private:

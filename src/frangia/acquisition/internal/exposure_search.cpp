@@ -8,7 +8,7 @@ namespace frangia {
 namespace {
 
 constexpr double kMaxSaturated = 0.005;  // of the lit pixels
-constexpr double kMinGain = 0.005;       // of all that any exposure measures
+constexpr double kMinGain = 0.005;       // of the pixels that any exposure measures
 constexpr int kMaxExposures = 6;
 constexpr int kMaxSteps = 8;  // factors of two, up and down
 
@@ -24,7 +24,7 @@ std::size_t count_of(const std::vector<bool>& mask) {
   return static_cast<std::size_t>(std::count(mask.begin(), mask.end(), true));
 }
 
-/// How many of `mask` are not in `all`, which may be shorter.
+/// Counts the pixels of `mask` that are not in `all`, which may be shorter.
 std::size_t count_new(const std::vector<bool>& mask, const std::vector<bool>& all) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < mask.size(); ++i)
@@ -77,7 +77,7 @@ void ExposureBracket::add_view(const ExposureProbe& probe) {
   Mask all;
   std::size_t pixels = 0;
   for (const int direction : {1, -1}) {
-    int idle = 0;  // steps on end that added nothing; before anything is seen they do not count
+    int idle = 0;  // successive steps without new pixels, once any pixel is measured
     for (int step = direction > 0 ? 0 : -1; std::abs(step) <= kMaxSteps && idle < 2;
          step += direction) {
       const double exposure_ms = std::ldexp(range_.initial_ms, step);

@@ -8,7 +8,7 @@
 
 namespace frangia {
 
-/// What becomes of each pixel of the view at hand when its fringes are taken at an exposure in ms.
+/// Returns the pixel states of the current view when its fringes are captured at an exposure.
 using ExposureProbe = std::function<Image<PixelStatus>(double exposure_ms)>;
 
 struct ExposureRange {
@@ -17,33 +17,36 @@ struct ExposureRange {
   double max_ms = 10'000.0;
 };
 
-/// The longest exposure, to a few percent, that saturates at most 0.5 % of what is lit.
+/// Finds the longest exposure, within 5 %, that saturates at most 0.5 % of the lit pixels.
 ///
-/// errors   what the probe throws
+/// units    ms
+///
+/// errors   those of the probe
 [[nodiscard]] double longest_exposure(const ExposureProbe& probe, const ExposureRange& range);
 
-/// Finds the exposures that a part needs, by what each one measures in a few of its views.
+/// Chooses a set of exposures by the pixels that each one measures in a few views.
 class ExposureBracket {
  public:
   explicit ExposureBracket(const ExposureRange& range) : range_(range) {}
 
-  /// Looks at a view: at exposures a factor of two apart, up and down from the guess, until neither
-  /// more light nor less measures anything new.
+  /// Probes the current view at exposures a factor of two apart, up and down from the initial one,
+  /// until two successive exposures in each direction measure no new pixels.
   void add_view(const ExposureProbe& probe);
 
-  /// The exposure that measures most, then that which adds most, and so on while one adds half a
-  /// percent.
-  /// missing  the guess alone when nothing was measured at all
+  /// Selects greedily the exposure that adds most pixels, while it adds at least 0.5 %.
+  ///
+  /// units    ms
+  /// missing  the initial exposure alone when no pixel was measured
   [[nodiscard]] std::vector<double> selected() const;
 
  private:
-  using Mask = std::vector<bool>;  ///< of the pixels measured, one view's after the other's
+  using Mask = std::vector<bool>;  ///< measured pixels of all views, concatenated
 
   [[nodiscard]] bool adds(int step, const Image<PixelStatus>& status, Mask& all);
 
   ExposureRange range_;
-  std::map<int, Mask> measured_;    ///< by the power of two of the guess
-  std::size_t earlier_pixels_ = 0;  ///< pixels of the views before
+  std::map<int, Mask> measured_;    ///< by the power of two relative to the initial exposure
+  std::size_t earlier_pixels_ = 0;  ///< pixels of the earlier views
 };
 
 }  // namespace frangia

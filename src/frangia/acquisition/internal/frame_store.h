@@ -13,9 +13,9 @@
 
 namespace frangia {
 
-/// Packs and stores frames on a thread of its own, one after the other, while the next ones are
-/// taken. What it is given counts for the manifest's questions at once; should the disk fail, the
-/// next call says so.
+/// Encodes and stores frames in order on a thread of its own while the next ones are captured. A
+/// frame is in the manifest's memory as soon as `put` returns; an error of the disk is thrown by
+/// the next call.
 class FrameStore {
  public:
   explicit FrameStore(CaptureManifest& manifest);
@@ -23,19 +23,19 @@ class FrameStore {
   FrameStore& operator=(const FrameStore&) = delete;
   FrameStore(FrameStore&&) = delete;
   FrameStore& operator=(FrameStore&&) = delete;
-  /// Stores what was put, unless the disk failed.
+  /// Waits until all frames are stored, unless the disk failed.
   ~FrameStore();
 
-  /// Waits while three things are on their way to the disk.
-  /// errors   what went wrong with an earlier frame
+  /// Queues a frame; waits while three items are queued.
+  /// errors   the error of an earlier frame
   void put(std::string file, std::shared_ptr<const Frame> frame, const ManifestFrame& about);
-  /// A outcome on a set, after all its frames.
+  /// Queues the outcome of a set, after all its frames.
   void put(const std::string& set, const ManifestSet& outcome);
-  /// Returns when all frames are acknowledged.
+  /// Waits until all items are on the disk.
   /// errors   as `put`
   void drain();
 
-  /// How long the callers of `put` and `drain` were kept waiting for the disk, in seconds.
+  /// Time that `put` and `drain` waited for the disk.
   [[nodiscard]] double disk_wait_s();
 
  private:
@@ -53,9 +53,9 @@ class FrameStore {
   CaptureManifest& manifest_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;  ///< the first one is being stored
+  std::deque<Job> jobs_;  ///< the front one is being stored
   std::exception_ptr fault_;
-  bool writing_to_disk_ = false;  ///< the thread waits for the disk, not for its own packing
+  bool writing_to_disk_ = false;  ///< the thread waits for the disk and is not encoding
   bool done_ = false;
   double disk_wait_s_ = 0.0;
   std::thread thread_;

@@ -17,11 +17,11 @@ const Pattern& finest_fringes(const Scan& plan) {
     if (finest == nullptr || pattern.fringes_per_unit() > finest->fringes_per_unit())
       finest = &pattern;
   }
-  require(finest != nullptr, "an automatic exposure needs a pattern of fringes");
+  require(finest != nullptr, "an automatic exposure needs a fringe pattern; add one to the plan");
   return *finest;
 }
 
-/// What the finest fringes tell of the view at hand at an exposure.
+/// Pixel states of the current view for the finest fringes at an exposure.
 Image<PixelStatus> probe(const Scan& plan,
                          std::size_t view,
                          CaptureDevices& devices,
@@ -61,7 +61,7 @@ std::vector<double> survey_exposures(const Scan& plan,
       bracket.add_view(probe_here);
     } else {
       range.initial_ms = longest_exposure(probe_here, range);
-      range.max_ms = range.initial_ms;  // the other views may only ask for less
+      range.max_ms = range.initial_ms;  // the other views can only shorten it
     }
   }
   std::vector<double> chosen =

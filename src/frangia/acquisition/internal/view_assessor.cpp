@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-/// The one word that a assessment begins with, and what to do about it.
+/// The result in a few words, with the remedy.
 std::string word_for(const FrameAssessment& frames, std::size_t points) {
   constexpr double kOverexposed = 0.02;
   constexpr double kLowContrast = 0.2;

@@ -15,8 +15,8 @@
 
 namespace frangia {
 
-/// Decodes views beside the session, while the table turns and the next ones are taken, and says of
-/// each what it holds: contrast, saturated share, points.
+/// Decodes captured views on a thread of its own and reports contrast, saturated share and number
+/// of points of each.
 class ViewAssessor {
  public:
   ViewAssessor(const Scan& plan, const Run& run);
@@ -26,10 +26,10 @@ class ViewAssessor {
   ViewAssessor& operator=(ViewAssessor&&) = delete;
   ~ViewAssessor() = default;
 
-  /// Begins to decode a view whose frames are all there, in the order of `read_frames`. One at a
-  /// time: waits for the view before.
+  /// Starts to decode a complete view, its frames in the order of `read_frames`. Waits for the
+  /// previous view.
   void begin(std::size_t view, std::vector<std::shared_ptr<const Frame>> frames);
-  /// Says the assessment that is ready, if there is one; with `wait`, that of a view not ready yet.
+  /// Reports the current view when its assessment is ready; with `wait`, waits for it.
   void report(bool wait);
 
  private:

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/missing.h"
+#include "frangia/pipeline/internal/view_decoder.h"
 #include "frangia/pipeline/survey_scan.h"
 #include "frangia/range/recover_edge_pixels.h"
 #include "frangia/range/triangulate.h"
@@ -36,8 +36,7 @@ std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatu
       share(status, PixelStatus::Saturated));
 }
 
-/// The first view's assessments stand for all; of the others only what is suspect is worth a
-/// sentence.
+/// Reports the assessments of the first view, and of the other views only suspected vibration.
 void report_assessments(const Scan& scan,
                         std::size_t view,
                         const std::vector<FrameAssessment>& assessments,
@@ -52,33 +51,21 @@ void report_assessments(const Scan& scan,
   }
 }
 
-/// What the frames of one view say, in mm.
+/// One view's range grid.
 struct MeasuredView {
   RangeGrid range;
   std::vector<RangePixel> edge_pixels;
-  DecodedView decoded;
   std::size_t points = 0;
 };
 
-/// What all views are measured with.
-struct MeasureContext {
-  const Scan& scan;
-  const Image<Eigen::Vector2f>& rays;
-  DecodeOptions decode;
-  const MixedPixelOptions& mixed_pixels;
-};
-
-MeasuredView measure_view(const MeasureContext& context, std::size_t view, const Run& run) {
-  const auto& [scan, rays, decode, mixed_pixels] = context;
-  run.stage("frames");
-  const auto frames = read_frames(scan, view, run);
-  run.stage("phase");
+/// Marks in `decoded.phase.status` the pixels that triangulation and the mixed-pixel filter reject.
+MeasuredView measure_view(DecodedView& decoded,
+                          const Scan& scan,
+                          const Image<Eigen::Vector2f>& rays,
+                          const MixedPixelOptions& mixed_pixels) {
   MeasuredView out;
-  out.decoded = decode_view(frames, scan.rig, rays, decode, run);
-  report_assessments(scan, view, out.decoded.assessments, run);
-  run.stage("range");
-  out.range = triangulate(out.decoded.phase, scan.rig, rays);
-  const auto removed = remove_mixed_pixels(out.range, rays, out.decoded.phase.status, mixed_pixels);
+  out.range = triangulate(decoded.phase, scan.rig, rays);
+  const auto removed = remove_mixed_pixels(out.range, rays, decoded.phase.status, mixed_pixels);
   out.edge_pixels = recover_edge_pixels(
       out.range, rays, removed, {.max_incidence_deg = mixed_pixels.max_incidence_deg});
   out.points = count_points(out.range);
@@ -92,28 +79,32 @@ MeasuredViews measure_views(const Scan& scan,
                             const DecodeOptions& decode,
                             const MixedPixelOptions& mixed_pixels,
                             const Run& run) {
-  MeasuredViews all;
   run.stage("survey");
-  MeasureContext context{scan, rays, decode, mixed_pixels};
-  context.decode.survey = survey_scan(scan, run);
-  context.decode.keep_maps = false;
+  DecodeOptions decode_options = decode;
+  decode_options.survey = survey_scan(scan, run);
+  decode_options.keep_maps = false;
+  run.stage("range");
+  ViewDecoder decoder(scan, rays, decode_options, run);
+  MeasuredViews all;
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
-    MeasuredView one = measure_view(context, i, run);
-    if (one.points == 0 && one.decoded.unresolved.empty()) {
-      run.warn(why_empty(scan, i, one.decoded.phase.status));
+    DecodedView decoded = decoder.next();
+    report_assessments(scan, i, decoded.assessments, run);
+    MeasuredView measured = measure_view(decoded, scan, rays, mixed_pixels);
+    if (measured.points == 0 && decoded.unresolved.empty()) {
+      run.warn(why_empty(scan, i, decoded.phase.status));
       continue;
     }
-    for (UnresolvedRegion& region : one.decoded.unresolved)
+    for (UnresolvedRegion& region : decoded.unresolved)
       all.unresolved.push_back({all.views.size(), std::move(region)});
-    all.coarsest = one.decoded.coarsest;
-    all.unwrapped_spatially = one.decoded.relative.has_value();
+    all.coarsest = decoded.coarsest;
+    all.unwrapped_spatially = decoded.relative.has_value();
     all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
     all.setups.push_back(scan.views[i].setup);
-    all.views.add({std::move(one.range),
+    all.views.add({std::move(measured.range),
                    scan.rig.rig_from_object(scan.views[i].angle_rad),
-                   std::move(one.edge_pixels)});
-    all.points += one.points;
+                   std::move(measured.edge_pixels)});
+    all.points += measured.points;
   }
   return all;
 }

@@ -17,18 +17,19 @@
 
 namespace frangia {
 
-/// Every view of a scan as a range grid, each by itself.
+/// The range grids of all views of a scan.
 struct MeasuredViews {
   ViewStore views;
-  std::vector<Station> stations;                 ///< of the turntable, one a view
-  std::vector<int> setups;                       ///< of the scan, one a view
-  std::vector<UnresolvedViewRegion> unresolved;  ///< regions whose fringe their view cannot tell
-  Pattern coarsest;                              ///< pattern that was decoded
-  bool unwrapped_spatially = false;              ///< so that whole patches may be fringes off
+  std::vector<Station> stations;                 ///< of the turntable, one per view
+  std::vector<int> setups;                       ///< setup numbers, one per view
+  std::vector<UnresolvedViewRegion> unresolved;  ///< regions without a fringe order
+  Pattern coarsest;                              ///< coarsest fringe pattern
+  bool unwrapped_spatially = false;              ///< whole patches may then be wrong by fringes
   std::size_t points = 0;
 };
 
-/// Frames, phase, range: one view of the scan after the other.
+/// Reads, decodes and triangulates all views of a scan. The next view is read and decoded while one
+/// is triangulated, within the memory of two views.
 ///
 /// missing  a view without a lit pixel is left out with a warning
 /// errors   as read_frames and decode_view

@@ -8,11 +8,11 @@
 
 namespace frangia {
 
-/// Faults that a simulated device is to show, each a line of words such as "lost 1 fringe 2".
+/// Scripted faults of a simulated device, each a line of words such as "lost 1 fringe 2".
 ///
-/// A line's words must equal the first of those asked for, so that a shorter line holds for more:
-/// "incomplete 1" for every frame of view 1. A fault happens once for each thing that it holds for,
-/// and is gone at the next attempt; a line that ends with "always" stays.
+/// A line matches an event whose first words equal the line's: "incomplete 1" matches every frame
+/// of view 1. A fault triggers once per matching event and not at the next attempt, unless the line
+/// ends with "always".
 class FaultScript {
  public:
   FaultScript() = default;
@@ -20,9 +20,9 @@ class FaultScript {
 
   /// Whether a fault triggers now.
   [[nodiscard]] bool triggers(const std::vector<std::string>& words);
-  /// Whether a line holds for this, without it being used up.
+  /// Whether a line matches, without triggering it.
   [[nodiscard]] bool matches(const std::vector<std::string>& words) const;
-  /// The lines' first words, for whoever checks that they are known.
+  /// The first words of all lines, to be checked against the known ones.
   [[nodiscard]] std::vector<std::string> kinds() const;
 
  private:

@@ -16,7 +16,7 @@ using Position = Eigen::Vector3d;
   return (p - center).norm() - radius;
 }
 
-/// First order: right on the surface, near enough beside it.
+/// First-order approximation: exact on the surface.
 [[nodiscard]] inline double ellipsoid(const Position& p,
                                       const Position& center,
                                       const Position& radii) {
@@ -26,7 +26,7 @@ using Position = Eigen::Vector3d;
   return k1 > 1e-9 ? k0 * (k0 - 1.0) / k1 : -radii.minCoeff();
 }
 
-/// A rod with round ends whose radius runs evenly from one end to the other.
+/// A rod with round ends whose radius changes linearly along it.
 struct Rod {
   Position from, to;
   double from_radius, to_radius;
@@ -63,7 +63,7 @@ struct Disc {
   return -smooth_union(-a, b, width);
 }
 
-/// What two solids share, the edge rounded over about `width`.
+/// The intersection of two solids, the edge rounded over about `width`.
 [[nodiscard]] inline double smooth_intersection(double a, double b, double width) {
   return -smooth_union(-a, -b, width);
 }

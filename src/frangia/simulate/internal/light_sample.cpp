@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far a shadow ray starts off the surface, mm: more than the rounding of single precision.
+/// Offset of a shadow ray's origin from the surface, mm: above the rounding of single precision.
 constexpr double kStepOff = 2e-3;
 
 double lattice_value(const Eigen::Vector3i& cell) {
@@ -45,7 +45,7 @@ double albedo_at(const Vector3d& position_mm, double texture) {
          texture * (0.65 * value_noise(position_mm, 14.0) + 0.35 * value_noise(position_mm, 5.0));
 }
 
-/// Where a point of the rig frame is on the projector; false when it is outside of what it lights.
+/// Projects a point of the rig frame into the projector; false outside of its field.
 bool project_to_projector(const Projector& projector, const Vector3d& point, LightSample& sample) {
   const Vector3d p = projector.from_rig(point);
   if (const auto* pinhole = std::get_if<PinholeModel>(&projector.model)) {

@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// What one camera ray brings home.
+/// The light along one camera ray.
 struct LightSample {
   float u = 0.0F;        ///< where the light left the projector: psi in degrees, or its column
   float v = 0.0F;        ///< its row; pinhole only
@@ -18,10 +18,11 @@ struct LightSample {
   [[nodiscard]] float reflected() const { return diffuse + glossy; }
 };
 
-/// The light along one ray of the camera.
+/// Traces one ray of the camera.
 ///
-/// missing  a ray that meets nothing brings nothing; in shadow or outside the projector's field
-///          there is the albedo only
+/// missing  all values are 0 where the ray hits nothing; only the albedo is set in shadow and
+/// outside
+///          of the projector's field
 [[nodiscard]] LightSample sample_light(const SimulatedScene& scene,
                                        const Eigen::Isometry3d& rig_from_object,
                                        const Eigen::Vector2d& ray);

@@ -51,7 +51,7 @@ Grid sample(const Field& field, const Eigen::AlignedBox3d& box, double cell_mm) 
   return grid;
 }
 
-/// The mean of the places where the surface cuts the cell's twelve edges, if it does.
+/// Mean of the surface's intersections with the cell's twelve edges; empty if there are none.
 bool crossing_of(const Grid& grid, std::size_t base, Eigen::Vector3d& mean) {
   std::array<float, 8> value{};
   for (std::size_t i = 0; i < 8; ++i) {
@@ -77,7 +77,7 @@ bool crossing_of(const Grid& grid, std::size_t base, Eigen::Vector3d& mean) {
   return count > 0;
 }
 
-/// Down or up the gradient onto the zero, never farther than half a cell.
+/// Moves a point along the gradient to the zero level, by at most half a cell.
 Eigen::Vector3d project_to_surface(const Field& field,
                                    const Eigen::Vector3d& start,
                                    double cell_mm) {

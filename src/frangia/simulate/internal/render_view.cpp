@@ -87,7 +87,7 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
     }
   }
   const ViewRenderer renderer(scene, true_pose(scene, view), view.index);
-  constexpr int kBand = 64;  // rows between two looks at whether to stop
+  constexpr int kBand = 64;  // rows between two checks for cancellation
   for (int done = 0; done < scene.rays.height(); done += kBand) {
     const int size = std::min(kBand, scene.rays.height() - done);
     parallel_rows(size, [&](int row) {

@@ -10,14 +10,12 @@
 
 namespace frangia {
 
-/// What the simulated camera sees of each pattern at one stop of the turntable.
+/// Renders the frames of all patterns at one station of the turntable.
 ///
-/// Noise depends on the seed, the view, the pattern's name, the frame and the pixel only: the same
-/// frames for any number of threads, and for any choice of patterns.
-/// shape    a stack a pattern and exposure, in their order; frames of the camera's size, 8 bit or
-/// 16 bit errors   Error(Input) when a pattern does not suit the rig: its projector cannot show it,
-/// or a
-///          line where the rig has none
+/// Noise depends only on seed, view, pattern name, frame and pixel, not on the number of threads or
+/// the other patterns.
+/// shape    one stack per pattern and exposure, in order; frames of the camera's size, 8 or 16 bit
+/// errors   Error(Input) when the rig cannot show a pattern
 [[nodiscard]] std::vector<FrameStack> render_view(const SimulatedScene& scene,
                                                   std::span<const Pattern> patterns,
                                                   const SimulatedView& view,

@@ -9,7 +9,7 @@
 namespace frangia {
 namespace {
 
-/// What lights the bench at this moment, as a pattern of one frame.
+/// The current illumination as a pattern of one frame.
 Pattern pattern_on(const SimulatedBench& bench) {
   Pattern shown;
   shown.shifts_rad = {0.0};
@@ -25,7 +25,7 @@ Shot shot_of(const SimulatedBench& bench, const FrameLabel& label, const FrameFa
                                     label.pattern,
                                     static_cast<std::size_t>(label.frame));
   if (label.attempt > 0) seed = hash(seed, 0x5E70U + static_cast<std::uint64_t>(label.attempt));
-  // All exposures of a bracket see the piezo at one place, each with noise of its own.
+  // All exposures of a bracket share the piezo's position and have independent noise.
   const double shift = bench.piezo_rad + bench.drift_rad_per_view * label.view +
                        bench.jitter_rad * normal_from(hash(seed, 1)) +
                        faults.motion_rad * normal_from(hash(seed, 2));
@@ -45,7 +45,7 @@ Shot shot_of(const SimulatedBench& bench, const FrameLabel& label, const FrameFa
 
 }  // namespace
 
-/// The light that comes back from one pose of the part.
+/// The light of one pose of the part.
 struct BenchCamera::Light {
   Light(const SimulatedBench& bench, int view_of)
       : scene(bench.scene),
@@ -70,7 +70,7 @@ Frame BenchCamera::capture(const SimulatedBench& bench,
   const bool same = light_ && light_->scene == bench.scene && light_->view == label.view &&
                     light_->table_rad == bench.table_rad;
   if (!same) {
-    light_.reset();  // before the new one: the light of one pose is large
+    light_.reset();  // frees the large cache before the next one is made
     light_ = std::make_shared<Light>(bench, label.view);
   }
   std::vector<Shot> shots{shot_of(bench, label, faults)};

@@ -11,32 +11,31 @@
 
 namespace frangia {
 
-/// What really stands and shines on the simulated rig, as its devices have left it: the one state
-/// that all simulated drivers share. A frame depends on this state and on its label only, so that a
-/// scan which was interrupted goes on to the same bytes.
+/// The physical state of the simulated rig, which all simulated drivers share. A frame depends only
+/// on this state and on its label, so that an interrupted scan continues with the same bytes.
 struct SimulatedBench {
-  std::shared_ptr<const SimulatedScene> scene;  ///< null until a simulated camera was opened
+  std::shared_ptr<const SimulatedScene> scene;  ///< null until a simulated camera is opened
 
-  double table_rad = 0.0;           ///< where the turntable top really is
+  double table_rad = 0.0;           ///< true angle of the turntable top
   bool fringe_light = true;         ///< the lamp, or the laser through the interferometer
   bool line_light = false;          ///< the laser sheet
   Image<float> picture;             ///< shown by a digital projector, linear; empty: dark
   double fringes_per_degree = 1.0;  ///< of the interferometer
-  double piezo_rad = 0.0;           ///< where the interferometer's fringes are
+  double piezo_rad = 0.0;           ///< true phase of the interferometer's fringes
   double drift_rad_per_view = 0.0;
-  double jitter_rad = 0.0;  ///< rms, of each place the piezo goes to
+  double jitter_rad = 0.0;  ///< rms, independent per piezo position
 
   CameraSettings camera;
   double reference_exposure_ms = 10.0;  ///< puts the brightest diffuse pixel at 80 % of white
 };
 
-/// Something that a frame suffers beyond the state of the bench.
+/// Faults of a single frame.
 struct FrameFaults {
-  double light = 1.0;       ///< the light runs away by this factor
-  double motion_rad = 0.0;  ///< rms, the fringes jump between the frames
+  double light = 1.0;       ///< factor on the light
+  double motion_rad = 0.0;  ///< rms of the fringes' motion between frames
 };
 
-/// Takes a picture of the bench. Keeps the light of the last pose: most frames share it.
+/// Renders frames of the bench. Caches the light of the last pose, which most frames share.
 class BenchCamera {
  public:
   [[nodiscard]] Frame capture(const SimulatedBench& bench,

@@ -34,6 +34,8 @@ SimulateOptions read_options(DeviceSettings& settings, const Rig& rig) {
   options.shininess = settings.number_or("shininess", options.shininess);
   options.texture = settings.number_or("texture", options.texture);
   options.speckle = settings.number_or("speckle", options.speckle);
+  if (settings.has("platter_radius_mm"))
+    settings.fail("platter_radius_mm", "is called turntable_top_radius_mm now; rename it");
   options.turntable_top_radius_mm =
       settings.number_or("turntable_top_radius_mm", options.turntable_top_radius_mm);
   if (!rig.projector.is_angular())
@@ -56,7 +58,7 @@ Mesh read_part(DeviceSettings& settings) {
 }
 
 std::shared_ptr<const SimulatedScene> make_scene(DeviceSettings& settings, const Rig& rig) {
-  // The brightest of a whole turn sets the exposure, whatever views are asked for.
+  // The brightest pixel of a full turn sets the exposure, independent of the plan's views.
   constexpr std::size_t kStations = 8;
   std::vector<SimulatedView> views;
   for (std::size_t i = 0; i < kStations; ++i)
@@ -117,7 +119,7 @@ class SimulatedCamera final : public CameraDevice {
         std::chrono::duration<double>(Deadline::Clock::now().time_since_epoch()).count();
     if (faults_.triggers(words("incomplete"))) {
       captured.complete = false;
-      captured.incomplete_cause = "packets of it were lost";
+      captured.incomplete_cause = "packets were lost";
       return captured;
     }
     FrameFaults faults;
@@ -130,7 +132,7 @@ class SimulatedCamera final : public CameraDevice {
  private:
   BenchPtr bench_;
   FaultScript faults_;
-  bool real_time_;  ///< an exposure takes as long as it says
+  bool real_time_;  ///< an exposure takes its nominal time
   CameraInfo info_;
   BenchCamera camera_;
   std::uint64_t taken_ = 0;

@@ -14,7 +14,7 @@ namespace frangia {
 
 using BenchPtr = std::shared_ptr<SimulatedBench>;
 
-/// A ray-traced camera; puts the part that the settings name on the bench.
+/// A ray-traced camera; places the part that the settings name on the bench.
 ///
 /// errors   Error(Input) that names file and key, or as make_simulated_scene
 [[nodiscard]] std::unique_ptr<CameraDevice> open_simulated_camera(DeviceSettings& settings,
@@ -34,7 +34,7 @@ using BenchPtr = std::shared_ptr<SimulatedBench>;
 [[nodiscard]] std::unique_ptr<TurntableDevice> open_simulated_table(DeviceSettings& settings,
                                                                     BenchPtr bench);
 
-/// The light of the fringes, or the laser sheet: whichever of the bench's `light` is named.
+/// A switch for one light of the bench.
 [[nodiscard]] std::unique_ptr<SwitchDevice> open_simulated_switch(BenchPtr bench,
                                                                   bool SimulatedBench::*light);
 

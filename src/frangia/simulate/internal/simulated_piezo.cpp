@@ -45,7 +45,9 @@ class SimulatedPiezo final : public PhaseShifter {
     deadline.check();
     check_command(command);
     go(command,
-       command == info_.min_command ? 0.0 : unsettled_share_);  // at rest it takes its time
+       command == info_.min_command
+           ? 0.0
+           : unsettled_share_);  // a return to the start waits until settled
   }
 
   void set_fringe_frequency(double fringes_per_degree, const Deadline& deadline) override {
@@ -54,7 +56,7 @@ class SimulatedPiezo final : public PhaseShifter {
   }
 
  private:
-  /// The command of a turn that its own curve tells.
+  /// Command per 2 pi of the nominal curve.
   [[nodiscard]] double nominal_command_per_turn() const {
     const PhaseCurve& curve = info_.curve;
     return kTwoPi * (curve.commands.back() - curve.commands.front()) /
@@ -73,7 +75,7 @@ class SimulatedPiezo final : public PhaseShifter {
   BenchPtr bench_;
   ShifterInfo info_;
   double gain_;
-  double nonlinearity_;  ///< how much longer a turn's phase has become at the end of the range
+  double nonlinearity_;  ///< relative increase of the phase per command at the end of the range
   double hysteresis_;    ///< of the hysteresis, in commands
   double true_command_per_turn_ = 1.0;
   double unsettled_share_ = 0.0;

@@ -64,12 +64,12 @@ void check(const SimulateOptions& options, const Rig& rig) {
   }
   if (!rig.turntable) {
     throw Error(ErrorKind::Input,
-                "the rig has no [turntable], which says where the part stands; add it to rig.toml");
+                "the rig has no [turntable], which places the part; add it to rig.toml");
   }
 }
 
-/// The axis moved across itself and leaned, both in directions left to chance. Its point nearest to
-/// the given one is `point_mm`, as the scan format wants it of a refined axis.
+/// The axis with an offset and a tilt in random directions. `point_mm` is its point nearest to the
+/// given one, as the scan format defines for a refined axis.
 Turntable true_turntable(const Turntable& given, const SimulateOptions& options) {
   const std::uint64_t stream = hash(options.seed, kAxisStream);
   const Eigen::Vector3d u = given.axis.unitOrthogonal();
@@ -105,7 +105,7 @@ Mesh with_turntable_top(const Mesh& part, double radius_mm) {
   return both;
 }
 
-/// The brightest diffuse light of a view, seen by every fourth pixel of every fourth row.
+/// The brightest diffuse light of a view, over every fourth pixel of every fourth row.
 double brightest_of(const SimulatedScene& scene, const SimulatedView& view) {
   constexpr int kStride = 4;
   const Eigen::Isometry3d pose = true_pose(scene, view);
@@ -124,7 +124,7 @@ double brightest_of(const SimulatedScene& scene, const SimulatedView& view) {
 }  // namespace
 
 Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view) {
-  // The first view's angle is what the object frame is told by: it has no error.
+  // The first view has no error: it defines the object frame.
   const double error =
       view.index == 0 ? 0.0
                       : scene.options.angle_error_rad *

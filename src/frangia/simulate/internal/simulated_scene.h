@@ -14,35 +14,35 @@
 
 namespace frangia {
 
-/// A part on the simulated rig, ready to be photographed.
+/// A part on the simulated rig.
 struct SimulatedScene {
   RayScene surface;  ///< the part and the turntable top, object frame
-  std::vector<std::array<Eigen::Vector3f, 3>> normals;  ///< three a triangle, for the light
-  Rig rig;                                              ///< as it really is
-  Rig known_rig;                                        ///< as rig.toml tells it
+  std::vector<std::array<Eigen::Vector3f, 3>> normals;  ///< three per triangle, for shading
+  Rig rig;                                              ///< with its faults
+  Rig known_rig;                                        ///< without its faults, for rig.toml
   Image<Eigen::Vector2f> rays;
   double working_distance_mm = 0.0;  ///< of the projector from the part
   double exposure = 1.0;             ///< white level per unit of light from a white surface
   SimulateOptions options = {};
 };
 
-/// One stop of the turntable.
+/// One station of the turntable.
 struct SimulatedView {
   std::size_t index = 0;
   double angle_rad = 0.0;  ///< commanded
 };
 
-/// Puts a part on a rig and sets the exposure for all the views that are to come.
+/// Places a part on a rig and sets the exposure by the brightest pixel of all views.
 ///
-/// errors   Error(Input) when the part is empty or the rig has no turntable, or when an option has
-/// a
-///          value that makes no sense, which the sentence names
+/// errors   Error(Input) when the part has no triangles, the rig has no turntable, or an option is
+/// out
+///          of range
 [[nodiscard]] SimulatedScene make_simulated_scene(const Mesh& part,
                                                   const Rig& rig,
                                                   std::span<const SimulatedView> views,
                                                   const SimulateOptions& options = {});
 
-/// Where the object really stands in a view: with the turntable's faults.
+/// The true pose of the object in a view, with the turntable's faults.
 [[nodiscard]] Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view);
 
 }  // namespace frangia

@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-/// A place in degrees for a sentence, without the rounding of radians.
+/// An angle in degrees for messages, without the rounding errors of radians.
 std::string degrees(double angle_rad) {
   return fmt::format("{:.6g}", deg_from_rad(angle_rad));
 }
@@ -88,8 +88,8 @@ class SimulatedTable final : public TurntableDevice {
   void check_enabled() const {
     if (!enabled_) fail_device(*this, "is not enabled");
   }
-  /// The turntable top lags behind the motor by the backlash when it comes from above, and its gear
-  /// has an error of its own at each place.
+  /// The turntable top lags the motor by the backlash when approached from above; the gear adds an
+  /// error that depends on the angle.
   void turn_to(double angle_rad) {
     table_rad_ = std::clamp(table_rad_, angle_rad, angle_rad + backlash_rad_);
     motor_rad_ = angle_rad;
@@ -104,7 +104,7 @@ class SimulatedTable final : public TurntableDevice {
   double backlash_rad_;
   double approach_rad_;
   double error_rad_;
-  double deg_per_s_;  ///< 0: it is there at once
+  double deg_per_s_;  ///< 0: moves take no time
   double motor_rad_ = 0.0;
   double table_rad_ = 0.0;
   bool enabled_ = false;

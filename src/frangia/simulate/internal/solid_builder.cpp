@@ -22,7 +22,7 @@ Loop circle(const Eigen::Vector3d& center, double radius, int count) {
 }
 
 void SolidBuilder::add_face(const Loop& outer, const std::vector<Loop>& holes) {
-  // Newell's normal: right for any simple polygon, also with collinear points.
+  // Newell's normal is exact for any simple polygon, collinear points included.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < outer.size(); ++i) {
     normal += (outer[i] - outer[0]).cross(outer[(i + 1) % outer.size()] - outer[0]);

@@ -8,17 +8,16 @@
 
 namespace frangia {
 
-/// Points along a closed or an open line.
+/// Points along a closed or an open polyline.
 using Loop = std::vector<Eigen::Vector3d>;
 
 /// A circle about an axis parallel to z, counter-clockwise seen from above, with `count` points.
 [[nodiscard]] Loop circle(const Eigen::Vector3d& center, double radius, int count);
 
-/// Puts a closed solid together from its faces, edge on edge.
+/// Builds a closed solid from its faces.
 ///
-/// Neighbouring faces must name the same points along the edge they share; equal points become one
-/// vertex. Every face is named counter-clockwise as seen from outside the solid.
-/// units    mm
+/// Neighbouring faces must have equal points along their shared edge; equal points become one
+/// vertex. Faces are counter-clockwise seen from outside the solid. units    mm
 class SolidBuilder {
  public:
   /// A plane face with holes in it; the holes run clockwise.
@@ -29,7 +28,7 @@ class SolidBuilder {
   /// counter-clockwise seen from `to`'s side for a band that faces outwards, as a pillar's does.
   void add_band(const Loop& from, const Loop& to);
 
-  /// The same between two open lines.
+  /// The band between two open lines.
   void add_strip(const Loop& from, const Loop& to);
 
   /// Triangles from each piece of a closed line to one point.

@@ -23,7 +23,7 @@ std::uint64_t hash_of(const std::string& text) {
   return value;
 }
 
-/// Turns of the fringe at a place on the projector, in radians.
+/// Phase of the fringe at a projector coordinate, rad.
 double phase_at(const Pattern& pattern, const LightSample& sample) {
   if (pattern.fringes_per_degree > 0.0) {
     return kTwoPi * pattern.fringes_per_degree * static_cast<double>(sample.u);
@@ -32,19 +32,19 @@ double phase_at(const Pattern& pattern, const LightSample& sample) {
   return kTwoPi * static_cast<double>(vertical ? sample.u : sample.v) / pattern.period_px;
 }
 
-/// What the projector makes of light that is asked of it, between its dark and its bright:
-/// corrected by the rig's look-up table, then bent by the display's gamma.
+/// Light of the projector for a nominal light from 0 to 1: corrected by the rig's look-up table,
+/// then distorted by the display's gamma.
 double displayed_light(double linear, const SimulatedScene& scene) {
   const auto& response = scene.rig.projector.response;
   if (scene.options.display_gamma == 1.0 && !response) return linear;
-  const double dark = 1.0 - scene.options.contrast;  // its black is not quite black
+  const double dark = 1.0 - scene.options.contrast;  // light of a black pixel
   const double span = 2.0 * scene.options.contrast;
   double level = std::clamp((linear - dark) / span, 0.0, 1.0);
   if (response) level = response->level_of(level);
   return dark + span * std::pow(level, scene.options.display_gamma);
 }
 
-/// The light asked for in one frame that is no fringe.
+/// Nominal light of one frame that is not a fringe.
 double requested_light(const Pattern& pattern,
                        int frame,
                        const LightSample& sample,
@@ -57,7 +57,7 @@ double requested_light(const Pattern& pattern,
              : 1.0 - contrast;
 }
 
-/// What a picture shows at a place on the projector, between its pixels by bilinear mixing.
+/// Value of a picture at a projector coordinate, bilinearly interpolated.
 double light_of(const Image<float>& picture, const LightSample& sample) {
   const double u = std::clamp(static_cast<double>(sample.u), 0.0, picture.width() - 1.0);
   const double v = std::clamp(static_cast<double>(sample.v), 0.0, picture.height() - 1.0);
@@ -70,7 +70,7 @@ double light_of(const Image<float>& picture, const LightSample& sample) {
          t * ((1.0 - s) * at(0, 1) + s * at(1, 1));
 }
 
-/// A share of white as the camera counts it. A pixel holds a full well of electrons and no more.
+/// Converts light as a share of white to counts. Electrons are limited to the full well.
 int counts_of(double light,
               int white_level,
               std::uint64_t pixel,
@@ -94,7 +94,7 @@ std::uint64_t noise_stream(std::uint64_t seed,
   return hash(hash(hash(hash(seed, kFrameStream), view), frame), hash_of(pattern));
 }
 
-// A pose is as dear to move as to copy.
+// Moving an Eigen pose copies it, so it is passed by reference.
 ViewRenderer::ViewRenderer(const SimulatedScene& scene,
                            const Eigen::Isometry3d& rig_from_object,  // NOLINT(*-pass-by-value)
                            std::size_t view)
@@ -119,7 +119,7 @@ std::vector<LightSample> ViewRenderer::sample_row(int y) const {
   const CameraModel& model = scene_.rig.camera.model;
   for (int x = 0; x < scene_.rays.width(); ++x) {
     const Eigen::Vector2d center = scene_.rays(x, y).cast<double>();
-    // Within a pixel the lens is linear: its slope spares an undistortion for each sample.
+    // The undistortion is linear within a pixel: its slope replaces one undistortion per sample.
     Eigen::Matrix2d ray_from_px = Eigen::Matrix2d::Zero();
     if (samples_across_ > 1) {
       ray_from_px =
@@ -154,12 +154,12 @@ void ViewRenderer::fill_row(int y,
   }
 }
 
-/// What a digital projector throws on a sample in one frame that is no interference fringe.
+/// Light of a digital projector on a sample in one frame.
 double ViewRenderer::projected(const Pattern& pattern,
                                std::size_t frame,
                                const LightSample& sample,
                                const Shot& shot) const {
-  const double dark = 1.0 - options_.contrast;  // its black is not quite black
+  const double dark = 1.0 - options_.contrast;  // light of a black pixel
   if (shot.picture != nullptr)
     return displayed_light(dark + 2.0 * options_.contrast * light_of(*shot.picture, sample),
                            scene_);

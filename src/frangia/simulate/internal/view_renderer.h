@@ -14,27 +14,27 @@
 
 namespace frangia {
 
-/// How one frame is taken: what the projector really shows, the camera's settings, and the noise's
-/// stream.
+/// Parameters of one frame: the projected light, the camera settings and the noise stream.
 struct Shot {
   double cos_shift = 1.0;
   double sin_shift = 0.0;
   std::uint64_t stream = 0;
-  double light = 1.0;         ///< let in, of the scene's exposure
+  double light = 1.0;         ///< factor on the scene's exposure
   double projector = 1.0;     ///< share of the projector's light that is on
-  double gain = 1.0;          ///< counts an electron, of the scene's
+  double gain = 1.0;          ///< factor on the scene's counts per electron
   double black_counts = 0.0;  ///< added to all pixels
-  /// What a digital projector shows instead of the pattern, linear, 0 to 1.
+  /// Picture of a digital projector that replaces the pattern, linear, 0 to 1.
   const Image<float>* picture = nullptr;
 };
 
-/// Where a frame's noise comes from: its identity alone, so that a frame taken again is the same.
+/// The seed of a frame's noise. It depends on the frame's identity only, so that a repeated frame
+/// is equal.
 [[nodiscard]] std::uint64_t noise_stream(std::uint64_t seed,
                                          std::size_t view,
                                          const std::string& pattern,
                                          std::size_t frame);
 
-/// One pose's light, row by row, and the frames it fills. The scene must outlive it.
+/// Traces the light of one pose row by row and fills frames. The scene must outlive it.
 class ViewRenderer {
  public:
   /// `view` chooses the speckle.
@@ -45,7 +45,7 @@ class ViewRenderer {
   /// All samples of one row, those of a pixel together.
   [[nodiscard]] std::vector<LightSample> sample_row(int y) const;
 
-  /// Fills row y of all frames of one pattern; T is the frames' own.
+  /// Fills row y of all frames of one pattern; T is their pixel type.
   template <typename T>
   void fill_row(int y,
                 std::span<const LightSample> samples,

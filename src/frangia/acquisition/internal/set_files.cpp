@@ -1,0 +1,78 @@
+#include "frangia/acquisition/internal/set_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "frangia/core/make_folder.h"
+
+namespace frangia {
+
+std::string SetFiles::set_of(std::size_t view, const Pattern& pattern) const {
+  return (plan_.views[view].folder / pattern.name).generic_string();
+}
+
+std::string SetFiles::file_of(std::size_t view,
+                              const Pattern& pattern,
+                              int frame,
+                              int exposure) const {
+  return (plan_.views[view].folder / frame_file_name(pattern, frame, exposure)).generic_string();
+}
+
+std::size_t SetFiles::frames_per_view() const {
+  int count = 0;
+  for (const Pattern& pattern : plan_.patterns)
+    count += pattern.frame_count() * pattern.exposure_count();
+  return static_cast<std::size_t>(count);
+}
+
+bool SetFiles::has_all_frames(std::size_t view, const Pattern& pattern) const {
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
+      if (!manifest_.has(file_of(view, pattern, frame, exposure))) return false;
+  }
+  return true;
+}
+
+bool SetFiles::is_complete(std::size_t view) const {
+  return std::all_of(plan_.patterns.begin(), plan_.patterns.end(), [&](const Pattern& pattern) {
+    return has_all_frames(view, pattern) && manifest_.is_good(set_of(view, pattern));
+  });
+}
+
+double SetFiles::scale_of(std::size_t view, const Pattern& pattern) const {
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      const ManifestFrame* stored = manifest_.find(file_of(view, pattern, frame, exposure));
+      if (stored != nullptr) return stored->scale;
+    }
+  }
+  return manifest_.scale();
+}
+
+std::vector<bool> SetFiles::stored_frames(std::size_t view, const Pattern& pattern) const {
+  std::vector<bool> stored;
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
+      stored.push_back(manifest_.has(file_of(view, pattern, frame, exposure)));
+  }
+  return stored;
+}
+
+void SetFiles::move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const {
+  const std::filesystem::path folder = plan_.folder / plan_.views[view].folder;
+  const std::filesystem::path rejected = folder / "rejected";
+  make_folder(rejected);
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      const std::string name = frame_file_name(pattern, frame, exposure);
+      const std::filesystem::path to = rejected / fmt::format("{}-{}", attempt, name);
+      const bool counts = manifest_.has(file_of(view, pattern, frame, exposure));
+      if (!counts && std::filesystem::exists(folder / name) && !std::filesystem::exists(to))
+        std::filesystem::rename(folder / name, to);
+    }
+  }
+}
+
+}  // namespace frangia

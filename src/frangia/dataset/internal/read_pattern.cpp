@@ -1,0 +1,127 @@
+#include "frangia/dataset/internal/read_pattern.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kMinShifts = 3;
+
+/// A text that file names begin with.
+std::string file_name_part(TomlReader& reader, std::string_view key) {
+  std::string name = reader.text(key);
+  const bool plain = !name.empty() && name.front() != '.' &&
+                     std::none_of(name.begin(), name.end(), [](char letter) {
+                       return letter == '/' || letter == '\\' || letter == '@' || letter == '\0';
+                     });
+  if (!plain) {
+    reader.fail(
+        key,
+        fmt::format("is \"{}\"; file names begin with it: use letters, digits, - and _ only",
+                    name));
+  }
+  return name;
+}
+
+void read_fringes(TomlReader& reader, const Rig& rig, Pattern& pattern) {
+  if (rig.projector.is_angular()) {
+    pattern.fringes_per_degree = reader.positive("fringes_per_degree");
+  } else {
+    pattern.period_px = reader.positive("period_px");
+  }
+  for (const double shift_deg : reader.numbers("shifts_deg")) {
+    pattern.shifts_rad.push_back(rad_from_deg(shift_deg));
+  }
+  if (pattern.shifts_rad.size() < kMinShifts) {
+    reader.fail("shifts_deg", fmt::format("must hold at least {} shifts", kMinShifts));
+  }
+}
+
+void read_gray(TomlReader& reader, const Rig& rig, Pattern& pattern) {
+  constexpr int kMaxBits = 24;
+  pattern.kind = PatternKind::Gray;
+  const auto* model = std::get_if<PinholeModel>(&rig.projector.model);
+  if (model == nullptr) reader.fail("kind", "is \"gray\", which an angular projector cannot show");
+  pattern.bits = reader.integer("bits", 1, kMaxBits);
+  if (reader.has("inverted")) pattern.inverted = reader.boolean("inverted");
+  if (reader.has("stripe_px")) pattern.stripe_px = reader.positive("stripe_px");
+  const bool rows = pattern.direction == FringeDirection::Horizontal;
+  const int side = rows ? model->height_px : model->width_px;
+  if (std::ldexp(pattern.stripe_px, pattern.bits) < side * (1.0 - 1e-9)) {
+    reader.fail("bits",
+                fmt::format("is {}, too few to number the projector's {} {}",
+                            pattern.bits,
+                            side,
+                            rows ? "rows" : "columns"));
+  }
+}
+
+void read_ramp(TomlReader& reader, Pattern& pattern) {
+  pattern.kind = PatternKind::Ramp;
+  pattern.levels = reader.numbers("levels");
+  const bool rises =
+      std::is_sorted(pattern.levels.begin(), pattern.levels.end(), std::less_equal<>());
+  if (pattern.levels.size() < 3 || !rises || pattern.levels.front() != 0.0 ||
+      pattern.levels.back() != 1.0)
+    reader.fail("levels", "must be at least three rising shares of full light, from 0 to 1");
+}
+
+void read_exposures(TomlReader& reader, Pattern& pattern) {
+  if (!reader.has("exposures_ms")) return;
+  pattern.exposures_ms = reader.numbers("exposures_ms");
+  const bool positive = std::all_of(pattern.exposures_ms.begin(),
+                                    pattern.exposures_ms.end(),
+                                    [](double exposure) { return exposure > 0.0; });
+  if (pattern.exposures_ms.empty() || !positive)
+    reader.fail("exposures_ms", "must hold at least one exposure, each above 0");
+  if (pattern.kind != PatternKind::Fringe && pattern.kind != PatternKind::Gray)
+    reader.fail("exposures_ms", R"(is for patterns of kind "fringe" and "gray" only)");
+}
+
+void read_direction(TomlReader& reader, const Rig& rig, Pattern& pattern) {
+  if (!reader.has("direction")) return;
+  const std::string direction = reader.text("direction");
+  if (direction == "horizontal" && rig.projector.is_angular())
+    reader.fail("direction", "is \"horizontal\", but an angular projector's fringes are vertical");
+  if (direction != "vertical" && direction != "horizontal") {
+    reader.fail("direction",
+                fmt::format(R"(is "{}"; it must be "vertical" or "horizontal")", direction));
+  }
+  if (direction == "horizontal") pattern.direction = FringeDirection::Horizontal;
+}
+
+}  // namespace
+
+Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
+  Pattern pattern;
+  pattern.name = file_name_part(reader, "name");
+  read_direction(reader, rig, pattern);
+  const std::string kind = reader.text("kind");
+  if (kind == "fringe") {
+    read_fringes(reader, rig, pattern);
+  } else if (kind == "line") {
+    pattern.kind = PatternKind::Line;
+    if (!rig.laser_sheet)
+      reader.fail("kind", "is \"line\", but rig.toml has no [line] with the laser sheet's plane");
+  } else if (kind == "gray") {
+    read_gray(reader, rig, pattern);
+  } else if (kind == "ramp") {
+    read_ramp(reader, pattern);
+  } else {
+    reader.fail("kind",
+                fmt::format(R"(is "{}"; it must be "fringe", "line", "gray" or "ramp")", kind));
+  }
+  read_exposures(reader, pattern);
+  reader.warn_of_unused_keys(run);
+  return pattern;
+}
+
+}  // namespace frangia

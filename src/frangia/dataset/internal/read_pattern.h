@@ -1,0 +1,15 @@
+#pragma once
+
+#include "frangia/core/run.h"
+#include "frangia/pattern/pattern.h"
+#include "frangia/rig/rig.h"
+#include "frangia/rig/toml_reader.h"
+
+namespace frangia {
+
+/// One `[[pattern]]` table of scan.toml. Unknown keys are warned of.
+///
+/// errors   Error(Input) that names the key: missing, out of range, or not possible with `rig`
+[[nodiscard]] Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run);
+
+}  // namespace frangia

@@ -1,0 +1,150 @@
+#include "frangia/dataset/read_frames.h"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "frangia/core/parallel.h"
+#include "frangia/frames/png.h"
+
+namespace frangia {
+namespace {
+
+/// The frame number in "NAME-12.png" or "NAME-12@1.png", or -1.
+int frame_number(const std::string& file, const std::string& pattern_name) {
+  const std::string_view ending = ".png";
+  const std::size_t begin = pattern_name.size() + 1;
+  if (file.size() <= begin + ending.size() || file.size() > begin + ending.size() + 9) return -1;
+  if (file.compare(0, begin, pattern_name + "-") != 0) return -1;
+  if (file.compare(file.size() - ending.size(), ending.size(), ending) != 0) return -1;
+  std::string digits = file.substr(begin, file.size() - begin - ending.size());
+  digits.resize(std::min(digits.size(), digits.find('@')));
+  if (digits.empty()) return -1;
+  const bool all_digits = std::all_of(
+      digits.begin(), digits.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
+  return all_digits ? std::stoi(digits) : -1;
+}
+
+/// A surplus frame means that scan.toml and the files disagree on the shifts.
+void refuse_surplus_frames(const std::filesystem::path& folder,
+                           const std::vector<Pattern>& patterns) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    for (const Pattern& pattern : patterns) {
+      if (frame_number(file, pattern.name) < pattern.frame_count()) continue;
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: is a surplus frame: pattern \"{}\" has {} in scan.toml; remove "
+                              "the file or correct scan.toml",
+                              entry.path().string(),
+                              pattern.name,
+                              pattern.frame_count()));
+    }
+  }
+}
+
+int brightest(const Frame& frame) {
+  return std::visit(
+      [](const auto& image) {
+        return static_cast<int>(*std::max_element(image.pixels().begin(), image.pixels().end()));
+      },
+      frame);
+}
+
+void check_frame(const Frame& frame,
+                 const Frame& first,
+                 const Camera& camera,
+                 const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), what));
+  };
+  if (width_of(frame) != camera.model.width_px || height_of(frame) != camera.model.height_px) {
+    fail(fmt::format("is {} x {} pixels, but camera.size_px in rig.toml is {} x {}",
+                     width_of(frame),
+                     height_of(frame),
+                     camera.model.width_px,
+                     camera.model.height_px));
+  }
+  if (frame.index() != first.index())
+    fail("has another bit depth than the view's first frame; capture the view again");
+  if (frame.index() == 0) {
+    if (camera.white_level > 255) {
+      fail(
+          fmt::format("has 8 bits, but camera.white_level in rig.toml is {}; set it to 255 or "
+                      "below",
+                      camera.white_level));
+    }
+  } else if (const int top = brightest(frame); top > camera.white_level) {
+    fail(
+        fmt::format("holds the value {}, above camera.white_level = {} in rig.toml; set it to the "
+                    "camera's full scale, such as 4095 for 12 bits",
+                    top,
+                    camera.white_level));
+  }
+}
+
+/// A file and the frame that it is read into.
+struct FrameFile {
+  std::filesystem::path path;
+  Frame* frame;
+};
+
+/// Calls `work` for every file on all cores. Every file is tried, and the error of the first one
+/// that failed is thrown: the message does not depend on the number of threads.
+void for_each_file(const std::vector<FrameFile>& files,
+                   const std::function<void(const FrameFile&)>& work) {
+  std::vector<std::exception_ptr> errors(files.size());
+  parallel_chunks(files.size(), 1, [&](std::size_t i, std::size_t) {
+    try {
+      work(files[i]);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Run& run) {
+  const std::filesystem::path folder = scan.folder / scan.views.at(view).folder;
+  if (!std::filesystem::is_directory(folder)) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: there is no such folder, but scan.toml names it; restore it or "
+                            "remove the view from scan.toml",
+                            folder.string()));
+  }
+  refuse_surplus_frames(folder, scan.patterns);
+  std::vector<FrameStack> stacks;
+  for (const Pattern& pattern : scan.patterns) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      stacks.push_back({pattern,
+                        std::vector<Frame>(static_cast<std::size_t>(pattern.frame_count())),
+                        scan.rig.camera.white_level,
+                        exposure});
+    }
+  }
+  std::vector<FrameFile> files;
+  for (FrameStack& stack : stacks) {
+    for (std::size_t i = 0; i < stack.frames.size(); ++i) {
+      files.push_back({folder / frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure),
+                       &stack.frames[i]});
+    }
+  }
+  for_each_file(files, [&](const FrameFile& file) {
+    run.check();
+    *file.frame = read_png(file.path);
+  });
+  for_each_file(files, [&](const FrameFile& file) {
+    check_frame(*file.frame, *files.front().frame, scan.rig.camera, file.path);
+  });
+  return stacks;
+}
+
+}  // namespace frangia

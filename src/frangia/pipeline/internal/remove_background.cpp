@@ -1,0 +1,61 @@
+#include "frangia/pipeline/internal/remove_background.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/views/clip_views.h"
+
+namespace frangia {
+
+void clip_to_volume(ViewStore& views,
+                    const CameraModel& camera,
+                    const ReconstructOptions& options,
+                    const Run& run) {
+  if (std::isinf(options.clip_below_mm) && std::isinf(options.clip_radius_mm)) return;
+  Clip clip{.max_radius_mm = options.clip_radius_mm};
+  clip.floor.offset() = -options.clip_below_mm;
+  clip_views(views, camera, clip, run);
+}
+
+void clip_on_registered_turntable(MeasuredSetup& setup,
+                                  const CameraModel& camera,
+                                  const ReconstructOptions& options,
+                                  const Run& run) {
+  ViewStore& views = setup.measured.views;
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    poses.push_back(views.rig_from_object(i));
+    if (!setup.registration) continue;
+    views.set_rig_from_object(
+        i, setup.registration->table.rig_from_object(setup.registration->angles_rad[i]));
+  }
+  clip_to_volume(views, camera, options, run);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views.set_rig_from_object(i, poses[i]);
+}
+
+double remove_turntable_top(ViewStore& views,
+                            const CameraModel& camera,
+                            const TurntableTopOptions& options,
+                            const Run& run) {
+  const auto turntable_top = find_turntable_top(views, camera, options, run);
+  if (!turntable_top) return kMissing;
+  constexpr double kMargin_mm = 0.5;  // nearer points are the top itself or mixed with it
+  Clip clip;
+  clip.floor = {turntable_top->normal(), turntable_top->offset() - kMargin_mm};
+  const std::size_t removed = clip_views(views, camera, clip, run);
+  const double height_mm = -turntable_top->offset() / turntable_top->normal().z();
+  run.note(
+      fmt::format("the turntable top at a height of {:.2f} mm is removed with {} points; set "
+                  "`keep_turntable_top` to keep it",
+                  std::abs(height_mm) < 0.005 ? 0.0 : height_mm,
+                  removed));
+  return height_mm;
+}
+
+}  // namespace frangia

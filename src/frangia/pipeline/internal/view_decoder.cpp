@@ -1,0 +1,53 @@
+#include "frangia/pipeline/internal/view_decoder.h"
+
+#include <utility>
+
+#include "frangia/dataset/read_frames.h"
+
+namespace frangia {
+
+ViewDecoder::ViewDecoder(const Scan& scan,
+                         const Image<Eigen::Vector2f>& rays,
+                         const DecodeOptions& options,
+                         const Run& run)
+    : scan_(scan), rays_(rays), options_(options), run_(run), forward_stop_(run.stop, [this] {
+        stop_.request_stop();
+      }) {
+  start();
+}
+
+ViewDecoder::~ViewDecoder() {
+  stop_.request_stop();
+  if (pending_.valid()) pending_.wait();
+}
+
+void ViewDecoder::start() {
+  if (view_ == scan_.views.size()) return;
+  pending_ = std::async(std::launch::async, [this, view = view_] { return decode(view); });
+}
+
+DecodedView ViewDecoder::next() {
+  Outcome outcome = pending_.get();
+  for (const Message& message : outcome.messages)
+    message.warning ? run_.warn(message.sentence) : run_.note(message.sentence);
+  if (outcome.error) std::rethrow_exception(outcome.error);
+  ++view_;
+  start();
+  return std::move(outcome.view);
+}
+
+ViewDecoder::Outcome ViewDecoder::decode(std::size_t view) const {
+  Outcome out;
+  Run run;
+  run.stop = stop_.get_token();
+  run.on_warning = [&](const std::string& sentence) { out.messages.push_back({true, sentence}); };
+  run.on_note = [&](const std::string& sentence) { out.messages.push_back({false, sentence}); };
+  try {
+    out.view = decode_view(read_frames(scan_, view, run), scan_.rig, rays_, options_, run);
+  } catch (...) {
+    out.error = std::current_exception();
+  }
+  return out;
+}
+
+}  // namespace frangia
