@@ -1,4 +1,4 @@
-// What the program says of scans that cannot be put together: one clear sentence each.
+// Messages of the program about scans that cannot be registered: one clear sentence each.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -140,7 +140,7 @@ TEST_F(RegistrationProgram, OppositeViewsWithLittleInCommonSayHowWellTheyFit) {
   write_scan_of("blade", 2);
   expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
               0,
-              "tell where the axis is to no better than");
+              "determine the axis only to");
 }
 
 TEST_F(RegistrationProgram, ViewsWithNothingInCommonKeepTheRigAndSaySo) {
@@ -155,7 +155,7 @@ TEST_F(RegistrationProgram, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSays
   expect_told(run_program("merge " + path("one.ply") + " " + path("two.ply") +
                           " --poses given -o " + path("a.ply")),
               0,
-              "the scans do not overlap where they are said to be");
+              "the scans do not overlap where their poses put them");
 }
 
 }  // namespace

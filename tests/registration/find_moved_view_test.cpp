@@ -61,7 +61,7 @@ Bundle bundle_of(const std::vector<std::size_t>& pushed_views, const Eigen::Vect
 std::optional<MovedView> search(Bundle& bundle) {
   const SurfelLists surfels = pick_all_surfels(bundle.maps, 1000);
   optimize_bundle(bundle, surfels, 30, {});
-  return find_moved_view(bundle, surfels, {});
+  return find_moved_view(bundle, surfels, {.reach_mm = 3.0});
 }
 
 TEST(FindMovedView, FindsItWhereverItIsInTheTurn) {
@@ -85,7 +85,7 @@ TEST(FindMovedView, LeavesTheBundleAsItWas) {
   optimize_bundle(bundle, surfels, 30, {});
   const auto angles_rad = bundle.state.angles_rad;
   const double gate_mm = bundle.gate_mm;
-  EXPECT_TRUE(find_moved_view(bundle, surfels, {}).has_value());
+  EXPECT_TRUE(find_moved_view(bundle, surfels, {.reach_mm = 3.0}).has_value());
   EXPECT_EQ(bundle.state.angles_rad, angles_rad);
   EXPECT_EQ(bundle.gate_mm, gate_mm);
   EXPECT_FALSE(bundle.left_out.has_value());

@@ -1,5 +1,6 @@
 #include "frangia/pipeline/reconstruct.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -50,26 +51,23 @@ void clip(ViewStore& views,
   clip_views(views, camera, clip, run);
 }
 
-/// Leaves the turntable top out, and what is less than a little above it. Returns its height; NaN
-/// when there is none.
+/// Removes the turntable top with what lies below it. Returns its height; NaN when there is none.
 double remove_turntable_top(ViewStore& views,
                             const CameraModel& camera,
                             const TurntableTopOptions& options,
                             const Run& run) {
-  const auto turntable_top = find_turntable_top(views, camera, options, run);
-  if (!turntable_top) return kMissing;
-  constexpr double kAbove_mm = 0.5;  // what is nearer is the turntable top, or mixed with it
+  const auto top = find_turntable_top(views, camera, options, run);
+  if (!top) return kMissing;
   Clip clip;
-  clip.floor = {turntable_top->normal(), turntable_top->offset() - kAbove_mm};
+  clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};
   const std::size_t dropped = clip_views(views, camera, clip, run);
-  const double height_mm = -turntable_top->offset() / turntable_top->normal().z();
-  run.note(
-      fmt::format("the turntable top, at a height of {:.2f} mm, is left out with {} points; "
-                  "--keep-turntable-top "
-                  "keeps it",
-                  height_mm,
-                  dropped));
-  return height_mm;
+  run.note(fmt::format(
+      "{}, at a height of {:.2f} mm, is removed with {} points; set "
+      "`keep_turntable_top` to keep it",
+      top->rim_only ? "the rim of the turntable top, which is seen edge-on" : "the turntable top",
+      top->height_mm(),
+      dropped));
+  return top->height_mm();
 }
 
 /// Refines the turntable by what the views saw.
@@ -161,6 +159,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   const ViewStore& views = joined.measured.views;
   if (options.keep_raw) out.raw = collect_points(views, camera, run);
   out.mesh = finish_mesh(fuse_views(views, camera, options.fusion, run), options.finish, run);
+  if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
+  if (!out.untrusted_reason.empty())
+    std::fill(out.mesh.sigma_mm.begin(), out.mesh.sigma_mm.end(), kMissing);
   return out;
 }
 
