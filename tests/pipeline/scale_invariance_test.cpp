@@ -71,8 +71,16 @@ void expect_scales(const Scan& scan) {
     EXPECT_EQ(found.points, wanted.points);
     EXPECT_EQ(found.mesh.triangles.size(), wanted.mesh.triangles.size());
     EXPECT_TRUE(found.mesh.triangles == wanted.mesh.triangles);
-    EXPECT_TRUE(scaled(found.mesh.vertices_mm, static_cast<float>(1.0 / scale)) ==
-                wanted.mesh.vertices_mm);
+    const auto vertices_mm = scaled(found.mesh.vertices_mm, static_cast<float>(1.0 / scale));
+    ASSERT_EQ(vertices_mm.size(), wanted.mesh.vertices_mm.size());
+    std::size_t different = 0;
+    float farthest_mm = 0.0F;
+    for (std::size_t i = 0; i < vertices_mm.size(); ++i) {
+      const float away_mm = (vertices_mm[i] - wanted.mesh.vertices_mm[i]).norm();
+      different += away_mm > 0.0F ? 1U : 0U;
+      farthest_mm = std::max(farthest_mm, away_mm);
+    }
+    EXPECT_EQ(different, 0U) << "by up to " << farthest_mm << " mm";
     expect_same_findings(found, wanted);
   }
   const double voxel_mm = voxel_of(wanted.mesh);

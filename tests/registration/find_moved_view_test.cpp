@@ -16,7 +16,7 @@ using testing::box;
 using testing::Shape;
 using testing::small_camera_model;
 
-/// An angle with a rib: most of what the camera sees are faces that a push slides along.
+/// An angle with a rib: a push slides along most of the faces that the camera sees.
 double angle_iron(const Eigen::Vector3d& p) {
   static const Shape kFoot = box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0});
   static const Shape kWall = box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0});
@@ -24,7 +24,7 @@ double angle_iron(const Eigen::Vector3d& p) {
   return std::min({kFoot(p), kWall(p), kRib(p)});
 }
 
-/// Six views of it, some of them after it was pushed.
+/// Six views of it; those of `pushed_views` were taken after a push.
 Bundle bundle_of(const std::vector<std::size_t>& pushed_views, const Eigen::Vector3d& push_mm) {
   constexpr std::size_t kViews = 6;
   const CameraModel model = small_camera_model(240, 1200.0);

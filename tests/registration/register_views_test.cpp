@@ -19,7 +19,7 @@ namespace {
 using testing::Shape;
 using testing::small_camera_model;
 
-/// A rig that looks down on a part 650 mm away, and what it is believed to be.
+/// The true turntable of a camera that looks down on a part 650 mm away, and the given one.
 struct Table {
   Turntable truth{{2.0, 8.0, 650.0}, Eigen::Vector3d(0.03, -0.9, -0.4).normalized()};
   Turntable given = truth;
@@ -51,7 +51,7 @@ struct Table {
   }
 };
 
-/// A body with bumps that no turn brings back onto itself.
+/// A body with bumps and without symmetry.
 double knobbly(const Eigen::Vector3d& p) {
   const double bumps =
       std::sin(0.22 * p.x()) * std::sin(0.19 * p.y() + 0.4) * std::sin(0.25 * p.z() + 0.2);
@@ -89,7 +89,7 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   EXPECT_GT(std::abs(report.closure_before_rad), 3.0 * std::abs(report.closure_after_rad));
 }
 
-TEST(RegisterViews, KeepsARigThatFitsAsWell) {
+TEST(RegisterViews, KeepsAGivenRigThatFitsAsWell) {
   Table table(6, 0.0);
   table.given = table.truth;
   ViewStore views = table.take(knobbly);
@@ -152,7 +152,7 @@ TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
 }
 
-TEST(RegisterViews, IsNotBentByAViewOfAPartThatSlidOnItsFaces) {
+TEST(RegisterViews, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
   const Table table(6);
   const Shape angle = testing::both(testing::box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0}),
                                     testing::box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0}));
@@ -197,7 +197,7 @@ TEST(RegisterViews, IsNotTrustworthyWhenTooManyViewsContradictEachOther) {
 }
 
 TEST(RegisterViews, ReportsHowWellAnOverlapConstrainsTheAxis) {
-  Table table(2);  // opposite sides, with little but the level top in common
+  Table table(2);  // opposite sides, which share little but the horizontal top
   const Shape post = [](const Eigen::Vector3d& p) {
     return std::max(std::abs(p.z()) - 30.0, 0.7 * (std::hypot(p.x() / 1.4, p.y()) - 20.0));
   };
