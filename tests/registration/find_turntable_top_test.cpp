@@ -47,7 +47,7 @@ TEST(FindTurntableTop, FindsATiltedOne) {
 }
 
 TEST(FindTurntableTop, IgnoresAFlatPart) {
-  const Shape foot = testing::box({30.0, 22.0, 4.0});  // horizontal and at the bottom, but not round
+  const Shape foot = testing::box({30.0, 22.0, 4.0});  // horizontal, at the bottom, not round
   const Shape post = testing::box({8.0, 8.0, 15.0}, {0.0, 0.0, 15.0});
   EXPECT_FALSE(find_turntable_top(look_at(testing::both(foot, post)), small_camera_model()));
 }
