@@ -81,6 +81,10 @@ void expect_scales(const Scan& scan) {
       farthest_mm = std::max(farthest_mm, away_mm);
     }
     EXPECT_EQ(different, 0U) << "by up to " << farthest_mm << " mm";
+    std::vector<float> sigma_mm = found.mesh.sigma_mm;
+    for (float& sigma : sigma_mm)
+      sigma *= static_cast<float>(1.0 / scale);
+    EXPECT_TRUE(sigma_mm == wanted.mesh.sigma_mm);
     expect_same_findings(found, wanted);
   }
   const double voxel_mm = voxel_of(wanted.mesh);
