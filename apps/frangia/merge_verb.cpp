@@ -108,11 +108,12 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
                    "auto (the default), found when what the files say cannot be")
       ->transform(named(kPoses));
   verb->add_flag("--no-register", arguments->no_register, "take the poses as they are");
-  verb->add_option("--max-distance",
-                   arguments->options.registration.reach_mm,
-                   "how far surfaces that are one may lie apart at the start, in mm")
-      ->check(above_zero())
-      ->capture_default_str();
+  verb->add_option(
+          "--max-distance",
+          arguments->options.registration.reach_mm,
+          "how far surfaces that are one may lie apart at the start, in mm; 3 % of a scan's "
+          "size when not given")
+      ->check(above_zero());
   verb->add_option("--voxel",
                    arguments->options.fusion.voxel_mm,
                    "sampling of the surface in mm; chosen from the data when not given")

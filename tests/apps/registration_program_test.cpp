@@ -1,4 +1,4 @@
-// What the program says of scans that cannot be put together: one clear sentence each.
+// Messages of the program about scans that cannot be registered: one clear sentence each.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -61,7 +61,7 @@ class RegistrationProgram : public ::testing::Test {
     std::filesystem::remove_all(scan.folder / view);
     std::filesystem::rename(plan.folder / view, scan.folder / view);
   }
-  /// One sentence and an exit code, and no file under any name.
+  /// Expects an exit code, one sentence, and no new file under any name.
   void expect_refused(const std::string& arguments, int exit_code, const std::string& what) const {
     const auto count = [&] {
       return std::distance(std::filesystem::directory_iterator(folder_.path()), {});
@@ -92,7 +92,7 @@ TEST_F(RegistrationProgram, OneScanAloneIsMergedAsItIs) {
       run_program("merge " + path("one.ply") + " -o " + path("a.ply")), 0, "one scan alone");
 }
 
-TEST_F(RegistrationProgram, ScansThatNothingPlacesAreRefusedInOneSentence) {
+TEST_F(RegistrationProgram, ScansWithoutAUniquePoseAreRefusedInOneSentence) {
   write_relief("one.ply", dome);  // a ball turns on a ball
   write_relief("two.ply", dome);
   expect_refused("merge " + path("one.ply") + " " + path("two.ply") + " --poses shape",
@@ -113,7 +113,7 @@ TEST_F(RegistrationProgram, AVoxelThatNeedsTooMuchMemoryIsRefusedWithOneThatFits
   expect_refused("merge " + path("one.ply") + " --voxel 0.0001", 3, "mm fit");
 }
 
-TEST_F(RegistrationProgram, AViewAloneKeepsTheRigAndSaysSo) {
+TEST_F(RegistrationProgram, AViewAloneKeepsTheRigWithAWarning) {
   write_scan_of("blade", 1);
   expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
               0,
@@ -136,26 +136,26 @@ TEST_F(RegistrationProgram, AViewOfAPartThatWasPushedIsNamedAndLeftOut) {
   EXPECT_EQ(answer.output.find("contradict each other"), std::string::npos) << answer.output;
 }
 
-TEST_F(RegistrationProgram, OppositeViewsWithLittleInCommonSayHowWellTheyFit) {
+TEST_F(RegistrationProgram, OppositeViewsWithLittleInCommonReportHowWellTheyDetermineTheAxis) {
   write_scan_of("blade", 2);
   expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
               0,
-              "tell where the axis is to no better than");
+              "determine the axis only to");
 }
 
-TEST_F(RegistrationProgram, ViewsWithNothingInCommonKeepTheRigAndSaySo) {
+TEST_F(RegistrationProgram, ViewsWithNothingInCommonKeepTheRigWithAWarning) {
   write_scan_of("plate", 2);
   expect_told(
       run_program("reconstruct " + path("scan") + " -o " + path("a.ply")), 0, "do not overlap");
 }
 
-TEST_F(RegistrationProgram, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSaysSo) {
+TEST_F(RegistrationProgram, ScansThatDoNotOverlapKeepTheirPosesWithAWarning) {
   write_relief("one.ply", dome);
   write_relief("two.ply", [](double x, double y) { return 500.0 + dome(x, y); });
   expect_told(run_program("merge " + path("one.ply") + " " + path("two.ply") +
                           " --poses given -o " + path("a.ply")),
               0,
-              "the scans do not overlap where they are said to be");
+              "the scans do not overlap where their poses put them");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using testing::box;
 using testing::Shape;
 using testing::small_camera_model;
 
-/// An angle with a rib: most of what the camera sees are faces that a push slides along.
+/// An angle with a rib: a push slides along most of the faces that the camera sees.
 double angle_iron(const Eigen::Vector3d& p) {
   static const Shape kFoot = box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0});
   static const Shape kWall = box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0});
@@ -24,7 +24,7 @@ double angle_iron(const Eigen::Vector3d& p) {
   return std::min({kFoot(p), kWall(p), kRib(p)});
 }
 
-/// Six views of it, some of them after it was pushed.
+/// Six views of it; those of `pushed_views` were taken after a push.
 Bundle bundle_of(const std::vector<std::size_t>& pushed_views, const Eigen::Vector3d& push_mm) {
   constexpr std::size_t kViews = 6;
   const CameraModel model = small_camera_model(240, 1200.0);
@@ -61,7 +61,7 @@ Bundle bundle_of(const std::vector<std::size_t>& pushed_views, const Eigen::Vect
 std::optional<MovedView> search(Bundle& bundle) {
   const SurfelLists surfels = pick_all_surfels(bundle.maps, 1000);
   optimize_bundle(bundle, surfels, 30, {});
-  return find_moved_view(bundle, surfels, {});
+  return find_moved_view(bundle, surfels, {.reach_mm = 3.0});
 }
 
 TEST(FindMovedView, FindsItWhereverItIsInTheTurn) {
@@ -85,7 +85,7 @@ TEST(FindMovedView, LeavesTheBundleAsItWas) {
   optimize_bundle(bundle, surfels, 30, {});
   const auto angles_rad = bundle.state.angles_rad;
   const double gate_mm = bundle.gate_mm;
-  EXPECT_TRUE(find_moved_view(bundle, surfels, {}).has_value());
+  EXPECT_TRUE(find_moved_view(bundle, surfels, {.reach_mm = 3.0}).has_value());
   EXPECT_EQ(bundle.state.angles_rad, angles_rad);
   EXPECT_EQ(bundle.gate_mm, gate_mm);
   EXPECT_FALSE(bundle.left_out.has_value());

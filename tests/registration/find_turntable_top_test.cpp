@@ -30,8 +30,8 @@ TEST(FindTurntableTop, FindsTheDiscThatThePartStandsOn) {
   const auto turntable_top =
       find_turntable_top(look_at(testing::both(part, disc(45.0, -2.0))), small_camera_model());
   ASSERT_TRUE(turntable_top);
-  EXPECT_NEAR(turntable_top->normal().z(), 1.0, 1e-4);
-  EXPECT_NEAR(-turntable_top->offset(), -2.0, 0.02);
+  EXPECT_NEAR(turntable_top->plane.normal().z(), 1.0, 1e-4);
+  EXPECT_NEAR(turntable_top->height_mm(), -2.0, 0.02);
 }
 
 TEST(FindTurntableTop, FindsATiltedOne) {
@@ -43,11 +43,11 @@ TEST(FindTurntableTop, FindsATiltedOne) {
   const auto turntable_top = find_turntable_top(
       look_at(testing::both(scene, testing::sphere(15.0, {0.0, 0.0, 14.0}))), small_camera_model());
   ASSERT_TRUE(turntable_top);
-  EXPECT_GT(turntable_top->normal().dot(tilt.col(2)), std::cos(rad_from_deg(0.05)));
+  EXPECT_GT(turntable_top->plane.normal().dot(tilt.col(2)), std::cos(rad_from_deg(0.05)));
 }
 
 TEST(FindTurntableTop, IgnoresAFlatPart) {
-  const Shape foot = testing::box({30.0, 22.0, 4.0});  // level and at the bottom, but not round
+  const Shape foot = testing::box({30.0, 22.0, 4.0});  // horizontal, at the bottom, not round
   const Shape post = testing::box({8.0, 8.0, 15.0}, {0.0, 0.0, 15.0});
   EXPECT_FALSE(find_turntable_top(look_at(testing::both(foot, post)), small_camera_model()));
 }
@@ -68,6 +68,41 @@ TEST(FindTurntableTop, FindsAHighOneThatIsMuchWiderThanThePart) {
   const Shape ball = testing::sphere(12.0, {0.0, 0.0, 20.0});
   EXPECT_TRUE(
       find_turntable_top(look_at(testing::both(disc(45.0, 8.0), ball)), small_camera_model()));
+}
+
+/// A camera that looks horizontally: of the turntable it sees the rim alone.
+ViewStore look_horizontally_at(const Shape& scene) {
+  return testing::snapshots(
+      scene, small_camera_model(), testing::around_table(6, 0.0, kDistance), {.steepest_rad = 1.4});
+}
+
+TEST(FindTurntableTop, FindsTheRimOfOneThatIsSeenEdgeOn) {
+  const Shape part = testing::box({15.0, 10.0, 12.0}, {3.0, 0.0, 12.0});
+  const auto top = find_turntable_top(look_horizontally_at(testing::both(part, disc(45.0, 0.0))),
+                                      small_camera_model());
+  ASSERT_TRUE(top);
+  EXPECT_TRUE(top->rim_only);
+  EXPECT_NEAR(top->height_mm(), 0.0, 0.5);
+}
+
+TEST(FindTurntableTop, TakesNoFlangeAboveTheOriginForARim) {
+  const Shape post = testing::box({8.0, 8.0, 15.0}, {0.0, 0.0, 27.0});
+  EXPECT_FALSE(find_turntable_top(look_horizontally_at(testing::both(post, disc(40.0, 12.0))),
+                                  small_camera_model()));
+}
+
+TEST(FindTurntableTop, TakesNoFootThatTouchesThePartForARim) {
+  const Shape cone = [](const Eigen::Vector3d& p) {
+    const double radius = std::max(0.0, 40.0 - p.z());  // from the foot up to a tip
+    return 0.6 * std::max({p.head<2>().norm() - radius, p.z() - 38.0, -p.z()});
+  };
+  const Shape foot = disc(40.0, 0.0);
+  EXPECT_FALSE(
+      find_turntable_top(look_horizontally_at(testing::both(cone, foot)), small_camera_model()));
+}
+
+TEST(FindTurntableTop, TakesNoCylinderWithNothingAboveForARim) {
+  EXPECT_FALSE(find_turntable_top(look_horizontally_at(disc(40.0, 0.0)), small_camera_model()));
 }
 
 TEST(FindTurntableTop, FindsNoneUnderASphere) {

@@ -35,7 +35,7 @@ double block(const Eigen::Vector3d& p) {
   return 0.8 * (beyond_mm.max(0.0).matrix().norm() + std::min(beyond_mm.maxCoeff(), 0.0));
 }
 
-/// Views whose poses were thrown away: each stands anywhere in its own frame.
+/// Views with unknown poses: each is in a frame of its own.
 struct Lost {
   CameraModel camera = small_camera_model(200, 1000.0);
   std::vector<Eigen::Isometry3d> truth;
@@ -45,7 +45,7 @@ struct Lost {
 
   Lost(const Shape& shape, std::vector<Eigen::Isometry3d> poses) : truth(std::move(poses)) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
-      // Held anyhow: a turn about the line of sight that nobody knows.
+      // An unknown rotation about the line of sight, as of a scanner that is held by hand.
       truth[i].linear() =
           Eigen::AngleAxisd(kTwoPi * uniform_from(hash(7, i)), Eigen::Vector3d::UnitZ()) *
           truth[i].linear();
@@ -61,7 +61,7 @@ struct Lost {
     auto maps = make_surfel_maps(views, camera, 40000);
     return find_view_poses(views, maps, camera, names, run);
   }
-  /// How far the part's middle is from where it should be, and by how much it is turned.
+  /// Displacement of the part's centre, plus its rotation as an arc at 38 mm.
   [[nodiscard]] double off_mm(std::size_t i, std::size_t reference) const {
     const Eigen::Isometry3d wanted = truth[i] * truth[reference].inverse();
     const Eigen::Isometry3d got =
@@ -77,7 +77,7 @@ struct Lost {
   }
 };
 
-TEST(FindViewPoses, FindsThePosesThatWereThrownAway) {
+TEST(FindViewPoses, FindsUnknownPoses) {
   Lost lost(lumpy, around_table(6, 0.3, 650.0));
   const FoundPoses found = lost.find_poses();
   EXPECT_EQ(found.found, 6U);
@@ -99,7 +99,7 @@ TEST(FindViewPoses, NamesAndEmptiesAViewThatOverlapsNoOther) {
   EXPECT_LT(lost.off_mm(1, 0), 0.1);
 }
 
-TEST(FindViewPoses, GuessesNothingForARoundPart) {
+TEST(FindViewPoses, ChoosesNoPoseForARoundPart) {
   Lost lost(vase, around_table(4, 0.3, 650.0));
   try {
     static_cast<void>(lost.find_poses());
@@ -119,7 +119,7 @@ TEST(FindViewPoses, LeavesOutTheSecondOfTwoViewsThatLookTheSame) {
       << again.warnings[0];
 }
 
-TEST(FindViewPoses, PutsNoSideOfASymmetricPartOnTheOther) {
+TEST(FindViewPoses, JoinsNoTwoSidesOfASymmetricPart) {
   Lost lost(ellipsoid, around_table(8, 0.3, 650.0));
   const FoundPoses found = lost.find_poses();
   for (const std::size_t half : {4U, 5U, 6U, 7U})  // as 0, 1, 2, 3 from the other side
@@ -131,9 +131,9 @@ TEST(FindViewPoses, PutsNoSideOfASymmetricPartOnTheOther) {
   }
 }
 
-TEST(FindViewPoses, GuessesNothingForTwoSidesOfABlockThatSlideOnEachOther) {
+TEST(FindViewPoses, ChoosesNoPoseForTwoSidesOfABlockThatSlideOnEachOther) {
   const auto poses = around_table(6, 0.3, 650.0);
-  Lost lost(block, {poses[1], poses[2]});  // another edge fits better than the face they share
+  Lost lost(block, {poses[1], poses[2]});  // a wrong edge fits better than the face they share
   EXPECT_THROW(static_cast<void>(lost.find_poses()), Error);
 }
 

@@ -19,7 +19,7 @@ namespace {
 using testing::Shape;
 using testing::small_camera_model;
 
-/// A rig that looks down on a part 650 mm away, and what it is believed to be.
+/// The true turntable of a camera that looks down on a part 650 mm away, and the given one.
 struct Table {
   Turntable truth{{2.0, 8.0, 650.0}, Eigen::Vector3d(0.03, -0.9, -0.4).normalized()};
   Turntable given = truth;
@@ -51,7 +51,7 @@ struct Table {
   }
 };
 
-/// A body with bumps that no turn brings back onto itself.
+/// A body with bumps and without symmetry.
 double knobbly(const Eigen::Vector3d& p) {
   const double bumps =
       std::sin(0.22 * p.x()) * std::sin(0.19 * p.y() + 0.4) * std::sin(0.25 * p.z() + 0.2);
@@ -82,11 +82,14 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   EXPECT_TRUE(report.undetermined.empty()) << report.text();
   EXPECT_LT(report.axis_sigma_mm, 0.01);
   EXPECT_TRUE(report.outliers.empty());
+  EXPECT_TRUE(report.trustworthy);
+  EXPECT_LT(report.contradiction, 0.01);
+  EXPECT_EQ(report.untrusted_reason(), "");
   EXPECT_LT(std::abs(report.closure_after_rad), rad_from_deg(0.02));
   EXPECT_GT(std::abs(report.closure_before_rad), 3.0 * std::abs(report.closure_after_rad));
 }
 
-TEST(RegisterViews, KeepsARigThatFitsAsWell) {
+TEST(RegisterViews, KeepsAGivenRigThatFitsAsWell) {
   Table table(6, 0.0);
   table.given = table.truth;
   ViewStore views = table.take(knobbly);
@@ -149,7 +152,7 @@ TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
 }
 
-TEST(RegisterViews, IsNotBentByAViewOfAPartThatSlidOnItsFaces) {
+TEST(RegisterViews, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
   const Table table(6);
   const Shape angle = testing::both(testing::box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0}),
                                     testing::box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0}));
@@ -166,7 +169,7 @@ TEST(RegisterViews, IsNotBentByAViewOfAPartThatSlidOnItsFaces) {
   EXPECT_LT(shift_mm(report.table, table.truth), 0.03);
 }
 
-TEST(RegisterViews, SaysSoWhenTooManyViewsContradictEachOther) {
+TEST(RegisterViews, IsNotTrustworthyWhenTooManyViewsContradictEachOther) {
   const Table table(6);
   const CameraModel model = small_camera_model(150, 750.0);
   ViewStore views = table.take(knobbly, model);
@@ -186,10 +189,15 @@ TEST(RegisterViews, SaysSoWhenTooManyViewsContradictEachOther) {
   const auto report = register_views(views, model, {table.given, table.stations()}, few, run);
   ASSERT_FALSE(warnings.empty()) << report.text();
   EXPECT_NE(warnings.back().find("contradict each other"), std::string::npos) << warnings.back();
+  EXPECT_FALSE(report.trustworthy);
+  EXPECT_GT(report.contradiction, few.max_contradiction);
+  EXPECT_EQ(report.text().find("agree"), std::string::npos) << report.text();
+  EXPECT_NE(report.text().find("not trustworthy"), std::string::npos) << report.text();
+  EXPECT_EQ(report.untrusted_reason(), warnings.back());
 }
 
 TEST(RegisterViews, ReportsHowWellAnOverlapConstrainsTheAxis) {
-  Table table(2);  // opposite sides, with little but the level top in common
+  Table table(2);  // opposite sides, which share little but the horizontal top
   const Shape post = [](const Eigen::Vector3d& p) {
     return std::max(std::abs(p.z()) - 30.0, 0.7 * (std::hypot(p.x() / 1.4, p.y()) - 20.0));
   };
@@ -201,7 +209,7 @@ TEST(RegisterViews, ReportsHowWellAnOverlapConstrainsTheAxis) {
   const auto report = register_views(views, model, {table.given, table.stations()}, {}, run);
   EXPECT_GT(report.axis_sigma_mm, 0.05);
   ASSERT_EQ(warnings.size(), 1U) << report.text();
-  EXPECT_NE(warnings[0].find("tell where the axis is to no better than"), std::string::npos);
+  EXPECT_NE(warnings[0].find("determine the axis only to"), std::string::npos);
 }
 
 TEST(RegisterViews, KeepsTheRigWithOneView) {
@@ -230,6 +238,7 @@ TEST(RegisterViews, KeepsTheRigWhenViewsDoNotOverlap) {
       register_views(views, small_camera_model(), {table.given, table.stations()}, {}, run);
   EXPECT_EQ(warnings, 1);
   EXPECT_EQ(report.angles_rad, table.angles_rad);
+  EXPECT_FALSE(report.trustworthy);  // the first view lies in front of what the second one measured
 }
 
 TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
@@ -243,6 +252,16 @@ TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
   const auto two = find(2);
   EXPECT_EQ(one.angles_rad, two.angles_rad);
   EXPECT_EQ(one.table.axis, two.table.axis);
+}
+
+TEST(RegisterViews, RefusesOptionsOutOfRange) {
+  const Table table(2);
+  ViewStore views = table.take(knobbly, small_camera_model(60, 300.0));
+  RegisterOptions options;
+  options.relative_reach = 0.0;
+  EXPECT_THROW(static_cast<void>(register_views(
+                   views, small_camera_model(60, 300.0), {table.given, table.stations()}, options)),
+               Error);
 }
 
 TEST(RegisterViews, RefusesTooFewAngles) {

@@ -84,7 +84,8 @@ Mesh fuse_views(const ViewStore& views,
                             3.0 * voxel_mm + noise_mm,
                             2.0 * voxel_mm + noise_mm,
                             0.5 * voxel_mm + noise_mm,
-                            near_mm};
+                            near_mm,
+                            1.0 / (voxel_mm * voxel_mm)};
   const double progress = 0.4 / static_cast<double>(views.size());
   double done = 0.0;
 

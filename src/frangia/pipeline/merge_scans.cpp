@@ -200,7 +200,9 @@ bool poses_unknown(const ScanViews& all,
   if (options.poses != ScanPoses::Auto) return options.poses == ScanPoses::Shape;
   const bool posed = std::any_of(
       all.scans.begin(), all.scans.end(), [](const RangeScan& scan) { return scan.posed; });
-  return !posed && !are_poses_plausible(all.views, maps, all.model, options.registration.reach_mm);
+  const double reach_mm =
+      options.registration.reach_mm > 0.0 ? options.registration.reach_mm : default_reach_mm(maps);
+  return !posed && !are_poses_plausible(all.views, maps, all.model, reach_mm);
 }
 
 /// Finds and refines poses as the options ask.

@@ -1,10 +1,12 @@
 #include "frangia/pipeline/reconstruct.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/pipeline/internal/measure_views.h"
 #include "frangia/pipeline/internal/register_setups.h"
@@ -99,6 +101,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   const ViewStore& views = joined.measured.views;
   if (options.keep_raw) out.raw = collect_points(views, camera, run);
   out.mesh = finish_mesh(fuse_views(views, camera, options.fusion, run), options.finish, run);
+  if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
+  if (!out.untrusted_reason.empty())
+    std::fill(out.mesh.sigma_mm.begin(), out.mesh.sigma_mm.end(), kMissing);
   return out;
 }
 

@@ -7,49 +7,13 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/error.h"
 #include "frangia/core/symmetric_eigen.h"
-#include "frangia/local_fit/surfel_map.h"
+#include "frangia/registration/internal/find_turntable_rim.h"
+#include "frangia/registration/internal/table_cloud.h"
 
 namespace frangia {
 namespace {
-
-struct Cloud {
-  std::vector<Eigen::Vector3d> level;  ///< points whose normal is up
-  std::vector<Eigen::Vector3d> all;
-  double sigma_mm = 0.0;
-};
-
-Cloud gather(const ViewStore& views,
-             const CameraModel& camera,
-             double max_tilt_rad,
-             const Run& run) {
-  constexpr std::size_t kSurfels = 20000;
-  const CameraRays rays(camera);
-  // A normal is less certain than the plane of many points: allow it some degrees more.
-  const double upright = std::cos(max_tilt_rad + rad_from_deg(7.0));
-  Cloud cloud;
-  std::vector<float> sigmas;
-  LocalPlanes planes;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    run.report(static_cast<double>(i) / static_cast<double>(views.size()));
-    planes = local_planes(views.load_points(i), rays, {}, std::move(planes));
-    const Eigen::Isometry3d object_from_rig = views.rig_from_object(i).inverse();
-    for (const auto& surfel :
-         pick_surfels(make_surfel_map(planes, rays, 16 * kSurfels), kSurfels)) {
-      const Eigen::Vector3d point = object_from_rig * surfel.point_mm.cast<double>();
-      const Eigen::Vector3d normal = object_from_rig.linear() * surfel.normal.cast<double>();
-      cloud.all.push_back(point);
-      if (normal.z() > upright) cloud.level.push_back(point);
-      sigmas.push_back(surfel.sigma_mm);
-    }
-  }
-  if (!sigmas.empty()) {
-    const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-    std::nth_element(sigmas.begin(), middle, sigmas.end());
-    cloud.sigma_mm = static_cast<double>(*middle);
-  }
-  return cloud;
-}
 
 using Plane = Eigen::Hyperplane<double, 3>;
 
@@ -64,39 +28,39 @@ std::vector<Eigen::Vector3d> near(const std::vector<Eigen::Vector3d>& points,
   return found;
 }
 
-/// The plane that fits points best, upwards.
+/// The least-squares plane of points; its normal points up.
 Plane fit(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   for (const auto& point : points)
-    middle += point;
-  middle /= static_cast<double>(points.size());
+    centroid += point;
+  centroid /= static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const auto& point : points)
-    spread += (point - middle) * (point - middle).transpose();
+    spread += (point - centroid) * (point - centroid).transpose();
   Eigen::Vector3d normal = symmetric_eigen(spread).vectors.col(0);
   if (normal.z() < 0.0) normal = -normal;
-  return {normal, middle};
+  return {normal, centroid};
 }
 
-/// The lowest height at which many level points lie.
-std::optional<double> lowest_level(const Cloud& cloud, std::size_t enough) {
+/// The lowest layer of `band_mm` that holds `enough` points: its median height.
+std::optional<double> lowest_layer(const std::vector<Eigen::Vector3d>& points,
+                                   std::size_t enough,
+                                   double band_mm) {
   std::vector<double> heights;
-  for (const auto& point : cloud.level)
+  for (const auto& point : points)
     heights.push_back(point.z());
   std::sort(heights.begin(), heights.end());
-  // Wide enough for a turntable top that is tilted against the axis as it is given.
-  constexpr double kBand_mm = 2.0;
   for (std::size_t i = 0; i + enough < heights.size(); ++i) {
-    if (heights[i + enough] - heights[i] < kBand_mm) return heights[i + enough / 2];
+    if (heights[i + enough] - heights[i] < band_mm) return heights[i + enough / 2];
   }
   return std::nullopt;
 }
 
-/// A disc about the axis: how far it reaches, and how much of a disc it is.
+/// Points as a disc about the axis.
 struct Disc {
   double radius_mm = 0.0;
-  double visible_edge = 0.0;    ///< share of the directions about the axis in which it has a rim
-  double edge_variation = 1.0;  ///< by how much of the radius the rim varies, but for a tenth of it
+  double visible_edge = 0.0;    ///< share of the directions from the axis in which it has an edge
+  double edge_variation = 1.0;  ///< of the radius, as a share of it, except for the widest tenth
 };
 
 Disc disc_of(const std::vector<Eigen::Vector3d>& points) {
@@ -118,53 +82,75 @@ Disc disc_of(const std::vector<Eigen::Vector3d>& points) {
   return disc;
 }
 
-/// How far from the axis what stands above the plane reaches, but for a hundredth of it.
-double reach_above(const std::vector<Eigen::Vector3d>& points,
-                   const Plane& plane,
-                   double margin_mm) {
-  std::vector<double> reach;
-  for (const auto& point : points) {
-    if (plane.signedDistance(point) > margin_mm) reach.push_back(point.head<2>().norm());
+/// The turntable top as a disc of horizontal points.
+std::optional<TurntableTop> find_disc(const TableCloud& cloud, const TurntableTopOptions& options) {
+  constexpr std::size_t kFewest = 50;  // points
+  // A normal is less certain than the plane of many points: its limit is wider.
+  constexpr double kNormalNoise_rad = rad_from_deg(7.0);
+  const double min_cosine = std::cos(options.max_tilt_rad + kNormalNoise_rad);
+  std::vector<Eigen::Vector3d> horizontal;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.normals[i].z() > min_cosine) horizontal.push_back(cloud.points[i]);
   }
-  if (reach.empty()) return 0.0;
-  const auto most = reach.begin() + static_cast<std::ptrdiff_t>(reach.size() * 99 / 100);
-  std::nth_element(reach.begin(), most, reach.end());
-  return *most;
-}
-
-}  // namespace
-
-std::optional<Plane> find_turntable_top(const ViewStore& views,
-                                        const CameraModel& camera,
-                                        const TurntableTopOptions& options,
-                                        const Run& run) {
-  const Cloud cloud = gather(views, camera, options.max_tilt_rad, run);
-  const auto enough =
-      static_cast<std::size_t>(options.min_share * static_cast<double>(cloud.all.size()));
-  const auto height = lowest_level(cloud, std::max<std::size_t>(enough, 50));
+  const auto enough = std::max<std::size_t>(
+      kFewest,
+      static_cast<std::size_t>(options.min_share * static_cast<double>(cloud.points.size())));
+  const double band_mm = options.relative_band * cloud.working_distance_mm;
+  const auto height = lowest_layer(horizontal, enough, band_mm);
   if (!height) return std::nullopt;
   Plane plane(Eigen::Vector3d::UnitZ(), -*height);
   std::vector<Eigen::Vector3d> on_it;
-  for (const double within_mm : {2.0, 1.0, 0.5, 0.5}) {
-    on_it = near(cloud.level, plane, std::max(within_mm, 5.0 * cloud.sigma_mm));
-    if (on_it.size() < std::max<std::size_t>(enough, 50)) return std::nullopt;
+  for (const double share : {1.0, 0.5, 0.25, 0.25}) {  // of the band: closes on the plane
+    on_it = near(horizontal, plane, std::max(share * band_mm, 5.0 * cloud.sigma_mm));
+    if (on_it.size() < enough) return std::nullopt;
     plane = fit(on_it);
   }
   const Disc disc = disc_of(on_it);
-  const double margin_mm = std::max(1.0, 6.0 * cloud.sigma_mm);
+  const double clearance_mm = options.relative_clearance * cloud.working_distance_mm;
+  const double margin_mm = std::max(2.0 * clearance_mm, 6.0 * cloud.sigma_mm);
   const auto below =
-      std::count_if(cloud.all.begin(), cloud.all.end(), [&](const Eigen::Vector3d& p) {
+      std::count_if(cloud.points.begin(), cloud.points.end(), [&](const Eigen::Vector3d& p) {
         return plane.signedDistance(p) < -margin_mm && p.head<2>().norm() < 0.9 * disc.radius_mm;
       });
+  const TurntableTop top{plane, clearance_mm, false};
   const bool nothing_below =
       static_cast<double>(below) <= options.max_below * static_cast<double>(on_it.size());
   const bool level = plane.normal().z() > std::cos(options.max_tilt_rad);
   const bool round = disc.visible_edge >= options.min_visible_edge &&
                      disc.edge_variation < options.max_edge_variation;
   const bool expected =
-      std::abs(plane.offset() / plane.normal().z()) < options.max_height_mm ||
-      disc.radius_mm > options.min_width_ratio * reach_above(cloud.all, plane, margin_mm);
-  return nothing_below && level && round && expected ? std::optional(plane) : std::nullopt;
+      std::abs(top.height_mm()) < options.relative_max_height * cloud.working_distance_mm ||
+      disc.radius_mm >
+          options.min_width_ratio * reach_above(cloud.points, top.height_mm() + margin_mm);
+  return nothing_below && level && round && expected ? std::optional(top) : std::nullopt;
+}
+
+}  // namespace
+
+void TurntableTopOptions::check() const {
+  require(max_tilt_rad > 0.0, "TurntableTopOptions: max_tilt_rad must be above 0");
+  require(min_share > 0.0 && min_share < 1.0,
+          "TurntableTopOptions: min_share must be above 0 and below 1");
+  require(relative_band > 0.0, "TurntableTopOptions: relative_band must be above 0");
+  require(relative_clearance >= 0.0,
+          "TurntableTopOptions: relative_clearance must not be negative");
+  require(min_gap > max_edge_variation,
+          "TurntableTopOptions: min_gap must exceed max_edge_variation");
+}
+
+std::optional<TurntableTop> find_turntable_top(const ViewStore& views,
+                                               const CameraModel& camera,
+                                               const TurntableTopOptions& options,
+                                               const Run& run) {
+  options.check();
+  const TableCloud cloud = gather_table_cloud(views, camera, run);
+  if (cloud.points.empty()) return std::nullopt;
+  if (const auto disc = find_disc(cloud, options)) return disc;
+  const auto rim = find_turntable_rim(cloud, options);
+  if (!rim) return std::nullopt;
+  return TurntableTop{Plane(Eigen::Vector3d::UnitZ(), -rim->top_mm),
+                      options.relative_clearance * cloud.working_distance_mm,
+                      true};
 }
 
 }  // namespace frangia

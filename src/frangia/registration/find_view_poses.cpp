@@ -21,20 +21,20 @@ std::vector<ViewGroup> groups_of(const Members& members,
   return groups;
 }
 
-/// Why a view could not be found.
+/// Why the pose of a view was not found.
 std::string reason(const JoinedGroups& joined,
                    std::size_t view,
                    std::span<const std::string> names) {
   if (const auto duplicate = joined.duplicate_of[view]) {
     return fmt::format(
-        "looks the same as {}: the part was not moved, or looks alike from two "
-        "sides, which needs poses in a .conf",
+        "looks the same as {}: either the part was not moved between them, or it looks alike from "
+        "two sides, and then its poses must be given in a .conf",
         names[*duplicate]);
   }
   return joined.ambiguous[view]
-             ? "fits the others in more than one place, as parts do that look alike from several "
+             ? "fits the others in more than one pose, because the part looks alike from several "
                "sides"
-             : "fits none of the others in a place that their shape determines: it overlaps too "
+             : "fits none of the others in a pose that their shape determines: it overlaps too "
                "little with them, or slides on them";
 }
 
@@ -48,8 +48,7 @@ void leave_out(std::size_t view, ViewStore& views, std::vector<SurfelMap>& maps)
 
 std::string FoundPoses::text() const {
   return fmt::format(
-      "the poses of {} scans are found from their shape; where they meet, they overlap by {:.0f} % "
-      "or more",
+      "the poses of {} scans are found from their shape; joined scans overlap by {:.0f} % or more",
       found,
       100.0 * least_overlap);
 }
@@ -71,7 +70,7 @@ FoundPoses find_view_poses(ViewStore& views,
       groups, {maps, model}, {.spacing_mm = spacing_mm, .leave_out_duplicates = true}, run);
   if (joined.joins.empty()) {
     throw Error(ErrorKind::Input,
-                "no two scans fit together in just one place: they overlap too little, or look "
+                "no two scans fit together in exactly one pose: they overlap too little, or look "
                 "alike from several sides; add scans between them, or give poses in a .conf");
   }
   FoundPoses out;
@@ -98,9 +97,9 @@ bool are_poses_plausible(const ViewStore& views,
                          std::span<const SurfelMap> maps,
                          const CameraModel& camera,
                          double reach_mm) {
-  constexpr double kMaxViolation = 0.1;
-  constexpr double kNoticed = 0.03;  // of the smaller one's points: fewer are stray
-  constexpr double kWidest = 2.0;    // spacings: farther apart, poses are not nearly right
+  constexpr double kMaxViolation = 0.1;  // of the compared points; poses at random reach a third
+  constexpr double kNoticed = 0.03;      // of the smaller view's points: fewer are stray
+  constexpr double kWidest = 2.0;        // spacings: poses that are farther off do not converge
   Members members;
   for (std::size_t i = 0; i < views.size(); ++i)
     members.push_back({{i, views.rig_from_object(i)}});

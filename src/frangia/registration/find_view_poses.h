@@ -12,22 +12,23 @@
 
 namespace frangia {
 
-/// What came of views whose places nobody knew.
+/// Result of the search for the poses of views.
 struct FoundPoses {
   std::size_t reference = 0;          ///< the view whose pose is held
-  std::vector<std::size_t> left_out;  ///< views that fit no other, or more than one way; emptied
+  std::vector<std::size_t> left_out;  ///< views that fit no other, or in more than one pose;
+                                      ///< they are emptied
   std::size_t found = 0;
-  double least_overlap = 0.0;  ///< of what was joined, a share of the smaller side
-  double accuracy_mm = 0.0;    ///< how near the places are to the true ones
+  double least_overlap = 0.0;  ///< of all joins, as a share of the smaller side
+  double accuracy_mm = 0.0;    ///< bound on the error of the poses
 
   [[nodiscard]] std::string text() const;
 };
 
-/// Finds from the shape alone how views stand to each other, and sets the poses of `views`: a start
-/// for `register_poses`.
+/// Finds the relative poses of views from their shape alone, and sets the poses of `views`. They
+/// are starting values for `register_poses`.
 ///
-/// shape    `maps`, `names`: one a view; those of views that are left out are emptied, too
-/// missing  a view that fits no other, or in more than one place, is warned of by name and emptied
+/// shape    `maps`, `names`: one a view; the maps of views that are left out are emptied, too
+/// missing  a view that fits no other, or in more than one pose, is named in a warning and emptied
 /// errors   Error(Input) when no two views fit together
 [[nodiscard]] FoundPoses find_view_poses(ViewStore& views,
                                          std::vector<SurfelMap>& maps,
@@ -35,8 +36,8 @@ struct FoundPoses {
                                          std::span<const std::string> names,
                                          const Run& run = {});
 
-/// Whether the poses that views have can be right to within `reach_mm`: hardly any point of one
-/// lies before what another saw.
+/// Whether the poses of the views can be right to within `reach_mm`: hardly any point of one view
+/// lies in front of the surface that another view measured.
 [[nodiscard]] bool are_poses_plausible(const ViewStore& views,
                                        std::span<const SurfelMap> maps,
                                        const CameraModel& camera,

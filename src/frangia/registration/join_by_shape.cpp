@@ -2,93 +2,25 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
-#include "frangia/core/angles.h"
-#include "frangia/registration/internal/find_pose_hypotheses.h"
-#include "frangia/registration/internal/surface_features.h"
+#include "frangia/core/error.h"
+#include "frangia/registration/internal/find_join_candidates.h"
 
 namespace frangia {
 namespace {
 
-/// A place that was found for two groups.
-struct Candidate {
-  std::size_t to = 0;
-  std::size_t from = 0;
-  PoseHypothesis hypothesis;
-};
-
-std::vector<Candidate> all_candidates(std::span<const ViewGroup> groups,
-                                      const GroupViews& views,
-                                      const PoseSearchScale& scale,
-                                      const Run& run) {
-  constexpr double kRadius = 5.0;  // of a feature, in spacings
-  constexpr std::size_t kMost = 6;
-  std::vector<Eigen::MatrixXf> features;
-  for (const ViewGroup& group : groups)
-    features.push_back(surface_features(group.points, kRadius * scale.spacing_mm));
-  std::vector<Candidate> candidates;
-  const auto pairs = static_cast<double>(groups.size() * (groups.size() - 1)) / 2.0;
-  double done = 0.0;
-  for (std::size_t to = 0; to < groups.size(); ++to) {
-    for (std::size_t from = to + 1; from < groups.size(); ++from) {
-      run.report(done / pairs);
-      done += 1.0;
-      const auto hypotheses = find_pose_hypotheses(
-          {groups[to], features[to]}, {groups[from], features[from]}, views, scale);
-      for (std::size_t i = 0; i < std::min(hypotheses.size(), kMost); ++i)
-        candidates.push_back({to, from, hypotheses[i]});
-    }
-  }
-  return candidates;
-}
-
-bool may_be_valid(const GroupFit& fit, const JoinByShapeOptions& options) {
-  return fit.overlap >= options.min_overlap &&
-         fit.free_space_violation() <= options.max_violation &&
-         fit.smallest_eigenvalue >= options.min_eigenvalue;
-}
-
-/// How far apart surfaces that are one come to lie: the least of all that may be right.
-double typical_residual(const std::vector<Candidate>& candidates,
-                        const JoinByShapeOptions& options) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Candidate& candidate : candidates) {
-    if (may_be_valid(candidate.hypothesis.fit, options))
-      least = std::min(least, candidate.hypothesis.fit.residual_mm);
-  }
-  return least;
-}
-
-/// Whether two groups of one view each see the same, from the same place.
-bool are_duplicates(const ViewGroup& to, const ViewGroup& from, const PoseHypothesis& hypothesis) {
-  constexpr double kSame = 0.85;  // of the points: the rest are rims
-  constexpr double kTurned = rad_from_deg(3.0);
-  constexpr double kNearer = 0.05;
-  if (to.members.size() != 1 || from.members.size() != 1 || hypothesis.fit.overlap < kSame)
-    return false;
-  const Eigen::Vector3d one = to.members[0].rig_from_group.inverse().translation();
-  const Eigen::Vector3d other =
-      hypothesis.to_from * from.members[0].rig_from_group.inverse().translation();
-  const Eigen::Vector3d to_one = one - hypothesis.fit.center_mm;
-  const Eigen::Vector3d to_other = other - hypothesis.fit.center_mm;
-  const double turned = std::atan2(to_one.cross(to_other).norm(), to_one.dot(to_other));
-  return turned < kTurned && std::abs(to_other.norm() - to_one.norm()) < kNearer * to_one.norm();
-}
-
-/// Joins clusters, those that fit best first, as long as any fit together.
-class Joiner {
+/// Joins clusters of groups, the best fit first, until no two clusters fit.
+class ClusterJoiner {
  public:
-  Joiner(std::span<const ViewGroup> groups,
-         const GroupViews& views,
-         std::vector<Candidate> candidates,
-         const JoinByShapeOptions& options)
+  ClusterJoiner(std::span<const ViewGroup> groups,
+                const GroupViews& views,
+                std::vector<JoinCandidate> candidates,
+                const JoinByShapeOptions& options)
       : views_(views),
         options_(options),
-        typical_mm_(typical_residual(candidates, options)),
+        typical_mm_(typical_residual_mm(candidates, options)),
         candidates_(std::move(candidates)),
         clusters_(groups.begin(), groups.end()),
         cluster_from_group_(groups.size(), Eigen::Isometry3d::Identity()) {
@@ -97,9 +29,9 @@ class Joiner {
     sort_candidates();
   }
 
-  /// False when no two clusters fit together any more.
+  /// Joins the two clusters that fit best. Returns false when no two fit.
   bool join_next(JoinedGroups& out) {
-    for (const Candidate& candidate : candidates_) {
+    for (const JoinCandidate& candidate : candidates_) {
       const std::size_t to = std::min(cluster_of_[candidate.to], cluster_of_[candidate.from]);
       const std::size_t from = std::max(cluster_of_[candidate.to], cluster_of_[candidate.from]);
       if (to == from || !tried_.insert(stage_of(to, from)).second) continue;
@@ -116,15 +48,15 @@ class Joiner {
     return false;
   }
 
-  /// Leaves out the later one of two that look the same.
+  /// Leaves out the second of two duplicate views.
   void leave_out_duplicates(JoinedGroups& out) {
-    for (const Candidate& candidate : candidates_) {
+    for (const JoinCandidate& candidate : candidates_) {
       const auto& [to, from, hypothesis] = candidate;
       if (out.duplicate_of[to] || out.duplicate_of[from] || !is_valid(hypothesis.fit, 1.0))
         continue;
       if (are_duplicates(clusters_[to], clusters_[from], hypothesis)) out.duplicate_of[from] = to;
     }
-    const auto is_left_out = [&](const Candidate& candidate) {
+    const auto is_left_out = [&](const JoinCandidate& candidate) {
       return out.duplicate_of[candidate.to] || out.duplicate_of[candidate.from];
     };
     std::erase_if(candidates_, is_left_out);
@@ -132,8 +64,7 @@ class Joiner {
       if (out.duplicate_of[i]) clusters_[i] = {};
   }
 
-  /// Looks for hypotheses of whole clusters on each other, which have more in common than their
-  /// groups.
+  /// Searches poses of whole clusters on each other, which overlap more than their groups do.
   void search_clusters(const Run& run) {
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < clusters_.size(); ++i) {
@@ -145,7 +76,7 @@ class Joiner {
       thinned.push_back(
           {clusters_[i].members, voxel_downsample(clusters_[i].points, options_.spacing_mm)});
     }
-    for (Candidate& found : all_candidates(thinned, views_, {options_.spacing_mm}, run)) {
+    for (JoinCandidate& found : find_join_candidates(thinned, views_, options_, run)) {
       found.to = first_of(left[found.to]);
       found.from = first_of(left[found.from]);
       found.hypothesis.to_from = cluster_from_group_[found.to].inverse() *
@@ -156,7 +87,7 @@ class Joiner {
     tried_.clear();
   }
 
-  /// The frame of the largest cluster's first group becomes that of all in it.
+  /// Expresses all poses of the largest cluster in the frame of its first group.
   void write_poses(JoinedGroups& out) const {
     const auto main =
         static_cast<std::size_t>(std::max_element(clusters_.begin(),
@@ -175,25 +106,27 @@ class Joiner {
   }
 
  private:
-  /// Two clusters as they are now: what does not fit is looked at again only when one has grown.
+  /// Two clusters and their sizes: a pair that does not fit is tried again only when one has grown.
   using Stage = std::array<std::size_t, 4>;
   [[nodiscard]] Stage stage_of(std::size_t a, std::size_t b) const {
     return {a, clusters_[a].members.size(), b, clusters_[b].members.size()};
   }
 
   void sort_candidates() {
-    std::stable_sort(
-        candidates_.begin(), candidates_.end(), [&](const Candidate& a, const Candidate& b) {
-          return a.hypothesis.score(typical_mm_) > b.hypothesis.score(typical_mm_);
-        });
+    std::stable_sort(candidates_.begin(),
+                     candidates_.end(),
+                     [&](const JoinCandidate& a, const JoinCandidate& b) {
+                       return a.hypothesis.score(typical_mm_) > b.hypothesis.score(typical_mm_);
+                     });
   }
-  /// Of the groups of a cluster.
+  /// Index of the first group of a cluster.
   [[nodiscard]] std::size_t first_of(std::size_t cluster) const {
     return static_cast<std::size_t>(std::find(cluster_of_.begin(), cluster_of_.end(), cluster) -
                                     cluster_of_.begin());
   }
 
-  /// `slack` 1 as the options say, more is easier; but what is seen through is so in any case.
+  /// Whether a fit passes the options' limits, widened by `slack`. The limit of free-space
+  /// violations is never widened.
   [[nodiscard]] bool is_valid(const GroupFit& fit, double slack) const {
     return fit.smallest_eigenvalue >= options_.min_eigenvalue / slack && fits(fit, slack);
   }
@@ -202,24 +135,22 @@ class Joiner {
            fit.free_space_violation() <= options_.max_violation &&
            fit.residual_mm <= slack * options_.max_residual * typical_mm_;
   }
-  /// Whether another place would nearly do as well as the first, be it one that slides.
+  /// Whether another pose fits nearly as well as the first, even if it slides.
   [[nodiscard]] bool is_ambiguous(const std::vector<PoseHypothesis>& hypotheses) const {
-    constexpr double kSlack = 3.0;
     return std::any_of(hypotheses.begin() + 1, hypotheses.end(), [&](const PoseHypothesis& other) {
-      return fits(other.fit, kSlack) &&
+      return fits(other.fit, options_.runner_up_slack) &&
              other.score(typical_mm_) > options_.max_runner_up * hypotheses[0].score(typical_mm_);
     });
   }
 
-  /// Places of one cluster on another: where the candidates of their groups put it, refined by all
-  /// their views.
+  /// Poses of one cluster on another: those of their groups' candidates, refined by all views.
   [[nodiscard]] std::vector<PoseHypothesis> hypotheses_of(std::size_t to, std::size_t from) const {
-    constexpr std::size_t kMost = 30;
     std::vector<Eigen::Isometry3d> starts;
-    for (const Candidate& candidate : candidates_) {
+    for (const JoinCandidate& candidate : candidates_) {
       const std::size_t a = cluster_of_[candidate.to];
       const std::size_t b = cluster_of_[candidate.from];
-      if (std::min(a, b) != to || std::max(a, b) != from || starts.size() == kMost) continue;
+      if (std::min(a, b) != to || std::max(a, b) != from || starts.size() == options_.max_starts)
+        continue;
       const Eigen::Isometry3d a_from_b = cluster_from_group_[candidate.to] *
                                          candidate.hypothesis.to_from *
                                          cluster_from_group_[candidate.from].inverse();
@@ -229,8 +160,7 @@ class Joiner {
     auto hypotheses = refine_pose_hypotheses(clusters_[to], clusters_[from], starts, views_, scale);
     if (hypotheses.empty()) return hypotheses;
     sort_hypotheses(hypotheses, typical_mm_);
-    constexpr double kWellConstrained = 0.02;
-    if (hypotheses[0].fit.smallest_eigenvalue < kWellConstrained) {
+    if (hypotheses[0].fit.smallest_eigenvalue < options_.well_constrained) {
       for (const Eigen::Isometry3d& start : neighboring_poses(hypotheses[0], scale))
         starts.push_back(start);
     }
@@ -256,7 +186,7 @@ class Joiner {
   GroupViews views_;
   JoinByShapeOptions options_;
   double typical_mm_;
-  std::vector<Candidate> candidates_;
+  std::vector<JoinCandidate> candidates_;
   std::vector<ViewGroup> clusters_;
   std::vector<std::size_t> cluster_of_;
   std::vector<Eigen::Isometry3d> cluster_from_group_;
@@ -265,14 +195,24 @@ class Joiner {
 
 }  // namespace
 
+void JoinByShapeOptions::check() const {
+  require(spacing_mm > 0.0, "JoinByShapeOptions: spacing_mm must be above 0");
+  require(min_overlap > 0.0 && min_overlap <= 1.0,
+          "JoinByShapeOptions: min_overlap must be above 0 and at most 1");
+  require(max_runner_up > 0.0 && max_runner_up <= 1.0,
+          "JoinByShapeOptions: max_runner_up must be above 0 and at most 1");
+  require(max_residual >= 1.0, "JoinByShapeOptions: max_residual must be at least 1");
+}
+
 JoinedGroups join_by_shape(std::span<const ViewGroup> groups,
                            const GroupViews& views,
                            const JoinByShapeOptions& options,
                            const Run& run) {
+  options.check();
   JoinedGroups out;
   out.ambiguous.assign(groups.size(), false);
   out.duplicate_of.assign(groups.size(), std::nullopt);
-  Joiner joiner(groups, views, all_candidates(groups, views, {options.spacing_mm}, run), options);
+  ClusterJoiner joiner(groups, views, find_join_candidates(groups, views, options, run), options);
   if (options.leave_out_duplicates) joiner.leave_out_duplicates(out);
   for (bool again = true; again;) {
     const std::size_t joins = out.joins.size();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,26 +13,39 @@
 namespace frangia {
 
 struct RegisterPosesOptions {
-  double reach_mm = 3.0;  ///< how far surfaces that are one may lie apart at the start
-  int max_iterations = 60;
+  double reach_mm = 0.0;      ///< largest distance of corresponding surfaces at the start; 0 takes
+                              ///< `default_reach_mm`
+  int max_iterations = 60;    ///< free poses converge more slowly than a turntable
+  double tolerance = 0.1;     ///< of the last step, in standard deviations of the poses
+  double min_overlap = 0.05;  ///< share of the points that match another view; fewer are chance
+
+  /// errors   Error(Input) that names the value which is out of its range
+  void check() const;
 };
 
 struct PosesReport {
-  double rms_before_mm = 0.0;  ///< between the surfaces of different views, along the normal
-  double rms_after_mm = 0.0;
-  double overlap = 0.0;  ///< share of the points that another view saw, too
-  int iterations = 0;    ///< 0: the poses stay as they were given
+  double rms_before_mm = 0.0;  ///< distance between surfaces of different views, along the normal
+  double rms_after_mm = 0.0;   ///< the same with the final poses
+  double overlap = 0.0;        ///< share of the points that lie on a surface of another view
+  int iterations = 0;          ///< 0: the given poses are kept
 
   [[nodiscard]] std::string text() const;
 };
 
-/// All views at once, each with a rigid pose of its own; the first is held. Sets the poses of
+/// 3 % of the size of a view's surface, the median over all views: 3 mm for views of 100 mm.
+///
+/// missing  0 when no view has a surface
+[[nodiscard]] double default_reach_mm(std::span<const SurfelMap> maps);
+
+/// Refines the rigid poses of all views at once; that of the first is held. Sets the poses of
 /// `views`.
 ///
 /// shape    `maps`: one a view, as make_surfel_maps makes them
 /// missing  views that do not overlap keep their poses, with a warning
-/// source   projective association, Blais & Levine 1995; symmetric distance, Rusinkiewicz 2019;
-///          Gauss-Newton with Tukey's biweight
+/// errors   Error(Input) when the numbers of maps and views differ, and as
+///          `RegisterPosesOptions::check`
+/// source   projective association: Blais & Levine 1995; symmetric point-to-plane distance:
+///          Rusinkiewicz 2019; solved by `minimize_robustly`
 [[nodiscard]] PosesReport register_poses(ViewStore& views,
                                          std::vector<SurfelMap> maps,
                                          const CameraModel& camera,

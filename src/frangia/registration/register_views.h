@@ -13,43 +13,63 @@
 
 namespace frangia {
 
-/// What is known beforehand, as standard deviations, and how hard to try. What the part's shape
-/// does not determine (a round part looks the same from all sides) stays where these put it.
+/// Prior knowledge as standard deviations, and limits. Relative lengths are shares of the working
+/// distance, the median distance of the measured points from the camera, so that a rig of any size
+/// behaves alike.
+///
+/// Unknowns that the part's shape does not determine (the angles of a round part, for example) stay
+/// where the prior puts them.
 struct RegisterOptions {
   double angle_sigma_rad = rad_from_deg(0.2);  ///< of each commanded table angle
   double tilt_sigma_rad = rad_from_deg(1.0);   ///< of the given axis
-  double shift_sigma_mm = 2.0;                 ///< of the given axis
-  double reach_mm = 3.0;         ///< how far surfaces that are one may lie apart at the start
-  double systematic_mm = 0.002;  ///< what a view is off by over a whole region: no number of points
-                                 ///< makes the views fit better than that
+  double relative_shift_sigma = 0.004;         ///< of the given axis: 2 mm at 500 mm
+  double relative_reach = 0.006;      ///< largest distance of corresponding surfaces at the start:
+                                      ///< one and a half standard deviations of the axis' shift
+  double relative_systematic = 4e-6;  ///< error of a view over a whole region, which no number of
+                                      ///< points averages out: 2 um at 500 mm
+  double outlier_overlap = 0.4;       ///< a view that matches less than this share of what the
+                                      ///< median view matches fits no other
+  double max_contradiction = 0.03;    ///< share of a view's points in front of another view's
+                                      ///< surface, beyond which the result is not trustworthy: 15
+                                      ///< times what edges and stray points cause
+  double as_good_as_given = 1.02;     ///< the given axis and angles stay unless they fit worse
+                                      ///< than the refined ones by this factor
+  double max_axis_sigma_px = 0.1;     ///< of the axis, in distances of neighbouring pixels' points,
+                                      ///< beyond which a warning is given
   int max_iterations = 30;
-  /// Where to start from: how the part stands in each further setup, as the report tells it.
+  /// Starting values: the part pose of each further setup, as `RegistrationReport` has them.
   std::vector<Eigen::Isometry3d> part_poses{};
+
+  /// errors   Error(Input) that names the value which is out of its range
+  void check() const;
 };
 
-/// One station of the turntable.
+/// One position of the turntable.
 struct Station {
   double angle_rad = 0.0;  ///< commanded
   std::string name;        ///< for warnings; empty is its number
   std::size_t setup = 0;   ///< the part was turned over or tilted between setups
 };
 
-/// The turntable as the rig says it is, and its stations, one a view.
+/// The turntable as the rig gives it, and its stations, one a view.
 struct TurntableStations {
   const Turntable& table;
   std::span<const Station> stations;
 };
 
-/// All views at once: the axis of the turntable, the angle of each view, and how the part stands in
-/// each setup but the first, so that the surfaces that they saw agree. The first view's angle is
-/// held. Sets the poses of `views`: the object frame is that of the refined axis, in the first
+/// Refines the turntable's axis, the angle of each view and the part pose of each setup but the
+/// first, all at once, so that the surfaces of different views agree. The angle of the first view
+/// is held. Sets the poses of `views`: the object frame is that of the refined axis, in the first
 /// setup.
 ///
-/// A view that fits no other, as when the part was moved, is named, warned of and emptied. One view
-/// alone, or views that do not overlap, keep the poses of the rig, with a warning.
+/// A view that fits no other, for example because the part was moved, is named in a warning and
+/// emptied. When views contradict each other and no single view explains it, the report is marked
+/// as not trustworthy.
 ///
-/// errors   Error(Input) when there are not as many stations as views, or no part pose for a round
-/// source   bundle of projective point-to-plane distances, by Gauss-Newton
+/// missing  one view alone, or views that do not overlap, keep the poses of the rig, with a warning
+/// errors   Error(Input) when the numbers of stations and views differ, when a further setup has no
+///          part pose, and as `RegisterOptions::check`
+/// source   bundle adjustment of projective point-to-plane distances by `minimize_robustly`
 [[nodiscard]] RegistrationReport register_views(ViewStore& views,
                                                 const CameraModel& camera,
                                                 const TurntableStations& given,

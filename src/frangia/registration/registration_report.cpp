@@ -9,37 +9,62 @@
 
 namespace frangia {
 
-std::string RegistrationReport::text() const {
-  if (kept_rig) {
-    return fmt::format(
-        "views agree to {:.4f} mm RMS with the rig's own axis and angles, which are kept: others "
-        "fit "
-        "no better; {:.0f} % of their points overlap",
-        rms_after_mm,
-        100.0 * overlap);
+namespace {
+
+std::string residual_text(const RegistrationReport& report) {
+  const double overlap_percent = 100.0 * report.overlap;
+  if (!report.trustworthy) {
+    return fmt::format("the registration is not trustworthy: {}; {:.0f} % of the points overlap",
+                       report.untrusted_reason(),
+                       overlap_percent);
   }
-  std::string words = fmt::format(
-      "views agree to {:.4f} mm RMS (before: {:.3g} mm), {:.0f} % of their points overlap; the "
-      "axis "
-      "moved by {:.3f} mm and {:.3f} degrees, the angles by up to {:.3f} degrees",
-      rms_after_mm,
-      rms_before_mm,
-      100.0 * overlap,
+  if (report.kept_rig) {
+    return fmt::format(
+        "views agree to {:.3g} mm RMS with the rig's own axis and angles, which are kept because "
+        "no others fit better; {:.0f} % of the points overlap",
+        report.rms_after_mm,
+        overlap_percent);
+  }
+  return fmt::format(
+      "views agree to {:.3g} mm RMS (before: {:.3g} mm), {:.0f} % of the points "
+      "overlap",
+      report.rms_after_mm,
+      report.rms_before_mm,
+      overlap_percent);
+}
+
+}  // namespace
+
+std::string RegistrationReport::untrusted_reason() const {
+  if (trustworthy) return {};
+  return fmt::format(
+      "the views contradict each other, up to {:.0f} % of a view's points lie in front of the "
+      "surface that another view measured: either the part moved between views, or the rig's "
+      "calibration is wrong",
+      100.0 * contradiction);
+}
+
+std::string RegistrationReport::text() const {
+  std::string words = residual_text(*this);
+  if (kept_rig) return words;
+  words += fmt::format(
+      "; the axis moved by {:.3g} mm and {:.3f} degrees, the angles by up to {:.3f} degrees",
       axis_moved_mm(),
       deg_from_rad(axis_turned_rad()),
       deg_from_rad(largest_turn_rad()));
   if (!std::isnan(closure_after_rad)) {
-    words += fmt::format("; the turn closes to {:.4f} degrees (before: {:.4f})",
+    words += fmt::format("; the full turn closes to {:.4f} degrees (before: {:.4f})",
                          std::abs(deg_from_rad(closure_after_rad)),
                          std::abs(deg_from_rad(closure_before_rad)));
   }
   if (!part_poses.empty()) {
-    words +=
-        fmt::format("; the part's pose in {} further setups is found with them", part_poses.size());
+    words += part_poses.size() == 1
+                 ? std::string("; the part pose of 1 further setup is refined with them")
+                 : fmt::format("; the part poses of {} further setups are refined with them",
+                               part_poses.size());
   }
-  for (const std::string& unknown : undetermined) {
-    words += fmt::format("; the part does not determine {}, which stays as the rig says", unknown);
-  }
+  for (const std::string& unknown : undetermined)
+    words += fmt::format("; the part does not determine {}, so the rig's values stay", unknown);
   return words;
 }
 

@@ -11,35 +11,44 @@
 
 namespace frangia {
 
-/// What the registration of a turntable's views found, and how well.
+/// Result of the registration of a turntable's views.
+///
+/// units    mm, rad
 struct RegistrationReport {
-  Turntable table;  ///< refined; its point is the one nearest to the given one
+  Turntable table;  ///< refined; its point is the point of the axis nearest to the given one
   Turntable given;
   std::vector<double> angles_rad;  ///< refined; the first is held
   std::vector<double> given_angles_rad;
-  double rms_before_mm = 0.0;  ///< between the surfaces of different views, along the normal
-  double rms_after_mm = 0.0;
-  /// By how much the last view would have to be turned on to meet the first one: a turntable that
-  /// turns too far at each step shows here first. NaN when they do not overlap.
+  double rms_before_mm = 0.0;  ///< distance between surfaces of different views, along the normal
+  double rms_after_mm = 0.0;   ///< the same after registration
+  /// Rotation of the last view that would align it with the first one: the accumulated error of the
+  /// angle steps. NaN when these views do not overlap.
   double closure_before_rad = kMissing;
   double closure_after_rad = kMissing;
-  double overlap = 0.0;        ///< share of the points that another view saw, too
-  double condition = 0.0;      ///< of the equations, the prior among them
-  double weakest = 0.0;        ///< how many times better the weakest unknown is known than before
-  double axis_sigma_mm = 0.0;  ///< standard deviation of the axis where it is known least
-  std::vector<std::string> undetermined;  ///< what the part does not determine
-  std::vector<std::size_t> outliers;      ///< views that fit no other, emptied
-  /// How the part stands in each further setup: what takes it from its place in the first setup,
-  /// both at angle 0, in the frame of the refined table.
+  double overlap = 0.0;        ///< share of the points that lie on a surface of another view
+  double condition = 0.0;      ///< condition number of the equations, with the prior
+  double weakest = 0.0;        ///< factor by which the views improve on the prior in the direction
+                               ///< that they determine worst; 1 is no improvement
+  double axis_sigma_mm = 0.0;  ///< standard deviation of the axis in its weakest direction
+  std::vector<std::string> undetermined;  ///< unknowns that the part's shape does not determine
+  std::vector<std::size_t> outliers;      ///< views that fit no other; they are emptied
+  /// Of each further setup: takes the part from its place in the first setup, both at angle 0,
+  /// frame of the refined table.
   std::vector<Eigen::Isometry3d> part_poses;
+  /// Largest share of a view's points that lie in front of the surface that another view measured
+  /// there. About 0.002 for a part that did not move.
+  double contradiction = 0.0;
+  bool trustworthy = true;  ///< false when `contradiction` exceeds the limit of the options
   int iterations = 0;
-  bool kept_rig = false;  ///< the given axis and angles fit as well, and stay
+  bool kept_rig = false;  ///< the given axis and angles fit as well and are kept
 
   [[nodiscard]] double axis_moved_mm() const;
   [[nodiscard]] double axis_turned_rad() const;
-  [[nodiscard]] double largest_turn_rad() const;  ///< of a view
-  /// One or more sentences with the figures.
+  [[nodiscard]] double largest_turn_rad() const;  ///< largest correction of an angle
+  /// The findings in words: one sentence, or clauses separated by semicolons.
   [[nodiscard]] std::string text() const;
+  /// Why the registration must not be trusted, as one clause; empty when it is trustworthy.
+  [[nodiscard]] std::string untrusted_reason() const;
 };
 
 }  // namespace frangia

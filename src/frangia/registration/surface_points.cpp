@@ -8,7 +8,7 @@
 namespace frangia {
 namespace {
 
-/// The cube a point lies in and the side it faces, in an order.
+/// Sort key of a point: its cube and the direction that it faces.
 struct CellEntry {
   std::array<std::int32_t, 4> cube{};
   std::uint32_t point = 0;

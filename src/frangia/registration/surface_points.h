@@ -6,7 +6,9 @@
 
 namespace frangia {
 
-/// Points of a surface and where it faces there. units mm; normals are unit
+/// Points of a surface with their normals.
+///
+/// units    mm; normals are unit
 struct SurfacePoints {
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<Eigen::Vector3f> normals;
@@ -16,14 +18,14 @@ struct SurfacePoints {
     points_mm.push_back(point);
     normals.push_back(normal);
   }
-  /// Adds all points of another set, moved.
+  /// Adds all points of another set, moved by `move`.
   void add(const SurfacePoints& other, const Eigen::Isometry3d& move);
 };
 
-/// About one point for each cube of `spacing_mm` and each of the six ways that a surface in it may
-/// face: the one nearest to their mean, with their mean normal.
+/// Keeps one point for each occupied cube of `spacing_mm` and each of the six directions that its
+/// normal may be nearest to: the point nearest to their mean, with their mean normal.
 ///
-/// shape    in the order of the cubes, which does not depend on the order of the points
+/// shape    ordered by cube, independent of the order of the points
 [[nodiscard]] SurfacePoints voxel_downsample(const SurfacePoints& points, double spacing_mm);
 
 }  // namespace frangia

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kEdge = DistanceField::kEdge;
 
-/// Of a guess beside what was seen, in 1/mm^2: it counts where nobody knows better.
+/// Weight of an extrapolated distance, as a share of the band's unit weight: it counts where
+/// nothing was measured.
 constexpr float kExtrapolatedWeight = 1e-6F;
 
 /// And of one deeper than the band: that the object is there needs no saying but at a rim, where a
@@ -29,6 +30,8 @@ struct Sampler {
   float back;
   float falloff;
   float voxel;
+  float extrapolated_weight;
+  float deep_weight;
 
   Sampler(const LocalPlanes& seen, const CameraModel& camera, const TruncationBand& band)
       : view(seen),
@@ -36,14 +39,16 @@ struct Sampler {
         front(static_cast<float>(band.front_mm)),
         back(static_cast<float>(band.back_mm)),
         falloff(static_cast<float>(band.falloff_mm)),
-        voxel(static_cast<float>(band.voxel_mm)) {}
+        voxel(static_cast<float>(band.voxel_mm)),
+        extrapolated_weight(kExtrapolatedWeight * static_cast<float>(band.unit_weight)),
+        deep_weight(kDeepWeight * static_cast<float>(band.unit_weight)) {}
 
   /// What a view's word on a voxel counts, 0 outside the band. Behind its surface a view can only
   /// guess: the object may be thin, or end beside the ray.
   [[nodiscard]] float weight_of(float weight, float distance) const {
     const float depth = std::min(distance, 0.0F) / falloff;
     const float trust = 1.0F / ((1.0F + depth * depth) * (1.0F + depth * depth));
-    const float deep = distance > -kDeepest * back ? kDeepWeight : 0.0F;
+    const float deep = distance > -kDeepest * back ? deep_weight : 0.0F;
     const float behind = distance > -back ? weight * trust : deep;
     return distance < front ? behind : 0.0F;
   }
@@ -163,7 +168,7 @@ void sample_creased(Row& row, std::size_t i, const Sampler& sampler, const Eigen
   const float distance = beside ? view.extrapolated_mm(row.u[i], row.v[i], point)
                                 : view.nearest_face(row.u[i], row.v[i], point).in_front_mm(point);
   const auto quad = static_cast<std::size_t>(row.quad[i]);
-  const float weight = beside ? kExtrapolatedWeight : view.quads.pixels()[quad].weight;
+  const float weight = beside ? sampler.extrapolated_weight : view.quads.pixels()[quad].weight;
   row.weight[i] = sampler.weight_of(weight, distance);
   row.weighted[i] = row.weight[i] * sampler.truncated(distance);
 }

@@ -20,6 +20,7 @@ struct TruncationBand {
   double back_mm = 0.0;        ///< into the object
   double falloff_mm = 0.0;     ///< a view's word on what lies deeper than this counts little
   double allocation_mm = 0.0;  ///< blocks are made where the surface may be, no farther than this
+  double unit_weight = 1.0;    ///< 1/mm^2; weights of what was not measured are shares of it
 };
 
 /// Signed distance to the surface in the object frame, positive outside, averaged over the views.

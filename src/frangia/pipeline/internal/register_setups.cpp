@@ -8,12 +8,13 @@
 #include <fmt/format.h>
 
 #include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/registration/compare_groups.h"
 #include "frangia/registration/join_by_shape.h"
 
 namespace frangia {
 namespace {
 
-/// Every view of every setup in little.
+/// The surfel maps of all views of all setups.
 struct MappedSetups {
   std::vector<SurfelMap> maps;
   std::vector<std::vector<ViewGroup::Member>> members;  ///< by setup
@@ -41,20 +42,21 @@ std::string name_of(const MeasuredSetup& setup) {
       "setup {} ({} to {})", setup.number, stations.front().name, stations.back().name);
 }
 
-/// Where each setup stands as seen from the reference; none where nobody can tell.
+/// Pose of each setup relative to the reference; none when it is not known.
 struct SetupPoses {
   std::size_t reference = 0;
   std::vector<std::optional<Eigen::Isometry3d>> setup_from_reference;
 };
 
-/// By the part poses of scan.toml, when it has those of all setups but the first.
+/// Refines the part poses of scan.toml. None unless scan.toml has those of all further setups.
 std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& setups,
                                              const std::vector<ViewGroup>& groups,
                                              const GroupViews& views,
                                              const RegisterSetupsOptions& options,
                                              double spacing_mm) {
-  constexpr double kStart = 4.0;  // spacings: what people can tell
-  constexpr double kGate = 0.3;
+  constexpr double kStart = 4.0;         // spacings: the error of poses measured by hand
+  constexpr double kGate = 0.3;          // spacings, as in the pose search
+  constexpr double kMaxViolation = 3.0;  // times that of poses found by shape: these are given
   SetupPoses setup_poses{0, {Eigen::Isometry3d::Identity()}};
   for (std::size_t i = 1; i < setups.size(); ++i) {
     const auto known = options.part_poses.find(setups[i].number);
@@ -68,8 +70,8 @@ std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& s
     const GroupFit fit =
         compare_groups(groups[0], groups[i], reference_from_setup, views, kGate * spacing_mm);
     const JoinByShapeOptions usual;
-    const bool fits =
-        fit.overlap >= usual.min_overlap && fit.free_space_violation() <= 3.0 * usual.max_violation;
+    const bool fits = fit.overlap >= usual.min_overlap &&
+                      fit.free_space_violation() <= kMaxViolation * usual.max_violation;
     setup_poses.setup_from_reference.push_back(fits ? std::optional(reference_from_setup.inverse())
                                                     : std::nullopt);
   }
@@ -96,7 +98,7 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
   return setup_poses;
 }
 
-/// Appends the views of a setup, as setup `index` of those that stay.
+/// Appends the views of a setup, as setup `index` of those that are joined.
 void append(MeasuredViews& all, const MeasuredViews& setup, std::size_t index) {
   for (std::size_t i = 0; i < setup.views.size(); ++i) {
     all.views.add(setup.views.load(i));
@@ -110,7 +112,7 @@ Turntable table_of(const MeasuredSetup& setup, const Rig& rig) {
   return setup.registration ? setup.registration->table : *rig.turntable;
 }
 
-/// Poses as the part poses have them, for who wants none refined.
+/// Sets the poses from the part poses, without refinement.
 void set_poses(MeasuredSetup& joined,
                const Rig& rig,
                const std::vector<Eigen::Isometry3d>& part_poses) {
@@ -172,12 +174,13 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
     const auto& part_pose = setup_poses.setup_from_reference[i];
     if (!part_pose) {
       run.warn(fmt::format(
-          "{} fits the other setups in no one place and is left out: take more views of what both "
-          "show, or say roughly how the part stands in a [[setup]] of scan.toml",
+          "{} fits the other setups in no unique pose and is left out: add views of the surface "
+          "that both show, or give its approximate part pose in a [[setup]] of scan.toml",
           name_of(setups[i])));
       continue;
     }
-    // Both setups have a table of their own as yet: through the rig, into the given table's frame.
+    // Each setup still has a refined table of its own: convert through the rig into the given
+    // table's frame.
     registration.part_poses.emplace_back(
         given_from_rig * table_of(setups[i], rig).rig_from_object(0.0) * *part_pose *
         reference_from_rig * given_from_rig.inverse());

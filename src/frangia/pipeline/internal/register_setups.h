@@ -13,32 +13,32 @@
 
 namespace frangia {
 
-/// The views between two turnings of the part, registered among themselves.
+/// The views of one clamping of the part, registered among themselves.
 struct MeasuredSetup {
   int number = 0;  ///< in scan.toml
   MeasuredViews measured;
   std::optional<RegistrationReport> registration;
 };
 
-/// The views of a scan by their setups, in the order of their numbers. What belongs to no single
-/// view goes with each.
+/// Splits the views of a scan by their setups, ordered by number. Properties of the whole scan are
+/// copied to each setup.
 ///
 /// shape    `numbers`: one a view
 [[nodiscard]] std::vector<MeasuredSetup> split_setups(MeasuredViews all,
                                                       const std::vector<int>& numbers);
 
 struct RegisterSetupsOptions {
-  std::map<int, Eigen::Isometry3d> part_poses;  ///< roughly, of setups where they are known: what
-                                                ///< takes the part from its place in setup 0
-  bool refine = true;                           ///< all at once, when they are joined
+  std::map<int, Eigen::Isometry3d> part_poses;  ///< approximate, of setups where it is known: takes
+                                                ///< the part from its place in setup 0
+  bool refine = true;                           ///< all setups at once, after they are joined
   RegisterOptions registration;
 };
 
-/// The setups put together by the shape of what they saw, or by rough part poses, and refined all
-/// at once. A setup that cannot be joined is named and left out.
+/// Joins the setups by the shape of their surfaces, or by approximate part poses, and refines all
+/// of them at once. A setup that cannot be joined is named in a warning and left out.
 ///
-/// units    the frame of the first setup, or of the first of those that fit together
-/// missing  `registration` of the setup that comes back when it is not refined
+/// units    mm, the frame of the first setup, or of the first of the setups that fit together
+/// missing  `registration` of the result when it is not refined
 [[nodiscard]] MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
                                             const Rig& rig,
                                             const RegisterSetupsOptions& options,

@@ -43,18 +43,17 @@ double remove_turntable_top(ViewStore& views,
                             const CameraModel& camera,
                             const TurntableTopOptions& options,
                             const Run& run) {
-  const auto turntable_top = find_turntable_top(views, camera, options, run);
-  if (!turntable_top) return kMissing;
-  constexpr double kMargin_mm = 0.5;  // nearer points are the top itself or mixed with it
+  const auto top = find_turntable_top(views, camera, options, run);
+  if (!top) return kMissing;
   Clip clip;
-  clip.floor = {turntable_top->normal(), turntable_top->offset() - kMargin_mm};
+  clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};
   const std::size_t removed = clip_views(views, camera, clip, run);
-  const double height_mm = -turntable_top->offset() / turntable_top->normal().z();
-  run.note(
-      fmt::format("the turntable top at a height of {:.2f} mm is removed with {} points; set "
-                  "`keep_turntable_top` to keep it",
-                  std::abs(height_mm) < 0.005 ? 0.0 : height_mm,
-                  removed));
+  const double height_mm = top->height_mm();
+  run.note(fmt::format(
+      "{} at a height of {:.2f} mm is removed with {} points; set `keep_turntable_top` to keep it",
+      top->rim_only ? "the rim of the turntable top, which is seen edge-on," : "the turntable top",
+      std::abs(height_mm) < 0.005 ? 0.0 : height_mm,
+      removed));
   return height_mm;
 }
 

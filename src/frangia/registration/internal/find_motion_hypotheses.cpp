@@ -14,10 +14,10 @@
 namespace frangia {
 namespace {
 
-constexpr double kSameAngle = 0.25;  // of two cosines
-constexpr float kSameSide = 0.7F;    // cosine between normals of one surface
+constexpr double kSameAngle = 0.25;        // difference of two cosines, for normals of ten degrees
+constexpr float kMinMatchedCosine = 0.7F;  // between the normals of matched points
 
-/// A match with its points beside it.
+/// A match with its points.
 struct Pair {
   Eigen::Vector3f from, from_normal, to, to_normal;
 };
@@ -53,7 +53,7 @@ bool are_compatible(const Pair& a, const Pair& b, float tolerance_mm) {
              kSame;
 }
 
-/// Which matches fit together, a bit each.
+/// Compatibility of every two matches, one bit each.
 class CompatibilityGraph {
  public:
   CompatibilityGraph(const Pairs& pairs, float tolerance_mm)
@@ -70,7 +70,7 @@ class CompatibilityGraph {
   [[nodiscard]] bool fits(std::size_t i, std::size_t j) const {
     return (bits_[i * words_ + j / 64] >> (j % 64) & 1U) != 0;
   }
-  /// How many fit together with both.
+  /// Number of matches that are compatible with both.
   [[nodiscard]] int shared(std::size_t i, std::size_t j) const {
     int sum = 0;
     for (std::size_t word = 0; word < words_; ++word)
@@ -85,7 +85,7 @@ class CompatibilityGraph {
   std::vector<std::uint64_t> bits_;
 };
 
-/// The matches by how many pairs of others fit together with each.
+/// The matches by their score, highest first.
 std::vector<std::size_t> by_compatibility(const CompatibilityGraph& graph) {
   std::vector<std::int64_t> score(graph.size(), 0);
   parallel_chunks(graph.size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -102,9 +102,9 @@ std::vector<std::size_t> by_compatibility(const CompatibilityGraph& graph) {
   return order;
 }
 
-/// A seed and those that share most with it.
+/// A seed and the matches that share most compatible matches with it.
 std::vector<std::size_t> consensus_of(std::size_t seed, const CompatibilityGraph& graph) {
-  constexpr std::ptrdiff_t kMost = 12;
+  constexpr std::ptrdiff_t kMost = 12;  // enough for six unknowns and few wrong ones
   std::vector<std::pair<int, std::size_t>> others;
   for (std::size_t j = 0; j < graph.size(); ++j)
     if (graph.fits(seed, j)) others.emplace_back(-graph.shared(seed, j), j);
@@ -117,8 +117,10 @@ std::vector<std::size_t> consensus_of(std::size_t seed, const CompatibilityGraph
   return consensus;
 }
 
-/// The motion that brings matched points and normals together best; a normal counts as a point at
-/// `arm_mm` from the middle.
+/// Least-squares motion of matched points and normals. A normal counts as a point at a distance of
+/// `arm_mm` from the centroid.
+///
+/// source   Kabsch 1976
 Eigen::Isometry3d fit_motion(const Pairs& pairs,
                              const std::vector<std::size_t>& which,
                              float arm_mm) {
@@ -152,7 +154,7 @@ std::vector<std::size_t> inliers_of(const Pairs& pairs,
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const bool near = (by * pairs[i].from - pairs[i].to).squaredNorm() < within_mm * within_mm;
-    if (near && (by.linear() * pairs[i].from_normal).dot(pairs[i].to_normal) > kSameSide)
+    if (near && (by.linear() * pairs[i].from_normal).dot(pairs[i].to_normal) > kMinMatchedCosine)
       found.push_back(i);
   }
   return found;
@@ -174,7 +176,7 @@ std::vector<MotionHypothesis> find_motion_hypotheses(const SurfacePoints& from,
                                                      const SurfacePoints& to,
                                                      std::span<const FeatureMatch> matches,
                                                      const MotionHypothesisOptions& options) {
-  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kFewest = 4;  // matches: three always fit some motion
   const auto tolerance_mm = static_cast<float>(options.tolerance_mm);
   const Pairs pairs = pairs_of(from, to, matches);
   const CompatibilityGraph graph(pairs, tolerance_mm);

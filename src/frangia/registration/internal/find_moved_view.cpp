@@ -16,22 +16,21 @@ void add(PairTally& sum, const PairTally& tally) {
   sum.violations += tally.violations;
 }
 
-/// Views to be left out in turn, those that others contradict most first; none when there is no
-/// contradiction at all. A view that moved bends the bundle towards itself, and may look innocent.
-std::vector<std::size_t> moved_view_candidates(const BundleSums& sums) {
-  constexpr double kNoticed = 0.02;  // ten times what edges and stray points come to
-  constexpr std::size_t kMost = 10;
+/// The views to leave out in turn, those with the most violations first; none when no view is
+/// suspicious.
+std::vector<std::size_t> moved_view_candidates(const BundleSums& sums,
+                                               const MovedViewOptions& options) {
   std::vector<std::size_t> candidates(sums.matched.size());
   std::iota(candidates.begin(), candidates.end(), std::size_t{0});
   std::stable_sort(candidates.begin(), candidates.end(), [&](std::size_t a, std::size_t b) {
     return free_space_violation(sums, a) > free_space_violation(sums, b);
   });
-  if (free_space_violation(sums, candidates.front()) < kNoticed) return {};
-  candidates.resize(std::min(candidates.size(), kMost));
+  if (free_space_violation(sums, candidates.front()) < options.suspicious_violation) return {};
+  candidates.resize(std::min(candidates.size(), options.max_candidates));
   return candidates;
 }
 
-/// What is left of the contradiction without a view.
+/// The violations that remain without a view.
 struct Trial {
   std::size_t view = 0;
   double violation = 0.0;
@@ -71,10 +70,8 @@ std::optional<MovedView> find_moved_view(Bundle& bundle,
                                          const SurfelLists& surfels,
                                          const MovedViewOptions& options,
                                          const Run& run) {
-  constexpr double kBetter = 0.7;  // of the contradiction: one of several moved views takes less
-  constexpr double kAsGood = 0.005;
   const BundleSums all_views = sum(bundle, surfels);
-  const std::vector<std::size_t> candidates = moved_view_candidates(all_views);
+  const std::vector<std::size_t> candidates = moved_view_candidates(all_views, options);
   if (candidates.empty()) return std::nullopt;
   const TableState state = bundle.state;
   const double gate_mm = bundle.gate_mm;
@@ -88,9 +85,11 @@ std::optional<MovedView> find_moved_view(Bundle& bundle,
   std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
     return a.violation < b.violation;
   });
-  if (trials[0].violation > kBetter * free_space_violation(all_views)) return std::nullopt;
+  if (trials[0].violation > options.max_remaining * free_space_violation(all_views))
+    return std::nullopt;
   MovedView moved{trials[0].view, std::nullopt};
-  if (trials.size() > 1 && trials[1].violation < kAsGood) moved.alternative = trials[1].view;
+  if (trials.size() > 1 && trials[1].violation < options.no_violation)
+    moved.alternative = trials[1].view;
   return moved;
 }
 

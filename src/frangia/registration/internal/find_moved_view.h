@@ -9,30 +9,40 @@
 
 namespace frangia {
 
-/// Share of the pairs of a view that cannot be: points of one before what the other saw, where it
-/// would have seen them. About 0.002 where nothing moved.
+/// Share of a view's comparisons, in both directions, that violate free space: a point of one view
+/// lies in front of the surface that the other view measured along the same ray. About 0.002 when
+/// nothing moved.
 ///
-/// missing  0 for a view that looks where no other does
+/// missing  0 for a view that shares no surface with another
 [[nodiscard]] double free_space_violation(const BundleSums& sums, std::size_t view);
 
-/// The same of all pairs.
+/// The same share over the comparisons of all views.
 [[nodiscard]] double free_space_violation(const BundleSums& sums);
 
-/// A view from a part that was moved.
+/// A view that was taken after the part had moved.
 struct MovedView {
   std::size_t view = 0;
-  std::optional<std::size_t> alternative;  ///< the others fit as well without this one instead
+  std::optional<std::size_t> alternative;  ///< without this view instead, the others fit as well
 };
 
 struct MovedViewOptions {
-  double reach_mm = 3.0;  ///< how far surfaces that are one may lie apart at the start
+  double reach_mm = 0.0;  ///< largest distance of corresponding surfaces at the start
   int max_iterations = 30;
+  double suspicious_violation = 0.02;  ///< of any one view, to search at all: ten times what edges
+                                       ///< and stray points cause
+  std::size_t max_candidates = 10;     ///< one optimization each
+  double max_remaining = 0.7;          ///< share of the violations that may remain without the
+                                       ///< view; of two moved views, one causes about half
+  double no_violation = 0.005;         ///< below this share, the remaining views fit
 };
 
-/// The view without which the others agree. Views that others contradict are left out in turn, and
-/// the rest settled anew: a moved view bends the whole bundle, so that it need not look the worst.
+/// Finds the view without which the others fit.
 ///
-/// missing  none when nothing is contradicted, or the rest agrees no better without any one view
+/// Each of the views with the most violations is left out in turn, and the others are optimized
+/// again: a moved view distorts the whole bundle, so that it need not have the most violations
+/// itself.
+///
+/// missing  none when no view is suspicious, or the others fit no better without any one of them
 [[nodiscard]] std::optional<MovedView> find_moved_view(Bundle& bundle,
                                                        const SurfelLists& surfels,
                                                        const MovedViewOptions& options,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-/// Adds a place unless it is worth nothing or the same as one that is there.
+/// Adds a hypothesis unless its score is 0 or less, or its pose is known already.
 void add_new(std::vector<PoseHypothesis>& hypotheses,
              const PoseHypothesis& hypothesis,
              const PoseSearchScale& scale) {
@@ -27,7 +27,8 @@ void add_new(std::vector<PoseHypothesis>& hypotheses,
 }  // namespace
 
 double PoseHypothesis::score(double typical_mm) const {
-  constexpr double kViolationWeight = 3.0;  // a point seen through weighs as many that agree
+  constexpr double kViolationWeight =
+      3.0;  // a wrong pose violates free space seldom, a right one never
   const double points =
       static_cast<double>(fit.agree) - kViolationWeight * static_cast<double>(fit.violations);
   return fit.residual_mm > typical_mm ? points * typical_mm / fit.residual_mm : points;
@@ -59,26 +60,29 @@ std::vector<PoseHypothesis> refine_pose_hypotheses(const ViewGroup& to,
 
 std::vector<Eigen::Isometry3d> neighboring_poses(const PoseHypothesis& hypothesis,
                                                  const PoseSearchScale& scale) {
-  std::vector<Eigen::Isometry3d> beside;
-  for (Eigen::Index way = 0; way < 2; ++way) {
+  std::vector<Eigen::Isometry3d> neighbors;
+  for (Eigen::Index direction = 0; direction < 2; ++direction) {
     for (const double spacings : {-6.0, -3.0, -1.5, 1.5, 3.0, 6.0}) {
       const Eigen::Matrix<double, 6, 1> step =
-          spacings * scale.spacing_mm * hypothesis.fit.weakest_directions.col(way);
-      beside.push_back(hypothesis.fit.motion(step) * hypothesis.to_from);
+          spacings * scale.spacing_mm * hypothesis.fit.weakest_directions.col(direction);
+      neighbors.push_back(hypothesis.fit.motion(step) * hypothesis.to_from);
     }
   }
-  return beside;
+  return neighbors;
 }
 
 std::vector<PoseHypothesis> find_pose_hypotheses(const DescribedGroup& to,
                                                  const DescribedGroup& from,
                                                  const GroupViews& views,
                                                  const PoseSearchScale& scale) {
-  constexpr std::size_t kRefined = 8;
+  constexpr std::size_t kRefined = 8;  // poses; each costs up to 25 comparisons
   const auto matches = match_features(from.features, to.features);
   std::vector<PoseHypothesis> rough;
-  for (const MotionHypothesis& motion : find_motion_hypotheses(
-           from.group.points, to.group.points, matches, {.tolerance_mm = 1.5 * scale.spacing_mm})) {
+  for (const MotionHypothesis& motion :
+       find_motion_hypotheses(from.group.points,
+                              to.group.points,
+                              matches,
+                              {.tolerance_mm = scale.match_tolerance_mm()})) {
     PoseHypothesis hypothesis{motion.to_from, {}};
     hypothesis.fit =
         compare_groups(to.group, from.group, hypothesis.to_from, views, scale.coarse_gate_mm());

@@ -5,26 +5,32 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/registration/compare_groups.h"
 #include "frangia/registration/view_group.h"
 
 namespace frangia {
 
-/// Places are told apart, and points agree, by shares of the spacing of the groups' points.
+/// Lengths of the pose search, as shares of the spacing of the groups' points.
 struct PoseSearchScale {
-  double spacing_mm = 1.0;
+  double spacing_mm = 0.0;
 
-  [[nodiscard]] double gate_mm() const { return 0.3 * spacing_mm; }         ///< what agrees
-  [[nodiscard]] double coarse_gate_mm() const { return 1.2 * spacing_mm; }  ///< motions are as near
-  [[nodiscard]] double distinct_mm() const { return 1.5 * spacing_mm; }  ///< hypotheses that differ
+  /// Points of refined poses agree within this distance.
+  [[nodiscard]] double gate_mm() const { return 0.3 * spacing_mm; }
+  /// The same for poses that come from feature matches, whose error is about one spacing.
+  [[nodiscard]] double coarse_gate_mm() const { return 1.2 * spacing_mm; }
+  /// Poses that are nearer to each other count as one.
+  [[nodiscard]] double distinct_mm() const { return 1.5 * spacing_mm; }
+  /// Matched features may come to lie this far apart.
+  [[nodiscard]] double match_tolerance_mm() const { return 1.5 * spacing_mm; }
 };
 
-/// A place of one group on another that may be right.
+/// A pose of one group on another that may be right.
 struct PoseHypothesis {
   Eigen::Isometry3d to_from = Eigen::Isometry3d::Identity();
   GroupFit fit;
 
-  /// What it is worth, where surfaces that are one come to lie `typical_mm` apart: points that
-  /// agree, less those against it.
+  /// Points that agree, less three times those that violate free space. A pose whose residual
+  /// exceeds `typical_mm`, that of a good fit, scores less in proportion.
   [[nodiscard]] double score(double typical_mm) const;
 };
 
@@ -34,13 +40,13 @@ struct DescribedGroup {
   const Eigen::MatrixXf& features;
 };
 
-/// Places of one group on another by their shape alone, refined; best first, at most a few.
+/// Poses of one group on another from feature matches, refined; best first, at most eight.
 [[nodiscard]] std::vector<PoseHypothesis> find_pose_hypotheses(const DescribedGroup& to,
                                                                const DescribedGroup& from,
                                                                const GroupViews& views,
                                                                const PoseSearchScale& scale);
 
-/// Refines hypotheses and drops those that come to be the same or worth nothing; best first.
+/// Refines poses and drops duplicates and those with a score of 0 or less; best first.
 [[nodiscard]] std::vector<PoseHypothesis> refine_pose_hypotheses(
     const ViewGroup& to,
     const ViewGroup& from,
@@ -48,12 +54,12 @@ struct DescribedGroup {
     const GroupViews& views,
     const PoseSearchScale& scale);
 
-/// Places beside one, shifted and turned in the two ways that are known least: what slides on a
-/// face converges to many of them.
+/// Poses beside a hypothesis, moved in the two directions that are determined worst. A group that
+/// slides on a face converges to several of them.
 [[nodiscard]] std::vector<Eigen::Isometry3d> neighboring_poses(const PoseHypothesis& hypothesis,
                                                                const PoseSearchScale& scale);
 
-/// Puts the best first, by `PoseHypothesis::score`.
+/// Sorts by `PoseHypothesis::score`, best first.
 void sort_hypotheses(std::vector<PoseHypothesis>& hypotheses, double typical_mm);
 
 }  // namespace frangia

@@ -9,22 +9,21 @@
 #include "frangia/core/run.h"
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/internal/turntable_bundle.h"
-#include "frangia/registration/registration_report.h"
 #include "frangia/rig/fast_camera_model.h"
 
 namespace frangia {
 
-/// The registration of a turntable's views on its way.
+/// A turntable registration in progress.
 struct Bundle {
   std::vector<SurfelMap> maps;
   FastCameraModel model;
   TableState given;
   TableState state;
-  Eigen::VectorXd prior_sigma;  ///< of each unknown
-  double gate_mm = 0.0;
-  double min_gate_mm = 0.0;  ///< the gate never closes farther than noise allows
-  double systematic_mm = 0.0;
-  int iterations = 0;
+  Eigen::VectorXd prior_sigma;            ///< of each unknown
+  double gate_mm = 0.0;                   ///< pairs farther apart do not count
+  double min_gate_mm = 0.0;               ///< the noise of the surfels allows no narrower gate
+  double systematic_mm = 0.0;             ///< error that all pairs of two views have in common
+  int iterations = 0;                     ///< of all optimizations
   std::optional<std::size_t> left_out{};  ///< a view that is not compared
 };
 
@@ -33,18 +32,17 @@ using SurfelLists = std::vector<std::vector<SurfelMap::Surfel>>;
 
 [[nodiscard]] SurfelLists pick_all_surfels(const std::vector<SurfelMap>& maps, std::size_t count);
 
+/// Compares all views in the state of the bundle, within its gate.
 [[nodiscard]] BundleSums sum(const Bundle& bundle, const SurfelLists& surfels);
 
-[[nodiscard]] double median(std::vector<float> values);
+/// Weight of the pairs beside the prior, at most 1. The pairs of two views share an error of
+/// `systematic_mm`, so that they count as (scatter / systematic_mm)^2 independent ones at most.
+[[nodiscard]] double effective_weight(const Bundle& bundle, const BundleSums& sums);
 
-/// Gauss-Newton until nothing moves by more than a hundredth of what noise would.
+/// Refines the state of the bundle by `minimize_robustly`, with its prior.
 void optimize_bundle(Bundle& bundle,
                      const SurfelLists& surfels,
                      int max_iterations,
                      const Run& run);
-
-/// What the data say less about than the prior does, by the eigenvectors of their information in
-/// units of the prior's: sets `weakest`, `condition`, `axis_sigma_mm` and `open`.
-void assess_observability(RegistrationReport& report, const Bundle& bundle, const BundleSums& sums);
 
 }  // namespace frangia

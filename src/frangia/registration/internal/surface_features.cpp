@@ -18,7 +18,7 @@ constexpr int kRows = 3 * kBins;
 constexpr std::size_t kFewest = 5;
 constexpr std::size_t kChunk = 64;
 
-/// Points by cubes as wide as the radius: the neighbours of one lie in the 27 cubes about it.
+/// Points by cubes of the radius' size: all neighbours of a point lie in the 27 cubes around it.
 class Cubes {
  public:
   Cubes(const SurfacePoints& points, float radius_mm) : points_(points), radius_(radius_mm) {
@@ -26,7 +26,7 @@ class Cubes {
       cubes_[key(cell_of(points.points_mm[i]))].push_back(i);
   }
 
-  /// All others within the radius, in the order of their cubes.
+  /// All other points within the radius, ordered by cube.
   [[nodiscard]] std::vector<std::size_t> near(std::size_t point) const {
     std::vector<std::size_t> found;
     const Eigen::Vector3f& center = points_.points_mm[point];
@@ -63,7 +63,7 @@ int bin_of(float value, float low, float high) {
   return std::clamp(bin, 0, kBins - 1);
 }
 
-/// Counts the angles of one pair: that of the two with its normal more along the line is the first.
+/// Counts the angles of one pair. The first point is the one whose normal is nearer to the line.
 void count_pair(const SurfacePoints& points,
                 std::size_t one,
                 std::size_t other,

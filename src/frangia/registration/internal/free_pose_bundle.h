@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/local_fit/surfel_map.h"
+#include "frangia/rig/fast_camera_model.h"
+
+namespace frangia {
+
+/// Views with a free rigid pose each; the pose of view 0 is held.
+struct FreePoseBundle {
+  std::vector<SurfelMap> maps;
+  std::vector<std::vector<SurfelMap::Surfel>> surfels;  ///< those that are compared, by view
+  std::vector<Eigen::Isometry3d> rig_from_world;
+  FastCameraModel model;
+};
+
+/// Normal equations of all point-to-plane distances between views.
+///
+/// shape    unknowns: three shifts (mm) and three rotations (rad) about the world's origin for each
+///          of views 1, 2, ...
+struct FreePoseSums {
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd gradient;
+  std::vector<double> distances_mm;  ///< absolute, of all pairs within the gate
+  std::size_t matched = 0;           ///< surfels that lie on a surface of another view
+  std::size_t surfels = 0;
+};
+
+/// Derivatives of `normal.dot(point)` by three shifts and three rotations of the point.
+[[nodiscard]] Eigen::Matrix<double, 6, 1> point_to_plane_jacobian(const Eigen::Vector3d& normal,
+                                                                  const Eigen::Vector3d& point);
+
+/// Compares the surfels of each view with those of every other view, within `gate_mm`.
+[[nodiscard]] FreePoseSums sum_free_poses(const FreePoseBundle& bundle, double gate_mm);
+
+/// Moves the views 1, 2, ... in the world by a step in the unknowns.
+void apply_update(FreePoseBundle& bundle, const Eigen::VectorXd& step);
+
+}  // namespace frangia

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// The unknowns of a turntable registration: the axis, the angle of each view, and the part pose of
+/// each setup but the first.
+///
+/// A step in the unknowns holds, in this order: two tilts of the axis about
+/// `perpendicular_directions` (rad), two shifts along them (mm), the angles of views 1, 2, ...
+/// (rad; view 0 is held), then three shifts (mm) and three rotations (rad) about the table's point
+/// for the part pose of each further setup.
+struct TableState {
+  Turntable table;
+  std::vector<double> angles_rad;
+  std::vector<std::size_t> setups;  ///< of each view; empty: all in the first
+  /// Of each further setup: takes the part from its place in the first setup, both at angle 0, rig
+  /// frame.
+  std::vector<Eigen::Isometry3d> part_poses{};
+
+  [[nodiscard]] std::size_t setup_of(std::size_t view) const {
+    return setups.empty() ? 0 : setups[view];
+  }
+  [[nodiscard]] Eigen::Isometry3d part_pose(std::size_t setup) const {
+    return setup == 0 ? Eigen::Isometry3d::Identity() : part_poses[setup - 1];
+  }
+  [[nodiscard]] Eigen::Index unknowns() const {
+    return static_cast<Eigen::Index>(angles_rad.size() + 3 + 6 * part_poses.size());
+  }
+  /// Index of the first unknown of a further setup.
+  [[nodiscard]] Eigen::Index index_of_setup(std::size_t setup) const {
+    return static_cast<Eigen::Index>(angles_rad.size() + 3 + 6 * (setup - 1));
+  }
+  /// The last view of the first setup, which closes the turn to view 0.
+  [[nodiscard]] std::size_t closing_view() const;
+};
+
+/// The two unit directions perpendicular to the axis in which it tilts and shifts.
+[[nodiscard]] Eigen::Matrix<double, 3, 2> perpendicular_directions(const Turntable& table);
+
+/// The state after a step in the unknowns.
+[[nodiscard]] TableState apply_update(const TableState& state, const Eigen::VectorXd& step);
+
+}  // namespace frangia

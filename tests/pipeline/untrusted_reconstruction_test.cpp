@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/pipeline/reconstruct.h"
+
+#include "support/small_scan.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::small_scan;
+using testing::TemporaryFolder;
+
+/// Takes every other view again after the part was pushed, each time elsewhere.
+void push_every_other_view(const Scan& scan) {
+  for (std::size_t view = 1; view < scan.views.size(); view += 2) {
+    const TemporaryFolder folder;
+    Scan plan = scan;
+    plan.folder = folder.path();
+    plan.views = {scan.views[view]};
+    Mesh part = make_part("bracket");
+    const double way = 2.3 * static_cast<double>(view);
+    for (Eigen::Vector3f& vertex : part.vertices_mm)
+      vertex += Eigen::Vector3d(2.5 * std::cos(way), 2.5 * std::sin(way), 1.5).cast<float>();
+    static_cast<void>(simulate_scan(part, plan, {}));
+    const auto frames = scan.views[view].folder;
+    std::filesystem::copy(plan.folder / frames,
+                          scan.folder / frames,
+                          std::filesystem::copy_options::overwrite_existing |
+                              std::filesystem::copy_options::recursive);
+  }
+}
+
+TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {});
+  push_every_other_view(scan);
+  std::vector<std::string> notes;
+  frangia::Run run;
+  run.on_note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_NE(result.untrusted_reason.find("contradict each other"), std::string::npos)
+      << result.untrusted_reason;
+  ASSERT_TRUE(result.registration.has_value());
+  EXPECT_FALSE(result.registration->trustworthy);
+  ASSERT_FALSE(result.mesh.sigma_mm.empty());
+  EXPECT_TRUE(std::all_of(result.mesh.sigma_mm.begin(),
+                          result.mesh.sigma_mm.end(),
+                          [](float sigma) { return std::isnan(sigma); }));
+  for (const std::string& note : notes)
+    EXPECT_EQ(note.find("agree"), std::string::npos) << note;
+}
+
+TEST(Reconstruct, RemovesTheRimOfATurntableTopSeenEdgeOn) {
+  const TemporaryFolder folder;
+  Scan plan;
+  plan.folder = folder.path();
+  plan.name = "bracket";
+  plan.rig = testing::small_rig("digital");
+  plan.rig.turntable = Turntable{{3.5, 12.0, 516.0}, -Eigen::Vector3d::UnitY()};
+  plan.patterns = default_patterns(plan.rig);
+  for (int i = 0; i < 6; ++i)
+    plan.views.push_back({kTwoPi * i / 6, "views/" + std::to_string(i)});
+  SimulateOptions options{.samples_per_px = 4};
+  options.turntable_top_radius_mm = 70.0;
+  const Scan scan = simulate_scan(make_part("bracket"), plan, options);
+  const auto widest_mm = [](const Mesh& mesh) {
+    float widest = 0.0F;
+    for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+      widest = std::max(widest, vertex.head<2>().norm());
+    return widest;
+  };
+  std::vector<std::string> notes;
+  frangia::Run run;
+  run.on_note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_NEAR(result.turntable_top_height_mm, 0.0, 1.0);
+  EXPECT_LT(widest_mm(result.mesh), 60.0F);
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("rim of the turntable top") != std::string::npos;
+  }));
+  ReconstructOptions keep;
+  keep.keep_turntable_top = true;
+  EXPECT_GT(widest_mm(reconstruct(scan, keep).mesh), 65.0F);
+}
+
+}  // namespace
+}  // namespace frangia
