@@ -224,7 +224,7 @@ TEST(EditSteps, SayWhatIsWrongWithTheirValue) {
     return std::string();
   };
   EXPECT_NE(error({"fill-holes", "ten"}).find("fill-holes: 'ten' is not MM"), std::string::npos);
-  EXPECT_NE(error({"fill-holes", "10cm"}).find("10mm"), std::string::npos);
+  EXPECT_NE(error({"fill-holes", "10km"}).find("10mm"), std::string::npos);
   EXPECT_NE(error({"cut", "0,0,1"}).find("X,Y,Z,MM"), std::string::npos);
   EXPECT_NE(error({"decimate-to", "-5"}), "");
   EXPECT_NE(error({"decimate-to", "nan"}), "");
@@ -232,6 +232,7 @@ TEST(EditSteps, SayWhatIsWrongWithTheirValue) {
   EXPECT_NE(error({"orient", "3"}).find("takes no value"), std::string::npos);
   EXPECT_NE(error({"explode", ""}).find("explode"), std::string::npos);
   EXPECT_EQ(error({"cut", "0,0,-1,5mm"}), "");
+  EXPECT_EQ(error({"fill-holes", "0.5in"}), "");
 }
 
 TEST(EditScript, NamesTheStepThatIsNone) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/parse_length.h"
 
 namespace frangia {
 namespace {
@@ -21,26 +22,41 @@ std::vector<std::string_view> words_of(std::string_view text) {
   }
 }
 
-std::optional<double> number_of(std::string_view kind, std::string_view word) {
+std::optional<double> length_of_word(std::string_view word) {
+  try {
+    return parse_length_mm(word);
+  } catch (const Error&) {
+    return std::nullopt;  // edit_numbers words the error: it knows the pattern
+  }
+}
+
+std::optional<double> plain_number(std::string_view kind, std::string_view word) {
   while (!word.empty() && word.front() == ' ')
     word.remove_prefix(1);
   double number = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   const std::string_view unit(end, static_cast<std::size_t>(word.data() + word.size() - end));
-  const bool fits =
-      unit.empty() || (kind == "MM" && unit == "mm") || (kind == "DEG" && unit == "deg");
-  if (error != std::errc() || !fits || !(std::abs(number) <= 1e9)) return std::nullopt;
-  const bool counts = kind == "N" || kind == "PART" || kind == "HOLE";
-  if (counts && (number < 0.0 || number != std::floor(number))) return std::nullopt;
+  if (error != std::errc() || !(unit.empty() || (kind == "DEG" && unit == "deg"))) {
+    return std::nullopt;
+  }
   return number;
 }
 
-/// What a number of the pattern is, where its name alone does not tell.
+std::optional<double> number_of(std::string_view kind, std::string_view word) {
+  const auto number = kind == "MM" ? length_of_word(word) : plain_number(kind, word);
+  constexpr double kLargest = 1e9;  // single precision and 32-bit indices hold no larger number
+  if (!number || !(std::abs(*number) <= kLargest)) return std::nullopt;
+  const bool counts = kind == "N" || kind == "PART" || kind == "HOLE";
+  if (counts && (*number < 0.0 || *number != std::floor(*number))) return std::nullopt;
+  return number;
+}
+
+/// Explains a pattern whose names alone do not say what to write.
 std::string_view meaning_of(std::string_view pattern) {
   const auto has = [&](std::string_view kind) {
     return pattern.find(kind) != std::string_view::npos;
   };
-  if (has("MM")) return "; lengths are in mm, with or without their unit: 10mm";
+  if (has("MM")) return "; a length is in mm or has a unit: 10, 10mm, 1cm, 0.5in";
   if (has("HOLE")) return "; a hole is named by its number in --list: 0";
   return "";
 }

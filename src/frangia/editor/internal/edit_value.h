@@ -10,10 +10,11 @@
 
 namespace frangia {
 
-/// The numbers of an operation's value by its pattern: words parted by commas, of which MM and DEG
-/// may carry their unit ("10mm"), N and PART and HOLE are whole and not negative, and the rest are
-/// any numbers. Degrees stay degrees.
+/// Parses the value of an operation by the operation's pattern: words separated by commas. MM is a
+/// length (parse_length_mm); DEG is an angle in degrees, with or without "deg"; N, PART and HOLE
+/// are whole numbers that are not negative; any other word is a plain number.
 ///
+/// units    lengths in mm, angles in degrees
 /// errors   Error(Input) that shows the value and the pattern
 [[nodiscard]] std::vector<double> edit_numbers(std::string_view pattern, const std::string& value);
 
