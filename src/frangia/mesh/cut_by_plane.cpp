@@ -10,6 +10,7 @@
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/triangulate_polygon.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
 namespace {
@@ -21,7 +22,6 @@ using VertexLoop = std::vector<std::uint32_t>;
 // Vertices nearer to the plane than this fraction of the largest coordinate lie on it, which avoids
 // slivers: 4 units in the last place of single precision.
 constexpr double kOnPlane = 5e-7;
-constexpr std::size_t kStepsPerCheck = 16'384;  // about 10 ms
 
 double on_plane_distance_mm(const Mesh& mesh) {
   float largest_mm = 0.0F;

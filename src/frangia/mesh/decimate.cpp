@@ -48,7 +48,7 @@ class Decimation {
         versions_(mesh.vertices_mm.size()) {}
 
   void run(const HalfEdges& edges, std::size_t target, DistanceGuard* guard, const Run& run) {
-    constexpr std::size_t kStepsPerCheck = 1024;  // at most 10 ms with a guard
+    constexpr std::size_t kCollapsesPerCheck = 1024;  // about 10 ms with a guard
     LazyPriorityQueue<Candidate> queue(candidates_of(edges, run));
     const auto outdated = [this](const Candidate& candidate) {
       return candidate.version != versions_[candidate.a] + versions_[candidate.b] ||
@@ -64,7 +64,7 @@ class Decimation {
         for (const std::uint32_t v : neighbors_)
           if (const auto fresh = candidate_of(candidate->a, v)) queue.push(*fresh);
       }
-      if (++steps % kStepsPerCheck == 0) {
+      if (++steps % kCollapsesPerCheck == 0) {
         run.report(static_cast<double>(begin - topology_.remaining_triangles()) /
                    static_cast<double>(begin - target));
       }

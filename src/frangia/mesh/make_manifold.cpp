@@ -10,13 +10,12 @@
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/selection.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
 namespace {
 
 using Triangle = Mesh::Triangle;
-
-constexpr std::size_t kVerticesPerCheck = 65'536;  // about 10 ms
 
 bool is_valid(const Mesh& mesh, const Triangle& t) {
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
@@ -52,7 +51,7 @@ void remove_invalid(Mesh& mesh, const Run& run) {
   for (const std::uint32_t i : order)
     sorted_by[next[least(i)]++] = i;
   for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    if (v % kVerticesPerCheck == 0) run.check();
+    if (v % kStepsPerCheck == 0) run.check();
     for (std::uint32_t a = first[v]; a < first[v + 1]; ++a) {
       for (std::uint32_t b = a + 1; b < first[v + 1]; ++b) {
         const bool same =
@@ -115,7 +114,7 @@ void split_fans(Mesh& mesh, const Run& run) {
   const HalfEdges edges(mesh);
   DisjointSets corners(edges.count());
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
-    if (edge % kVerticesPerCheck == 0) run.check();
+    if (edge % kStepsPerCheck == 0) run.check();
     if (edges.has_twin(edge)) {
       corners.join(edge, HalfEdges::next(edges.twin(edge)));
     } else if (!edges.is_boundary(edge)) {

@@ -12,14 +12,13 @@
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr std::size_t kVerticesPerCheck = 16'384;  // about 10 ms
 
 /// Normal equations of the planes around a vertex.
 struct VertexPlanes {
@@ -71,7 +70,7 @@ bool any_keeps_distance(const Mesh& original,
   constexpr double kShare = 0.99;  // of the distance: room for rounding
   const RayScene scene(original);
   for (std::size_t v = 0; v < offset_mm.size(); ++v) {
-    if (v % kVerticesPerCheck == 0) run.check();
+    if (v % kStepsPerCheck == 0) run.check();
     if (offset_mm[v] == original.vertices_mm[v]) continue;
     if (!scene.nearest(offset_mm[v].cast<double>(), kShare * std::abs(distance_mm))) return true;
   }
@@ -85,7 +84,7 @@ Mesh offset_mesh(Mesh mesh, double distance_mm, const Run& run) {
   const std::vector<VertexPlanes> planes = vertex_planes(mesh);
   std::vector<Eigen::Vector3f> offset_mm = mesh.vertices_mm;
   for (std::size_t v = 0; v < offset_mm.size(); ++v) {
-    if (v % kVerticesPerCheck == 0) run.check();
+    if (v % kStepsPerCheck == 0) run.check();
     if (planes[v].sum.isZero()) continue;
     offset_mm[v] =
         (offset_mm[v].cast<double>() + distance_mm * unit_displacement(planes[v])).cast<float>();

@@ -7,11 +7,10 @@
 
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
 namespace {
-
-constexpr std::size_t kTrianglesPerCheck = 16'384;  // about 10 ms
 
 /// Another triangle at an edge and whether its orientation is inconsistent with the first one.
 struct Neighbor {
@@ -67,7 +66,7 @@ class OrientationPropagation {
     state_[seed] = State::Kept;
     component.triangles.push_back(seed);
     for (std::size_t i = 0; i < component.triangles.size(); ++i) {
-      if (i % kTrianglesPerCheck == 0) run.check();
+      if (i % kStepsPerCheck == 0) run.check();
       const std::uint32_t t = component.triangles[i];
       add_triangle(t, component);
       for (std::uint32_t edge = 3 * t; edge < 3 * t + 3; ++edge) {

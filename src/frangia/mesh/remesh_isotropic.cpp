@@ -9,6 +9,7 @@
 
 #ifdef FRANGIA_WITH_CGAL
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -66,17 +67,21 @@ double rounded_up(double length) {
   return std::ceil(length / digit) * digit;
 }
 
+std::string count_text(double count) {
+  return count < 1e7 ? fmt::format("{:.0f}", count) : fmt::format("{:.0f} million", count / 1e6);
+}
+
 void require_size(const Mesh& mesh, const RemeshOptions& options) {
   const double triangles = estimate_remeshed_triangles(mesh, options.edge_mm);
   const auto most = static_cast<double>(options.max_triangles);
   if (triangles <= most) return;
   const double fitting_mm = rounded_up(options.edge_mm * std::sqrt(triangles / most));
   throw Error(ErrorKind::Input,
-              fmt::format("edges of {:.3g} mm need about {:.2g} triangles, more than {:.2g}; use "
+              fmt::format("edges of {:.3g} mm need about {} triangles, more than {}; use "
                           "edges of {:.3g} mm or longer",
                           options.edge_mm,
-                          triangles,
-                          most,
+                          count_text(triangles),
+                          count_text(most),
                           fitting_mm));
 }
 

@@ -59,8 +59,8 @@ bool is_needle(const Mesh& mesh,
   return at_boundary && angles < below_rad;
 }
 
-/// Removes the triangles at the tips of needles: nothing tells where the surface would end without
-/// them. Returns the half-edges of the remaining mesh.
+/// Removes the triangles at the tips of needles: the data does not show where the surface ends
+/// without them. Returns the half-edges of the remaining mesh.
 HalfEdges remove_needles(Mesh& mesh, const RemoveSpikesOptions& options, const Run& run) {
   // A tip on a boundary has only part of the angles of a full spike: 15 instead of 180 degrees
   // keeps the corners of regular meshes (45 degrees and more).

@@ -11,12 +11,11 @@
 #include "frangia/core/random.h"
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 #include "frangia/mesh/make_manifold.h"
 
 namespace frangia {
 namespace {
-
-constexpr std::size_t kVerticesPerCheck = 16'384;  // about 10 ms
 
 /// The vertices found so far in a hash grid with the tolerance as its cell size.
 class PointHash {
@@ -106,7 +105,7 @@ Mesh stitch(Mesh mesh, double tolerance_mm, const Run& run) {
   PointHash point_hash(mesh, edges, tolerance_mm);
   bool any = false;
   for (std::uint32_t vertex = 0; vertex < new_index.size(); ++vertex) {
-    if (vertex % kVerticesPerCheck == 0) run.check();
+    if (vertex % kStepsPerCheck == 0) run.check();
     new_index[vertex] = on_boundary[vertex] != 0 ? point_hash.find_or_add(vertex) : vertex;
     any = any || new_index[vertex] != vertex;
   }

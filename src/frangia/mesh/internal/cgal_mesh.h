@@ -6,10 +6,9 @@
 
 #include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
-
-constexpr std::size_t kCgalStepsPerCheck = 16'384;  // vertices or faces, about 10 ms
 
 /// Converts a mesh to CGAL's, with vertices and faces in the same order; nullopt for a mesh that is
 /// not manifold. Only for sources behind FRANGIA_WITH_CGAL.
@@ -22,10 +21,10 @@ template <typename Surface>
   for (const Eigen::Vector3f& vertex : mesh.vertices_mm) {
     const Eigen::Vector3d p = vertex.cast<double>();
     ids.push_back(surface.add_vertex(typename Surface::Point(p.x(), p.y(), p.z())));
-    if (ids.size() % kCgalStepsPerCheck == 0) run.check();
+    if (ids.size() % kStepsPerCheck == 0) run.check();
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (t % kCgalStepsPerCheck == 0) run.check();
+    if (t % kStepsPerCheck == 0) run.check();
     const auto& [a, b, c] = mesh.triangles[t];
     if (surface.add_face(ids[a], ids[b], ids[c]) == Surface::null_face()) return std::nullopt;
   }
@@ -43,7 +42,7 @@ template <typename Surface>
     number[id.idx()] = static_cast<std::uint32_t>(mesh.vertices_mm.size());
     const auto& p = surface.point(id);
     mesh.vertices_mm.emplace_back(Eigen::Vector3d(p.x(), p.y(), p.z()).template cast<float>());
-    if (mesh.vertices_mm.size() % kCgalStepsPerCheck == 0) run.check();
+    if (mesh.vertices_mm.size() % kStepsPerCheck == 0) run.check();
   }
   for (const auto face : surface.faces()) {
     Mesh::Triangle triangle{};
@@ -51,7 +50,7 @@ template <typename Surface>
     for (const auto id : surface.vertices_around_face(surface.halfedge(face)))
       triangle.at(corner++) = number[id.idx()];
     mesh.triangles.push_back(triangle);
-    if (mesh.triangles.size() % kCgalStepsPerCheck == 0) run.check();
+    if (mesh.triangles.size() % kStepsPerCheck == 0) run.check();
   }
   return mesh;
 }
