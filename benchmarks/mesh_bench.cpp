@@ -1,10 +1,7 @@
-// The edits of a scan of two million triangles, and CGAL's decimation of the same. `./run bench`
-// makes the scan; elsewhere FRANGIA_BENCH_DATA names the folder that holds scan.ply.
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
+// Edits of a scan of two million triangles, and CGAL's decimation of the same mesh. `./run bench`
+// makes the scan; otherwise FRANGIA_BENCH_DATA names the folder of scan.ply.
+#include <cstddef>
+#include <utility>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -14,11 +11,9 @@
 #include <benchmark/benchmark.h>
 
 #include "frangia/editor/edit_history.h"
-#include "frangia/editor/internal/select_by_geometry.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/change_selection.h"
 #include "frangia/geometry/connected_components.h"
 #include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/mesh/decimate.h"
@@ -26,77 +21,13 @@
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/mesh_findings.h"
 
+#include "mesh_scan.h"
 #include "wanted.h"
 
 namespace frangia {
 namespace {
 
-constexpr double kShare = 0.1;  // of the triangles that decimation leaves
-
-std::filesystem::path data_path(const char* name) {
-  const char* const folder = std::getenv("FRANGIA_BENCH_DATA");  // NOLINT(concurrency-mt-unsafe)
-  return std::filesystem::path(folder == nullptr ? "out/bench/data" : folder) / name;
-}
-std::filesystem::path scan_path() {
-  return data_path("scan.ply");
-}
-
-/// The scan; an empty mesh, and the benchmark skipped, when there is none.
-const Mesh& scan(benchmark::State& state) {
-  static const Mesh kScan = std::filesystem::exists(scan_path()) ? read_mesh(scan_path()) : Mesh();
-  if (kScan.empty()) state.SkipWithError("there is no scan.ply; ./run bench makes it");
-  state.counters["triangles"] = static_cast<double>(kScan.triangles.size());
-  return kScan;
-}
-
-/// Bytes that a mesh takes.
-double bytes_of(const Mesh& mesh) {
-  return 12.0 * static_cast<double>(mesh.triangles.size()) +
-         (12.0 + (mesh.normals.empty() ? 0.0 : 12.0) + (mesh.sigma_mm.empty() ? 0.0 : 4.0) +
-          (mesh.views.empty() ? 0.0 : 2.0)) *
-             static_cast<double>(mesh.vertices_mm.size());
-}
-
-/// The largest memory that the process had since the last call with `reset`, in bytes.
-double peak_bytes(bool reset) {
-  if (reset) {
-    std::ofstream("/proc/self/clear_refs") << "5";
-  }
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    double kilobytes = 0.0;
-    if (word == "VmHWM:" && status >> kilobytes) return 1024.0 * kilobytes;
-  }
-  return 0.0;
-}
-
-constexpr double kMeshes = 6.0;  // the memory that an edit may take, with the mesh itself
-
-/// Does `work` with a copy of the scan, counts its memory in meshes, and says whether it took at
-/// most `wanted_s`; its seconds.
-template <typename Work>
-double with_scan(benchmark::State& state, const Mesh& mesh, double wanted_s, const Work& work) {
-  double seconds = 0.0;
-  for (auto iteration : state) {
-    static_cast<void>(iteration);
-    state.PauseTiming();
-    const double before = peak_bytes(true);
-    Mesh copy = mesh;
-    const Stopwatch watch;
-    state.ResumeTiming();
-    work(std::move(copy));
-    state.PauseTiming();
-    seconds = watch.seconds();
-    const double meshes = (peak_bytes(false) - before) / bytes_of(mesh);
-    state.counters["memory_meshes"] = meshes;
-    PerformanceTarget target;
-    if (wanted_s > 0.0) target.at_most("time", seconds, wanted_s, "s");
-    target.at_most("memory", meshes, kMeshes, "meshes");
-    target.label(state);
-    state.ResumeTiming();
-  }
-  return seconds;
-}
+constexpr double kShare = 0.1;  // of the triangles after decimation
 
 void load_ply(benchmark::State& state) {
   static_cast<void>(scan(state));
@@ -122,43 +53,12 @@ void remove_small_islands(benchmark::State& state) {
   });
 }
 
-/// The scan with balls cut out of it, spread along it.
-Mesh with_holes(const Mesh& mesh, std::size_t count, double radius_mm) {
-  Selection gone(mesh.triangles.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t t = (2 * i + 1) * mesh.triangles.size() / (2 * count);
-    const Eigen::Vector3d middle = mesh.vertices_mm[mesh.triangles[t][0]].cast<double>();
-    const Selection ball = select_by_ball(mesh, middle, radius_mm);
-    for (std::size_t k = 0; k < gone.size(); ++k)
-      gone[k] |= ball[k];
-  }
-  return keep_largest_components(make_manifold(delete_selected(mesh, gone)));
-}
-
 void fill_50_small_holes(benchmark::State& state) {
   static const Mesh kHoled = with_holes(scan(state), 50, 0.8);
   state.counters["holes"] = static_cast<double>(boundary_loops(kHoled).size());
   with_scan(state, kHoled, 1.0, [](Mesh mesh) {
     benchmark::DoNotOptimize(fill_holes(std::move(mesh), {.up_to_mm = 3.0}));
   });
-}
-
-/// A hole with about 2500 edges: its radius is found by trying.
-const Mesh& with_large_hole(const Mesh& scan) {
-  static const Mesh kHoled = [&] {
-    Mesh best;
-    double radius = 10.0;
-    while (radius < 40.0) {
-      best = with_holes(scan, 1, radius);
-      std::size_t longest = 0;
-      for (const BoundaryLoop& loop : boundary_loops(best))
-        longest = std::max(longest, loop.edges.size());
-      if (longest > 2500) break;
-      radius *= 1.1;
-    }
-    return best;
-  }();
-  return kHoled;
 }
 
 void fill_one_large_hole(benchmark::State& state) {
@@ -177,23 +77,22 @@ void fill_one_large_hole(benchmark::State& state) {
       static_cast<double>(boundary_loops(filled).size()) - static_cast<double>(loops.size() - 1);
 }
 
-/// What decimation comes to.
+/// The result of a decimation.
 struct Decimated {
   double seconds = 0.0;
-  double gap_mm = 0.0;  ///< the Hausdorff distance between it and the scan
+  double hausdorff_mm = 0.0;  ///< distance from the scan
 };
 
-/// What is wrong with a decimated mesh: edges that are not manifold, and how far it lies from the
-/// scan.
-Decimated judge(benchmark::State& state, const Mesh& scan, const Mesh& few, double seconds) {
-  const double gap_mm = hausdorff_distance_mm(RayScene(scan), RayScene(few), 0.1);
+/// Measures a decimated mesh: its non-manifold edges and its distance from the scan.
+Decimated measure(benchmark::State& state, const Mesh& scan, const Mesh& few, double seconds) {
+  const double hausdorff_mm = hausdorff_distance_mm(RayScene(scan), RayScene(few), 0.1);
   state.counters["left"] = static_cast<double>(few.triangles.size());
   state.counters["non_manifold"] = static_cast<double>(count_non_manifold_edges(few));
-  state.counters["hausdorff_mm"] = gap_mm;
-  return {seconds, gap_mm};
+  state.counters["hausdorff_mm"] = hausdorff_mm;
+  return {seconds, hausdorff_mm};
 }
 
-/// The peer's, which runs first.
+/// The result of CGAL, whose benchmark runs first.
 Decimated& cgal() {
   static Decimated of_cgal;
   return of_cgal;
@@ -255,7 +154,7 @@ void decimate_to_tenth_by_cgal(benchmark::State& state) {
     state.ResumeTiming();
   }
   if (few.empty()) return;
-  cgal() = judge(state, mesh, few, seconds);
+  cgal() = measure(state, mesh, few, seconds);
   write_mesh(data_path("tenth-by-cgal.ply"), few);  // for MeshLab, in ./run figures
 }
 
@@ -268,19 +167,19 @@ void decimate_to_tenth(benchmark::State& state) {
     few = decimate(std::move(copy), {.triangles = count});
   });
   if (few.empty()) return;
-  const Decimated own = judge(state, mesh, few, seconds);
+  const Decimated own = measure(state, mesh, few, seconds);
   write_mesh(data_path("tenth.ply"), few);
   PerformanceTarget target;
   target.at_most("memory", state.counters["memory_meshes"], kMeshes, "meshes");
   target.at_most("non-manifold", state.counters["non_manifold"], 0.0, "edges");
   if (cgal().seconds > 0.0) {
     target.at_most("time", own.seconds / cgal().seconds, 0.25, "of CGAL's");
-    target.at_most("Hausdorff", own.gap_mm, cgal().gap_mm, "mm, CGAL's");
+    target.at_most("Hausdorff", own.hausdorff_mm, cgal().hausdorff_mm, "mm, CGAL's");
   }
   target.label(state);
 }
 
-/// Undo and redo of a step that changes everything, both at once.
+/// Undo and redo of a step.
 void undo_and_redo(benchmark::State& state, const EditStep& step) {
   EditHistory history(scan(state));
   history.apply(step);

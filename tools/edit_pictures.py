@@ -1,6 +1,8 @@
-"""Draws every operation of docs/editing.md before and after: python3 tools/edit_pictures.py PROGRAM docs/images/editing
+"""Draws the mesh before and after each operation of docs/editing.md.
 
-The part is a simulated bust, scanned and pasted by the program; for some operations a part of the bracket.
+    python3 tools/edit_pictures.py PROGRAM docs/images/editing [NAME ...]
+
+The mesh is a simulated scan of the bust, for some operations of the bracket. With names, draws only those pictures.
 """
 import pathlib
 import subprocess
@@ -36,7 +38,7 @@ def show(name, before, after, *options):
 
 
 def picture(name, before, steps, *options):
-    """Before and after the steps, drawn alike."""
+    """Draws the mesh before and after the steps with the same options."""
     if ONLY and name not in ONLY:
         return
     after = WORK / f"{name}.ply"
@@ -46,7 +48,7 @@ def picture(name, before, steps, *options):
 
 bust = scan("bust")
 bracket = scan("bracket")
-face = WORK / "face.ply"  # a part of the head, near enough to see triangles
+face = WORK / "face.ply"  # a part of the head in which triangles are visible
 edit(bust, face, "--keep-largest", 1, "--select-box", "-40,-40,62,40,40,100", "--invert", "--delete", "--keep-largest", 1)
 mask = WORK / "mask.ply"
 edit(face, mask, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
@@ -81,7 +83,7 @@ picture("offset", bracket, ["--offset", "2mm"])
 
 
 def write_ply(path, vertices, triangles):
-    """An ascii PLY."""
+    """Writes an ASCII PLY file."""
     lines = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", "property float x", "property float y", "property float z"]
     lines += [f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header"]
     lines += [" ".join(map(str, vertex)) for vertex in vertices]
@@ -97,7 +99,7 @@ def read_off(path):
 
 
 def broken(name, change):
-    """The mask with a fault that `change` makes."""
+    """Writes the mask with a fault that `change` introduces."""
     edit(mask, WORK / "mask.off")
     vertices, triangles = read_off(WORK / "mask.off")
     path = WORK / f"{name}-before.ply"
@@ -111,8 +113,8 @@ def spikes(vertices, triangles):
     return vertices, triangles
 
 
-def crossing(vertices, triangles):
-    """Pairs of spikes that pass through each other."""
+def intersecting(vertices, triangles):
+    """Makes pairs of spikes that intersect each other."""
     vertices = [list(vertex) for vertex in vertices]
     for height in (72, 80, 88):
         left, right = (min(range(len(vertices)), key=lambda i: sum((v - m) ** 2 for v, m in zip(vertices[i], (17, y, height)))) for y in (-4, 4))
@@ -121,12 +123,12 @@ def crossing(vertices, triangles):
     return vertices, triangles
 
 
-def turned(vertices, triangles):
+def flipped(vertices, triangles):
     return vertices, [t if i % 5 else t[::-1] for i, t in enumerate(triangles)]
 
 
-def loose(vertices, triangles):
-    """Each triangle with corners of its own, moved apart a little."""
+def unconnected(vertices, triangles):
+    """Gives each triangle its own vertices and shrinks it by 7 %."""
     places, faces = [], []
     for t in triangles:
         middle = [sum(vertices[v][axis] for v in t) / 3 for axis in range(3)]
@@ -136,11 +138,11 @@ def loose(vertices, triangles):
 
 
 picture("remove-spikes", broken("spikes", spikes), ["--remove-spikes"])
-picture("remove-self-intersections", broken("crossing", crossing), ["--remove-self-intersections"])
+picture("remove-self-intersections", broken("intersecting", intersecting), ["--remove-self-intersections"])
 
 
 def ball(centre, radius, rings=48):
-    """Vertices and triangles of a sphere of rings and meridians."""
+    """Returns the vertices and triangles of a sphere of rings and meridians."""
     from math import cos, pi, sin
 
     vertices = [[centre[0], centre[1], centre[2] + radius]]
@@ -166,5 +168,5 @@ if not ONLY or "unite" in ONLY:
     for mesh in (bodies, united):
         edit(mesh, mesh, "--cut", "0,1,0,0.5mm")
     show("unite", bodies, united, "--azimuth", -80)
-picture("orient", broken("turned", turned), ["--orient"])
-picture("stitch", broken("loose", loose), ["--stitch", "0.1mm"], "--edges")
+picture("orient", broken("flipped", flipped), ["--orient"])
+picture("stitch", broken("unconnected", unconnected), ["--stitch", "0.1mm"], "--edges")

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kShown = 20;
 
-/// Numbers of a list's items, the largest first.
+/// Indices of the items in descending order of size.
 template <typename Item>
 std::vector<std::size_t> by_size(const std::vector<Item>& items) {
   std::vector<std::size_t> order(items.size());
@@ -24,22 +24,22 @@ std::vector<std::size_t> by_size(const std::vector<Item>& items) {
 }
 
 void print_remainder(std::size_t count) {
-  if (count > kShown) fmt::print("  ... and {} smaller ones (--json shows all)\n", count - kShown);
+  if (count > kShown) fmt::print("  {} more, all smaller (--json lists them)\n", count - kShown);
 }
 
-void print_components(const std::vector<MeshComponent>& parts) {
-  if (parts.size() < 2) return;
-  fmt::print("\n  part  size mm     area mm2  triangles\n");
-  const auto order = by_size(parts);
+void print_components(const std::vector<MeshComponent>& components) {
+  if (components.size() < 2) return;
+  fmt::print("\n  component  size mm     area mm2  triangles\n");
+  const auto order = by_size(components);
   for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
-    const MeshComponent& part = parts[order[i]];
-    fmt::print("  {:>4} {:>8.2f} {:>12.2f} {:>10}\n",
+    const MeshComponent& component = components[order[i]];
+    fmt::print("  {:>9} {:>8.2f} {:>12.2f} {:>10}\n",
                order[i],
-               part.size_mm,
-               part.area_mm2,
-               part.triangles);
+               component.size_mm,
+               component.area_mm2,
+               component.triangles);
   }
-  print_remainder(parts.size());
+  print_remainder(components.size());
 }
 
 void print_holes(const std::vector<BoundaryLoop>& holes) {
@@ -67,10 +67,11 @@ nlohmann::ordered_json findings_json(const MeshFindings& found) {
   nlohmann::ordered_json json;
   json["vertices"] = found.vertices;
   json["triangles"] = found.triangles;
-  json["parts"] = nlohmann::ordered_json::array();
-  for (const MeshComponent& part : found.components) {
-    json["parts"].push_back(
-        {{"triangles", part.triangles}, {"size_mm", part.size_mm}, {"area_mm2", part.area_mm2}});
+  json["components"] = nlohmann::ordered_json::array();
+  for (const MeshComponent& component : found.components) {
+    json["components"].push_back({{"triangles", component.triangles},
+                                  {"size_mm", component.size_mm},
+                                  {"area_mm2", component.area_mm2}});
   }
   json["holes"] = nlohmann::ordered_json::array();
   for (const BoundaryLoop& loop : found.holes) {
@@ -111,14 +112,15 @@ void print_findings(const MeshFindings& found) {
                point_text(found.box_mm.min()) + "  to  " + point_text(found.box_mm.max()));
   }
   print_line("area mm2", fmt::format("{:.3f}", found.area_mm2));
-  print_line("volume mm3",
-             found.closed ? fmt::format("{:.3f}", found.volume_mm3) : "none: it is not closed");
+  print_line(
+      "volume mm3",
+      found.closed ? fmt::format("{:.3f}", found.volume_mm3) : "none: the mesh is not closed");
   print_line("non-manifold edges", fmt::format("{}", found.non_manifold_edges));
-  print_line("without area", fmt::format("{}", found.degenerate_triangles));
-  print_line("crossing pairs",
+  print_line("degenerate", fmt::format("{}", found.degenerate_triangles));
+  print_line("intersecting pairs",
              found.self_intersections ? fmt::format("{}", *found.self_intersections)
-                                      : "unknown to a build without CGAL");
-  print_line("parts", fmt::format("{}", found.components.size()));
+                                      : "unknown: this build has no CGAL");
+  print_line("components", fmt::format("{}", found.components.size()));
   print_line("holes", fmt::format("{}", found.holes.size()));
   print_components(found.components);
   print_holes(found.holes);

@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// What `frangia edit --list` and --json say of a mesh.
+/// The output of `frangia edit --json` and `frangia edit --list`.
 [[nodiscard]] nlohmann::ordered_json findings_json(const MeshFindings& found);
 void print_findings(const MeshFindings& found);
 

@@ -90,7 +90,7 @@ TEST_F(Program, ShowsWhatAnEditWouldDoAndWritesNoMesh) {
   const std::string edit = "edit " + quoted(mesh) + " --select-plane 0,0,1,8mm --delete --preview ";
   const Answer answer = run_program(edit + quoted(out("look.png")));
   EXPECT_EQ(answer.exit_code, 0) << answer.output;
-  EXPECT_NE(answer.output.find("would go or move"), std::string::npos) << answer.output;
+  EXPECT_NE(answer.output.find("would be removed or moved"), std::string::npos) << answer.output;
   EXPECT_GT(std::filesystem::file_size(out("look.png")), 1000U);
   EXPECT_EQ(run_program(edit + quoted(out("look.jpg"))).exit_code, 3);
 }

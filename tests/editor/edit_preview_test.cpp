@@ -23,14 +23,14 @@ Mesh coarse_ball() {
   return sphere(Vector3d::Zero(), 20.0, 30);
 }
 
-/// The ball's vertices farther out.
-Mesh swollen(Mesh mesh, float by_mm) {
+/// Moves the vertices of a ball outwards.
+Mesh inflated(Mesh mesh, float by_mm) {
   for (auto& vertex : mesh.vertices_mm)
     vertex += by_mm * vertex.normalized();
   return mesh;
 }
 
-TEST(EditPreview, OfIslandsIsTheIslands) {
+TEST(EditPreview, OfRemovedIslandsIsTheIslands) {
   Mesh mesh = coarse_ball();
   const std::size_t large = mesh.triangles.size();
   append_mesh(mesh, sphere({50, 0, 0}, 1.0, 6));
@@ -50,7 +50,7 @@ TEST(EditPreview, OfAFilledHoleIsThePatch) {
     ASSERT_EQ(preview.added[t] != 0, t >= open.triangles.size());
 }
 
-TEST(EditPreview, OfASpikeIsWhatIsAtItsTip) {
+TEST(EditPreview, OfARemovedSpikeIsTheTrianglesAtItsTip) {
   Mesh mesh = coarse_ball();
   mesh.vertices_mm[1000] *= 2.0F;
   const EditPreview preview = edit_preview(mesh, remove_spikes(mesh));
@@ -60,24 +60,24 @@ TEST(EditPreview, OfASpikeIsWhatIsAtItsTip) {
   }
 }
 
-TEST(EditPreview, OfMovesWithinSigmaAndOfFewerTrianglesIsEmpty) {
+TEST(EditPreview, IsEmptyForMovesWithinSigmaAndForFewerTriangles) {
   Mesh mesh = coarse_ball();
   mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.1F);
-  for (const Mesh& after : {swollen(mesh, 0.05F), decimate(mesh, {.tolerance_mm = 0.05})}) {
+  for (const Mesh& after : {inflated(mesh, 0.05F), decimate(mesh, {.tolerance_mm = 0.05})}) {
     const EditPreview preview = edit_preview(mesh, after);
     EXPECT_EQ(count_selected(preview.removed), 0U);
     EXPECT_EQ(count_selected(preview.added), 0U);
   }
-  const EditPreview far = edit_preview(mesh, swollen(mesh, 0.2F));
+  const EditPreview far = edit_preview(mesh, inflated(mesh, 0.2F));
   EXPECT_EQ(count_selected(far.removed), mesh.triangles.size());
 }
 
-TEST(EditPreview, SeesWhatIsTurnedRound) {
+TEST(EditPreview, ShowsReversedTriangles) {
   const EditPreview preview = edit_preview(coarse_ball(), reverse_orientation(coarse_ball()));
   EXPECT_EQ(count_selected(preview.removed), coarse_ball().triangles.size());
 }
 
-TEST(EditPreview, OfAnEmptyMeshIsEverything) {
+TEST(EditPreview, OfAnEmptyResultIsEverything) {
   EXPECT_EQ(count_selected(edit_preview(coarse_ball(), Mesh()).removed),
             coarse_ball().triangles.size());
 }

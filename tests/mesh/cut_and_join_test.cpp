@@ -1,4 +1,4 @@
-// Cuts, bridges, remeshing and crossings, on shapes whose every figure is known.
+// Cuts, bridges, remeshing and self-intersections of shapes with known areas and volumes.
 #include <algorithm>
 #include <cmath>
 
@@ -38,14 +38,14 @@ Eigen::Hyperplane<double, 3> plane(const Vector3d& normal, double along) {
   return {normal.normalized(), -along};
 }
 
-TEST(CutByPlane, CappedLeavesTheVolumeOfASegmentOfASphere) {
+TEST(CutByPlane, LeavesTheVolumeOfASegmentOfASphereWhenCapped) {
   const double height = 8.0;  // of the segment
   const Mesh cut = cut_by_plane(fine_ball(), plane({1, 2, 3}, 20.0 - height), {.capped = true});
   EXPECT_EQ(open_edges(cut), 0U);
   EXPECT_NEAR(volume_mm3(cut) / (kPi * height * height * (20.0 - height / 3.0)), 1.0, 0.01);
 }
 
-TEST(CutByPlane, OpenLeavesOneLoopInThePlaneAndSynthesizesNothing) {
+TEST(CutByPlane, LeavesOneLoopInThePlaneAndSynthesizesNothingWhenOpen) {
   const Mesh cut = cut_by_plane(fine_ball(), plane({0, 0, 1}, 5.3));
   const auto loops = boundary_loops(cut);
   ASSERT_EQ(loops.size(), 1U);
@@ -63,7 +63,7 @@ TEST(CutByPlane, CapsATubeWithItsHole) {
   EXPECT_NEAR(volume_mm3(both), (900.0 - 100.0) * 15.0, 0.01);
 }
 
-TEST(CutByPlane, ThroughVerticesAndEdgesMakesNoSlivers) {
+TEST(CutByPlane, MakesNoSliversAtVerticesAndEdgesOnThePlane) {
   const Mesh cut = cut_by_plane(fine_ball(), plane({0, 0, 1}, 0.0), {.capped = true});
   EXPECT_EQ(open_edges(cut), 0U);
   EXPECT_EQ(mesh_findings(cut).degenerate_triangles, 0U);
@@ -71,22 +71,22 @@ TEST(CutByPlane, ThroughVerticesAndEdgesMakesNoSlivers) {
   EXPECT_EQ(cut_by_plane(fine_ball(), plane({0, 0, 1}, -30.0)).triangles, fine_ball().triangles);
 }
 
-TEST(BridgeLoops, JoinsTwoHalvesToOneClosedPart) {
+TEST(BridgeLoops, JoinsTwoHalvesToOneClosedComponent) {
   Mesh halves = cut_by_plane(fine_ball(), plane({0, 0, 1}, 4.0));
   append_mesh(halves, cut_by_plane(fine_ball(), plane({0, 0, -1}, 4.0)));
   ASSERT_EQ(boundary_loops(halves).size(), 2U);
   const Mesh whole = bridge_loops(halves, 0, 1);
   EXPECT_EQ(open_edges(whole), 0U);
   EXPECT_EQ(connected_components(whole).components.size(), 1U);
-  // Between the halves now stands a cylinder.
-  const double low = testing::volume_mm3(fine_ball());
-  EXPECT_NEAR(volume_mm3(whole) / low, 1.0, 0.03);
+  // The bridge is nearly a cylinder.
+  const double ball_mm3 = testing::volume_mm3(fine_ball());
+  EXPECT_NEAR(volume_mm3(whole) / ball_mm3, 1.0, 0.03);
   EXPECT_EQ(mesh_findings(whole).marks[2], whole.triangles.size() - halves.triangles.size());
   EXPECT_THROW(static_cast<void>(bridge_loops(halves, 0, 0)), Error);
   EXPECT_THROW(static_cast<void>(bridge_loops(halves, 0, 2)), Error);
 }
 
-TEST(RemeshIsotropic, GivesEdgesOfOneLengthOnTheSameSurface) {
+TEST(RemeshIsotropic, MakesEdgesOfOneLengthOnTheSameSurface) {
   Mesh mesh = fine_ball();
   mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.05F);
   const Mesh even = remesh_isotropic(mesh, {.edge_mm = 2.0, .iterations = 5});
@@ -103,28 +103,28 @@ TEST(RemeshIsotropic, KeepsTheEdgesOfABox) {
   EXPECT_GT(even.triangles.size(), 500U);
 }
 
-TEST(SelfIntersections, AreNoneInASphereOrABoxOrBesideEachOther) {
+TEST(SelfIntersections, FindsNoneInASphereABoxOrSeparateBoxes) {
   EXPECT_TRUE(self_intersections(fine_ball()).empty());
   Mesh boxes = box({0, 0, 0}, {1, 1, 1});
   append_mesh(boxes, box({1.001F, 0, 0}, {2, 1, 1}));
   EXPECT_TRUE(self_intersections(boxes).empty());
 }
 
-TEST(SelfIntersections, AreFoundWhereTwoBallsCrossAndNowhereElse) {
+TEST(SelfIntersections, FindsThemOnlyWhereTwoBallsIntersect) {
   Mesh mesh = fine_ball(10.0);
   append_mesh(mesh, fine_ball(10.0, {12.0, 0.3, 0.2}));
-  const Selection crossing = select_self_intersections(mesh);
-  EXPECT_GT(count_selected(crossing), 100U);
-  for (std::size_t i = 0; i < crossing.size(); ++i) {
+  const Selection intersecting = select_self_intersections(mesh);
+  EXPECT_GT(count_selected(intersecting), 100U);
+  for (std::size_t i = 0; i < intersecting.size(); ++i) {
     const auto& t = mesh.triangles[i];
-    const Eigen::Vector3f middle =
+    const Eigen::Vector3f centroid =
         (mesh.vertices_mm[t[0]] + mesh.vertices_mm[t[1]] + mesh.vertices_mm[t[2]]) / 3.0F;
-    const bool near = std::abs(middle.x() - 6.0F) < 1.5F;
-    EXPECT_TRUE(near || crossing[i] == 0) << i;
+    const bool near = std::abs(centroid.x() - 6.0F) < 1.5F;
+    EXPECT_TRUE(near || intersecting[i] == 0) << i;
   }
 }
 
-TEST(SelfIntersections, AreFoundOfAFoldAndOfRepeatedTriangles) {
+TEST(SelfIntersections, FindsAFoldAndDuplicateTriangles) {
   Mesh fold;
   fold.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2F, 0.7F, 0}};
   fold.triangles = {{0, 1, 2}, {1, 0, 3}};
@@ -133,7 +133,7 @@ TEST(SelfIntersections, AreFoundOfAFoldAndOfRepeatedTriangles) {
   EXPECT_EQ(self_intersections(fold).size(), 1U);
 }
 
-TEST(MeshFindings, KnowABoxWithAHole) {
+TEST(MeshFindings, DescribeABoxWithAHole) {
   Mesh mesh = box({0, 0, 0}, {10, 20, 30});
   MeshFindings found = mesh_findings(mesh);
   EXPECT_TRUE(found.closed);
@@ -147,7 +147,7 @@ TEST(MeshFindings, KnowABoxWithAHole) {
   EXPECT_NEAR(found.holes[0].length_mm, 60.0, 1e-6);
 }
 
-TEST(MeshFindings, OfNothingAreNothing) {
+TEST(MeshFindings, AreEmptyForAnEmptyMesh) {
   const MeshFindings found = mesh_findings(Mesh());
   EXPECT_FALSE(found.closed);
   EXPECT_EQ(found.triangles, 0U);

@@ -21,11 +21,11 @@ double area_of(const Line& line, const std::vector<std::array<std::size_t, 3>>& 
     sum += cross / 2.0;
     area += cross.norm() / 2.0;
   }
-  EXPECT_NEAR(sum.norm(), area, 1e-9 * area);  // nothing is folded
+  EXPECT_NEAR(sum.norm(), area, 1e-9 * area);  // no triangle is folded
   return area;
 }
 
-/// A star with a tooth at every other corner.
+/// A star with alternating radii.
 Line star(std::size_t corners) {
   Line line;
   for (std::size_t i = 0; i < corners; ++i) {
@@ -56,7 +56,7 @@ TEST(MinimumAreaTriangulation, CoversAStarOfManyCornersOnce) {
   EXPECT_NEAR(area_of(line, triangles), area_of_star(3000), 1e-6);
 }
 
-TEST(MinimumAreaTriangulation, TakesAForbiddenChordOnlyWhenItMust) {
+TEST(MinimumAreaTriangulation, AvoidsAForbiddenChord) {
   const Line square{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 1, 0}};
   for (const std::size_t first : {0U, 1U}) {
     const auto is_forbidden = [first](std::size_t a, std::size_t b) {
@@ -71,7 +71,7 @@ TEST(MinimumAreaTriangulation, TakesAForbiddenChordOnlyWhenItMust) {
   }
 }
 
-TEST(MinimumAreaTriangulation, OfTwoCornersIsNothing) {
+TEST(MinimumAreaTriangulation, IsEmptyForTwoCorners) {
   EXPECT_TRUE(minimum_area_triangulation({{0, 0, 0}, {1, 0, 0}}).empty());
 }
 

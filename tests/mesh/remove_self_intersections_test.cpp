@@ -22,16 +22,16 @@ using testing::open_edges;
 using testing::sphere;
 using testing::volume_mm3;
 
-using Place = std::tuple<float, float, float>;
+using Position = std::tuple<float, float, float>;
 
-std::set<Place> places(const Mesh& mesh) {
-  std::set<Place> all;
+std::set<Position> positions_of(const Mesh& mesh) {
+  std::set<Position> all;
   for (const auto& p : mesh.vertices_mm)
     all.emplace(p.x(), p.y(), p.z());
   return all;
 }
 
-/// A square sheet of so many vertices a side, 1 mm apart, about the origin, facing z.
+/// A square sheet of `count` vertices per side, 1 mm apart, centred on the origin, facing z.
 Mesh sheet(int count) {
   Mesh mesh;
   for (int x = 0; x < count; ++x) {
@@ -50,37 +50,37 @@ Mesh sheet(int count) {
   return mesh;
 }
 
-TEST(RemoveSelfIntersections, OfADentThroughTheOtherSideLeaveAClosedMesh) {
+TEST(RemoveSelfIntersections, ClosesABallDentedThroughItsOtherSide) {
   Mesh mesh = sphere(Eigen::Vector3d::Zero(), 20.0, 40);
   for (auto& vertex : mesh.vertices_mm) {
     if (vertex.x() > 19.0F) vertex.x() -= 42.0F;
   }
   ASSERT_FALSE(self_intersections(mesh).empty());
-  const Mesh mended = remove_self_intersections(mesh);
-  EXPECT_TRUE(self_intersections(mended).empty());
-  EXPECT_EQ(open_edges(mended), 0U);
-  EXPECT_EQ(connected_components(mended).components.size(), 1U);
+  const Mesh repaired = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(repaired).empty());
+  EXPECT_EQ(open_edges(repaired), 0U);
+  EXPECT_EQ(connected_components(repaired).components.size(), 1U);
 }
 
-TEST(RemoveSelfIntersections, UniteTwoBallsThatCross) {
+TEST(RemoveSelfIntersections, UnitesTwoIntersectingBalls) {
   Mesh mesh = sphere({0, 0, 0}, 10.0, 60);
   append_mesh(mesh, sphere({12.0, 0.3, 0.2}, 10.0, 60));
   const Mesh united = remove_self_intersections(mesh);
   EXPECT_TRUE(self_intersections(united).empty());
   EXPECT_EQ(open_edges(united), 0U);
   EXPECT_EQ(connected_components(united).components.size(), 1U);
-  // Two balls without the lens that they have in common.
+  // The volume of two balls minus their common lens.
   const double h = 10.0 - 0.5 * std::hypot(12.0, 0.3, 0.2);
   const double lens = 2.0 * kPi * h * h * (30.0 - h) / 3.0;
   EXPECT_NEAR(volume_mm3(united) / (8000.0 * kPi / 3.0 - lens), 1.0, 0.003);
-  const auto after = places(united);
-  for (const auto& [x, y, z] : places(mesh)) {
+  const auto after = positions_of(united);
+  for (const auto& [x, y, z] : positions_of(mesh)) {
     EXPECT_TRUE((x > 4.0F && x < 8.0F) || after.contains({x, y, z}) ||
                 (x >= 8.0F ? std::hypot(x, y, z) : std::hypot(x - 12, y, z)) < 10.5F);
   }
 }
 
-TEST(RemoveSelfIntersections, OfASpikeThroughASheetKeepTheRestOfBoth) {
+TEST(RemoveSelfIntersections, KeepsTheRestOfTwoSheetsAroundASpike) {
   Mesh mesh = sheet(41);
   for (auto& vertex : mesh.vertices_mm)
     vertex.z() = 25.0F * std::exp(-vertex.head<2>().squaredNorm() / 4.0F);
@@ -89,30 +89,30 @@ TEST(RemoveSelfIntersections, OfASpikeThroughASheetKeepTheRestOfBoth) {
     vertex += Eigen::Vector3f(0.13F, 0.07F, 10.0F);
   append_mesh(mesh, other);
   ASSERT_FALSE(self_intersections(mesh).empty());
-  const Mesh mended = remove_self_intersections(mesh);
-  EXPECT_TRUE(self_intersections(mended).empty());
-  EXPECT_EQ(count_non_manifold_edges(mended), 0U);
-  EXPECT_EQ(boundary_loops(mended).size(), 2U);  // of the two sheets, as before
-  const auto after = places(mended);
-  for (const auto& [x, y, z] : places(mesh))
+  const Mesh repaired = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(repaired).empty());
+  EXPECT_EQ(count_non_manifold_edges(repaired), 0U);
+  EXPECT_EQ(boundary_loops(repaired).size(), 2U);  // of the two sheets
+  const auto after = positions_of(repaired);
+  for (const auto& [x, y, z] : positions_of(mesh))
     EXPECT_TRUE(std::hypot(x, y) < 5.0F || after.contains({x, y, z}));
 }
 
-TEST(RemoveSelfIntersections, BetweenOpenSheetsLeaveTheirBoundariesOpen) {
+TEST(RemoveSelfIntersections, KeepsTheBoundariesOfOpenSheetsOpen) {
   Mesh mesh = sheet(21);
   Mesh upright = sheet(21);
   for (auto& vertex : upright.vertices_mm)
     vertex = Eigen::Vector3f(vertex.x() + 0.3F, 0.2F, vertex.y() + 0.4F);
   append_mesh(mesh, upright);
-  const Mesh mended = remove_self_intersections(mesh);
-  EXPECT_TRUE(self_intersections(mended).empty());
-  EXPECT_TRUE(std::none_of(mended.triangle_marks.begin(),
-                           mended.triangle_marks.end(),
+  const Mesh repaired = remove_self_intersections(mesh);
+  EXPECT_TRUE(self_intersections(repaired).empty());
+  EXPECT_TRUE(std::none_of(repaired.triangle_marks.begin(),
+                           repaired.triangle_marks.end(),
                            [](Mark mark) { return mark == Mark::Synthesized; }));
-  EXPECT_GT(boundary_loops(mended).size(), 2U);
+  EXPECT_GT(boundary_loops(repaired).size(), 2U);
 }
 
-TEST(RemoveSelfIntersections, OfAMeshWithoutAnyChangeNothing) {
+TEST(RemoveSelfIntersections, KeepsAMeshWithoutSelfIntersections) {
   const Mesh mesh = sphere({0, 0, 0}, 10.0, 20);
   EXPECT_EQ(remove_self_intersections(mesh).triangles, mesh.triangles);
 }

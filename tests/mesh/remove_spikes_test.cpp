@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-TEST(RemoveSpikes, SetsATipDownAndLeavesTheRest) {
+TEST(RemoveSpikes, FlattensATipAndKeepsTheRest) {
   constexpr float kBallRadius = 20.0F;
   Mesh mesh = testing::sphere(Eigen::Vector3d::Zero(), kBallRadius, 40);
   mesh.vertices_mm[1000] *= 2.0F;
@@ -20,7 +20,7 @@ TEST(RemoveSpikes, SetsATipDownAndLeavesTheRest) {
   EXPECT_EQ(flat.vertex_marks[1000], Mark::Displaced);
 }
 
-TEST(RemoveSpikes, LeavesTheCornersOfABoxAndTheBoundaryOfASheet) {
+TEST(RemoveSpikes, KeepsTheCornersOfABoxAndTheBoundaryOfASheet) {
   for (const Mesh& mesh :
        {testing::box(Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones()), testing::sheet(21)}) {
     const Mesh same = remove_spikes(mesh);
@@ -29,22 +29,22 @@ TEST(RemoveSpikes, LeavesTheCornersOfABoxAndTheBoundaryOfASheet) {
   }
 }
 
-TEST(RemoveSpikes, CutsNeedlesAtTheBoundaryOff) {
+TEST(RemoveSpikes, RemovesNeedlesAtTheBoundary) {
   const Mesh sheet = testing::sheet(21);
   Mesh mesh = sheet;
-  mesh.vertices_mm[10].y() -= 8.0F;        // in the sheet, away from it
-  mesh.vertices_mm[210].z() += 8.0F;       // across it
-  mesh.vertices_mm[211 + 63].z() += 8.0F;  // amid the sheet
-  const Mesh mended = remove_spikes(mesh);
-  for (const auto& vertex : mended.vertices_mm) {
+  mesh.vertices_mm[10].y() -= 8.0F;        // in the plane of the sheet
+  mesh.vertices_mm[210].z() += 8.0F;       // perpendicular to the sheet
+  mesh.vertices_mm[211 + 63].z() += 8.0F;  // in the middle of the sheet
+  const Mesh repaired = remove_spikes(mesh);
+  for (const auto& vertex : repaired.vertices_mm) {
     EXPECT_LT(std::abs(vertex.z()), 0.5F);
     EXPECT_GE(vertex.y(), 0.0F);
   }
-  EXPECT_EQ(mended.triangles.size() + 6, sheet.triangles.size());  // three at each
-  EXPECT_EQ(mended.vertices_mm.size() + 2, sheet.vertices_mm.size());
+  EXPECT_EQ(repaired.triangles.size() + 6, sheet.triangles.size());  // three at each
+  EXPECT_EQ(repaired.vertices_mm.size() + 2, sheet.vertices_mm.size());
 }
 
-TEST(RemoveSpikes, LeavesAMeshWithoutTrianglesAlone) {
+TEST(RemoveSpikes, AcceptsAnEmptyMesh) {
   EXPECT_TRUE(remove_spikes(Mesh{}).vertices_mm.empty());
 }
 

@@ -8,29 +8,29 @@
 
 namespace frangia {
 
-/// A mesh being edited: every step can be undone and done again, to the bit, without end.
+/// A mesh under edit with unlimited undo and redo. Both restore the state to the bit.
 ///
-/// What is kept of a step is what it changed. The steps are a script that makes the same mesh of
-/// the same beginning anywhere: edit_script.h reads and writes it.
+/// The history stores what each step changed. The steps form a script that reproduces the result
+/// from the same mesh: edit_script.h reads and writes it.
 class EditHistory {
  public:
   explicit EditHistory(Mesh mesh) { state_.mesh = std::move(mesh); }
 
-  /// Does a step. What was undone before is forgotten. When it fails nothing has changed.
+  /// Applies a step and drops the steps that were undone. A step that fails changes nothing.
   ///
   /// errors   as apply_step
   void apply(const EditStep& step, const Run& run = {});
 
-  /// False when there is nothing to undo or to do again.
+  /// Return false when no step is left to undo or to redo.
   bool undo();
   bool redo();
 
   [[nodiscard]] const EditState& state() const { return state_; }
   [[nodiscard]] const Mesh& mesh() const { return state_.mesh; }
-  /// All steps, the undone ones behind the `done()` first.
+  /// All steps; those after the first `done()` were undone.
   [[nodiscard]] const std::vector<EditStep>& steps() const { return steps_; }
   [[nodiscard]] std::size_t done() const { return done_; }
-  /// What the memory of all steps takes.
+  /// The memory of the stored changes.
   [[nodiscard]] std::size_t bytes() const;
 
  private:

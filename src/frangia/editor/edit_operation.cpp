@@ -12,18 +12,18 @@
 namespace frangia {
 namespace {
 
-/// Vectors that are compared as bytes, so that NaN is equal to itself.
+/// Compares vectors as bytes, so that NaN equals itself.
 template <typename T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() &&
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// What an error says behind the name of the function that says it: users know the operation's.
+/// Removes the name of a library function in front of an error: users know the operation's name.
 std::string without_function(const std::string& text) {
   const std::size_t colon = text.find(": ");
-  const bool named = colon != std::string::npos && text.find(' ') > colon;
-  return named ? text.substr(colon + 2) : text;
+  const bool has_name = colon != std::string::npos && text.find(' ') > colon;
+  return has_name ? text.substr(colon + 2) : text;
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ const EditOperation& edit_operation(const std::string& name) {
   for (const EditOperation& operation : edit_operations())
     if (name == operation.name) return operation;
   throw Error(ErrorKind::Input,
-              fmt::format("there is no operation '{}'; frangia edit --help lists them", name));
+              fmt::format("there is no operation '{}'; `help` lists the operations", name));
 }
 
 void check_step(const EditStep& step) {
@@ -64,7 +64,7 @@ void check_step(const EditStep& step) {
   try {
     const std::string pattern = operation.value;
     if (pattern.empty()) {
-      require(step.value.empty(), "it takes no value");
+      require(step.value.empty(), "the operation takes no value");
     } else if (pattern == "MARK") {
       static_cast<void>(edit_mark(step.value));
     } else {
@@ -77,6 +77,8 @@ void check_step(const EditStep& step) {
 
 void apply_step(EditState& state, const EditStep& step, const Run& run) {
   check_step(step);
+  run.check();
+  const bool had_triangles = !state.mesh.empty();
   try {
     edit_operation(step.operation).apply(state, step.value, run);
   } catch (const Error& error) {
@@ -84,7 +86,11 @@ void apply_step(EditState& state, const EditStep& step, const Run& run) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: {}", step.operation, without_function(error.what())));
   }
-  // What was selected is told by numbers of triangles, which a change of them takes away.
+  if (had_triangles && state.mesh.empty()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: no triangle of the mesh would be left", step.operation));
+  }
+  // A selection holds one flag per triangle: it has no meaning for other triangles.
   if (state.selection.size() != state.mesh.triangles.size()) state.selection.clear();
 }
 

@@ -10,20 +10,20 @@
 
 namespace frangia {
 
-/// How the next selection meets the present one.
+/// How the next selection combines with the present one.
 enum class Combine { Replace, Add, Within };
 
-/// What operations work on.
+/// The state that operations change.
 struct EditState {
   Mesh mesh;
-  Selection selection;  ///< empty: nothing was selected
+  Selection selection;  ///< empty: no selection was made
   Combine combine = Combine::Replace;
-  double max_sigmas = 3.0;  ///< how far smoothing may move a vertex; 0: as far as it likes
+  double max_sigmas = 3.0;  ///< limit of smoothing in sigma of each vertex; 0: no limit
 
   bool operator==(const EditState& other) const;
 };
 
-/// An operation and its value, as the command line and scripts write them: "fill-holes", "10mm".
+/// An operation and its value as scripts write them: "fill-holes", "10mm".
 struct EditStep {
   std::string operation;
   std::string value;
@@ -33,24 +33,29 @@ struct EditStep {
 
 struct EditOperation {
   const char* name;
-  const char* group;  ///< of the operation in a list: "Selecting", ...
-  const char* value;  ///< what its value is, "MM" or "X,Y,Z,MM"; empty when it takes none
+  const char* group;  ///< heading in a list of operations: "Selection", ...
+  const char* value;  ///< pattern of its value: "SIZE", "X,Y,Z,MM"; empty when it takes none
   const char* help;
   std::function<void(EditState&, const std::string&, const Run&)> apply;
 };
 
-/// All operations, in the order in which a manual tells of them.
+/// All operations, in the order of the manual.
 [[nodiscard]] const std::vector<EditOperation>& edit_operations();
 
-/// errors   Error(Input) when there is no such operation, or its value is none
+/// Finds an operation by its name.
+///
+/// errors   Error(Input) when there is no such operation
 [[nodiscard]] const EditOperation& edit_operation(const std::string& name);
 
-/// Checks that a step's value is one, without doing anything.
+/// Checks the operation and the value of a step without applying it.
 ///
-/// errors   Error(Input) that names the operation, the value, and how one is written
+/// errors   Error(Input) that names the operation and the value and says how to write one
 void check_step(const EditStep& step);
 
-/// errors   Error(Input) as check_step and as the operation itself
+/// Applies a step. Drops the selection when the triangles change.
+///
+/// errors   Error(Input) as check_step and as the operation, and when the step leaves no triangle
+///          of a mesh that had some; Error(Cancelled) when `run` is stopped
 void apply_step(EditState& state, const EditStep& step, const Run& run = {});
 
 }  // namespace frangia

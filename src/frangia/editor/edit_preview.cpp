@@ -14,7 +14,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kChunk = 4096;
-constexpr double kRounding = 3e-6;  // of coordinates in single precision, of the mesh's size
+// Rounding of coordinates in single precision, relative to the size of the mesh: 25 ulp.
+constexpr double kRounding = 3e-6;
 
 double size_of(const Mesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -27,8 +28,8 @@ class Surface {
  public:
   explicit Surface(const Mesh& mesh) : scene_(mesh), rounding_mm_(kRounding * size_of(mesh)) {}
 
-  /// Whether a triangle of another mesh is a part of this one.
-  [[nodiscard]] bool has(const Mesh& mesh, const Mesh::Triangle& triangle) const {
+  /// Whether a triangle of another mesh lies on this surface and faces the same way.
+  [[nodiscard]] bool contains(const Mesh& mesh, const Mesh::Triangle& triangle) const {
     double reach = rounding_mm_;
     Vector3d middle = Vector3d::Zero();
     for (const std::uint32_t vertex : triangle) {
@@ -37,8 +38,8 @@ class Surface {
       middle += mesh.vertices_mm[vertex].cast<double>() / 3.0;
     }
     if (!middle.allFinite()) return true;
-    const auto below = scene_.nearest(middle, reach);
-    if (!below || normal_of(mesh, triangle).dot(normal_below(*below)) < 0.0) return false;
+    const auto nearest = scene_.nearest(middle, reach);
+    if (!nearest || normal_of(mesh, triangle).dot(normal_at(*nearest)) < 0.0) return false;
     return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
       return scene_.nearest(mesh.vertices_mm[vertex].cast<double>(), reach).has_value();
     });
@@ -51,8 +52,8 @@ class Surface {
     const Vector3d c = mesh.vertices_mm[triangle[2]].cast<double>();
     return (b - a).cross(c - a);
   }
-  [[nodiscard]] Vector3d normal_below(const NearestPoint& below) const {
-    return normal_of(scene_.mesh(), scene_.mesh().triangles[below.triangle]);
+  [[nodiscard]] Vector3d normal_at(const NearestPoint& nearest) const {
+    return normal_of(scene_.mesh(), scene_.mesh().triangles[nearest.triangle]);
   }
 
   RayScene scene_;
@@ -60,20 +61,23 @@ class Surface {
 };
 
 Selection differing_triangles(const Mesh& mesh, const Surface& surface, const Run& run) {
-  Selection away(mesh.triangles.size());
-  parallel_chunks(away.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  Selection differs(mesh.triangles.size());
+  parallel_chunks(differs.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    if (run.stop.stop_requested()) return;  // run.check() below throws
     for (std::size_t t = begin; t < end; ++t)
-      away[t] = surface.has(mesh, mesh.triangles[t]) ? 0 : 1;
+      differs[t] = surface.contains(mesh, mesh.triangles[t]) ? 0 : 1;
   });
   run.check();
-  return away;
+  return differs;
 }
 
 }  // namespace
 
 EditPreview edit_preview(const Mesh& before, const Mesh& after, const Run& run) {
   const Surface old_surface(before);
+  run.check();
   const Surface new_surface(after);
+  run.check();
   return {differing_triangles(before, new_surface, run),
           differing_triangles(after, old_surface, run)};
 }

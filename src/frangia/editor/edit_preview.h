@@ -6,21 +6,24 @@
 
 namespace frangia {
 
-/// Where a mesh and what an edit makes of it differ.
+/// Where a mesh and the result of an edit differ.
 struct EditPreview {
-  Selection
-      removed;      ///< of the mesh before: triangles that are gone, or elsewhere, or turned round
-  Selection added;  ///< of the mesh after: triangles that were not there, or not like this
+  /// Triangles of the mesh before that are removed, moved or reversed.
+  Selection removed;
+  /// Triangles of the mesh after that are new, moved or reversed.
+  Selection added;
 };
 
-/// What an edit would do, to be looked at before it is done. Edits are functions of a mesh, so any
-/// of them has its preview:
+/// Compares a mesh with the result of an edit. Edits are functions of a mesh, so every edit has a
+/// preview:
 ///
 ///     const EditPreview preview = edit_preview(mesh, remove_islands(mesh, 2.0));
 ///
-/// Surfaces are compared, not triangles: a triangle that lies on the other surface within its
-/// sigma, and faces the same way, is still there, however that surface is cut into triangles.
-/// errors   Error(Input) when a triangle refers to a vertex that is not there
+/// The comparison is between surfaces: a triangle that lies on the other surface within its sigma
+/// and faces the same way counts as present, whatever the triangulation.
+///
+/// shape    one flag per triangle of the mesh before and after
+/// errors   Error(Input) when a triangle refers to a vertex that does not exist
 [[nodiscard]] EditPreview edit_preview(const Mesh& before, const Mesh& after, const Run& run = {});
 
 }  // namespace frangia

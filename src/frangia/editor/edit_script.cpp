@@ -1,6 +1,6 @@
 #include "frangia/editor/edit_script.h"
 
-#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <string>
 
@@ -21,9 +21,10 @@ constexpr int kVersion = 1;
 }
 
 EditScript script_from(const nlohmann::json& json, const std::filesystem::path& path) {
-  if (json.value("format", "") != kFormat) fail(path, "it is no script of edits (frangia-edits)");
+  if (json.value("format", "") != kFormat)
+    fail(path, "the file is not an edit script (format frangia-edits)");
   if (json.at("version").get<int>() > kVersion) {
-    fail(path, "it is of a newer version; update the program");
+    fail(path, "a newer version of frangia wrote the script; update frangia");
   }
   EditScript script;
   for (const auto& step : json.at("steps")) {
@@ -34,7 +35,15 @@ EditScript script_from(const nlohmann::json& json, const std::filesystem::path& 
       fail(path, fmt::format("step {}: {}", script.steps.size(), error.what()));
     }
   }
-  script.done = std::min(json.value("done", script.steps.size()), script.steps.size());
+  const auto done = json.value("done", static_cast<std::int64_t>(script.steps.size()));
+  if (done < 0 || done > static_cast<std::int64_t>(script.steps.size())) {
+    fail(path,
+         fmt::format("done is {}, but the script has {} step{}; correct the file",
+                     done,
+                     script.steps.size(),
+                     script.steps.size() == 1 ? "" : "s"));
+  }
+  script.done = static_cast<std::size_t>(done);
   return script;
 }
 
@@ -42,13 +51,13 @@ EditScript script_from(const nlohmann::json& json, const std::filesystem::path& 
 
 EditScript read_edit_script(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(path, "it cannot be opened; check its name");
+  if (!stream) fail(path, "the script cannot be opened; check its name");
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-  if (!json.is_object()) fail(path, "its JSON is damaged");
+  if (!json.is_object()) fail(path, "the file is not valid JSON");
   try {
     return script_from(json, path);
   } catch (const nlohmann::json::exception& error) {
-    fail(path, fmt::format("it is no script of edits ({})", error.what()));
+    fail(path, fmt::format("the file is not an edit script ({})", error.what()));
   }
 }
 

@@ -7,21 +7,23 @@
 
 namespace frangia {
 
-/// The steps of an edit as a file keeps them.
+/// The steps of an edit as a file stores them.
 struct EditScript {
   std::vector<EditStep> steps;
-  std::size_t done = 0;  ///< how many of them are done; those behind were undone
+  std::size_t done = 0;  ///< number of steps to apply; the steps after them were undone
 };
 
-/// JSON: {"format": "frangia-edits", "version": 1, "done": 1, "steps": [{"operation":
-/// "fill-holes", "value": "10mm"}]}; without "done" all are done.
+/// Reads a script. Its JSON is {"format": "frangia-edits", "version": 1, "done": 1, "steps":
+/// [{"operation": "fill-holes", "value": "10mm"}]}; without "done" all steps are done.
 ///
-/// errors   Error(Input) that names the file: missing, no such JSON, too new, an operation or a
-/// value
-///          that is none
+/// errors   Error(Input) that names the file when it is missing, is not such JSON, has a newer
+///          version, holds an unknown operation or a wrong value, or has more steps done than it
+///          has steps
 [[nodiscard]] EditScript read_edit_script(const std::filesystem::path& path);
 
-/// errors   Error(File) when it cannot be written
+/// Writes a script.
+///
+/// errors   Error(File) when the file cannot be written
 void write_edit_script(const std::filesystem::path& path, const EditScript& script);
 
 }  // namespace frangia

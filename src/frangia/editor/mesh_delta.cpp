@@ -8,7 +8,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kBlock = 256;  // bytes that are kept together when one of them differs
+constexpr std::size_t kBlock = 256;  // bytes that are stored together when one of them differs
 
 template <typename T>
 std::span<const std::uint8_t> bytes_of(const std::vector<T>& array) {
@@ -16,8 +16,8 @@ std::span<const std::uint8_t> bytes_of(const std::vector<T>& array) {
           array.size() * sizeof(T)};
 }
 
-/// How many bytes two arrays have in common at their beginnings.
-std::size_t common(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+/// The length of the common prefix of two arrays in bytes.
+std::size_t common_prefix(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
   const std::size_t most = std::min(a.size(), b.size());
   std::size_t same = 0;
   while (same + kBlock <= most && std::memcmp(&a[same], &b[same], kBlock) == 0)
@@ -36,22 +36,22 @@ std::vector<std::uint8_t> copy_of(std::span<const std::uint8_t> bytes) {
 template <typename T>
 MeshDelta::ArrayDelta MeshDelta::compare(const std::vector<T>& before,
                                          const std::vector<T>& after) {
-  // Eigen's vectors have a constructor, but are three floats.
+  // Eigen's vectors are not trivially copyable, but hold three floats.
   static_assert(std::is_trivially_copyable_v<T> || sizeof(T) == sizeof(Eigen::Vector3f));
   const auto a = bytes_of(before);
   const auto b = bytes_of(after);
   ArrayDelta delta{.before_bytes = a.size(), .after_bytes = b.size(), .runs = {}};
   if (a.size() != b.size()) {
-    const std::size_t same = common(a, b);
+    const std::size_t same = common_prefix(a, b);
     delta.runs.push_back({same, copy_of(a.subspan(same)), copy_of(b.subspan(same))});
     return delta;
   }
   for (std::size_t begin = 0; begin < a.size(); begin += kBlock) {
     const std::size_t size = std::min(kBlock, a.size() - begin);
     if (std::memcmp(&a[begin], &b[begin], size) == 0) continue;
-    const bool goes_on =
+    const bool extends_last =
         !delta.runs.empty() && delta.runs.back().offset + delta.runs.back().before.size() == begin;
-    if (!goes_on) delta.runs.push_back({begin, {}, {}});
+    if (!extends_last) delta.runs.push_back({begin, {}, {}});
     Run& run = delta.runs.back();
     const auto old = a.subspan(begin, size);
     const auto fresh = b.subspan(begin, size);

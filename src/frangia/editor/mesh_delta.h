@@ -8,20 +8,20 @@
 
 namespace frangia {
 
-/// What parts one state of an edit from the next, so that either can be made from the other to the
-/// bit. What did not change is not kept.
+/// The difference between two states of an edit, from which either state restores the other to the
+/// bit. Unchanged data is not stored.
 class MeshDelta {
  public:
   MeshDelta(const EditState& before, const EditState& after);
 
-  /// Turns the state after into the one before, and back.
+  /// Turn the state after the step into the one before it, and back.
   void undo(EditState& state) const;
   void redo(EditState& state) const;
 
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// A run of an array's bytes that differs.
+  /// A range of an array's bytes that differs.
   struct Run {
     std::size_t offset = 0;
     std::vector<std::uint8_t> before, after;

@@ -10,6 +10,7 @@
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/triangulate_polygon.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
 namespace {
@@ -18,25 +19,33 @@ using Plane = Eigen::Hyperplane<double, 3>;
 using Eigen::Vector3d;
 using VertexLoop = std::vector<std::uint32_t>;
 
-constexpr double kOnPlaneMm = 1e-5;  // vertices this near are on it: no slivers
+// Vertices nearer to the plane than this fraction of the largest coordinate lie on it, which avoids
+// slivers: 4 units in the last place of single precision.
+constexpr double kOnPlane = 5e-7;
 
-double height_of(const Mesh& mesh, std::uint32_t vertex, const Plane& plane) {
-  const double height = plane.signedDistance(mesh.vertices_mm[vertex].cast<double>());
-  return std::abs(height) < kOnPlaneMm ? 0.0 : height;
+double on_plane_distance_mm(const Mesh& mesh) {
+  float largest_mm = 0.0F;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+    if (vertex.allFinite()) largest_mm = std::max(largest_mm, vertex.cwiseAbs().maxCoeff());
+  return kOnPlane * static_cast<double>(largest_mm);
 }
 
 class Cutter {
  public:
   Cutter(Mesh& mesh, const Plane& plane) : mesh_(mesh) {
+    const double on_plane_mm = on_plane_distance_mm(mesh);
     heights_.reserve(mesh.vertices_mm.size());
-    for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v)
-      heights_.push_back(height_of(mesh, v, plane));
+    for (const Eigen::Vector3f& vertex : mesh.vertices_mm) {
+      const double height = plane.signedDistance(vertex.cast<double>());
+      heights_.push_back(std::abs(height) < on_plane_mm ? 0.0 : height);
+    }
   }
 
-  void cut() {
+  void cut(const Run& run) {
     const std::size_t count = mesh_.triangles.size();
     std::vector<std::uint8_t> keep(count);
     for (std::size_t i = 0; i < count; ++i) {
+      if (i % kStepsPerCheck == 0) run.check();
       const Mesh::Triangle triangle = mesh_.triangles[i];
       const auto above = std::count_if(
           triangle.begin(), triangle.end(), [&](std::uint32_t v) { return heights_[v] > 0.0; });
@@ -53,7 +62,8 @@ class Cutter {
   }
 
  private:
-  /// The part of a triangle that is above: its corners and those where its edges cross the plane.
+  /// Adds the part of a triangle above the plane: its corners there and the cut points of its
+  /// edges.
   void add_above(const Mesh::Triangle& triangle, Mark mark) {
     std::vector<std::uint32_t> polygon;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -85,7 +95,7 @@ class Cutter {
 struct Outline {
   VertexLoop loop;
   Polygon projection;
-  double area = 0.0;  ///< positive when it runs counter-clockwise
+  double area = 0.0;  ///< positive for a counter-clockwise outline
 };
 
 double area_of(const Polygon& polygon) {
@@ -98,7 +108,7 @@ double area_of(const Polygon& polygon) {
   return 0.5 * sum;
 }
 
-bool holds(const Polygon& polygon, const Eigen::Vector2d& p) {
+bool contains(const Polygon& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const auto& a = polygon[i];
@@ -110,19 +120,19 @@ bool holds(const Polygon& polygon, const Eigen::Vector2d& p) {
   return inside;
 }
 
-/// The boundary loops that lie in the plane, against their own way round, as one sees them from
-/// below.
+/// The boundary loops in the plane, reversed, projected as seen from below the plane.
 std::vector<Outline> outlines_of(const Mesh& mesh, const Plane& plane) {
+  // Cut points are interpolated in single precision: twice the tolerance.
+  const double in_plane_mm = 2.0 * on_plane_distance_mm(mesh);
   const Vector3d x = plane.normal().unitOrthogonal();
   const Vector3d y = -plane.normal().cross(x);
   std::vector<Outline> outlines;
   for (const BoundaryLoop& loop : boundary_loops(mesh)) {
     Outline outline{.loop = vertices_of(mesh, loop), .projection = {}};
-    // Interpolated in single precision: near the plane, not on it.
     const bool in_plane =
         std::all_of(outline.loop.begin(), outline.loop.end(), [&](std::uint32_t v) {
           const Vector3d position = mesh.vertices_mm[v].cast<double>();
-          return std::abs(plane.signedDistance(position)) < kOnPlaneMm + 1e-6 * position.norm();
+          return std::abs(plane.signedDistance(position)) <= in_plane_mm;
         });
     if (!in_plane) continue;
     std::reverse(outline.loop.begin(), outline.loop.end());
@@ -136,16 +146,16 @@ std::vector<Outline> outlines_of(const Mesh& mesh, const Plane& plane) {
   return outlines;
 }
 
-/// For each hole its outline: the smallest one around it.
+/// The holes of each outer outline. A hole belongs to the smallest outline around it.
 std::vector<std::vector<std::size_t>> holes_in(const std::vector<Outline>& outlines) {
   std::vector<std::vector<std::size_t>> holes(outlines.size());
   for (std::size_t h = 0; h < outlines.size(); ++h) {
     if (outlines[h].area > 0.0) continue;
     std::size_t owner = outlines.size();
     for (std::size_t o = 0; o < outlines.size(); ++o) {
-      const bool around = outlines[o].area > -outlines[h].area &&
-                          holds(outlines[o].projection, outlines[h].projection.front());
-      if (around && (owner == outlines.size() || outlines[o].area < outlines[owner].area))
+      const bool encloses = outlines[o].area > -outlines[h].area &&
+                            contains(outlines[o].projection, outlines[h].projection.front());
+      if (encloses && (owner == outlines.size() || outlines[o].area < outlines[owner].area))
         owner = o;
     }
     if (owner < outlines.size()) holes[owner].push_back(h);
@@ -172,11 +182,12 @@ void cap(Mesh& mesh, const Plane& plane, const Run& run) {
   const auto holes = holes_in(outlines);
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     if (!(outlines[i].area > 0.0)) continue;
+    run.check();
     try {
       add_cap(mesh, outlines, i, holes[i]);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Numeric) throw;
-      run.warn("cut: an outline of the cut crosses itself and stays open");
+      run.warn("an outline of the cut intersects itself and stays open");
     }
   }
 }
@@ -184,8 +195,10 @@ void cap(Mesh& mesh, const Plane& plane, const Run& run) {
 }  // namespace
 
 Mesh cut_by_plane(Mesh mesh, const Plane& plane, const CutOptions& options, const Run& run) {
-  Cutter(mesh, plane).cut();
+  run.check();
+  Cutter(mesh, plane).cut(run);
   if (options.capped) cap(mesh, plane, run);
+  run.check();
   recompute_normals(mesh);
   return mesh;
 }

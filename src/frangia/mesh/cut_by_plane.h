@@ -8,14 +8,16 @@
 namespace frangia {
 
 struct CutOptions {
-  bool capped = false;  ///< close what the cut opens, with flat triangles marked as invented
+  bool capped = false;  ///< close the cut with flat triangles marked as synthesized
 };
 
-/// What of the mesh lies on the plane's positive side; triangles that it crosses are cut.
+/// Keeps the part of a mesh on the positive side of a plane and cuts the triangles at the plane.
 ///
-/// A vertex on a cut edge is a mean of its ends, with their sigma, views and marks. A cut that
-/// crosses itself stays open; a warning of `run` says so.
-/// units    mm; the plane's normal is unit
+/// A vertex on a cut edge interpolates the position and the data of the ends of the edge. An
+/// outline of the cut that intersects itself stays open; `run` warns of it.
+///
+/// units    mm; the normal of the plane has unit length
+/// errors   Error(Cancelled)
 [[nodiscard]] Mesh cut_by_plane(Mesh mesh,
                                 const Eigen::Hyperplane<double, 3>& plane,
                                 const CutOptions& options = {},

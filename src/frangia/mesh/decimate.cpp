@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,7 +25,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// An edge that may go. It is out of date once either end has changed since.
+/// An edge that may be collapsed. It is outdated once either end has changed.
 struct Candidate {
   float cost = 0.0F;
   std::uint32_t a = 0, b = 0;
@@ -40,13 +41,15 @@ class Decimation {
  public:
   Decimation(Mesh& mesh, const HalfEdges& edges, double tolerance_mm)
       : mesh_(mesh),
-        limit_(tolerance_mm * tolerance_mm),
+        max_mean_square_(tolerance_mm * tolerance_mm),
+        tie_weight_(tie_weight_of(mesh)),
         cost_(mesh, edges),
         topology_(mesh, edges),
         versions_(mesh.vertices_mm.size()) {}
 
   void run(const HalfEdges& edges, std::size_t target, DistanceGuard* guard, const Run& run) {
-    LazyPriorityQueue<Candidate> queue(candidates_of(edges));
+    constexpr std::size_t kCollapsesPerCheck = 1024;  // about 10 ms with a guard
+    LazyPriorityQueue<Candidate> queue(candidates_of(edges, run));
     const auto outdated = [this](const Candidate& candidate) {
       return candidate.version != versions_[candidate.a] + versions_[candidate.b] ||
              topology_.is_removed(candidate.a) || topology_.is_removed(candidate.b);
@@ -61,7 +64,7 @@ class Decimation {
         for (const std::uint32_t v : neighbors_)
           if (const auto fresh = candidate_of(candidate->a, v)) queue.push(*fresh);
       }
-      if (++steps % 65'536 == 0) {
+      if (++steps % kCollapsesPerCheck == 0) {
         run.report(static_cast<double>(begin - topology_.remaining_triangles()) /
                    static_cast<double>(begin - target));
       }
@@ -74,10 +77,19 @@ class Decimation {
     return mesh_.vertices_mm[v].cast<double>();
   }
 
-  [[nodiscard]] std::vector<Candidate> candidates_of(const HalfEdges& edges) const {
+  /// Rounding of a quadric's error at the largest coordinate, per squared length of an edge.
+  [[nodiscard]] static double tie_weight_of(const Mesh& mesh) {
+    double largest_mm = 0.0;
+    for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+      largest_mm = std::max(largest_mm, static_cast<double>(vertex.cwiseAbs().maxCoeff()));
+    return std::numeric_limits<double>::epsilon() * largest_mm * largest_mm;
+  }
+
+  [[nodiscard]] std::vector<Candidate> candidates_of(const HalfEdges& edges, const Run& run) const {
     constexpr std::size_t kChunk = 65'536;
     std::vector<std::vector<Candidate>> found((edges.count() + kChunk - 1) / kChunk);
     parallel_chunks(edges.count(), kChunk, [&](std::size_t begin, std::size_t end) {
+      if (run.stop.stop_requested()) return;  // run.check() below throws
       for (std::size_t i = begin; i < end; ++i) {
         const auto edge = static_cast<std::uint32_t>(i);
         if (edges.has_twin(edge) && edges.twin(edge) < edge) continue;
@@ -85,10 +97,11 @@ class Decimation {
         if (candidate) found[begin / kChunk].push_back(*candidate);
       }
     });
+    run.check();
     std::vector<Candidate> all;
-    for (auto& some : found) {
-      all.insert(all.end(), some.begin(), some.end());
-      some = {};
+    for (auto& candidates : found) {
+      all.insert(all.end(), candidates.begin(), candidates.end());
+      candidates = {};
     }
     return all;
   }
@@ -96,16 +109,16 @@ class Decimation {
   [[nodiscard]] std::optional<Candidate> candidate_of(std::uint32_t a, std::uint32_t b) const {
     if (a > b) std::swap(a, b);
     if (a == b || topology_.is_fixed(a) || topology_.is_fixed(b)) return std::nullopt;
-    const CollapseTarget target_mm = cost_.target(a, b);
-    if (target_mm.mean_square > limit_) return std::nullopt;
-    // A trace of length parts what is equally flat: short edges first.
-    const double cost = target_mm.cost + 1e-12 * (position(a) - position(b)).squaredNorm();
+    const CollapseTarget target = cost_.target(a, b);
+    if (target.mean_square > max_mean_square_) return std::nullopt;
+    // Of edges that are equally flat, short ones come first.
+    const double cost = target.cost + tie_weight_ * (position(a) - position(b)).squaredNorm();
     return Candidate{static_cast<float>(cost), a, b, versions_[a] + versions_[b]};
   }
 
-  /// Whether they were joined; `neighbors_` are then those of a.
+  /// Collapses an edge if that is allowed; `neighbors_` are then those of a.
   bool try_collapse(std::uint32_t a, std::uint32_t b, DistanceGuard* guard) {
-    // The position as the mesh will have it, so that what is checked is what is kept.
+    // Rounded to the precision of the mesh, so that the checks see the final position.
     const Vector3d target_mm = cost_.target(a, b).position.cast<float>().cast<double>();
     if (!topology_.can_collapse(a, b)) return false;
     if (!keeps_orientation(a, b, target_mm) || !keeps_orientation(b, a, target_mm)) return false;
@@ -117,28 +130,28 @@ class Decimation {
     return true;
   }
 
-  /// No triangle at v that stays turns over or becomes a sliver.
+  /// Whether no remaining triangle at v flips or becomes a sliver.
   [[nodiscard]] bool keeps_orientation(std::uint32_t v,
                                        std::uint32_t other,
                                        const Vector3d& target_mm) const {
-    constexpr double kLeastCosine = 0.2;
-    constexpr double kLeastShape = 0.02;  // of twice the area over the longest side squared
-    bool unflipped = true;
+    constexpr double kMinCosine = 0.2;  // a triangle turns by less than 78 degrees
+    constexpr double kMinShape = 0.02;  // twice the area over the longest side squared
+    bool is_valid = true;
     topology_.for_each_corner(v, [&](std::uint32_t corner) {
       const std::uint32_t next = topology_.at(HalfEdges::next(corner));
       const std::uint32_t last = topology_.at(HalfEdges::previous(corner));
-      if (!unflipped || next == other || last == other) return;
+      if (!is_valid || next == other || last == other) return;
       const Vector3d side = position(last) - position(next);
       const Vector3d before = (position(next) - position(v)).cross(side);
       const Vector3d after = (position(next) - target_mm).cross(side);
       const double longest = std::max({side.squaredNorm(),
                                        (position(next) - target_mm).squaredNorm(),
                                        (position(last) - target_mm).squaredNorm()});
-      const bool turned = before.dot(after) < kLeastCosine * before.norm() * after.norm();
-      const bool thin = after.norm() < kLeastShape * longest && after.norm() < before.norm();
-      unflipped = !turned && !thin;
+      const bool flipped = before.dot(after) < kMinCosine * before.norm() * after.norm();
+      const bool thin = after.norm() < kMinShape * longest && after.norm() < before.norm();
+      is_valid = !flipped && !thin;
     });
-    return unflipped;
+    return is_valid;
   }
 
   void collapse(std::uint32_t a, std::uint32_t b, const Vector3d& target_mm) {
@@ -155,7 +168,8 @@ class Decimation {
   }
 
   Mesh& mesh_;
-  double limit_;
+  double max_mean_square_;
+  double tie_weight_;
   CollapseCost cost_;
   CollapseTopology topology_;
   std::vector<std::uint32_t> versions_;
@@ -164,15 +178,19 @@ class Decimation {
 
 Mesh decimate_to_count(Mesh mesh, std::size_t triangles, const Run& run) {
   const HalfEdges edges(mesh);
+  run.check();
   Decimation(mesh, edges, std::numeric_limits<double>::infinity())
       .run(edges, triangles, nullptr, run);
   return mesh;
 }
 
 Mesh decimate_within(Mesh mesh, const DecimateOptions& options, const Run& run) {
-  constexpr double kCheckedShare = 0.8;  // of the tolerance: room for what lies between the points
+  // Share of the tolerance that is checked at points: the rest is for the surface between them.
+  constexpr double kCheckedShare = 0.8;
   const HalfEdges edges(mesh);
+  run.check();
   const RayScene original(mesh);
+  run.check();
   DistanceGuard guard(original, edges, kCheckedShare * options.tolerance_mm);
   Decimation(mesh, edges, options.tolerance_mm).run(edges, options.triangles, &guard, run);
   return mesh;
@@ -181,7 +199,10 @@ Mesh decimate_within(Mesh mesh, const DecimateOptions& options, const Run& run) 
 }  // namespace
 
 Mesh decimate(Mesh mesh, const DecimateOptions& options, const Run& run) {
-  require(options.tolerance_mm > 0.0, "decimate: the tolerance must be positive");
+  require(options.tolerance_mm > 0.0, "the tolerance of decimation must be positive");
+  require(options.triangles > 0 || std::isfinite(options.tolerance_mm),
+          "decimation needs a number of triangles greater than 0 or a tolerance");
+  run.check();
   if (mesh.triangles.size() <= options.triangles) return mesh;
   mesh = std::isinf(options.tolerance_mm)
              ? decimate_to_count(std::move(mesh), options.triangles, run)

@@ -9,21 +9,24 @@
 namespace frangia {
 
 struct DecimateOptions {
-  std::size_t triangles = 0;  ///< stop at so many
-  /// The two surfaces lie nowhere farther from each other than this, either way.
+  std::size_t triangles = 0;  ///< number of triangles to stop at
+  /// Limit of the distance between the two surfaces, in both directions.
   double tolerance_mm = std::numeric_limits<double>::infinity();
 };
 
-/// Fewer triangles for the same surface: edges are joined in the order of the error that it makes.
+/// Reduces the number of triangles by edge collapses in the order of their quadric error.
 ///
-/// Edges of the part stay sharp, boundaries stay, a mesh that is manifold stays so, and no triangle
-/// turns over. Vertices that were measured well weigh more than ones with a large sigma. A vertex
-/// keeps the larger sigma, the fewer views and the worse mark of those it stands for.
+/// Sharp edges and boundaries are preserved, a manifold mesh stays manifold, and no triangle flips.
+/// Quadrics are weighted by 1/sigma^2. A vertex takes the largest sigma, the fewest views and the
+/// largest mark of the vertices that it replaces.
 ///
-/// With a tolerance every join is checked to four fifths of it, both surfaces against each other,
-/// at their vertices, the middles of their edges and triangles, and on large triangles at points
-/// half as far apart as the mesh's edges were long.
-/// errors   Error(Input) for a tolerance that is not positive
+/// With a tolerance, each collapse is checked against four fifths of it, in both directions, at
+/// vertices, midpoints of edges and centroids of triangles, and on large triangles at points half
+/// the mean edge length of the original mesh apart.
+///
+/// units    mm
+/// errors   Error(Input) for a tolerance that is not positive, or with neither a number of
+///          triangles nor a tolerance; Error(Cancelled)
 /// source   Garland & Heckbert 1997, Surface Simplification Using Quadric Error Metrics
 [[nodiscard]] Mesh decimate(Mesh mesh, const DecimateOptions& options, const Run& run = {});
 

@@ -10,25 +10,27 @@
 namespace frangia {
 
 enum class HoleFill {
-  Flat,   ///< triangles between the corners of the boundary alone
-  Smooth  ///< as dense as the surface around, and curved on as it is
+  Flat,   ///< triangles between the boundary vertices only
+  Smooth  ///< as dense as the surrounding surface, continuing its curvature
 };
 
 struct FillHolesOptions {
-  double up_to_mm = std::numeric_limits<double>::infinity();  ///< a loop's size_mm, at most
+  double up_to_mm = std::numeric_limits<double>::infinity();  ///< limit of BoundaryLoop::size_mm
   HoleFill kind = HoleFill::Smooth;
-  std::vector<std::size_t> only;  ///< numbers of boundary_loops to fill; empty: all up to the size
+  std::vector<std::size_t> only;  ///< indices into boundary_loops; empty: all loops up to the size
 };
 
-/// The mesh with holes filled. All that is put in is marked as invented, and has no views.
+/// Fills holes. New vertices and triangles are marked as synthesized and have no views.
 ///
-/// A smooth filling that would cross itself, another one or the mesh gives way to one with half of
-/// the curvature, to a film of least area, or to a flat one, whichever crosses least: a note of
-/// `run` says so, a warning where all cross, and a build without CGAL does not see it. One that
-/// would go far out of its bounds gives way to a film. A hole
-/// that cannot be filled smoothly is closed flat; one whose flat filling would make the mesh
-/// non-manifold gets a fan about its middle: a note of `run` says so.
-/// errors   Error(Input) when there is no such loop
+/// A smooth patch that intersects itself, another patch or the mesh is replaced by the one with the
+/// fewest intersections among half the curvature, a minimal surface and a flat patch; a build
+/// without CGAL skips this test. A smooth patch that leaves the surroundings of its hole is
+/// replaced by a minimal surface, and one that cannot be computed by a flat patch. A flat patch
+/// that would make the mesh non-manifold is replaced by a triangle fan around the centroid of the
+/// boundary. `run` receives a note for each replacement and a warning when intersections remain.
+///
+/// units    mm
+/// errors   Error(Input) when a loop does not exist; Error(Cancelled)
 /// source   Liepa 2003, Filling Holes in Meshes; fair_patch.h
 [[nodiscard]] Mesh fill_holes(Mesh mesh, const FillHolesOptions& options = {}, const Run& run = {});
 

@@ -10,6 +10,7 @@
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/selection.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
 namespace {
@@ -28,15 +29,15 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-/// Drops what is no triangle, and all but the first of those with the same corners.
-void remove_invalid(Mesh& mesh) {
+/// Removes invalid triangles and all but the first of those with the same corners.
+void remove_invalid(Mesh& mesh, const Run& run) {
   Selection keep(mesh.triangles.size());
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     keep[i] = is_valid(mesh, mesh.triangles[i]) ? 1 : 0;
     if (keep[i] != 0) order.push_back(i);
   }
-  // By their smallest corner first: few share it, so that only these must be compared.
+  // Only triangles with the same smallest corner are compared: those are few.
   std::vector<std::uint32_t> first(mesh.vertices_mm.size() + 1, 0);
   const auto least = [&](std::uint32_t i) {
     const Triangle& t = mesh.triangles[i];
@@ -50,6 +51,7 @@ void remove_invalid(Mesh& mesh) {
   for (const std::uint32_t i : order)
     sorted_by[next[least(i)]++] = i;
   for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    if (v % kStepsPerCheck == 0) run.check();
     for (std::uint32_t a = first[v]; a < first[v + 1]; ++a) {
       for (std::uint32_t b = a + 1; b < first[v + 1]; ++b) {
         const bool same =
@@ -69,17 +71,21 @@ Eigen::Vector3d normal_of(const Mesh& mesh, std::uint32_t triangle) {
       .stableNormalized();
 }
 
-struct Pair {
-  double straightness;
+/// Two triangles at a non-manifold edge, by their half-edges of opposite direction.
+struct TrianglePair {
+  double cosine;  ///< of the angle between the normals
   std::uint32_t out;
   std::uint32_t back;
 };
 
-/// Joins the half-edges of one crowded edge in pairs, the straightest first.
-void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, DisjointSets& corners) {
+/// Pairs the half-edges of a non-manifold edge, the pair with the smallest dihedral angle first.
+void pair_triangles(const Mesh& mesh,
+                    const HalfEdges& edges,
+                    std::uint32_t edge,
+                    DisjointSets& corners) {
   const std::uint32_t from = source_vertex(mesh, edge);
   const std::uint32_t to = target_vertex(mesh, edge);
-  std::vector<Pair> pairs;
+  std::vector<TrianglePair> pairs;
   for (const std::uint32_t out : edges.outgoing(from)) {
     if (target_vertex(mesh, out) != to) continue;
     for (const std::uint32_t back : edges.outgoing(to)) {
@@ -87,14 +93,14 @@ void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, Disjo
       pairs.push_back({normal_of(mesh, out / 3).dot(normal_of(mesh, back / 3)), out, back});
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-    return a.straightness > b.straightness;
+  std::stable_sort(pairs.begin(), pairs.end(), [](const TrianglePair& a, const TrianglePair& b) {
+    return a.cosine > b.cosine;
   });
   std::vector<std::uint32_t> taken;
   const auto is_taken = [&](std::uint32_t e) {
     return std::find(taken.begin(), taken.end(), e) != taken.end();
   };
-  for (const Pair& pair : pairs) {
+  for (const TrianglePair& pair : pairs) {
     if (is_taken(pair.out) || is_taken(pair.back)) continue;
     taken.push_back(pair.out);
     taken.push_back(pair.back);
@@ -103,33 +109,34 @@ void pair_up(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge, Disjo
   }
 }
 
-/// Parts the triangles at crowded edges and at vertices with several fans.
-void split_fans(Mesh& mesh) {
+/// Splits non-manifold edges and vertices with several fans: each fan gets its own vertex.
+void split_fans(Mesh& mesh, const Run& run) {
   const HalfEdges edges(mesh);
   DisjointSets corners(edges.count());
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
+    if (edge % kStepsPerCheck == 0) run.check();
     if (edges.has_twin(edge)) {
       corners.join(edge, HalfEdges::next(edges.twin(edge)));
     } else if (!edges.is_boundary(edge)) {
-      // Of each direction once: the lowest half-edge does it for all.
+      // The lowest half-edge of the edge pairs all of them.
       const auto others = edges.outgoing(source_vertex(mesh, edge));
       const bool lowest = std::all_of(others.begin(), others.end(), [&](std::uint32_t e) {
         return e >= edge || target_vertex(mesh, e) != target_vertex(mesh, edge);
       });
       if (lowest && source_vertex(mesh, edge) < target_vertex(mesh, edge))
-        pair_up(mesh, edges, edge, corners);
+        pair_triangles(mesh, edges, edge, corners);
     }
   }
-  constexpr std::uint32_t kFree = 0xFFFFFFFF;
-  std::vector<std::uint32_t> owner(mesh.vertices_mm.size(), kFree);  // the fan that keeps a vertex
-  std::vector<std::uint32_t> added(edges.count(), kFree);
+  constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  std::vector<std::uint32_t> owner(mesh.vertices_mm.size(), kNone);  // the fan that keeps a vertex
+  std::vector<std::uint32_t> added(edges.count(), kNone);
   std::vector<Triangle> new_index = mesh.triangles;
   for (std::uint32_t corner = 0; corner < edges.count(); ++corner) {
     const std::uint32_t fan = corners.find(corner);
     const std::uint32_t vertex = source_vertex(mesh, corner);
-    if (owner[vertex] == kFree) owner[vertex] = fan;
+    if (owner[vertex] == kNone) owner[vertex] = fan;
     if (owner[vertex] == fan) continue;
-    if (added[fan] == kFree) added[fan] = copy_vertex(mesh, vertex);
+    if (added[fan] == kNone) added[fan] = copy_vertex(mesh, vertex);
     new_index[corner / 3][corner % 3] = added[fan];
   }
   mesh.triangles = std::move(new_index);
@@ -137,9 +144,9 @@ void split_fans(Mesh& mesh) {
 
 }  // namespace
 
-Mesh make_manifold(Mesh mesh) {
-  remove_invalid(mesh);
-  split_fans(mesh);
+Mesh make_manifold(Mesh mesh, const Run& run) {
+  remove_invalid(mesh, run);
+  split_fans(mesh, run);
   return mesh;
 }
 
@@ -151,7 +158,7 @@ std::size_t count_non_manifold_edges(const Mesh& mesh, const HalfEdges& edges) {
   std::size_t count = 0;
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (edges.has_twin(edge) || edges.is_boundary(edge)) continue;
-    // Once an edge: by the lowest of its half-edges, which leave either end.
+    // Counts an edge once, at the lowest of its half-edges in both directions.
     const std::uint32_t from = source_vertex(mesh, edge);
     const std::uint32_t to = target_vertex(mesh, edge);
     bool lowest = true;

@@ -1,19 +1,22 @@
 #pragma once
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// The mesh with every edge in at most two triangles that run the same way round, and one fan of
-/// triangles at every vertex.
+/// Makes a mesh manifold: each edge belongs to at most two consistently oriented triangles, and the
+/// triangles at each vertex form one fan.
 ///
-/// Triangles with two equal corners, repeated ones (either way round), and ones of a vertex that is
-/// not there or not finite go. At an edge of many triangles each pair that continues most
-/// straightly keeps it; the others are parted from it, at the same places: nothing moves.
-[[nodiscard]] Mesh make_manifold(Mesh mesh);
+/// Removes triangles with two equal corners, duplicates in either orientation, and triangles with a
+/// vertex that does not exist or is not finite. Pairs the triangles at a non-manifold edge by the
+/// smallest dihedral angle and gives each pair copies of the vertices. No vertex moves.
+///
+/// errors   Error(Cancelled)
+[[nodiscard]] Mesh make_manifold(Mesh mesh, const Run& run = {});
 
-/// Edges with more than two triangles, or two that run against each other.
+/// Counts the edges with more than two triangles or with two of inconsistent orientation.
 [[nodiscard]] std::size_t count_non_manifold_edges(const Mesh& mesh);
 [[nodiscard]] std::size_t count_non_manifold_edges(const Mesh& mesh, const HalfEdges& edges);
 

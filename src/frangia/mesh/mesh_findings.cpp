@@ -9,6 +9,7 @@
 namespace frangia {
 
 MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
+  run.check();
   MeshFindings found;
   found.vertices = mesh.vertices_mm.size();
   found.triangles = mesh.triangles.size();
@@ -17,15 +18,18 @@ MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
     const Eigen::Vector3d a = mesh.vertices_mm[ia].cast<double>();
     const Eigen::Vector3d b = mesh.vertices_mm[ib].cast<double>();
     const Eigen::Vector3d c = mesh.vertices_mm[ic].cast<double>();
-    const double twice = (b - a).cross(c - a).norm();
+    const double twice_area = (b - a).cross(c - a).norm();
     found.volume_mm3 += a.dot(b.cross(c)) / 6.0;
-    found.area_mm2 += twice / 2.0;
-    if (!(twice > 0.0)) ++found.degenerate_triangles;
+    found.area_mm2 += twice_area / 2.0;
+    if (!(twice_area > 0.0)) ++found.degenerate_triangles;
     ++found.marks.at(static_cast<std::size_t>(mark_of(mesh, i)));
     found.box_mm.extend(a).extend(b).extend(c);
   }
+  run.check();
   found.components = connected_components(mesh).components;
+  run.check();
   const HalfEdges edges(mesh);
+  run.check();
   found.holes = boundary_loops(mesh, edges);
   found.non_manifold_edges = count_non_manifold_edges(mesh, edges);
   bool open = false;

@@ -14,23 +14,26 @@
 
 namespace frangia {
 
-/// What a mesh has, and what is wrong with it.
+/// The extent, components, holes and faults of a mesh.
 struct MeshFindings {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::vector<MeshComponent> components;
   std::vector<BoundaryLoop> holes;
   std::size_t non_manifold_edges = 0;
-  std::size_t degenerate_triangles = 0;  ///< triangles with two equal corners, or all in a line
-  /// Pairs of triangles that cross; nothing in a build without CGAL.
+  std::size_t degenerate_triangles = 0;  ///< triangles with two equal or three collinear corners
+  /// Pairs of intersecting triangles; nullopt in a build without CGAL.
   std::optional<std::size_t> self_intersections;
-  std::array<std::size_t, 3> marks{};  ///< triangles that are measured, moved, invented
+  std::array<std::size_t, 3> marks{};  ///< triangles by Mark: measured, displaced, synthesized
   double area_mm2 = 0.0;
-  double volume_mm3 = 0.0;  ///< of a closed mesh; of an open one a number without meaning
+  double volume_mm3 = 0.0;  ///< signed volume; has a meaning for a closed mesh only
   Eigen::AlignedBox3d box_mm;
-  bool closed = false;  ///< no hole, no edge that is not manifold
+  bool closed = false;  ///< neither boundary nor non-manifold edges
 };
 
+/// Analyses a mesh.
+///
+/// errors   Error(Input) when a triangle refers to a vertex that does not exist; Error(Cancelled)
 [[nodiscard]] MeshFindings mesh_findings(const Mesh& mesh, const Run& run = {});
 
 }  // namespace frangia

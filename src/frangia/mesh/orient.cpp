@@ -7,11 +7,12 @@
 
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 
 namespace frangia {
 namespace {
 
-/// The other triangles at an edge, and whether they are wound against the edge's own.
+/// Another triangle at an edge and whether its orientation is inconsistent with the first one.
 struct Neighbor {
   std::uint32_t triangle;
   bool opposite;
@@ -27,16 +28,16 @@ std::vector<Neighbor> neighbors(const Mesh& mesh, const HalfEdges& edges, std::u
     if (e != edge && target_vertex(mesh, e) == to) found.push_back({e / 3, true});
   for (const std::uint32_t e : edges.outgoing(to))
     if (target_vertex(mesh, e) == from) found.push_back({e / 3, false});
-  if (found.size() > 1) found.clear();  // where many meet none can say which continues
+  if (found.size() > 1) found.clear();  // which triangle continues the surface is ambiguous
   return found;
 }
 
-struct Part {
+struct OrientedComponent {
   std::vector<std::uint32_t> triangles;
   bool closed = true;
-  double volume_mm3 = 0.0;      ///< six times, of the part as turned
-  double area_as_it_was = 0.0;  ///< of the triangles that were not turned
-  double area_turned = 0.0;
+  double volume_mm3 = 0.0;  ///< six times the signed volume after reorientation
+  double area_kept = 0.0;   ///< twice the area of the triangles that keep their orientation
+  double area_flipped = 0.0;
 };
 
 class OrientationPropagation {
@@ -44,15 +45,15 @@ class OrientationPropagation {
   explicit OrientationPropagation(const Mesh& mesh)
       : mesh_(mesh), edges_(mesh), state_(mesh.triangles.size(), State::Unknown) {}
 
-  std::vector<bool> flipped() {
+  std::vector<bool> flipped(const Run& run) {
     std::vector<bool> result(mesh_.triangles.size());
     for (std::uint32_t seed = 0; seed < mesh_.triangles.size(); ++seed) {
       if (state_[seed] != State::Unknown) continue;
-      const Part part = walk(seed);
-      const bool turn_all =
-          part.closed ? part.volume_mm3 < 0.0 : part.area_turned > part.area_as_it_was;
-      for (const std::uint32_t t : part.triangles)
-        result[t] = (state_[t] == State::Flipped) != turn_all;
+      const OrientedComponent component = walk(seed, run);
+      const bool flip_all = component.closed ? component.volume_mm3 < 0.0
+                                             : component.area_flipped > component.area_kept;
+      for (const std::uint32_t t : component.triangles)
+        result[t] = (state_[t] == State::Flipped) != flip_all;
     }
     return result;
   }
@@ -60,34 +61,35 @@ class OrientationPropagation {
  private:
   enum class State : std::uint8_t { Unknown, Kept, Flipped };
 
-  Part walk(std::uint32_t seed) {
-    Part part;
+  OrientedComponent walk(std::uint32_t seed, const Run& run) {
+    OrientedComponent component;
     state_[seed] = State::Kept;
-    part.triangles.push_back(seed);
-    for (std::size_t i = 0; i < part.triangles.size(); ++i) {
-      const std::uint32_t t = part.triangles[i];
-      weigh(t, part);
+    component.triangles.push_back(seed);
+    for (std::size_t i = 0; i < component.triangles.size(); ++i) {
+      if (i % kStepsPerCheck == 0) run.check();
+      const std::uint32_t t = component.triangles[i];
+      add_triangle(t, component);
       for (std::uint32_t edge = 3 * t; edge < 3 * t + 3; ++edge) {
         const auto adjacent = neighbors(mesh_, edges_, edge);
-        part.closed = part.closed && !adjacent.empty();
+        component.closed = component.closed && !adjacent.empty();
         for (const Neighbor& neighbor : adjacent) {
           if (state_[neighbor.triangle] != State::Unknown) continue;
-          const bool turn = (state_[t] == State::Flipped) != neighbor.opposite;
-          state_[neighbor.triangle] = turn ? State::Flipped : State::Kept;
-          part.triangles.push_back(neighbor.triangle);
+          const bool flip = (state_[t] == State::Flipped) != neighbor.opposite;
+          state_[neighbor.triangle] = flip ? State::Flipped : State::Kept;
+          component.triangles.push_back(neighbor.triangle);
         }
       }
     }
-    return part;
+    return component;
   }
 
-  void weigh(std::uint32_t t, Part& part) const {
+  void add_triangle(std::uint32_t t, OrientedComponent& component) const {
     const Eigen::Vector3d a = mesh_.vertices_mm[mesh_.triangles[t][0]].cast<double>();
     const Eigen::Vector3d b = mesh_.vertices_mm[mesh_.triangles[t][1]].cast<double>();
     const Eigen::Vector3d c = mesh_.vertices_mm[mesh_.triangles[t][2]].cast<double>();
-    const bool is_turned = state_[t] == State::Flipped;
-    part.volume_mm3 += (is_turned ? -1.0 : 1.0) * a.dot(b.cross(c));
-    (is_turned ? part.area_turned : part.area_as_it_was) += (b - a).cross(c - a).norm();
+    const bool is_flipped = state_[t] == State::Flipped;
+    component.volume_mm3 += (is_flipped ? -1.0 : 1.0) * a.dot(b.cross(c));
+    (is_flipped ? component.area_flipped : component.area_kept) += (b - a).cross(c - a).norm();
   }
 
   const Mesh& mesh_;
@@ -97,8 +99,9 @@ class OrientationPropagation {
 
 }  // namespace
 
-Mesh orient(Mesh mesh) {
-  const std::vector<bool> flipped = OrientationPropagation(mesh).flipped();
+Mesh orient(Mesh mesh, const Run& run) {
+  run.check();
+  const std::vector<bool> flipped = OrientationPropagation(mesh).flipped(run);
   bool any = false;
   for (std::size_t i = 0; i < flipped.size(); ++i) {
     if (!flipped[i]) continue;

@@ -1,16 +1,19 @@
 #pragma once
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// The mesh with neighbours wound the same way round, and closed parts facing outwards.
+/// Orients neighbouring triangles consistently and closed components outwards.
 ///
-/// An open part keeps the side that the larger share of its area had. A part that has but one side
-/// (a Moebius strip) stays wound against itself along some edges.
-[[nodiscard]] Mesh orient(Mesh mesh);
+/// An open component keeps the orientation of the larger part of its area. A non-orientable
+/// component (a Moebius strip) stays inconsistent along some edges.
+///
+/// errors   Error(Cancelled)
+[[nodiscard]] Mesh orient(Mesh mesh, const Run& run = {});
 
-/// Every triangle and normal turned to the other side.
+/// Reverses the orientation of all triangles and normals.
 [[nodiscard]] Mesh reverse_orientation(Mesh mesh);
 
 }  // namespace frangia

@@ -42,7 +42,7 @@ double volume_of(const Mesh& mesh) {
   return volume / 6.0;
 }
 
-/// Two parts that cross each other, and of which neither was found to be no body.
+/// Two components that intersect each other and that were not refused as bodies.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> intersecting_components(
     const Pairs& pairs,
     const ConnectedComponents& parts,
@@ -54,8 +54,8 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> intersecting_components(
   return std::nullopt;
 }
 
-/// The mesh with the bodies that cross each other united.
-Mesh with_bodies_united(Mesh mesh, const Run& run) {
+/// Unites closed components that intersect each other.
+Mesh unite_intersecting_bodies(Mesh mesh, const Run& run) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> refused;
   for (;;) {
     const Pairs pairs = self_intersections(mesh, run);
@@ -65,7 +65,7 @@ Mesh with_bodies_united(Mesh mesh, const Run& run) {
     const Mesh a = component_of(mesh, parts, two->first);
     const Mesh b = component_of(mesh, parts, two->second);
     std::optional<Mesh> united;
-    if (volume_of(a) > 0.0 && volume_of(b) > 0.0) united = unite_bodies(a, b);
+    if (volume_of(a) > 0.0 && volume_of(b) > 0.0) united = unite_bodies(a, b, run);
     if (!united) {
       refused.insert(*two);
       continue;
@@ -76,51 +76,53 @@ Mesh with_bodies_united(Mesh mesh, const Run& run) {
           parts.component_of[t] != two->first && parts.component_of[t] != two->second ? 1 : 0;
     keep_triangles(mesh, others);
     append_mesh(mesh, *united);
-    refused.clear();  // the parts have other numbers now
+    refused.clear();  // the components have new numbers
     run.check();
   }
 }
 
-/// What a cut piece is: less than this share of what it was cut from is dropped.
+/// A piece that deleting cuts off is removed below this share of the largest piece's area.
 constexpr double kFragment = 0.1;
 
-/// Adds what deleting would cut off: pieces that are small beside the largest of their part.
+/// Adds small pieces that deleting would cut off to the removed triangles.
 Selection with_fragments(const Mesh& mesh, Selection removed) {
   const ConnectedComponents before = connected_components(mesh);
   Mesh left = mesh;
   const Selection kept = invert_selection(removed);
   keep_triangles(left, kept);
   const ConnectedComponents after = connected_components(left);
-  std::vector<std::uint32_t> came_from(after.components.size());
+  std::vector<std::uint32_t> component_before(after.components.size());
   std::vector<std::uint32_t> piece_of(mesh.triangles.size());
   std::size_t next = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (kept[t] == 0) continue;
     piece_of[t] = after.component_of[next++];
-    came_from[piece_of[t]] = before.component_of[t];
+    component_before[piece_of[t]] = before.component_of[t];
   }
   std::vector<double> largest(before.components.size());
   for (std::size_t p = 0; p < after.components.size(); ++p)
-    largest[came_from[p]] = std::max(largest[came_from[p]], after.components[p].area_mm2);
+    largest[component_before[p]] =
+        std::max(largest[component_before[p]], after.components[p].area_mm2);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (kept[t] == 0) continue;
     const std::uint32_t piece = piece_of[t];
-    if (after.components[piece].area_mm2 < kFragment * largest[came_from[piece]]) removed[t] = 1;
+    if (after.components[piece].area_mm2 < kFragment * largest[component_before[piece]])
+      removed[t] = 1;
   }
   return removed;
 }
 
 enum class VertexOrigin : std::uint8_t { Inside, NewBoundary, OldBoundary };
 
-/// For each vertex that is left after deleting whether something at it went, and whether it was on
-/// a boundary before.
+/// Classifies the vertices that remain after deleting: those whose triangles were removed, and
+/// those that were on a boundary before.
 std::vector<VertexOrigin> origins_after_deleting(const Mesh& mesh, const Selection& removed) {
-  std::vector<std::uint8_t> stays(mesh.vertices_mm.size());
+  std::vector<std::uint8_t> remains(mesh.vertices_mm.size());
   std::vector<VertexOrigin> at(mesh.vertices_mm.size(), VertexOrigin::Inside);
   for (std::size_t i = 0; i < removed.size(); ++i) {
     for (const std::uint32_t vertex : mesh.triangles[i]) {
       if (removed[i] != 0) at[vertex] = VertexOrigin::NewBoundary;
-      if (removed[i] == 0) stays[vertex] = 1;
+      if (removed[i] == 0) remains[vertex] = 1;
     }
   }
   const HalfEdges edges(mesh);
@@ -129,13 +131,13 @@ std::vector<VertexOrigin> origins_after_deleting(const Mesh& mesh, const Selecti
       at[source_vertex(mesh, edge)] = at[target_vertex(mesh, edge)] = VertexOrigin::OldBoundary;
   }
   std::vector<VertexOrigin> left;
-  for (std::size_t v = 0; v < stays.size(); ++v)
-    if (stays[v] != 0) left.push_back(at[v]);
+  for (std::size_t v = 0; v < remains.size(); ++v)
+    if (remains[v] != 0) left.push_back(at[v]);
   return left;
 }
 
-/// Closes the loops that are wounds all along.
-Mesh close_new_boundaries(Mesh mesh, const std::vector<VertexOrigin>& at) {
+/// Fills the holes whose boundary is new and nowhere part of an old one.
+Mesh close_new_boundaries(Mesh mesh, const std::vector<VertexOrigin>& at, const Run& run) {
   FillHolesOptions options;
   const std::vector<BoundaryLoop> loops = boundary_loops(mesh);
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -148,24 +150,27 @@ Mesh close_new_boundaries(Mesh mesh, const std::vector<VertexOrigin>& at) {
       options.only.push_back(i);
     }
   }
-  return options.only.empty() ? mesh : fill_holes(std::move(mesh), options);
+  return options.only.empty() ? mesh : fill_holes(std::move(mesh), options, run);
 }
 
 }  // namespace
 
 Mesh remove_self_intersections(Mesh mesh, const Run& run) {
-  constexpr int kRounds = 8;
-  mesh = with_bodies_united(std::move(mesh), run);
+  constexpr int kRounds = 8;  // each removes one more ring of triangles
+  mesh = unite_intersecting_bodies(std::move(mesh), run);
   for (int round = 0; round < kRounds; ++round) {
     Selection intersecting = select_self_intersections(mesh, run);
     if (count_selected(intersecting) == 0) return mesh;
     intersecting = with_fragments(mesh, grow_selection(mesh, std::move(intersecting), round));
     const std::vector<VertexOrigin> at = origins_after_deleting(mesh, intersecting);
-    mesh = close_new_boundaries(make_manifold(delete_selected(std::move(mesh), intersecting)), at);
+    mesh = make_manifold(delete_selected(std::move(mesh), intersecting), run);
+    mesh = close_new_boundaries(std::move(mesh), at, run);
     run.report((round + 1.0) / kRounds);
   }
   if (count_selected(select_self_intersections(mesh, run)) > 0) {
-    run.warn("some triangles cross still; remove them by hand and fill the holes they leave");
+    run.warn(
+        "some triangles still intersect; select them with `select_self_intersections`, delete them "
+        "and fill the holes");
   }
   return mesh;
 }

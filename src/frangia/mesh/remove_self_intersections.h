@@ -5,14 +5,14 @@
 
 namespace frangia {
 
-/// The mesh without triangles that cross others. What is away from crossings stays as it is.
+/// Removes self-intersections. The mesh away from them is unchanged.
 ///
-/// Closed parts that cross each other become one body: what lies inside goes, the rest is joined
-/// where they met. Elsewhere the triangles that cross go, what they cut off goes with them when it
-/// is less than a tenth of its part, and the wounds are closed and marked as invented; then what
-/// still crosses, with a ring of triangles more each time. What was closed is closed; a boundary
-/// that was there stays one.
-/// errors   Error(Input) as self_intersections
+/// Closed components that intersect each other are united. Elsewhere the intersecting triangles are
+/// removed, together with pieces that this cuts off if they hold less than a tenth of the area of
+/// their component, and the new holes are filled and marked as synthesized. This repeats with one
+/// more ring of triangles each time until no intersection is left. Existing boundaries stay open.
+///
+/// errors   Error(Input) as self_intersections; Error(Cancelled)
 [[nodiscard]] Mesh remove_self_intersections(Mesh mesh, const Run& run = {});
 
 }  // namespace frangia

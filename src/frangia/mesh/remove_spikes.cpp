@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Where the tip of a spike belongs; nothing for a vertex that is none.
+/// The mean of the neighbours of a spike's tip; nullopt for a vertex that is not a tip.
 std::optional<Vector3f> tip_target(const Mesh& mesh,
                                    const HalfEdges& edges,
                                    std::uint32_t vertex,
@@ -40,7 +40,7 @@ std::optional<Vector3f> tip_target(const Mesh& mesh,
   return mean / static_cast<float>(outgoing.size());
 }
 
-/// Whether a vertex of the boundary stands out like a needle: a scanner's flying pixel.
+/// Whether a boundary vertex is the tip of a needle, such as a flying pixel of a scanner.
 bool is_needle(const Mesh& mesh,
                const HalfEdges& edges,
                std::uint32_t vertex,
@@ -59,14 +59,17 @@ bool is_needle(const Mesh& mesh,
   return at_boundary && angles < below_rad;
 }
 
-/// Takes away the triangles at such tips: where the surface would end without them, nothing tells.
-/// Returns who is beside whom in what is left.
-HalfEdges cut_needles(Mesh& mesh, const RemoveSpikesOptions& options) {
-  constexpr float kSharp = 1.0F / 12.0F;  // of a spike's angles: 15 degrees instead of 180
-  constexpr float kLong = 2.0F;           // mean edges
-  const float below_rad = kSharp * static_cast<float>(options.below_rad);
-  const float shortest_mm = kLong * static_cast<float>(mean_edge_length_mm(mesh));
+/// Removes the triangles at the tips of needles: the data does not show where the surface ends
+/// without them. Returns the half-edges of the remaining mesh.
+HalfEdges remove_needles(Mesh& mesh, const RemoveSpikesOptions& options, const Run& run) {
+  // A tip on a boundary has only part of the angles of a full spike: 15 instead of 180 degrees
+  // keeps the corners of regular meshes (45 degrees and more).
+  constexpr float kAngleShare = 1.0F / 12.0F;
+  constexpr float kLengthShare = 2.0F;  // of the mean edge: shorter edges are the mesh's own
+  const float below_rad = kAngleShare * static_cast<float>(options.below_rad);
+  const float shortest_mm = kLengthShare * static_cast<float>(mean_edge_length_mm(mesh));
   for (int round = 0;; ++round) {
+    run.check();
     HalfEdges edges(mesh);
     std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
     for (std::uint32_t v = 0; v < mesh.vertices_mm.size(); ++v) {
@@ -84,7 +87,7 @@ HalfEdges cut_needles(Mesh& mesh, const RemoveSpikesOptions& options) {
 
 Mesh remove_spikes(Mesh mesh, const RemoveSpikesOptions& options, const Run& run) {
   constexpr std::size_t kChunk = 8192;
-  const HalfEdges edges = cut_needles(mesh, options);
+  const HalfEdges edges = remove_needles(mesh, options, run);
   const std::vector<Vector3f> before = mesh.vertices_mm;
   const auto below = static_cast<float>(options.below_rad);
   for (int round = 0; round < options.iterations; ++round) {
@@ -93,6 +96,7 @@ Mesh remove_spikes(Mesh mesh, const RemoveSpikesOptions& options, const Run& run
       for (std::size_t v = begin; v < end; ++v)
         positions[v] = tip_target(mesh, edges, static_cast<std::uint32_t>(v), below);
     });
+    run.check();
     bool any = false;
     for (std::size_t v = 0; v < positions.size(); ++v) {
       if (!positions[v]) continue;

@@ -10,16 +10,17 @@
 
 namespace frangia {
 
-/// Pairs of triangles that cross each other or lie on each other, beyond a corner or an edge that
-/// they share; ascending, the lower number first. Triangles without area count not.
+/// Finds the pairs of triangles that intersect or overlap beyond a vertex or an edge that they
+/// share. Triangles without area are ignored.
 ///
-/// errors   Error(Input) when a triangle refers to a vertex that is not there, or in a build
-///          without CGAL
+/// shape    pairs of triangle indices, the smaller one first, in ascending order
+/// errors   Error(Input) when a triangle refers to a vertex that does not exist, or in a build
+///          without CGAL; Error(Cancelled)
 /// source   CGAL, Intersecting Sequences of dD Iso-oriented Boxes; exact predicates
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const Run& run = {});
 
-/// The triangles that are in any such pair.
+/// Selects the triangles of all such pairs.
 [[nodiscard]] Selection select_self_intersections(const Mesh& mesh, const Run& run = {});
 
 }  // namespace frangia

@@ -8,28 +8,32 @@ namespace frangia {
 
 struct SmoothOptions {
   int iterations = 10;
-  /// No vertex moves farther than so many of its sigma, at sharp edges than a seventh of it, and
-  /// beside them than two fifths; 0: no bound.
+  /// Limit of the movement of a vertex in units of its sigma; 0: no limit. Vertices at sharp edges
+  /// move by at most 0.15 of it, their neighbours by at most 0.4.
   double max_sigmas = 3.0;
-  Selection only;  ///< move the vertices of these triangles alone; empty: all
+  Selection only;  ///< move only the vertices of these triangles; empty: all
 };
 
-/// Takes away noise and leaves large shapes: each step smooths, then swells back, along the
-/// normals. Where nothing bounds it sharp edges get rounder; smooth_keeping_edges keeps them.
+/// Smooths a mesh by Taubin's filter: each iteration shrinks, then inflates, along the vertex
+/// normals, which removes noise and preserves large shapes. Without a limit, sharp edges get
+/// rounder; smooth_keeping_edges keeps them.
 ///
-/// Vertices on the boundary stay. Those that end beyond their sigma from where they were are marked
-/// as moved; without sigma there is no bound.
-/// errors   Error(Input) for a negative number, or `only` that is not one flag a triangle
+/// Boundary vertices do not move. Vertices that move beyond their sigma are marked as displaced.
+///
+/// missing  a mesh without sigma has no limit; a vertex whose sigma is NaN does not move
+/// errors   Error(Input) for a negative option, or when `only` is not one flag per triangle;
+///          Error(Cancelled)
 /// source   Taubin 1995, A Signal Processing Approach to Fair Surface Design
 [[nodiscard]] Mesh smooth_taubin(Mesh mesh, const SmoothOptions& options = {}, const Run& run = {});
 
 struct KeepEdgesOptions {
   SmoothOptions smooth{.iterations = 8, .max_sigmas = 3.0, .only = {}};
-  double crease_rad = 0.35;  ///< triangles that turn from each other by much more are not mixed
+  /// Width of the Gaussian weight over the angle between two normals: a larger angle is an edge.
+  double crease_rad = 0.35;
 };
 
-/// Takes away noise and keeps edges: directions of triangles are averaged with those beside them
-/// that point alike, then the vertices follow the directions.
+/// Smooths a mesh and keeps sharp edges: a bilateral filter smooths the triangle normals, then the
+/// vertices move to fit them.
 ///
 /// errors   as smooth_taubin
 /// source   Zheng, Fu, Au & Tai 2011, Bilateral Normal Filtering for Mesh Denoising (local scheme);

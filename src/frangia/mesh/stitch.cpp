@@ -1,6 +1,7 @@
 #include "frangia/mesh/stitch.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -10,20 +11,22 @@
 #include "frangia/core/random.h"
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/are_adjacent.h"
+#include "frangia/mesh/internal/steps_per_check.h"
 #include "frangia/mesh/make_manifold.h"
 
 namespace frangia {
 namespace {
 
-/// Places so far, findable by nearness.
+/// The vertices found so far in a hash grid with the tolerance as its cell size.
 class PointHash {
  public:
   PointHash(const Mesh& mesh, const HalfEdges& edges, double tolerance_mm)
       : mesh_(mesh), edges_(edges), tolerance_(tolerance_mm) {}
 
-  /// The nearest position within the tolerance that is not beside `vertex` on the mesh, or `vertex`
-  /// itself, which is then kept as a new position.
-  std::uint32_t join(std::uint32_t vertex) {
+  /// The nearest vertex within the tolerance that no edge connects to `vertex`. Without one, adds
+  /// `vertex` to the grid and returns it.
+  std::uint32_t find_or_add(std::uint32_t vertex) {
     const Eigen::Vector3d position = mesh_.vertices_mm[vertex].cast<double>();
     std::uint32_t best = vertex;
     double nearest = tolerance_;
@@ -31,7 +34,7 @@ class PointHash {
     for (int x = -reach; x <= reach; ++x) {
       for (int y = -reach; y <= reach; ++y) {
         for (int z = -reach; z <= reach; ++z)
-          look(key_of(position, {x, y, z}), vertex, best, nearest);
+          search_cell(key_of(position, {x, y, z}), vertex, best, nearest);
       }
     }
     if (best == vertex) buckets_[key_of(position, {0, 0, 0})].push_back(vertex);
@@ -41,34 +44,38 @@ class PointHash {
  private:
   [[nodiscard]] std::uint64_t key_of(const Eigen::Vector3d& position,
                                      const std::array<int, 3>& step) const {
-    const double cell = tolerance_ > 0.0 ? tolerance_ : 1e-3;
+    if (!(tolerance_ > 0.0)) return key_of_exact(position);
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double index =
-          std::floor(position[axis] / cell) + step.at(static_cast<std::size_t>(axis));
+          std::floor(position[axis] / tolerance_) + step.at(static_cast<std::size_t>(axis));
       key = hash(key, static_cast<std::uint64_t>(static_cast<std::int64_t>(index)));
     }
     return key;
   }
 
-  void look(std::uint64_t key, std::uint32_t vertex, std::uint32_t& best, double& nearest) const {
+  /// Equal positions have equal keys: -0 becomes 0.
+  [[nodiscard]] static std::uint64_t key_of_exact(const Eigen::Vector3d& position) {
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      key = hash(key, std::bit_cast<std::uint64_t>(position[axis] + 0.0));
+    return key;
+  }
+
+  void search_cell(std::uint64_t key,
+                   std::uint32_t vertex,
+                   std::uint32_t& best,
+                   double& nearest) const {
     const auto found = buckets_.find(key);
     if (found == buckets_.end()) return;
     for (const std::uint32_t other : found->second) {
       const auto distance =
           static_cast<double>((mesh_.vertices_mm[other] - mesh_.vertices_mm[vertex]).norm());
       const bool nearer = distance < nearest || (distance == nearest && best == vertex);
-      if (!nearer || are_adjacent(vertex, other)) continue;
+      if (!nearer || are_adjacent(mesh_, edges_, vertex, other)) continue;
       best = other;
       nearest = distance;
     }
-  }
-
-  [[nodiscard]] bool are_adjacent(std::uint32_t a, std::uint32_t b) const {
-    const auto around = edges_.outgoing(a);
-    return std::any_of(around.begin(), around.end(), [&](std::uint32_t edge) {
-      return target_vertex(mesh_, edge) == b || opposite_vertex(mesh_, edge) == b;
-    });
   }
 
   const Mesh& mesh_;
@@ -79,20 +86,21 @@ class PointHash {
 
 }  // namespace
 
-Mesh stitch(Mesh mesh, double tolerance_mm) {
-  require(tolerance_mm >= 0.0, "stitch: the tolerance must not be negative");
+Mesh stitch(Mesh mesh, double tolerance_mm, const Run& run) {
+  require(tolerance_mm >= 0.0, "the tolerance of stitching must not be negative");
   const HalfEdges edges(mesh);
-  std::vector<std::uint8_t> open(mesh.vertices_mm.size());
+  std::vector<std::uint8_t> on_boundary(mesh.vertices_mm.size());
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (!edges.is_boundary(edge)) continue;
-    open[source_vertex(mesh, edge)] = 1;
-    open[target_vertex(mesh, edge)] = 1;
+    on_boundary[source_vertex(mesh, edge)] = 1;
+    on_boundary[target_vertex(mesh, edge)] = 1;
   }
   std::vector<std::uint32_t> new_index(mesh.vertices_mm.size());
   PointHash point_hash(mesh, edges, tolerance_mm);
   bool any = false;
   for (std::uint32_t vertex = 0; vertex < new_index.size(); ++vertex) {
-    new_index[vertex] = open[vertex] != 0 ? point_hash.join(vertex) : vertex;
+    if (vertex % kStepsPerCheck == 0) run.check();
+    new_index[vertex] = on_boundary[vertex] != 0 ? point_hash.find_or_add(vertex) : vertex;
     any = any || new_index[vertex] != vertex;
   }
   if (!any) return mesh;
@@ -100,7 +108,7 @@ Mesh stitch(Mesh mesh, double tolerance_mm) {
     for (std::uint32_t& vertex : triangle)
       vertex = new_index[vertex];
   }
-  mesh = make_manifold(std::move(mesh));
+  mesh = make_manifold(std::move(mesh), run);
   recompute_normals(mesh);
   return mesh;
 }

@@ -1,15 +1,17 @@
 #pragma once
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// The mesh with boundaries joined that run beside each other.
+/// Merges boundary vertices that lie within a tolerance of each other.
 ///
-/// Vertices on boundaries that lie within the tolerance of each other become one, at the place of
-/// the first; ends of the same edge never do. Triangles that lose their area on the way go, and
-/// what stops being manifold is parted again. units    mm; 0 joins only what lies at the very same
-/// place
-[[nodiscard]] Mesh stitch(Mesh mesh, double tolerance_mm = 0.0);
+/// A merged vertex keeps the position of the first one. The ends of one edge are never merged.
+/// Triangles that degenerate are removed, and make_manifold splits what becomes non-manifold.
+///
+/// units    mm; a tolerance of 0 merges vertices at the same position
+/// errors   Error(Input) for a negative tolerance; Error(Cancelled)
+[[nodiscard]] Mesh stitch(Mesh mesh, double tolerance_mm = 0.0, const Run& run = {});
 
 }  // namespace frangia

@@ -1,13 +1,13 @@
 #include "frangia/pipeline/finish_mesh.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/ray_scene.h"
@@ -38,31 +38,32 @@ double diagonal_mm(const Mesh& mesh) {
   return static_cast<double>(box.diagonal().norm());
 }
 
-Mesh close(Mesh mesh, const Run& run) {
-  mesh = make_manifold(std::move(mesh));
+std::string holes_text(std::size_t count) {
+  return fmt::format("{} hole{}", count, count == 1 ? "" : "s");
+}
+
+Mesh make_watertight(Mesh mesh, const Run& run) {
+  mesh = make_manifold(std::move(mesh), run);
   const std::size_t holes = boundary_loops(mesh).size();
-  // What is small goes on as curved as the surface around; of what is large nobody knows the shape.
-  constexpr double kSmall = 0.15;
-  try {
-    mesh = fill_holes(mesh, {.up_to_mm = kSmall * diagonal_mm(mesh)}, run);
-  } catch (const Error& error) {  // a build without CGAL
-    run.note(fmt::format("{}; all holes are closed flat", error.what()));
-  }
+  // Small holes continue the surrounding curvature. The shape of larger ones is unknown: flat.
+  constexpr double kSmall = 0.15;  // of the diagonal of the mesh
+  const double small_mm = kSmall * diagonal_mm(mesh);
+  mesh = fill_holes(std::move(mesh), {.up_to_mm = small_mm}, run);
   mesh = fill_holes(std::move(mesh), {.kind = HoleFill::Flat}, run);
   const auto synthesized =
       std::count(mesh.triangle_marks.begin(), mesh.triangle_marks.end(), Mark::Synthesized);
   run.note(fmt::format(
-      "{} holes are closed by {} triangles of {:.4g} mm2 in all, which were not measured and are "
-      "marked as synthesized",
-      holes,
+      "{} filled with {} triangles of {:.4g} mm2 in total; they are not measured and are marked as "
+      "synthesized",
+      holes_text(holes),
       synthesized,
       area_mm2(mesh, Mark::Synthesized)));
   if (const std::size_t open = boundary_loops(mesh).size(); open > 0)
-    run.warn(fmt::format("{} holes could not be closed: the mesh is not watertight", open));
+    run.warn(fmt::format("the mesh is not watertight: {} could not be filled", holes_text(open)));
   return mesh;
 }
 
-/// How far the vertices of one mesh lie from another, at most.
+/// The largest distance of the vertices of one mesh from another.
 double max_distance_mm(const Mesh& from, const RayScene& to) {
   std::vector<double> distances(from.vertices_mm.size());
   parallel_chunks(distances.size(), 1024, [&](std::size_t begin, std::size_t end) {
@@ -77,11 +78,11 @@ double max_distance_mm(const Mesh& from, const RayScene& to) {
 }  // namespace
 
 Mesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run) {
-  if (options.watertight) mesh = close(std::move(mesh), run);
+  if (options.watertight) mesh = make_watertight(std::move(mesh), run);
   if (options.tolerance_mm <= 0.0) return mesh;
   const std::size_t before = mesh.triangles.size();
   mesh = decimate(std::move(mesh), {.tolerance_mm = options.tolerance_mm}, run);
-  run.note(fmt::format("{} triangles of {} are enough within {:.3g} mm",
+  run.note(fmt::format("decimated to {} of {} triangles within {:.3g} mm",
                        mesh.triangles.size(),
                        before,
                        options.tolerance_mm));
@@ -91,14 +92,13 @@ Mesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run) {
 Mesh limit_triangles(const Mesh& mesh, std::size_t max_triangles, const Run& run) {
   if (max_triangles == 0 || mesh.triangles.size() <= max_triangles) return mesh;
   Mesh fewer = decimate(mesh, {.triangles = max_triangles}, run);
-  const double off_mm =
+  const double distance_mm =
       std::max(max_distance_mm(mesh, RayScene(fewer)), max_distance_mm(fewer, RayScene(mesh)));
   run.note(
-      fmt::format("{} triangles of {} are kept, which lie nowhere farther than {:.3g} mm from "
-                  "them all",
+      fmt::format("decimated to {} of {} triangles, at most {:.3g} mm from the original surface",
                   fewer.triangles.size(),
                   mesh.triangles.size(),
-                  off_mm));
+                  distance_mm));
   return fewer;
 }
 

@@ -8,17 +8,20 @@
 namespace frangia {
 
 struct FinishOptions {
-  bool watertight = false;  ///< close what was not seen, every triangle of it marked as synthesized
-  double tolerance_mm = 0.0;  ///< fewer triangles, nowhere farther from the measured mesh; 0: all
+  bool watertight = false;    ///< fill all holes; new triangles are marked as synthesized
+  double tolerance_mm = 0.0;  ///< decimate within this distance; 0: keep all triangles
 };
 
-/// What is done to a pasted mesh only when it is asked for. Notes of `run` say what was done.
+/// Applies the optional last steps to a fused mesh. `run` receives a note of each.
 ///
-/// errors   as fill_holes and decimate
+/// units    mm
+/// errors   as fill_holes and decimate; Error(Cancelled)
 [[nodiscard]] Mesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run = {});
 
-/// The mesh with at most `max_triangles`, for a file that few programs open when it holds more; a
-/// note says how far from the mesh that lies. 0 keeps all.
+/// Decimates a mesh to at most `max_triangles`, for file formats that few programs read when they
+/// hold more. `run` receives a note of the distance between the two meshes. 0 keeps all triangles.
+///
+/// errors   Error(Cancelled)
 [[nodiscard]] Mesh limit_triangles(const Mesh& mesh,
                                    std::size_t max_triangles,
                                    const Run& run = {});

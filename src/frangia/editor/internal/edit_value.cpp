@@ -1,5 +1,6 @@
 #include "frangia/editor/internal/edit_value.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -12,7 +13,56 @@
 namespace frangia {
 namespace {
 
-std::vector<std::string_view> words_of(std::string_view text) {
+enum class ValueUnit { None, Length, Degrees };
+enum class ValueRange { Any, NotNegative, Positive };
+
+/// One word of a pattern and the numbers that it stands for.
+struct ValueKind {
+  std::string_view name;
+  ValueUnit unit = ValueUnit::None;
+  ValueRange range = ValueRange::Any;
+  bool whole = false;
+  std::string_view help;
+};
+
+constexpr ValueKind kPlainNumber{.name = "", .help = ""};
+
+constexpr std::string_view kLengthHelp = "; a length is in mm or has a unit: 10, 10mm, 1cm, 0.5in";
+
+constexpr std::array<ValueKind, 9> kValueKinds{{
+    {.name = "MM", .unit = ValueUnit::Length, .help = kLengthHelp},
+    {.name = "SIZE",
+     .unit = ValueUnit::Length,
+     .range = ValueRange::Positive,
+     .help = "; a size is a length greater than 0, in mm or with a unit: 10, 10mm, 1cm, 0.5in"},
+    {.name = "TOLERANCE",
+     .unit = ValueUnit::Length,
+     .range = ValueRange::NotNegative,
+     .help = "; a tolerance is a length of at least 0, in mm or with a unit: 0.1, 0.1mm, 100um"},
+    {.name = "DEG", .unit = ValueUnit::Degrees, .range = ValueRange::Positive, .help = ""},
+    {.name = "N",
+     .range = ValueRange::Positive,
+     .whole = true,
+     .help = "; write a whole number greater than 0"},
+    {.name = "COMPONENT",
+     .range = ValueRange::NotNegative,
+     .whole = true,
+     .help = "; write the number that `list` shows for the component: 0"},
+    {.name = "HOLE",
+     .range = ValueRange::NotNegative,
+     .whole = true,
+     .help = "; write the number that `list` shows for the hole: 0"},
+    {.name = "K", .range = ValueRange::NotNegative, .help = "; write a number of at least 0"},
+    {.name = "PER_MM", .range = ValueRange::NotNegative, .help = "; write a number of at least 0"},
+}};
+
+const ValueKind& kind_of(std::string_view name) {
+  for (const ValueKind& kind : kValueKinds)
+    if (kind.name == name) return kind;
+  return kPlainNumber;
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view text) {
   std::vector<std::string_view> words;
   for (;;) {
     const std::size_t comma = text.find(',');
@@ -30,65 +80,63 @@ std::optional<double> length_of_word(std::string_view word) {
   }
 }
 
-std::optional<double> plain_number(std::string_view kind, std::string_view word) {
+std::optional<double> number_of_word(ValueUnit unit, std::string_view word) {
+  if (unit == ValueUnit::Length) return length_of_word(word);
   while (!word.empty() && word.front() == ' ')
     word.remove_prefix(1);
   double number = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const std::string_view unit(end, static_cast<std::size_t>(word.data() + word.size() - end));
-  if (error != std::errc() || !(unit.empty() || (kind == "DEG" && unit == "deg"))) {
-    return std::nullopt;
-  }
+  const std::string_view suffix(end, static_cast<std::size_t>(word.data() + word.size() - end));
+  const bool known_suffix = suffix.empty() || (unit == ValueUnit::Degrees && suffix == "deg");
+  if (error != std::errc() || !known_suffix) return std::nullopt;
   return number;
 }
 
-std::optional<double> number_of(std::string_view kind, std::string_view word) {
-  const auto number = kind == "MM" ? length_of_word(word) : plain_number(kind, word);
-  constexpr double kLargest = 1e9;  // single precision and 32-bit indices hold no larger number
-  if (!number || !(std::abs(*number) <= kLargest)) return std::nullopt;
-  const bool counts = kind == "N" || kind == "PART" || kind == "HOLE";
-  if (counts && (*number < 0.0 || *number != std::floor(*number))) return std::nullopt;
-  return number;
+bool is_in_range(const ValueKind& kind, double number) {
+  constexpr double kLargest = 1e9;  // counts stay below 2^31, coordinates in single precision
+  if (!(std::abs(number) <= kLargest)) return false;
+  if (kind.whole && number != std::floor(number)) return false;
+  if (kind.range == ValueRange::Positive) return number > 0.0;
+  return kind.range == ValueRange::Any || number >= 0.0;
 }
 
-/// Explains a pattern whose names alone do not say what to write.
-std::string_view meaning_of(std::string_view pattern) {
-  const auto has = [&](std::string_view kind) {
-    return pattern.find(kind) != std::string_view::npos;
-  };
-  if (has("MM")) return "; a length is in mm or has a unit: 10, 10mm, 1cm, 0.5in";
-  if (has("HOLE")) return "; a hole is named by its number in --list: 0";
+std::string_view help_for(std::string_view pattern) {
+  for (const std::string_view word : split_at_commas(pattern))
+    if (!kind_of(word).help.empty()) return kind_of(word).help;
   return "";
 }
 
 }  // namespace
 
 std::vector<double> edit_numbers(std::string_view pattern, const std::string& value) {
-  const auto kinds = words_of(pattern);
-  const auto words = words_of(value);
+  const auto names = split_at_commas(pattern);
+  const auto words = split_at_commas(value);
   std::vector<double> numbers;
-  for (std::size_t i = 0; i < kinds.size() && words.size() == kinds.size(); ++i) {
-    const auto number = number_of(kinds[i], words[i]);
-    if (number) numbers.push_back(*number);
+  for (std::size_t i = 0; i < names.size() && words.size() == names.size(); ++i) {
+    const ValueKind& kind = kind_of(names[i]);
+    const auto number = number_of_word(kind.unit, words[i]);
+    if (number && is_in_range(kind, *number)) numbers.push_back(*number);
   }
-  if (numbers.size() != kinds.size()) {
+  if (numbers.size() != names.size()) {
     throw Error(ErrorKind::Input,
-                fmt::format("'{}' is not {}{}", value, pattern, meaning_of(pattern)));
+                fmt::format("'{}' is not {}{}", value, pattern, help_for(pattern)));
   }
   return numbers;
 }
 
 Eigen::Hyperplane<double, 3> edit_plane(const std::vector<double>& numbers) {
   const Eigen::Vector3d normal(numbers.at(0), numbers.at(1), numbers.at(2));
-  require(normal.norm() > 0.0, "a plane's normal must have a length, as in 0,0,1,25mm");
+  require(normal.norm() > 0.0,
+          "the normal of the plane has no length; write a direction, such as 0,0,1,25mm");
   return {normal.normalized(), -numbers.at(3)};
 }
 
 Mark edit_mark(const std::string& value) {
   if (value == "measured") return Mark::Measured;
-  if (value == "moved") return Mark::Displaced;
-  if (value == "invented") return Mark::Synthesized;
-  throw Error(ErrorKind::Input, fmt::format("'{}' is no mark: measured, moved or invented", value));
+  if (value == "displaced") return Mark::Displaced;
+  if (value == "synthesized") return Mark::Synthesized;
+  throw Error(ErrorKind::Input,
+              fmt::format("'{}' is not a mark; write measured, displaced or synthesized", value));
 }
 
 }  // namespace frangia

@@ -10,20 +10,24 @@
 
 namespace frangia {
 
-/// Parses the value of an operation by the operation's pattern: words separated by commas. MM is a
-/// length (parse_length_mm); DEG is an angle in degrees, with or without "deg"; N, PART and HOLE
-/// are whole numbers that are not negative; any other word is a plain number.
+/// Parses the value of an operation by the operation's pattern: words separated by commas.
+///
+/// MM is a length (parse_length_mm), SIZE a length greater than 0, TOLERANCE a length of at least
+/// 0. DEG is a positive angle in degrees, with or without "deg". N is a positive whole number,
+/// COMPONENT and HOLE are whole numbers of at least 0, K and PER_MM are numbers of at least 0. Any
+/// other word is a plain number.
 ///
 /// units    lengths in mm, angles in degrees
 /// errors   Error(Input) that shows the value and the pattern
 [[nodiscard]] std::vector<double> edit_numbers(std::string_view pattern, const std::string& value);
 
-/// The plane of N_X,N_Y,N_Z,MM: points p with n.p = mm, n made unit.
+/// The plane of the pattern X,Y,Z,MM: the points p with n.p = mm, where n is the unit normal along
+/// X,Y,Z.
 ///
-/// errors   Error(Input) when the normal has no length
+/// errors   Error(Input) for a normal of length 0
 [[nodiscard]] Eigen::Hyperplane<double, 3> edit_plane(const std::vector<double>& numbers);
 
-/// errors   Error(Input) when it is none of measured, moved, invented
+/// errors   Error(Input) unless the value is measured, displaced or synthesized
 [[nodiscard]] Mark edit_mark(const std::string& value);
 
 }  // namespace frangia

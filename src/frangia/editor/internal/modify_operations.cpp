@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-constexpr const char* kGroup = "Changing";
+constexpr const char* kGroup = "Modification";
 constexpr const char* kPlane = "X,Y,Z,MM";
 constexpr const char* kPicks = "X,Y,Z,X,Y,Z,X,Y,Z";
 
@@ -34,17 +34,17 @@ void align(EditState& state, const std::vector<double>& n) {
   state.mesh = transform_mesh(std::move(state.mesh), pose);
 }
 
-std::vector<EditOperation> of_shape() {
+std::vector<EditOperation> shape_operations() {
   return {
       {"max-sigmas",
        kGroup,
        "K",
-       "later smoothing moves no vertex farther than so many of its sigma (3; 0: no bound)",
+       "limit later smoothing to K sigma of each vertex (3 at first; 0: no limit)",
        [](EditState& s, const Text& v, const Run&) { s.max_sigmas = edit_numbers("K", v)[0]; }},
       {"smooth",
        kGroup,
        "N",
-       "take away noise, in so many iterations; of what is selected, or all",
+       "smooth the selected triangles, or all, in N iterations",
        [](EditState& s, const Text& v, const Run& run) {
          const SmoothOptions options = smoothing(s, v);
          s.mesh = smooth_taubin(std::move(s.mesh), options, run);
@@ -52,45 +52,45 @@ std::vector<EditOperation> of_shape() {
       {"smooth-keeping-edges",
        kGroup,
        "N",
-       "take away noise and keep edges, in so many iterations; of what is selected, or all",
+       "smooth the selected triangles, or all, in N iterations and keep sharp edges",
        [](EditState& s, const Text& v, const Run& run) {
          const KeepEdgesOptions options{.smooth = smoothing(s, v)};
          s.mesh = smooth_keeping_edges(std::move(s.mesh), options, run);
        }},
       {"decimate",
        kGroup,
-       "MM",
-       "as few triangles as stay within this distance everywhere",
+       "SIZE",
+       "reduce the triangles as far as the surface stays within this distance",
        [](EditState& s, const Text& v, const Run& run) {
          s.mesh = decimate(
-             std::move(s.mesh), {.triangles = 0, .tolerance_mm = edit_numbers("MM", v)[0]}, run);
+             std::move(s.mesh), {.triangles = 0, .tolerance_mm = edit_numbers("SIZE", v)[0]}, run);
        }},
       {"decimate-to",
        kGroup,
        "N",
-       "so many triangles",
+       "reduce the mesh to at most N triangles",
        [](EditState& s, const Text& v, const Run& run) {
          const auto count = static_cast<std::size_t>(edit_numbers("N", v)[0]);
          s.mesh = decimate(std::move(s.mesh), {.triangles = count}, run);
        }},
       {"remesh",
        kGroup,
-       "MM",
-       "triangles alike, with edges of about this length",
+       "SIZE",
+       "remesh to nearly equilateral triangles with edges of this length",
        [](EditState& s, const Text& v, const Run& run) {
-         s.mesh = remesh_isotropic(s.mesh, {.edge_mm = edit_numbers("MM", v)[0]}, run);
+         s.mesh = remesh_isotropic(s.mesh, {.edge_mm = edit_numbers("SIZE", v)[0]}, run);
        }},
       {"offset",
        kGroup,
        "MM",
-       "move the surface outwards, or inwards by a negative number",
-       [](EditState& s, const Text& v, const Run&) {
-         s.mesh = offset_mesh(std::move(s.mesh), edit_numbers("MM", v)[0]);
+       "offset the surface outwards, or inwards by a negative length",
+       [](EditState& s, const Text& v, const Run& run) {
+         s.mesh = offset_mesh(std::move(s.mesh), edit_numbers("MM", v)[0], run);
        }},
   };
 }
 
-std::vector<EditOperation> of_frame() {
+std::vector<EditOperation> frame_operations() {
   const auto cut = [](EditState& s, const Text& v, bool capped, const Run& run) {
     s.mesh = cut_by_plane(
         std::move(s.mesh), edit_plane(edit_numbers(kPlane, v)), {.capped = capped}, run);
@@ -99,25 +99,26 @@ std::vector<EditOperation> of_frame() {
       {"cut",
        kGroup,
        kPlane,
-       "keep what lies beyond a plane: its normal, and how far along it",
+       "keep the side of a plane that its normal X,Y,Z points to; MM is its distance from the "
+       "origin along the normal",
        [cut](EditState& s, const Text& v, const Run& run) { cut(s, v, false, run); }},
       {"cut-capped",
        kGroup,
        kPlane,
-       "the same, and close the cut",
+       "cut in the same way and close the cut with flat triangles",
        [cut](EditState& s, const Text& v, const Run& run) { cut(s, v, true, run); }},
       {"mirror",
        kGroup,
        kPlane,
-       "mirror at a plane",
+       "mirror the mesh at a plane",
        [](EditState& s, const Text& v, const Run&) {
          s.mesh = mirror_mesh(std::move(s.mesh), edit_plane(edit_numbers(kPlane, v)));
        }},
       {"align",
        kGroup,
        kPicks,
-       "move the part so that the face about the first place lies in z = 0, about the second in "
-       "x = 0, about the third in y = 0",
+       "move the mesh so that the planar face around the first point lies in z = 0, around the "
+       "second in x = 0 and around the third in y = 0",
        [](EditState& s, const Text& v, const Run&) { align(s, edit_numbers(kPicks, v)); }},
   };
 }
@@ -125,8 +126,8 @@ std::vector<EditOperation> of_frame() {
 }  // namespace
 
 std::vector<EditOperation> modify_operations() {
-  std::vector<EditOperation> all = of_shape();
-  for (EditOperation& operation : of_frame())
+  std::vector<EditOperation> all = shape_operations();
+  for (EditOperation& operation : frame_operations())
     all.push_back(std::move(operation));
   return all;
 }

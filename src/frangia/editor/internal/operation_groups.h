@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// The operations of each kind, as edit_operations() joins them.
+/// The groups of operations that edit_operations() joins.
 [[nodiscard]] std::vector<EditOperation> selection_operations();
 [[nodiscard]] std::vector<EditOperation> repair_operations();
 [[nodiscard]] std::vector<EditOperation> modify_operations();

@@ -15,116 +15,121 @@
 namespace frangia {
 namespace {
 
-constexpr const char* kGroup = "Repairing";
+constexpr const char* kGroup = "Repair";
 
 using Text = std::string;
 
-double length_of(const Text& value) {
-  return edit_numbers("MM", value)[0];
+double size_of(const Text& value) {
+  return edit_numbers("SIZE", value)[0];
 }
-std::size_t count_of_text(const Text& value) {
-  return static_cast<std::size_t>(edit_numbers("N", value)[0]);
+std::size_t hole_of(const Text& value) {
+  return static_cast<std::size_t>(edit_numbers("HOLE", value)[0]);
 }
 
-std::vector<EditOperation> of_holes() {
+std::vector<EditOperation> hole_operations() {
   const auto fill = [](EditState& state, const FillHolesOptions& options, const Run& run) {
     state.mesh = fill_holes(std::move(state.mesh), options, run);
   };
   return {
       {"fill-holes",
        kGroup,
-       "MM",
-       "close holes up to this size as the surface around them runs",
+       "SIZE",
+       "fill holes up to this size, continuing the curvature around them",
        [fill](EditState& s, const Text& v, const Run& run) {
-         fill(s, {.up_to_mm = length_of(v), .kind = HoleFill::Smooth}, run);
+         fill(s, {.up_to_mm = size_of(v), .kind = HoleFill::Smooth}, run);
        }},
       {"fill-holes-flat",
        kGroup,
-       "MM",
-       "close holes up to this size with flat triangles",
+       "SIZE",
+       "fill holes up to this size with triangles between their boundary vertices",
        [fill](EditState& s, const Text& v, const Run& run) {
-         fill(s, {.up_to_mm = length_of(v), .kind = HoleFill::Flat}, run);
+         fill(s, {.up_to_mm = size_of(v), .kind = HoleFill::Flat}, run);
        }},
       {"fill-hole",
        kGroup,
        "HOLE",
-       "close one hole, by its number in --list, as the surface around it runs",
+       "fill the hole of this number in `list`, continuing the curvature around it",
        [fill](EditState& s, const Text& v, const Run& run) {
-         fill(s, {.kind = HoleFill::Smooth, .only = {count_of_text(v)}}, run);
+         fill(s, {.kind = HoleFill::Smooth, .only = {hole_of(v)}}, run);
        }},
       {"fill-hole-flat",
        kGroup,
        "HOLE",
-       "close one hole, by its number in --list, with flat triangles",
+       "fill the hole of this number in `list` with triangles between its boundary vertices",
        [fill](EditState& s, const Text& v, const Run& run) {
-         fill(s, {.kind = HoleFill::Flat, .only = {count_of_text(v)}}, run);
+         fill(s, {.kind = HoleFill::Flat, .only = {hole_of(v)}}, run);
        }},
       {"bridge",
        kGroup,
        "HOLE,HOLE",
-       "join the boundaries of two holes, by their numbers in --list, by a band",
-       [](EditState& s, const Text& v, const Run&) {
+       "join the boundaries of two holes, by their numbers in `list`, with a band of triangles",
+       [](EditState& s, const Text& v, const Run& run) {
          const auto loops = edit_numbers("HOLE,HOLE", v);
          s.mesh = bridge_loops(std::move(s.mesh),
                                static_cast<std::size_t>(loops[0]),
-                               static_cast<std::size_t>(loops[1]));
+                               static_cast<std::size_t>(loops[1]),
+                               run);
        }},
   };
 }
 
-std::vector<EditOperation> of_topology() {
+std::vector<EditOperation> topology_operations() {
   return {
       {"keep-largest",
        kGroup,
        "N",
-       "keep so many parts of the largest area",
+       "keep the N components of the largest area",
        [](EditState& s, const Text& v, const Run&) {
-         s.mesh = keep_largest_components(std::move(s.mesh), count_of_text(v));
+         s.mesh = keep_largest_components(std::move(s.mesh),
+                                          static_cast<std::size_t>(edit_numbers("N", v)[0]));
        }},
       {"remove-islands",
        kGroup,
-       "MM",
-       "drop parts up to this size",
+       "SIZE",
+       "remove components up to this size",
        [](EditState& s, const Text& v, const Run&) {
-         s.mesh = remove_islands(std::move(s.mesh), length_of(v));
+         s.mesh = remove_islands(std::move(s.mesh), size_of(v));
        }},
       {"remove-spikes",
        kGroup,
        "",
-       "set tips sharper than a cone of 60 degrees down, cut needles at the boundary off",
+       "flatten tips sharper than a cone of 60 degrees and remove needles at boundaries",
        [](EditState& s, const Text&, const Run& run) {
          s.mesh = remove_spikes(std::move(s.mesh), {}, run);
        }},
       {"remove-self-intersections",
        kGroup,
        "",
-       "unite closed parts that cross; elsewhere drop what crosses and close what it leaves",
+       "unite closed components that intersect; elsewhere remove the intersecting triangles and "
+       "fill the holes that they leave",
        [](EditState& s, const Text&, const Run& run) {
          s.mesh = remove_self_intersections(std::move(s.mesh), run);
        }},
       {"make-manifold",
        kGroup,
        "",
-       "part what is not manifold, drop broken and repeated triangles",
-       [](EditState& s, const Text&, const Run&) { s.mesh = make_manifold(std::move(s.mesh)); }},
+       "split non-manifold edges and vertices, remove invalid and duplicate triangles",
+       [](EditState& s, const Text&, const Run& run) {
+         s.mesh = make_manifold(std::move(s.mesh), run);
+       }},
       {"orient",
        kGroup,
        "",
-       "wind neighbours alike and closed parts outwards",
-       [](EditState& s, const Text&, const Run&) { s.mesh = orient(std::move(s.mesh)); }},
-      {"inside-out",
+       "orient neighbouring triangles consistently and closed components outwards",
+       [](EditState& s, const Text&, const Run& run) { s.mesh = orient(std::move(s.mesh), run); }},
+      {"reverse-orientation",
        kGroup,
        "",
-       "turn every triangle to its other side",
+       "reverse the orientation of every triangle",
        [](EditState& s, const Text&, const Run&) {
          s.mesh = reverse_orientation(std::move(s.mesh));
        }},
       {"stitch",
        kGroup,
-       "MM",
-       "join boundaries within this distance",
-       [](EditState& s, const Text& v, const Run&) {
-         s.mesh = stitch(std::move(s.mesh), length_of(v));
+       "TOLERANCE",
+       "merge boundary vertices within this distance of each other",
+       [](EditState& s, const Text& v, const Run& run) {
+         s.mesh = stitch(std::move(s.mesh), edit_numbers("TOLERANCE", v)[0], run);
        }},
   };
 }
@@ -132,8 +137,8 @@ std::vector<EditOperation> of_topology() {
 }  // namespace
 
 std::vector<EditOperation> repair_operations() {
-  std::vector<EditOperation> all = of_holes();
-  for (EditOperation& operation : of_topology())
+  std::vector<EditOperation> all = hole_operations();
+  for (EditOperation& operation : topology_operations())
     all.push_back(std::move(operation));
   return all;
 }

@@ -10,16 +10,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-template <typename Holds>
-Selection select_if(const Mesh& mesh, const Holds& holds) {
+template <typename IsInside>
+Selection select_if(const Mesh& mesh, const IsInside& is_inside) {
   constexpr std::size_t kChunk = 16'384;
   Selection selection(mesh.triangles.size());
   parallel_chunks(selection.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [a, b, c] = mesh.triangles[i];
-      selection[i] = holds(mesh.vertices_mm[a].cast<double>(),
-                           mesh.vertices_mm[b].cast<double>(),
-                           mesh.vertices_mm[c].cast<double>())
+      selection[i] = is_inside(mesh.vertices_mm[a].cast<double>(),
+                               mesh.vertices_mm[b].cast<double>(),
+                               mesh.vertices_mm[c].cast<double>())
                          ? 1
                          : 0;
     }
@@ -48,13 +48,13 @@ Selection select_by_ball(const Mesh& mesh, const Vector3d& center_mm, double rad
 }
 
 Selection select_by_normal(const Mesh& mesh, const Vector3d& direction, double within_rad) {
-  require(direction.norm() > 0.0, "select_by_normal: the direction has no length");
+  require(direction.norm() > 0.0, "the direction has no length; write one such as 0,0,1");
   const Vector3d unit = direction.normalized();
-  const double least = std::cos(within_rad);
+  const double min_cosine = std::cos(within_rad);
   return select_if(mesh, [&](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const Vector3d cross = (b - a).cross(c - a);
     const double length = cross.norm();
-    return length > 0.0 && cross.dot(unit) >= least * length;
+    return length > 0.0 && cross.dot(unit) >= min_cosine * length;
   });
 }
 

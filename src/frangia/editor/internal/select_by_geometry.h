@@ -7,23 +7,24 @@
 
 namespace frangia {
 
-/// The triangles whose centre lies on the plane's positive side.
+/// Selects the triangles whose centroid lies on the positive side of a plane.
 ///
-/// units    mm; the plane's normal is unit
+/// units    mm; the normal of the plane has unit length
 [[nodiscard]] Selection select_by_plane(const Mesh& mesh,
                                         const Eigen::Hyperplane<double, 3>& plane);
 
-/// The triangles whose centre lies in the box.
+/// Selects the triangles whose centroid lies in a box.
 [[nodiscard]] Selection select_by_box(const Mesh& mesh, const Eigen::AlignedBox3d& box_mm);
 
-/// The triangles whose centre lies within a ball.
+/// Selects the triangles whose centroid lies in a ball.
 [[nodiscard]] Selection select_by_ball(const Mesh& mesh,
                                        const Eigen::Vector3d& center_mm,
                                        double radius_mm);
 
-/// The triangles whose normal is within an angle of a direction; one without area is not.
+/// Selects the triangles whose normal is within an angle of a direction.
 ///
-/// errors   Error(Input) when the direction has no length
+/// missing  a triangle without area is not selected
+/// errors   Error(Input) for a direction of length 0
 [[nodiscard]] Selection select_by_normal(const Mesh& mesh,
                                          const Eigen::Vector3d& direction,
                                          double within_rad);

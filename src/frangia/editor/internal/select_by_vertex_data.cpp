@@ -26,11 +26,11 @@ Selection select_if_any(const Mesh& mesh, const Predicate& predicate) {
   return selection;
 }
 
-/// Twice the mean curvature normal times the area that belongs to a vertex, and that area.
+/// Sums over the triangles around a vertex.
 struct CurvatureSum {
-  Vector3d normal = Vector3d::Zero();
-  Vector3d outward = Vector3d::Zero();
-  double area = 0.0;
+  Vector3d normal = Vector3d::Zero();   ///< twice the mean curvature normal times `area`
+  Vector3d outward = Vector3d::Zero();  ///< area-weighted normal
+  double area = 0.0;                    ///< a third of the area of the triangles
 };
 
 double cotangent(const Vector3d& u, const Vector3d& v) {
@@ -60,15 +60,13 @@ float curvature_of(const CurvatureSum& sum) {
 }  // namespace
 
 Selection select_by_sigma(const Mesh& mesh, double above_mm) {
-  require(!mesh.sigma_mm.empty(),
-          "select by sigma: the mesh has no sigma_mm; a .ply of this program has");
+  require(!mesh.sigma_mm.empty(), "the mesh has no sigma_mm; read a .ply that frangia wrote");
   return select_if_any(
       mesh, [&](std::uint32_t v) { return !(static_cast<double>(mesh.sigma_mm[v]) <= above_mm); });
 }
 
 Selection select_by_views(const Mesh& mesh, int fewer_than) {
-  require(!mesh.views.empty(),
-          "select by views: the mesh has no counts of views; a .ply of this program has");
+  require(!mesh.views.empty(), "the mesh has no view counts; read a .ply that frangia wrote");
   return select_if_any(mesh, [&](std::uint32_t v) { return mesh.views[v] < fewer_than; });
 }
 

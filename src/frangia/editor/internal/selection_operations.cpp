@@ -18,9 +18,9 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-constexpr const char* kGroup = "Selecting";
+constexpr const char* kGroup = "Selection";
 
-/// Takes a new selection in, as the state says how.
+/// Combines a new selection with the present one as the state asks.
 void combine(EditState& state, Selection fresh) {
   const Combine how = std::exchange(state.combine, Combine::Replace);
   if (how != Combine::Replace && !state.selection.empty()) {
@@ -33,7 +33,7 @@ void combine(EditState& state, Selection fresh) {
   state.selection = std::move(fresh);
 }
 
-/// An operation that selects by numbers.
+/// An operation that makes a selection from numbers.
 template <typename Select>
 EditOperation by_numbers(const char* name, const char* value, const char* help, Select select) {
   return {name,
@@ -48,7 +48,7 @@ EditOperation by_numbers(const char* name, const char* value, const char* help, 
 Selection select_numbered_component(const Mesh& mesh, const Numbers& n) {
   const ConnectedComponents parts = connected_components(mesh);
   require(n[0] < static_cast<double>(parts.components.size()),
-          "the mesh has no part of this number; --list shows them");
+          "the mesh has no component of this number; `list` shows the components");
   Selection selection(mesh.triangles.size());
   for (std::size_t i = 0; i < selection.size(); ++i)
     selection[i] = parts.component_of[i] == static_cast<std::uint32_t>(n[0]) ? 1 : 0;
@@ -58,134 +58,158 @@ Selection select_numbered_component(const Mesh& mesh, const Numbers& n) {
 Selection select_numbered_loop(const Mesh& mesh, const Numbers& n) {
   const auto loops = boundary_loops(mesh);
   require(n[0] < static_cast<double>(loops.size()),
-          "the mesh has no hole of this number; --list shows them");
+          "the mesh has no hole of this number; `list` shows the holes");
   return select_loop(mesh, loops[static_cast<std::size_t>(n[0])]);
 }
 
-std::vector<EditOperation> by_geometry() {
+std::vector<EditOperation> geometry_selections() {
   using Eigen::Vector3d;
   return {
       by_numbers("select-box",
                  "X,Y,Z,X,Y,Z",
-                 "select the triangles in a box, by two of its corners",
+                 "select the triangles in a box given by two opposite corners",
                  [](const Mesh& mesh, const Numbers& n) {
                    Eigen::AlignedBox3d box(Vector3d(n[0], n[1], n[2]));
                    return select_by_box(mesh, box.extend(Vector3d(n[3], n[4], n[5])));
                  }),
       by_numbers("select-ball",
-                 "X,Y,Z,MM",
-                 "select the triangles within a radius of a place",
+                 "X,Y,Z,SIZE",
+                 "select the triangles within a radius of a point",
                  [](const Mesh& mesh, const Numbers& n) {
                    return select_by_ball(mesh, {n[0], n[1], n[2]}, n[3]);
                  }),
       by_numbers(
           "select-plane",
           "X,Y,Z,MM",
-          "select the triangles beyond a plane: its normal, and how far along it",
+          "select the side of a plane that its normal X,Y,Z points to; MM is its distance from the "
+          "origin along the normal",
           [](const Mesh& mesh, const Numbers& n) { return select_by_plane(mesh, edit_plane(n)); }),
       by_numbers("select-face",
                  "X,Y,Z",
-                 "select the flat face about a place",
+                 "select the planar face around a point",
                  [](const Mesh& mesh, const Numbers& n) {
                    return select_face(mesh, {n[0], n[1], n[2]});
                  }),
       by_numbers("select-normal",
                  "X,Y,Z,DEG",
-                 "select the triangles that look within an angle of a direction",
+                 "select the triangles whose normal is within an angle of a direction",
                  [](const Mesh& mesh, const Numbers& n) {
                    return select_by_normal(mesh, {n[0], n[1], n[2]}, rad_from_deg(n[3]));
                  }),
-      by_numbers("select-part",
-                 "PART",
-                 "select a part by its number in --list",
+      by_numbers("select-component",
+                 "COMPONENT",
+                 "select a connected component by its number in `list`",
                  select_numbered_component),
       by_numbers("select-loop",
                  "HOLE",
-                 "select the triangles around a hole by its number in --list",
+                 "select the triangles around a hole by its number in `list`",
                  select_numbered_loop),
   };
 }
 
-std::vector<EditOperation> by_data() {
+std::vector<EditOperation> vertex_data_selections() {
   return {
       by_numbers(
           "select-curvature",
           "PER_MM",
-          "select what is curved more than this: 0.5 is a radius of 2 mm",
+          "select where the mean curvature is larger: 0.5 is that of a sphere of radius 2 mm",
           [](const Mesh& mesh, const Numbers& n) { return select_by_curvature(mesh, n[0]); }),
       by_numbers("select-sigma",
-                 "MM",
-                 "select what is less certain than this",
+                 "SIZE",
+                 "select where sigma is larger or unknown",
                  [](const Mesh& mesh, const Numbers& n) { return select_by_sigma(mesh, n[0]); }),
       by_numbers("select-views",
                  "N",
-                 "select what fewer views than these saw",
+                 "select what fewer than N views measured",
                  [](const Mesh& mesh, const Numbers& n) {
                    return select_by_views(mesh, static_cast<int>(n[0]));
                  }),
       {"select-mark",
        kGroup,
        "MARK",
-       "select what is measured, moved or invented",
+       "select by mark: measured, displaced or synthesized",
        [](EditState& state, const std::string& value, const Run&) {
          combine(state, select_by_mark(state.mesh, edit_mark(value)));
        }},
       {"select-self-intersections",
        kGroup,
        "",
-       "select the triangles that cross others",
+       "select the triangles that intersect others",
        [](EditState& state, const std::string&, const Run& run) {
          combine(state, select_self_intersections(state.mesh, run));
        }},
   };
 }
 
-Selection selected(const EditState& state) {
-  return state.selection.empty() ? Selection(state.mesh.triangles.size()) : state.selection;
+void require_selection(const EditState& state) {
+  require(!state.selection.empty(),
+          "nothing is selected; select triangles first, for example with `select_box`");
 }
 
-std::vector<EditOperation> of_selections() {
+/// Grows or shrinks the selection ring by ring, until a ring changes nothing.
+void change_by_rings(EditState& state,
+                     const std::string& value,
+                     Selection (*change)(const Mesh&, Selection, int),
+                     const Run& run) {
+  require_selection(state);
+  const auto rings = static_cast<int>(edit_numbers("N", value)[0]);
+  for (int ring = 0; ring < rings; ++ring) {
+    run.report(static_cast<double>(ring) / rings);
+    Selection changed = change(state.mesh, state.selection, 1);
+    if (changed == state.selection) break;
+    state.selection = std::move(changed);
+  }
+}
+
+std::vector<EditOperation> selection_changes() {
   return {
       {"add",
        kGroup,
        "",
-       "add the next selection to this one",
-       [](EditState& state, const std::string&, const Run&) { state.combine = Combine::Add; }},
+       "add the next selection to the present one",
+       [](EditState& state, const std::string&, const Run&) {
+         require_selection(state);
+         state.combine = Combine::Add;
+       }},
       {"within",
        kGroup,
        "",
-       "keep of this selection what the next one has, too",
-       [](EditState& state, const std::string&, const Run&) { state.combine = Combine::Within; }},
+       "intersect the present selection with the next one",
+       [](EditState& state, const std::string&, const Run&) {
+         require_selection(state);
+         state.combine = Combine::Within;
+       }},
       {"grow",
        kGroup,
        "N",
-       "select so many rings of triangles more",
-       [](EditState& state, const std::string& value, const Run&) {
-         const auto rings = static_cast<int>(edit_numbers("N", value)[0]);
-         state.selection = grow_selection(state.mesh, selected(state), rings);
+       "extend the selection by N rings of triangles",
+       [](EditState& state, const std::string& value, const Run& run) {
+         change_by_rings(state, value, grow_selection, run);
        }},
       {"shrink",
        kGroup,
        "N",
-       "select so many rings of triangles less",
-       [](EditState& state, const std::string& value, const Run&) {
-         const auto rings = static_cast<int>(edit_numbers("N", value)[0]);
-         state.selection = shrink_selection(state.mesh, selected(state), rings);
+       "shrink the selection by N rings of triangles",
+       [](EditState& state, const std::string& value, const Run& run) {
+         change_by_rings(state, value, shrink_selection, run);
        }},
       {"invert",
        kGroup,
        "",
-       "select what is not selected",
+       "invert the selection; without one, select everything",
        [](EditState& state, const std::string&, const Run&) {
-         state.selection = invert_selection(selected(state));
+         if (state.selection.empty()) state.selection.resize(state.mesh.triangles.size());
+         state.selection = invert_selection(std::move(state.selection));
        }},
       {"delete",
        kGroup,
        "",
-       "delete what is selected",
+       "delete the selected triangles",
        [](EditState& state, const std::string&, const Run& run) {
-         require(!state.selection.empty(), "nothing was selected; begin with a --select-...");
-         if (count_selected(state.selection) == 0) run.warn("delete: nothing is selected");
+         require_selection(state);
+         if (count_selected(state.selection) == 0) {
+           run.warn("delete: the selection holds no triangle, so nothing is deleted");
+         }
          state.mesh = delete_selected(std::move(state.mesh), std::exchange(state.selection, {}));
        }},
   };
@@ -194,8 +218,8 @@ std::vector<EditOperation> of_selections() {
 }  // namespace
 
 std::vector<EditOperation> selection_operations() {
-  std::vector<EditOperation> all = by_geometry();
-  for (auto kind : {by_data, of_selections}) {
+  std::vector<EditOperation> all = geometry_selections();
+  for (auto kind : {vertex_data_selections, selection_changes}) {
     for (EditOperation& operation : kind())
       all.push_back(std::move(operation));
   }

@@ -10,9 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Weight of a boundary edge relative to a triangle of the same size: boundaries have planes on one
+// side only. Garland & Heckbert 1997 use a "large penalty factor".
 constexpr double kBoundaryWeight = 10.0;
 
-/// The median of the sigmas that are known; 0 when none is.
+/// The median of the known sigmas; 0 without any.
 double median_sigma(const Mesh& mesh) {
   std::vector<float> known;
   for (const float sigma : mesh.sigma_mm)
@@ -41,7 +43,7 @@ CollapseCost::CollapseCost(const Mesh& mesh, const HalfEdges& edges)
   }
 }
 
-/// Triangles weigh by 1/sigma^2, within a factor of four of the usual one.
+/// The weight (median sigma / sigma)^2 of a triangle, limited to [1/4, 4].
 double CollapseCost::confidence(const Mesh::Triangle& triangle) const {
   if (!(median_sigma_mm_ > 0.0)) return 1.0;
   double sum = 0.0;
@@ -69,8 +71,8 @@ CollapseTarget CollapseCost::target(std::uint32_t a, std::uint32_t b) const {
   const Vector3d pb = position(b);
   const Vector3d middle = 0.5 * (pa + pb);
   Vector3d best;
-  const bool closed = sum.minimize(best);
-  if (!closed || (best - middle).squaredNorm() > (pa - pb).squaredNorm()) {
+  const bool has_minimum = sum.minimize(best);
+  if (!has_minimum || (best - middle).squaredNorm() > (pa - pb).squaredNorm()) {
     best = middle;
     for (const Vector3d& other : {pa, pb})
       if (sum.at(other) < sum.at(best)) best = other;

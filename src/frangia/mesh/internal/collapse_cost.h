@@ -11,17 +11,18 @@
 
 namespace frangia {
 
-/// Where the two ends of an edge are joined, and what it costs.
+/// The position that an edge collapses to, and its error.
 struct CollapseTarget {
   Eigen::Vector3d position;
-  double cost = 0.0;         ///< mm2 weighted by area
-  double mean_square = 0.0;  ///< mm2: of the distances to the planes that the position stands for
+  double cost = 0.0;         ///< quadric error: mm2 weighted by area
+  double mean_square = 0.0;  ///< mean squared distance to the planes of the quadric, mm2
 };
 
-/// The planes that each vertex of a mesh stands for while edges are joined.
+/// The error quadrics of the vertices of a mesh during decimation.
 ///
-/// Vertices that were measured well weigh more than ones with a large sigma; boundaries are held by
-/// planes that stand on them.
+/// Triangles are weighted by area and by 1/sigma^2. Planes perpendicular to the surface constrain
+/// boundaries.
+///
 /// source   Garland & Heckbert 1997, Surface Simplification Using Quadric Error Metrics
 class CollapseCost {
  public:
@@ -29,7 +30,7 @@ class CollapseCost {
   CollapseCost(const Mesh& mesh, const HalfEdges& edges);
 
   [[nodiscard]] CollapseTarget target(std::uint32_t a, std::uint32_t b) const;
-  /// Vertex a stands for what b stood for, too.
+  /// Adds the quadric of b to that of a.
   void collapse(std::uint32_t a, std::uint32_t b) { quadrics_[a] += quadrics_[b]; }
 
  private:

@@ -40,9 +40,9 @@ CollapseTopology::OneRingCounts CollapseTopology::mark_neighbors(std::uint32_t a
 bool CollapseTopology::can_collapse(std::uint32_t a, std::uint32_t b) {
   const std::uint32_t stamp = ++stamp_;
   const OneRingCounts counts = mark_neighbors(a, b, stamp);
-  const std::size_t both = counts.shared_triangles;
-  if (both == 0 || both > 2) return false;
-  if (both == 2 && on_boundary_[a] != 0 && on_boundary_[b] != 0) return false;
+  const std::size_t shared_triangles = counts.shared_triangles;
+  if (shared_triangles == 0 || shared_triangles > 2) return false;
+  if (shared_triangles == 2 && on_boundary_[a] != 0 && on_boundary_[b] != 0) return false;
   std::size_t shared = 0;
   std::size_t triangles_of_b = 0;
   const std::uint32_t counted = ++stamp_;
@@ -54,8 +54,9 @@ bool CollapseTopology::can_collapse(std::uint32_t a, std::uint32_t b) {
       ++shared;
     }
   });
-  if (shared != both) return false;
-  return counts.triangles + triangles_of_b >= 2 * both + (both == 2 ? 3 : 1);
+  if (shared != shared_triangles) return false;
+  return counts.triangles + triangles_of_b >=
+         2 * shared_triangles + (shared_triangles == 2 ? 3 : 1);
 }
 
 void CollapseTopology::collapse(std::uint32_t a, std::uint32_t b) {

@@ -8,14 +8,15 @@
 
 namespace frangia {
 
-/// Who is beside whom while the edges of a mesh are joined to points one after the other. Corner
-/// 3 t + i is corner i of triangle t, as in HalfEdges.
+/// The adjacency of a mesh during edge collapses. Corner 3 t + i is corner i of triangle t, as in
+/// HalfEdges. HalfEdges itself is immutable and keeps neighbours in arrays that cannot merge; here
+/// the corners of a vertex form a linked list, so a collapse joins two lists.
 class CollapseTopology {
  public:
-  /// `mesh` must outlive it; join changes its triangles.
+  /// `mesh` must outlive the object; collapse() changes its triangles.
   CollapseTopology(Mesh& mesh, const HalfEdges& edges);
 
-  /// Calls `work(corner)` for each corner of a living triangle at a vertex.
+  /// Calls `work(corner)` for each corner of a remaining triangle at a vertex.
   template <typename Work>
   void for_each_corner(std::uint32_t vertex, const Work& work) const {
     for (std::uint32_t corner = first_[vertex]; corner != kNone; corner = next_corner_[corner])
@@ -29,13 +30,15 @@ class CollapseTopology {
   [[nodiscard]] std::size_t remaining_triangles() const { return remaining_triangles_; }
   [[nodiscard]] const std::vector<std::uint8_t>& alive() const { return alive_; }
 
-  /// Whether the mesh stays manifold when b goes into a: the link condition.
+  /// The link condition: whether the mesh stays manifold when b collapses into a.
+  ///
+  /// source   Dey, Edelsbrunner, Guha & Nekhayev 1999, Topology Preserving Edge Contraction
   [[nodiscard]] bool can_collapse(std::uint32_t a, std::uint32_t b);
 
-  /// Vertex b becomes a; the triangles of both go.
+  /// Collapses b into a and removes the triangles of the edge.
   void collapse(std::uint32_t a, std::uint32_t b);
 
-  /// The vertices beside one, each once.
+  /// The vertices of the one-ring, each once.
   void neighbors(std::uint32_t vertex, std::vector<std::uint32_t>& found);
 
  private:
@@ -50,8 +53,8 @@ class CollapseTopology {
   std::size_t remaining_triangles_;
   std::uint32_t stamp_ = 0;
   std::vector<std::uint32_t> seen_;
-  std::vector<std::uint8_t> fixed_;         ///< at a place that is not manifold
-  std::vector<std::uint8_t> on_boundary_;   ///< on the boundary
+  std::vector<std::uint8_t> fixed_;         ///< at non-manifold edges
+  std::vector<std::uint8_t> on_boundary_;   ///< on a boundary
   std::vector<std::uint32_t> first_;        ///< a corner of each vertex
   std::vector<std::uint32_t> next_corner_;  ///< the next corner of the same vertex
   std::vector<std::uint8_t> alive_;

@@ -1,6 +1,7 @@
 #include "frangia/mesh/internal/distance_guard.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/geometry/nearest_on_triangle.h"
@@ -12,7 +13,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-Eigen::Vector3f middle_of(const Mesh& mesh, std::uint32_t triangle) {
+// Avoids a division by 0 for a mesh whose vertices coincide.
+constexpr double kMinEdgeMm = std::numeric_limits<float>::min();
+
+Eigen::Vector3f centroid_of(const Mesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   return (mesh.vertices_mm[a] + mesh.vertices_mm[b] + mesh.vertices_mm[c]) / 3.0F;
 }
@@ -22,15 +26,15 @@ Eigen::Vector3f middle_of(const Mesh& mesh, std::uint32_t triangle) {
 DistanceGuard::DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm)
     : original_(&original),
       distance_mm_(distance_mm),
-      spacing_mm_(0.5 * std::max(mean_edge_length_mm(original.mesh()), 1e-6)),
+      spacing_mm_(0.5 * std::max(mean_edge_length_mm(original.mesh()), kMinEdgeMm)),
       first_(original.mesh().triangles.size(), kNone) {
   const Mesh& mesh = original.mesh();
-  std::vector<std::uint8_t> known(mesh.vertices_mm.size());
+  std::vector<std::uint8_t> added(mesh.vertices_mm.size());
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     const std::uint32_t from = source_vertex(mesh, edge);
-    if (known[from] == 0) add_point(mesh.vertices_mm[from], edge / 3);
-    known[from] = 1;
-    if (edge % 3 == 0) add_point(middle_of(mesh, edge / 3), edge / 3);
+    if (added[from] == 0) add_point(mesh.vertices_mm[from], edge / 3);
+    added[from] = 1;
+    if (edge % 3 == 0) add_point(centroid_of(mesh, edge / 3), edge / 3);
     if (edges.has_twin(edge) && edges.twin(edge) < edge) continue;
     add_point(0.5F * (mesh.vertices_mm[from] + mesh.vertices_mm[target_vertex(mesh, edge)]),
               edge / 3);
@@ -51,10 +55,10 @@ void DistanceGuard::gather(const CollapseTopology& topology,
   topology.for_each_corner(vertex, [&](std::uint32_t corner) {
     const std::uint32_t next = topology.at(HalfEdges::next(corner));
     const std::uint32_t last = topology.at(HalfEdges::previous(corner));
-    const bool dies = next == other || last == other;
-    if (dies && vertex > other) return;  // counted from the other end
+    const bool is_removed = next == other || last == other;
+    if (is_removed && vertex > other) return;  // counted from the other end
     removed_.push_back(corner / 3);
-    if (dies) return;
+    if (is_removed) return;
     remaining_.push_back({corner / 3,
                           target_mm,
                           mesh.vertices_mm[next].cast<double>(),

@@ -12,23 +12,23 @@
 
 namespace frangia {
 
-/// Keeps a mesh that is being simplified within a distance of what it was.
+/// Keeps a mesh during decimation within a distance of the original.
 ///
-/// Points of the original (its vertices, the middles of its edges and triangles) each belong to a
-/// triangle of the present mesh. A join is allowed when every point of the triangles that it
-/// touches lies within the distance of one of those that remain, and these lie as near to the
-/// original, at points twice as dense as its own.
+/// Sample points of the original (vertices, midpoints of edges, centroids of triangles) are each
+/// assigned to a triangle of the present mesh. A collapse is allowed when every point assigned to a
+/// changed triangle is within the distance of a remaining one, and points on the remaining
+/// triangles, half the mean edge length apart, are within the distance of the original.
 class DistanceGuard {
  public:
   DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm);
 
-  /// Whether a and b may become one at `joint`; `mesh` is the present one.
+  /// Whether the edge from a to b may collapse to `target_mm`; `mesh` is the present one.
   [[nodiscard]] bool allows(const CollapseTopology& topology,
                             const Mesh& mesh,
                             std::uint32_t a,
                             std::uint32_t b,
                             const Eigen::Vector3d& target_mm);
-  /// The join that was allowed last is made.
+  /// Reassigns the points after the collapse that was allowed last.
   void accept();
 
  private:
@@ -50,11 +50,11 @@ class DistanceGuard {
   double spacing_mm_;
   std::vector<Eigen::Vector3f> points_mm_;
   std::vector<std::uint32_t> next_;   ///< the next point of the same triangle
-  std::vector<std::uint32_t> first_;  ///< the first of each triangle
-  std::vector<Triangle> remaining_;   ///< as they would be
+  std::vector<std::uint32_t> first_;  ///< the first point of each triangle
+  std::vector<Triangle> remaining_;   ///< after the collapse
   std::vector<std::uint32_t> removed_;
-  std::vector<std::uint32_t> reassigned_;  ///< points, with the triangle that each would belong to
-  std::vector<std::uint32_t> owners_;
+  std::vector<std::uint32_t> reassigned_;  ///< points
+  std::vector<std::uint32_t> owners_;      ///< the new triangle of each point
 };
 
 }  // namespace frangia

@@ -7,6 +7,8 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include "frangia/mesh/internal/patch_laplacian.h"
+
 namespace frangia {
 namespace {
 
@@ -17,77 +19,10 @@ using Sparse = Eigen::SparseMatrix<double>;
 using ByRow = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr double kReach = 0.5;  // how far a patch may go beyond its boundary's box, of its diagonal
-constexpr double kMaxSmoothingMove = 0.1;  // how far evening the curvature may move it, of the same
-
-/// The vertices and triangles of patch and surroundings in one: the patch's vertices come first.
-class PatchWithSurroundings {
- public:
-  PatchWithSurroundings(const PatchMesh& patch, const PatchSurroundings& around)
-      : patch_(patch), around_(around) {}
-
-  [[nodiscard]] std::uint32_t count() const {
-    return patch_.count() + static_cast<std::uint32_t>(around_.outer_mm.size());
-  }
-  [[nodiscard]] const Vector3d& position(std::uint32_t vertex) const {
-    return vertex < patch_.count() ? patch_.position(vertex)
-                                   : around_.outer_mm[vertex - patch_.count()];
-  }
-  template <typename Work>
-  void for_each_triangle(const Work& work) const {
-    for (std::uint32_t edge = 0; edge < patch_.half_edges(); edge += 3)
-      work(Triangle{patch_.from(edge), patch_.from(edge + 1), patch_.from(edge + 2)});
-    for (Triangle triangle : around_.triangles) {
-      for (std::uint32_t& vertex : triangle)
-        if (vertex >= patch_.boundary_vertices())
-          vertex += patch_.count() - patch_.boundary_vertices();
-      work(triangle);
-    }
-  }
-
- private:
-  const PatchMesh& patch_;
-  const PatchSurroundings& around_;
-};
-
-/// The Laplacian of places, of each vertex of the patch: L / area.
-struct Laplacian {
-  Sparse weights;  ///< patch's vertices x all vertices
-  VectorXd areas;
-};
-
-constexpr double kSharpest = 20.0;  // cotangents of slivers
-
-Laplacian laplacian_of(const PatchMesh& patch,
-                       const PatchWithSurroundings& all,
-                       double least = -kSharpest) {
-  std::vector<Eigen::Triplet<double>> entries;
-  VectorXd areas = VectorXd::Zero(patch.count());
-  const auto add = [&](std::uint32_t a, std::uint32_t b, double weight) {
-    if (a >= patch.count()) return;
-    entries.emplace_back(a, b, weight);
-    entries.emplace_back(a, a, -weight);
-  };
-  all.for_each_triangle([&](const Triangle& t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = t.at(i);
-      const std::uint32_t b = t.at((i + 1) % 3);
-      const Vector3d& apex = all.position(t.at((i + 2) % 3));
-      const Vector3d u = all.position(a) - apex;
-      const Vector3d v = all.position(b) - apex;
-      const double twice_area = u.cross(v).norm();
-      const double cotangent = u.dot(v) / std::max(twice_area, 1e-30);
-      const double weight = 0.5 * std::clamp(cotangent, least, kSharpest);
-      add(a, b, weight);
-      add(b, a, weight);
-      if (a < patch.count()) areas[a] += twice_area / 6.0;
-    }
-  });
-  areas = areas.cwiseMax(1e-3 * areas.mean()).eval();
-  Laplacian laplacian{Sparse(patch.count(), all.count()), std::move(areas)};
-  laplacian.weights.setFromTriplets(entries.begin(), entries.end());
-  return laplacian;
-}  // NOLINT(clang-analyzer-unix.Malloc): Eigen gives it back
+// Limits as fractions of the diagonal of the boundary's bounding box. A hemisphere over its great
+// circle reaches 0.35 beyond the box.
+constexpr double kReach = 0.5;
+constexpr double kMaxSmoothingMove = 0.1;
 
 MatrixX3d matrix_of(const std::vector<Vector3d>& rows) {
   MatrixX3d matrix(static_cast<Eigen::Index>(rows.size()), 3);
@@ -103,12 +38,12 @@ MatrixX3d positions_of(const PatchWithSurroundings& all) {
   return positions;
 }
 
-/// A field evened out over the patch a little: what slivers and noise at the boundary put into it
-/// goes.
+/// Smooths a field over the patch by three averaging steps: slivers and noise at the boundary put
+/// outliers into it.
 template <typename Field>
 Field smoothed(const PatchMesh& patch, Field field) {
-  constexpr int kTimes = 3;
-  for (int round = 0; round < kTimes; ++round) {
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
     Field sum = field;
     VectorXd count = VectorXd::Ones(patch.count());
     for (std::uint32_t edge = 0; edge < patch.half_edges(); ++edge) {
@@ -126,26 +61,30 @@ double median_of(VectorXd values) {
   return *middle;
 }
 
-/// What the Laplacian of the Laplacian is where the mean curvature is as even as it can be, by
-/// the shape as it is: it is not zero, as the normals turn along the surface.
+/// The bi-Laplacian of the positions for a smooth mean curvature H on the present shape: the normal
+/// part of L(H n) - n L(H). It is not zero, because the normals turn along the surface.
 MatrixX3d target_bilaplacian(const PatchMesh& patch,
-                             const Laplacian& laplacian,
+                             const PatchLaplacian& laplacian,
                              const MatrixX3d& positions,
                              const MatrixX3d& exact_normals) {
   const MatrixX3d normals = smoothed(patch, exact_normals).rowwise().normalized();
   const MatrixX3d curvature =
       laplacian.areas.cwiseInverse().asDiagonal() * (laplacian.weights * positions);
-  VectorXd along = smoothed(patch, VectorXd(curvature.cwiseProduct(normals).rowwise().sum()));
-  const double limit = 3.0 * median_of(along.head(patch.boundary_vertices()).cwiseAbs());
-  along = along.cwiseMax(-limit).cwiseMin(limit).eval();
+  VectorXd curvature_along =
+      smoothed(patch, VectorXd(curvature.cwiseProduct(normals).rowwise().sum()));
+  constexpr double kOutlier = 3.0;  // medians of the boundary's curvature
+  const double limit =
+      kOutlier * median_of(curvature_along.head(patch.boundary_vertices()).cwiseAbs());
+  curvature_along = curvature_along.cwiseMax(-limit).cwiseMin(limit).eval();
   const Sparse own = laplacian.weights.leftCols(laplacian.weights.rows());
-  return own * (along.asDiagonal() * normals) - MatrixX3d((own * along).asDiagonal() * normals);
+  return own * (curvature_along.asDiagonal() * normals) -
+         MatrixX3d((own * curvature_along).asDiagonal() * normals);
 }
 
 bool solve_bilaplacian(PatchMesh& patch,
                        const PatchWithSurroundings& all,
                        const MatrixX3d* normals) {
-  const Laplacian laplacian = laplacian_of(patch, all);
+  const PatchLaplacian laplacian = patch_laplacian(patch, all);
   const Eigen::Index boundary_count = patch.boundary_vertices();
   const Eigen::Index inner = static_cast<Eigen::Index>(patch.count()) - boundary_count;
   MatrixX3d positions = positions_of(all);
@@ -165,10 +104,11 @@ bool solve_bilaplacian(PatchMesh& patch,
   return true;
 }
 
-/// The surface of least area, as a film of soap: it stays within the boundary's box.
-bool solve_minimal_surface(PatchMesh& patch, const PatchWithSurroundings& all) {
+/// Moves the inner vertices onto the minimal surface, which stays within the box of the boundary.
+bool solve_minimal_surface(PatchMesh& patch, const PatchWithSurroundings& all, const Run& run) {
   for (int round = 0; round < 3; ++round) {
-    const Laplacian laplacian = laplacian_of(patch, all, 1e-3);
+    run.check();
+    const PatchLaplacian laplacian = patch_laplacian(patch, all, kMinPositiveCotangent);
     const Eigen::Index boundary_count = patch.boundary_vertices();
     const Eigen::Index inner = static_cast<Eigen::Index>(patch.count()) - boundary_count;
     MatrixX3d positions = positions_of(all);
@@ -185,7 +125,6 @@ bool solve_minimal_surface(PatchMesh& patch, const PatchWithSurroundings& all) {
   return true;
 }
 
-/// The places of a patch's vertices.
 std::vector<Vector3d> current_positions(const PatchMesh& patch) {
   std::vector<Vector3d> positions;
   for (std::uint32_t v = 0; v < patch.count(); ++v)
@@ -198,7 +137,7 @@ void set_positions(PatchMesh& patch, const std::vector<Vector3d>& positions) {
     patch.move(v, positions[v]);
 }
 
-/// The patch goes by this share of the way to another shape.
+/// Blends the patch with another shape; a share of 1 is the other shape.
 void blend_shape(PatchMesh& patch, const std::vector<Vector3d>& other, double share) {
   for (std::uint32_t v = patch.boundary_vertices(); v < patch.count(); ++v)
     patch.move(v, (1.0 - share) * patch.position(v) + share * other[v]);
@@ -225,21 +164,25 @@ bool within(const PatchMesh& patch, const Eigen::AlignedBox3d& box) {
   return true;
 }
 
-/// Solves twice, as the weights follow the shape.
-bool solve_fair_surface(PatchMesh& patch, const PatchWithSurroundings& all) {
+/// Solves twice, because the weights depend on the shape.
+bool solve_fair_surface(PatchMesh& patch, const PatchWithSurroundings& all, const Run& run) {
   for (int round = 0; round < 2; ++round) {
+    run.check();
     if (!solve_bilaplacian(patch, all, nullptr)) return false;
     patch.restore_delaunay();
   }
   return true;
 }
 
-/// Evens the mean curvature out. Where slivers at the boundary would throw the patch far off it
-/// stays.
-void smooth_curvature(PatchMesh& patch, const PatchSurroundings& around, double reach_mm) {
+/// Smooths the mean curvature. Keeps the shape when slivers at the boundary would move it far.
+void smooth_curvature(PatchMesh& patch,
+                      const PatchSurroundings& around,
+                      double reach_mm,
+                      const Run& run) {
   const PatchWithSurroundings all(patch, around);
   const std::vector<Vector3d> before = current_positions(patch);
   for (int round = 0; round < 2; ++round) {
+    run.check();
     const MatrixX3d normals = matrix_of(normals_of(patch, around));
     if (!solve_bilaplacian(patch, all, &normals) || !(farthest_moved(patch, before) < reach_mm)) {
       set_positions(patch, before);
@@ -265,22 +208,26 @@ std::vector<Vector3d> normals_of(const PatchMesh& patch, const PatchSurroundings
   return normals;
 }
 
-bool fair_patch(PatchMesh& patch, const PatchSurroundings& around, double curvature) {
+bool fair_patch(PatchMesh& patch,
+                const PatchSurroundings& around,
+                double curvature,
+                const Run& run) {
   if (patch.count() == patch.boundary_vertices()) return true;
   const PatchWithSurroundings all(patch, around);
   const std::vector<Vector3d> before = current_positions(patch);
   Eigen::AlignedBox3d reach = box_of_boundary(patch);
   const double size = reach.diagonal().norm();
-  const Vector3d more = Vector3d::Constant(kReach * size);
-  reach = Eigen::AlignedBox3d(reach.min() - more, reach.max() + more);
-  const bool curved = curvature > 0.0 && solve_fair_surface(patch, all) && within(patch, reach);
-  if (curved) smooth_curvature(patch, around, kMaxSmoothingMove * size);
-  if (curved && curvature >= 1.0) return true;
+  const Vector3d margin = Vector3d::Constant(kReach * size);
+  reach = Eigen::AlignedBox3d(reach.min() - margin, reach.max() + margin);
+  const bool is_curved =
+      curvature > 0.0 && solve_fair_surface(patch, all, run) && within(patch, reach);
+  if (is_curved) smooth_curvature(patch, around, kMaxSmoothingMove * size, run);
+  if (is_curved && curvature >= 1.0) return true;
   const std::vector<Vector3d> full = current_positions(patch);
   set_positions(patch, before);
   patch.restore_delaunay();
-  if (!solve_minimal_surface(patch, all) || !within(patch, reach)) return false;
-  if (curved) blend_shape(patch, full, curvature);
+  if (!solve_minimal_surface(patch, all, run) || !within(patch, reach)) return false;
+  if (is_curved) blend_shape(patch, full, curvature);
   return true;
 }
 

@@ -13,14 +13,15 @@ namespace {
 using Eigen::Vector3d;
 using VertexLoop = std::vector<std::uint32_t>;
 
-constexpr std::size_t kMaxByArea = 100;  // of larger boundaries the projection is the better guess
+// Longer boundaries are triangulated in projection, which takes less than the cube of the length.
+constexpr std::size_t kMaxByArea = 100;
 
 Vector3d position(const Mesh& mesh, std::uint32_t vertex) {
   return mesh.vertices_mm[vertex].cast<double>();
 }
 
-/// The direction of the plane that fits a line best, by the area of its projection.
-Vector3d direction_of(const std::vector<Vector3d>& line) {
+/// The normal of the plane on which the projected area of a polygon is largest.
+Vector3d normal_of_polygon(const std::vector<Vector3d>& line) {
   Vector3d normal = Vector3d::Zero();
   for (std::size_t i = 0; i < line.size(); ++i)
     normal += (line[i] - line.front()).cross(line[(i + 1) % line.size()] - line.front());
@@ -30,17 +31,17 @@ Vector3d direction_of(const std::vector<Vector3d>& line) {
 std::vector<Mesh::Triangle> minimum_area(const std::vector<Vector3d>& line,
                                          const VertexLoop& loop) {
   std::vector<Mesh::Triangle> triangles;
-  const MinimumAreaOptions options{.normals = {line.size(), direction_of(line)},
+  const MinimumAreaOptions options{.normals = {line.size(), normal_of_polygon(line)},
                                    .is_forbidden = {}};
   for (const auto& [a, b, c] : minimum_area_triangulation(line, options))
     triangles.push_back({loop[a], loop[b], loop[c]});
   return triangles;
 }
 
-/// The triangles of the line's projection on its plane; none when the projection crosses itself.
-std::vector<Mesh::Triangle> by_projection(const std::vector<Vector3d>& line,
-                                          const VertexLoop& loop) {
-  const Vector3d normal = direction_of(line);
+/// Triangulates the projection of a polygon on its plane; empty when it intersects itself.
+std::vector<Mesh::Triangle> triangulate_projection(const std::vector<Vector3d>& line,
+                                                   const VertexLoop& loop) {
+  const Vector3d normal = normal_of_polygon(line);
   const Vector3d x = normal.unitOrthogonal();
   const Vector3d y = normal.normalized().cross(x);
   Polygon projection;
@@ -64,11 +65,12 @@ std::vector<Mesh::Triangle> by_projection(const std::vector<Vector3d>& line,
 HolePatch flat_patch(const Mesh& mesh, const VertexLoop& boundary) {
   HolePatch patch;
   if (boundary.size() < 3) return patch;
-  const VertexLoop loop(boundary.rbegin(), boundary.rend());  // the patch runs against the boundary
+  const VertexLoop loop(boundary.rbegin(),
+                        boundary.rend());  // the patch has the opposite direction
   std::vector<Vector3d> line;
   for (const std::uint32_t vertex : loop)
     line.push_back(position(mesh, vertex));
-  if (loop.size() > kMaxByArea) patch.triangles = by_projection(line, loop);
+  if (loop.size() > kMaxByArea) patch.triangles = triangulate_projection(line, loop);
   if (patch.triangles.empty()) patch.triangles = minimum_area(line, loop);
   return patch;
 }

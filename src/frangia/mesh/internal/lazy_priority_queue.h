@@ -9,11 +9,11 @@
 
 namespace frangia {
 
-/// A priority queue of many items of which most are never wanted: it gives the least first, exactly
-/// as std::priority_queue would.
+/// A priority queue of many items of which most are never popped. It pops the smallest item first,
+/// in the same order as std::priority_queue.
 ///
-/// The least of them are kept in order; the others lie in a heap of their own and are looked at
-/// only once those are used up. So the part that is worked with stays small, and in the cache.
+/// The smallest items are kept sorted; the others stay unsorted until those are used up. The active
+/// part is small and stays in the cache.
 template <typename Item>
 class LazyPriorityQueue {
  public:
@@ -27,7 +27,8 @@ class LazyPriorityQueue {
     }
   }
 
-  /// The least item, or nothing. `outdated(item)` tells of those that need not be kept.
+  /// Removes and returns the smallest item; nullopt when the queue is empty. May drop items for
+  /// which `outdated(item)` is true.
   template <typename Outdated>
   std::optional<Item> pop(const Outdated& outdated) {
     if (next_ == sorted_.size() && new_items_.empty()) refill(outdated);
@@ -47,10 +48,10 @@ class LazyPriorityQueue {
 
   template <typename Outdated>
   void refill(const Outdated& outdated) {
-    constexpr std::size_t kShare = 12;
-    constexpr std::size_t kLeast = 4096;
+    constexpr std::size_t kShare = 12;  // sorts a twelfth of the items at a time
+    constexpr std::size_t kMinCount = 4096;
     later_.erase(std::remove_if(later_.begin(), later_.end(), outdated), later_.end());
-    const std::size_t count = std::min(later_.size(), std::max(later_.size() / kShare, kLeast));
+    const std::size_t count = std::min(later_.size(), std::max(later_.size() / kShare, kMinCount));
     const auto middle = later_.begin() + static_cast<std::ptrdiff_t>(count);
     if (middle != later_.end()) std::nth_element(later_.begin(), middle, later_.end());
     sorted_.assign(later_.begin(), middle);
@@ -63,11 +64,11 @@ class LazyPriorityQueue {
   }
 
   std::vector<Item> later_;   ///< none less than `last_`
-  std::vector<Item> sorted_;  ///< ascending; those before `next_` are done
+  std::vector<Item> sorted_;  ///< ascending; items before `next_` are popped
   std::size_t next_ = 0;
   Item last_{};
   bool has_last_ = false;
-  std::priority_queue<Item, std::vector<Item>, Greater> new_items_;  ///< less than `last_`
+  std::priority_queue<Item, std::vector<Item>, Greater> new_items_;  ///< items less than `last_`
 };
 
 }  // namespace frangia

@@ -13,21 +13,22 @@ namespace {
 using Eigen::Vector3d;
 using Triangle = std::array<std::size_t, 3>;
 
-constexpr std::size_t kMostAtOnce = 250;   // the search takes the cube of it
-constexpr double kForbiddenPenalty = 1e6;  // an area, in squares of a length
+constexpr std::size_t kMaxVertices = 250;  // of one search, which takes time of its cube: 10 ms
+// Area of a forbidden chord per squared length: larger than any sum of real areas.
+constexpr double kForbiddenPenalty = 1e6;
 
-/// A corner that may be cut off. Out of date once a neighbour has changed since.
+/// A corner that may be cut off. It is outdated once a neighbour has changed.
 struct Ear {
   double chord_mm = 0.0;
   std::size_t corner = 0;
   std::uint32_t version = 0;
 
-  bool operator<(const Ear& other) const {  // the queue gives the largest first
+  bool operator<(const Ear& other) const {  // the queue pops the largest first
     return chord_mm != other.chord_mm ? chord_mm > other.chord_mm : corner > other.corner;
   }
 };
 
-/// The line, from which corners are cut.
+/// The remaining polygon while ears are cut.
 class Front {
  public:
   Front(const std::vector<Vector3d>& corners, const MinimumAreaOptions& options)
@@ -37,10 +38,10 @@ class Front {
       last_.push_back((i + corners.size() - 1) % corners.size());
     }
     for (std::size_t i = 0; i < corners.size(); ++i)
-      look_at(i);
+      add_ear(i);
   }
 
-  /// Cuts corners until so many are left, or none points inwards.
+  /// Cuts ears until `until` vertices are left or no convex corner is left.
   std::vector<Triangle> shorten(std::size_t until) {
     std::vector<Triangle> cut;
     while (corners_.size() - cut.size() > until && !ears_.empty()) {
@@ -55,7 +56,7 @@ class Front {
       versions_[i] = kGone;
       for (const std::size_t beside : {last_[i], next_[i]}) {
         ++versions_[beside];
-        look_at(beside);
+        add_ear(beside);
       }
     }
     return cut;
@@ -70,7 +71,7 @@ class Front {
  private:
   static constexpr std::uint32_t kGone = 0xFFFFFFFF;
 
-  void look_at(std::size_t i) {
+  void add_ear(std::size_t i) {
     const Vector3d in = corners_[i] - corners_[last_[i]];
     const Vector3d out = corners_[next_[i]] - corners_[i];
     if (!(in.cross(out).dot(options_.normals[i]) > 0.0)) return;
@@ -86,7 +87,7 @@ class Front {
   std::priority_queue<Ear> ears_;
 };
 
-/// The filling of a line of least area.
+/// Dynamic programming over all triangulations of a polygon.
 class MinimumArea {
  public:
   MinimumArea(const std::vector<Vector3d>& corners,
@@ -120,8 +121,8 @@ class MinimumArea {
       best = area;
       splits_[at(i, j)] = k;
     }
-    const bool whole = i == 0 && j + 1 == line_.size();
-    if (!whole && options_.is_forbidden && options_.is_forbidden(line_[i], line_[j])) {
+    const bool is_whole = i == 0 && j + 1 == line_.size();
+    if (!is_whole && options_.is_forbidden && options_.is_forbidden(line_[i], line_[j])) {
       best += kForbiddenPenalty * along.squaredNorm();
     }
     areas_[at(i, j)] = best;
@@ -142,44 +143,47 @@ class MinimumArea {
   std::vector<std::size_t> splits_;
 };
 
-/// Fills lines that are still too long by halves: what their ends enclose, and each with its chord.
-void fill(const std::vector<Vector3d>& corners,
-          const MinimumAreaOptions& options,
-          const std::vector<std::size_t>& line,
-          std::vector<Triangle>& triangles) {
+/// Divides a long polygon into runs of vertices: triangulates each run with its chord, and the
+/// polygon of the chords.
+void triangulate(const std::vector<Vector3d>& corners,
+                 const MinimumAreaOptions& options,
+                 const std::vector<std::size_t>& line,
+                 std::vector<Triangle>& triangles,
+                 const Run& run) {
   if (line.size() < 3) return;
-  if (line.size() <= kMostAtOnce) {
+  run.check();
+  if (line.size() <= kMaxVertices) {
     MinimumArea(corners, options, line).append_to(triangles);
     return;
   }
-  const std::size_t run = (line.size() + kMostAtOnce - 1) / kMostAtOnce;
+  const std::size_t run_length = (line.size() + kMaxVertices - 1) / kMaxVertices;
   std::vector<std::size_t> ends;
-  for (std::size_t begin = 0; begin < line.size(); begin += run) {
+  for (std::size_t begin = 0; begin < line.size(); begin += run_length) {
     ends.push_back(line[begin]);
-    std::vector<std::size_t> some;
-    for (std::size_t i = begin; i <= std::min(begin + run, line.size()); ++i)
-      some.push_back(line[i % line.size()]);
-    fill(corners, options, some, triangles);
+    std::vector<std::size_t> part;
+    for (std::size_t i = begin; i <= std::min(begin + run_length, line.size()); ++i)
+      part.push_back(line[i % line.size()]);
+    triangulate(corners, options, part, triangles, run);
   }
-  fill(corners, options, ends, triangles);
+  triangulate(corners, options, ends, triangles, run);
 }
 
 }  // namespace
 
 std::vector<std::array<std::size_t, 3>> minimum_area_triangulation(
-    const std::vector<Vector3d>& corners_mm, const MinimumAreaOptions& options) {
+    const std::vector<Vector3d>& corners_mm, const MinimumAreaOptions& options, const Run& run) {
   if (corners_mm.size() < 3) return {};
   std::vector<Triangle> triangles;
   std::vector<std::size_t> line;
   if (options.normals.size() == corners_mm.size()) {
     Front front(corners_mm, options);
-    triangles = front.shorten(kMostAtOnce);
+    triangles = front.shorten(kMaxVertices);
     line = front.remaining();
   } else {
     for (std::size_t i = 0; i < corners_mm.size(); ++i)
       line.push_back(i);
   }
-  fill(corners_mm, options, line, triangles);
+  triangulate(corners_mm, options, line, triangles, run);
   return triangles;
 }
 

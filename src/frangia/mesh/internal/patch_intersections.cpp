@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kChunk = 16'384;
 
-/// The triangles of all patches, with the corners' places of their own.
+/// The triangles of all patches.
 class Patches {
  public:
   Patches(const Mesh& mesh, const std::vector<HolePatch>& patches) : mesh_(mesh) {
@@ -32,7 +32,7 @@ class Patches {
     find_boundaries();
   }
 
-  /// The patches alone, each triangle with three vertices: for a AabbTree.
+  /// The patches as triangles without shared vertices, for an AabbTree.
   [[nodiscard]] Mesh unconnected() const {
     Mesh all;
     for (const Mesh::Triangle& name : triangles_) {
@@ -55,7 +55,7 @@ class Patches {
   }
 
  private:
-  /// Triangles within some rings of the mesh's own vertices.
+  /// Finds the triangles within five rings of the boundary vertices.
   void find_boundaries() {
     constexpr int kRings = 5;
     const std::size_t count = mesh_.vertices_mm.size();
@@ -78,7 +78,7 @@ class Patches {
   }
 
   const Mesh& mesh_;
-  std::vector<Mesh::Triangle> triangles_;  ///< by the mesh's vertices, then the patches'
+  std::vector<Mesh::Triangle> triangles_;  ///< indices of mesh vertices, then of `positions_`
   std::vector<std::uint32_t> owner_;
   std::vector<std::uint8_t> at_boundary_;
   std::vector<Eigen::Vector3f> positions_;
@@ -94,17 +94,19 @@ struct FoundPair {
 };
 using Found = std::vector<FoundPair>;
 
-/// Adds what `find(begin, end, found)` finds on all cores.
+/// Adds the pairs that `find(begin, end, found)` appends, on all cores.
 template <typename Find>
 void add_found(std::size_t count,
                std::vector<PatchIntersections>& intersections,
+               const Run& run,
                const Find& find) {
   std::vector<Found> found((count + kChunk - 1) / kChunk);
   parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
-    find(begin, end, found[begin / kChunk]);
+    if (!run.stop.stop_requested()) find(begin, end, found[begin / kChunk]);
   });
-  for (const Found& some : found) {
-    for (const FoundPair& pair : some) {
+  run.check();
+  for (const Found& pairs : found) {
+    for (const FoundPair& pair : pairs) {
       PatchIntersections& of_patch = intersections[pair.patch];
       ++(pair.at_boundary ? of_patch.at_boundary : of_patch.inside);
     }
@@ -114,30 +116,34 @@ void add_found(std::size_t count,
 }  // namespace
 
 std::vector<PatchIntersections> patch_intersections(const Mesh& mesh,
-                                                    const std::vector<HolePatch>& patches) {
+                                                    const std::vector<HolePatch>& patches,
+                                                    const Run& run) {
   std::vector<PatchIntersections> intersections(patches.size());
   const Patches all(mesh, patches);
   const AabbTree tree(all.unconnected());
-  add_found(tree.leaves(), intersections, [&](std::size_t begin, std::size_t end, Found& found) {
-    for (std::size_t leaf = begin; leaf < end; ++leaf) {
-      tree.overlapping_pairs(leaf, [&](std::uint32_t a, std::uint32_t b) {
-        if (!intersect(all.corners(all.triangle(a)), all.corners(all.triangle(b)))) return;
-        const bool at_boundary = all.at_boundary(a) && all.at_boundary(b);
-        found.push_back({all.owner(a), at_boundary});
-        if (all.owner(b) != all.owner(a)) found.push_back({all.owner(b), at_boundary});
-      });
-    }
-  });
   add_found(
-      mesh.triangles.size(), intersections, [&](std::size_t begin, std::size_t end, Found& found) {
-        for (std::size_t t = begin; t < end; ++t) {
-          const auto box = AabbTree::box_of(mesh, static_cast<std::uint32_t>(t));
-          tree.overlapping(box, [&](std::uint32_t a) {
-            if (intersect(all.corners(all.triangle(a)), all.corners(mesh.triangles[t])))
-              found.push_back({all.owner(a), all.at_boundary(a)});
+      tree.leaves(), intersections, run, [&](std::size_t begin, std::size_t end, Found& found) {
+        for (std::size_t leaf = begin; leaf < end; ++leaf) {
+          tree.overlapping_pairs(leaf, [&](std::uint32_t a, std::uint32_t b) {
+            if (!intersect(all.corners(all.triangle(a)), all.corners(all.triangle(b)))) return;
+            const bool at_boundary = all.at_boundary(a) && all.at_boundary(b);
+            found.push_back({all.owner(a), at_boundary});
+            if (all.owner(b) != all.owner(a)) found.push_back({all.owner(b), at_boundary});
           });
         }
       });
+  add_found(mesh.triangles.size(),
+            intersections,
+            run,
+            [&](std::size_t begin, std::size_t end, Found& found) {
+              for (std::size_t t = begin; t < end; ++t) {
+                const auto box = AabbTree::box_of(mesh, static_cast<std::uint32_t>(t));
+                tree.overlapping(box, [&](std::uint32_t a) {
+                  if (intersect(all.corners(all.triangle(a)), all.corners(mesh.triangles[t])))
+                    found.push_back({all.owner(a), all.at_boundary(a)});
+                });
+              }
+            });
   return intersections;
 }
 

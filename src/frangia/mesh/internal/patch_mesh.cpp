@@ -103,10 +103,11 @@ bool PatchMesh::should_flip(std::uint32_t edge) const {
   const auto [dot_a, cross_a] = dot_and_cross(edge);
   const auto [dot_b, cross_b] = dot_and_cross(back);
   const double size = (std::abs(dot_a) + cross_a) * (std::abs(dot_b) + cross_b);
-  return dot_a * cross_b + dot_b * cross_a < -1e-9 * size;
+  constexpr double kRounding = 1e-9;  // sine of the angle sum: cocircular vertices do not flip
+  return dot_a * cross_b + dot_b * cross_a < -kRounding * size;
 }
 
-/// Whether a half-edge leaves the vertex where `outgoing` begins for `other`, or comes from there.
+/// Whether an edge connects the source of `outgoing` to `other`.
 bool PatchMesh::are_connected(std::uint32_t outgoing, std::uint32_t other) const {
   std::uint32_t edge = outgoing;
   do {
@@ -166,7 +167,7 @@ void PatchMesh::flip(std::uint32_t edge) {
 }
 
 void PatchMesh::flip_pending() {
-  // In space the turning might go round in circles.
+  // In space, flips may cycle: the limit is far above the number that a patch needs.
   std::size_t left = 50 * pending_.size() + 100;
   while (!pending_.empty() && left > 0) {
     const std::uint32_t edge = pending_.back();

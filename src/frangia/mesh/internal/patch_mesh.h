@@ -9,18 +9,18 @@
 
 namespace frangia {
 
-/// A patch over a hole while it is made: a disk of triangles whose first vertices are the hole's
-/// boundary, in the order of the patch's boundary. Half-edge 3 t + i runs from corner i of triangle
-/// t.
+/// A growing patch over a hole: a disk of triangles whose first vertices are the boundary of the
+/// patch, in order. Half-edge 3 t + i runs from corner i of triangle t. Unlike HalfEdges it
+/// supports splits and flips.
 ///
-/// Its inner edges are kept such that the angles opposite to each add up to at most 180 degrees
-/// (Delaunay), as far as nothing folds over or runs along an edge that the mesh has already.
-/// source   Liepa 2003, Filling Holes in Meshes; Lawson 1977 for the turning of edges
+/// Inner edges are kept Delaunay: the two angles opposite to an edge add up to at most 180 degrees,
+/// unless the flip would fold the patch or duplicate an edge of the mesh.
+///
+/// source   Liepa 2003, Filling Holes in Meshes; Lawson 1977 for edge flips
 class PatchMesh {
  public:
-  static constexpr std::uint32_t kBoundary =
-      0xFFFFFFFF;  ///< the twin of a half-edge on the boundary
-  /// Whether the mesh has an edge between two corners of the boundary.
+  static constexpr std::uint32_t kBoundary = 0xFFFFFFFF;  ///< twin of a boundary half-edge
+  /// Whether the mesh has an edge between two boundary vertices.
   using AreAdjacent = std::function<bool(std::uint32_t, std::uint32_t)>;
 
   PatchMesh(std::vector<Eigen::Vector3d> boundary_mm,
@@ -44,12 +44,12 @@ class PatchMesh {
     positions_[vertex] = position_mm;
   }
 
-  /// A vertex within a triangle, or on an inner edge; its number. The edges around are made
-  /// Delaunay again.
+  /// Insert a vertex into a triangle or an inner edge, restore the Delaunay property around it, and
+  /// return its index.
   std::uint32_t split_triangle(std::uint32_t triangle, const Eigen::Vector3d& position_mm);
   std::uint32_t split_edge(std::uint32_t edge, const Eigen::Vector3d& position_mm);
 
-  /// Turns edges until all are as they should be.
+  /// Flips edges until all are Delaunay.
   void restore_delaunay();
 
   [[nodiscard]] static std::uint32_t next(std::uint32_t edge) {
@@ -73,7 +73,7 @@ class PatchMesh {
   std::vector<Eigen::Vector3d> positions_;
   std::vector<std::uint32_t> from_;
   std::vector<std::uint32_t> twins_;
-  std::vector<std::uint32_t> pending_;  ///< edges to look at
+  std::vector<std::uint32_t> pending_;  ///< edges to test for a flip
   AreAdjacent are_adjacent_;
 };
 

@@ -47,7 +47,7 @@ struct Quadric {
   [[nodiscard]] double at(const Eigen::Vector3d& p) const {
     return std::max(0.0, p.dot(times(p)) + 2.0 * b.dot(p) + c);
   }
-  /// The position of the least value; false when the planes leave it open.
+  /// Finds the position of the minimum; false when the planes do not determine it.
   [[nodiscard]] bool minimize(Eigen::Vector3d& position) const {
     const Eigen::Vector3d u(xx, xy, xz);
     const Eigen::Vector3d v(xy, yy, yz);
@@ -55,7 +55,10 @@ struct Quadric {
     const Eigen::Vector3d vw = v.cross(w);
     const double determinant = u.dot(vw);
     const double trace = xx + yy + zz;
-    if (!(std::abs(determinant) > 1e-6 * trace * trace * trace)) return false;
+    // The smallest eigenvalue may be about 1e-5 of the largest: below that, noise of the normals
+    // decides along the smallest eigenvector.
+    constexpr double kMinDeterminant = 1e-6;
+    if (!(std::abs(determinant) > kMinDeterminant * trace * trace * trace)) return false;
     position = -(b.x() * vw + b.y() * w.cross(u) + b.z() * u.cross(v)) / determinant;
     return true;
   }

@@ -10,37 +10,44 @@
 
 namespace frangia {
 
-/// How long edges at a patch's vertex should be, and how far it is from the boundary.
+/// The target edge length at a vertex of a patch, and its distance from the boundary.
 struct PatchSpacing {
   double edge_mm = 0.0;
   double from_boundary_mm = 0.0;
 };
 
-/// Makes a patch denser: first coarsely, for its shape, then as dense as the surface around it.
+/// Refines a patch: first coarsely, to compute its shape, then to the density of the surroundings.
 class PatchRefinement {
  public:
-  /// `patch` must outlive it; there is one spacing for each of its vertices.
+  /// `patch` must outlive the object; `spacing` has one element per vertex.
   PatchRefinement(PatchMesh& patch, std::vector<PatchSpacing> spacing);
 
-  /// Puts a vertex into each triangle that is large for its corners, until none is. Triangles grow
-  /// with their distance from the boundary. False when there is no end to it.
-  /// source  Liepa 2003, Filling Holes in Meshes
-  [[nodiscard]] bool refine_coarsely();
+  /// Splits triangles that are larger than the target at their corners, which grows with the
+  /// distance from the boundary. Returns false when the refinement does not end.
+  ///
+  /// errors   Error(Cancelled)
+  /// source   Liepa 2003, Filling Holes in Meshes
+  [[nodiscard]] bool refine_coarsely(const Run& run = {});
 
-  /// Cuts edges that are longer than those around the boundary, along this share of the curve
-  /// between their ends. False when there is no end to it: the patch is crumpled.
-  [[nodiscard]] bool refine_finely(const PatchSurroundings& around, double curvature = 1.0);
+  /// Splits edges that are longer than those around the boundary. New vertices lie on a curve
+  /// between the ends; `curvature` is the share of its height. Returns false when the refinement
+  /// does not end, because the patch is crumpled.
+  ///
+  /// errors   Error(Cancelled)
+  [[nodiscard]] bool refine_finely(const PatchSurroundings& around,
+                                   double curvature = 1.0,
+                                   const Run& run = {});
 
  private:
   [[nodiscard]] static double target_edge_mm(const PatchSpacing& at);
   [[nodiscard]] double target_triangle_count() const;
   void split_if_large(std::uint32_t triangle);
-  struct Cut {
+  struct EdgeSplit {
     const std::vector<Eigen::Vector3d>& normals;
-    double coarser;    ///< how many times longer edges may be than around the boundary
-    double curvature;  ///< share of the curve
+    double coarsening;  ///< factor of the target edge length
+    double curvature;   ///< share of the height of the curve
   };
-  void split_if_long(std::uint32_t edge, const Cut& cut);
+  void split_if_long(std::uint32_t edge, const EdgeSplit& split);
 
   PatchMesh& patch_;
   std::vector<PatchSpacing> spacing_;

@@ -10,13 +10,14 @@
 namespace frangia {
 namespace {
 
-constexpr double kSharpCosine = 0.8;  // of 37 degrees between two triangles
-constexpr float kAtEdges = 0.15F;     // of the bound: edges are shape rather than noise
-constexpr float kBesideEdges = 0.4F;  // of the bound: some of these vertices lie on the edge too
+constexpr double kSharpCosine = 0.8;  // an edge is sharp above a dihedral angle of 37 degrees
+// Fractions of the limit. Sharp edges are shape rather than noise, and vertices beside them often
+// belong to the edge. `./run figures` measures what smoothing does to the edges of the block.
+constexpr float kAtEdges = 0.15F;
+constexpr float kBesideEdges = 0.4F;
 
-/// The share of its bound that each vertex may move by: less where two triangles turn from each
-/// other like an edge of the part.
-std::vector<float> shares_at_edges(const Mesh& mesh, const HalfEdges& edges) {
+/// The fraction of its limit that each vertex may move by: smaller at and beside sharp edges.
+std::vector<float> limit_shares(const Mesh& mesh, const HalfEdges& edges) {
   std::vector<Eigen::Vector3f> normals;
   normals.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -45,10 +46,10 @@ std::vector<float> shares_at_edges(const Mesh& mesh, const HalfEdges& edges) {
 SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const SmoothOptions& options)
     : initial_mm_(mesh.vertices_mm), movable_(mesh.vertices_mm.size(), 1) {
   require(options.iterations >= 0 && options.max_sigmas >= 0.0,
-          "smooth: iterations and sigmas must not be negative");
+          "the iterations and sigmas of smoothing must not be negative");
   if (!options.only.empty()) {
     require(options.only.size() == mesh.triangles.size(),
-            "smooth: there must be one flag a triangle");
+            "smoothing needs one selection flag per triangle");
     movable_.assign(movable_.size(), 0);
     for (std::size_t i = 0; i < options.only.size(); ++i) {
       for (const std::uint32_t vertex : mesh.triangles[i])
@@ -62,7 +63,7 @@ SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const Smoot
   }
   if (options.max_sigmas == 0.0) return;
   if (mesh.sigma_mm.empty()) return;
-  const std::vector<float> shares = shares_at_edges(mesh, edges);
+  const std::vector<float> shares = limit_shares(mesh, edges);
   for (std::size_t v = 0; v < mesh.sigma_mm.size(); ++v) {
     const float sigma = mesh.sigma_mm[v];
     const bool known = std::isfinite(sigma) && sigma > 0.0F;
@@ -73,10 +74,10 @@ SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const Smoot
 
 Eigen::Vector3f SmoothLimits::allowed(std::size_t vertex, const Eigen::Vector3f& wanted) const {
   if (max_move_mm_.empty()) return wanted;
-  const Eigen::Vector3f way = wanted - initial_mm_[vertex];
-  const float length = way.norm();
+  const Eigen::Vector3f displacement = wanted - initial_mm_[vertex];
+  const float length = displacement.norm();
   if (length <= max_move_mm_[vertex]) return wanted;
-  return initial_mm_[vertex] + way * (max_move_mm_[vertex] / length);
+  return initial_mm_[vertex] + displacement * (max_move_mm_[vertex] / length);
 }
 
 }  // namespace frangia

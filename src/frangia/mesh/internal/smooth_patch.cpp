@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/mesh/internal/are_adjacent.h"
 #include "frangia/mesh/internal/fair_patch.h"
 #include "frangia/mesh/internal/hole_patch.h"
 #include "frangia/mesh/internal/minimum_area_triangulation.h"
@@ -50,7 +51,7 @@ PatchSurroundings surroundings_of(const Mesh& mesh,
   return around;
 }
 
-/// The direction of the surface around each corner of the boundary, evened out along it.
+/// The normal of the surroundings at each boundary vertex, smoothed along the boundary.
 std::vector<Vector3d> boundary_normals(const std::vector<Vector3d>& boundary_mm,
                                        const PatchSurroundings& around) {
   constexpr int kRounds = 10;
@@ -71,7 +72,7 @@ std::vector<Vector3d> boundary_normals(const std::vector<Vector3d>& boundary_mm,
   return normals;
 }
 
-/// The mean length of the edges at each corner of the boundary, within twice of the usual.
+/// The mean edge length at each boundary vertex, limited to [1/2, 2] of the median.
 std::vector<PatchSpacing> spacing_of(const Mesh& mesh,
                                      const HalfEdges& edges,
                                      const VertexLoop& loop) {
@@ -94,9 +95,8 @@ std::vector<PatchSpacing> spacing_of(const Mesh& mesh,
   return spacing;
 }
 
-/// Cuts what the mesh would otherwise have twice: chords between corners of the boundary that it
-/// joins.
-void split_duplicate_edges(PatchMesh& patch, const PatchMesh::AreAdjacent& are_adjacent) {
+/// Splits chords of the patch that the mesh has as an edge already.
+void split_duplicate_edges(PatchMesh& patch, const PatchMesh::AreAdjacent& have_edge) {
   const std::uint32_t edges = patch.half_edges();
   for (std::uint32_t edge = 0; edge < edges; ++edge) {
     const std::uint32_t a = patch.from(edge);
@@ -104,7 +104,7 @@ void split_duplicate_edges(PatchMesh& patch, const PatchMesh::AreAdjacent& are_a
     if (a >= patch.boundary_vertices() || b >= patch.boundary_vertices() ||
         patch.twin(edge) == PatchMesh::kBoundary)
       continue;
-    if (are_adjacent(a, b)) patch.split_edge(edge, 0.5 * (patch.position(a) + patch.position(b)));
+    if (have_edge(a, b)) patch.split_edge(edge, 0.5 * (patch.position(a) + patch.position(b)));
   }
 }
 
@@ -131,31 +131,29 @@ HolePatch hole_patch_of(const PatchMesh& patch, const VertexLoop& loop, std::siz
 HolePatch smooth_patch(const Mesh& mesh,
                        const HalfEdges& edges,
                        const VertexLoop& boundary,
-                       const SmoothPatchOptions& options) {
+                       const SmoothPatchOptions& options,
+                       const Run& run) {
   if (boundary.size() < 3) return {};
-  VertexLoop loop(boundary.rbegin(),
-                  boundary.rend());  // the patch runs against the mesh's boundary
-  const auto are_adjacent = [&](std::size_t a, std::size_t b) {
-    const auto outgoing = edges.outgoing(loop[a]);
-    return std::any_of(outgoing.begin(), outgoing.end(), [&](std::uint32_t edge) {
-      return target_vertex(mesh, edge) == loop[b] || opposite_vertex(mesh, edge) == loop[b];
-    });
+  VertexLoop loop(boundary.rbegin(), boundary.rend());  // the patch has the opposite direction
+  const auto have_edge = [&](std::size_t a, std::size_t b) {
+    return are_adjacent(mesh, edges, loop[a], loop[b]);
   };
   std::vector<Vector3d> positions;
   for (const std::uint32_t vertex : loop)
     positions.push_back(position_of(mesh, vertex));
   const PatchSurroundings around = surroundings_of(mesh, edges, loop);
   const auto triangles = minimum_area_triangulation(
-      positions, {.normals = boundary_normals(positions, around), .is_forbidden = are_adjacent});
-  PatchMesh patch(std::move(positions), triangles, are_adjacent);
-  split_duplicate_edges(patch, are_adjacent);
+      positions, {.normals = boundary_normals(positions, around), .is_forbidden = have_edge}, run);
+  PatchMesh patch(std::move(positions), triangles, have_edge);
+  split_duplicate_edges(patch, have_edge);
   patch.restore_delaunay();
   std::vector<PatchSpacing> spacing = spacing_of(mesh, edges, loop);
   while (spacing.size() < patch.count())
     spacing.push_back(spacing.front());
   PatchRefinement refinement(patch, std::move(spacing));
-  if (!refinement.refine_coarsely() || !fair_patch(patch, around, options.curvature)) return {};
-  if (!options.coarse && !refinement.refine_finely(around, options.curvature)) return {};
+  if (!refinement.refine_coarsely(run) || !fair_patch(patch, around, options.curvature, run))
+    return {};
+  if (!options.coarse && !refinement.refine_finely(around, options.curvature, run)) return {};
   return hole_patch_of(patch, loop, mesh.vertices_mm.size());
 }
 

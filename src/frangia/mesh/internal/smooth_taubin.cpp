@@ -10,16 +10,18 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kChunk = 8192;
+// Taubin's lambda and mu: the pass-band frequency 1/lambda + 1/mu = 0.04 keeps shapes larger than
+// about thirty edges.
 constexpr float kShrink = 0.5F;
-constexpr float kInflate = -0.51F;  // passes shapes of more than some thirty edges unchanged
+constexpr float kInflate = -0.51F;
 
-/// Every vertex goes this share of the way to the mean of its neighbours, as far as that is along
-/// its normal: to the side there is no noise, and vertices that wander would use their bound up.
-void step(Mesh& mesh,
-          const HalfEdges& edges,
-          const SmoothLimits& limits,
-          const std::vector<Eigen::Vector3f>& normals,
-          float share) {
+/// Moves each vertex by a share of the way to the mean of its neighbours, along its normal only:
+/// noise has no tangential part, and tangential drift would use up the limit.
+void filter_step(Mesh& mesh,
+                 const HalfEdges& edges,
+                 const SmoothLimits& limits,
+                 const std::vector<Eigen::Vector3f>& normals,
+                 float share) {
   const std::vector<Eigen::Vector3f> from = mesh.vertices_mm;
   parallel_chunks(from.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
@@ -38,12 +40,13 @@ void step(Mesh& mesh,
 }  // namespace
 
 Mesh smooth_taubin(Mesh mesh, const SmoothOptions& options, const Run& run) {
+  run.check();
   const HalfEdges edges(mesh);
   const SmoothLimits limits(mesh, edges, options);
   const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
   for (int i = 0; i < options.iterations; ++i) {
-    step(mesh, edges, limits, normals, kShrink);
-    step(mesh, edges, limits, normals, kInflate);
+    filter_step(mesh, edges, limits, normals, kShrink);
+    filter_step(mesh, edges, limits, normals, kInflate);
     run.report((i + 1.0) / options.iterations);
   }
   mark_displaced(mesh, limits.initial_mm());

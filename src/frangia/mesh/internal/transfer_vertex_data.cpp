@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kChunk = 1024;
 
-/// Each corner's share of a point in the triangle, by the areas opposite to them.
+/// The barycentric coordinates of a point in a triangle.
 Eigen::Vector3f barycentric_of(const Mesh& mesh, const Mesh::Triangle& t, const Vector3d& point) {
   const Vector3d a = mesh.vertices_mm[t[0]].cast<double>() - point;
   const Vector3d b = mesh.vertices_mm[t[1]].cast<double>() - point;
@@ -42,29 +42,33 @@ void transfer_at(Mesh& mesh, std::size_t vertex, const Mesh& from, const Nearest
 
 }  // namespace
 
-void transfer_vertex_data(Mesh& mesh, const RayScene& scene) {
+void transfer_vertex_data(Mesh& mesh, const RayScene& scene, const Run& run) {
   const Mesh& from = scene.mesh();
   const std::size_t count = mesh.vertices_mm.size();
   if (!from.sigma_mm.empty()) mesh.sigma_mm.assign(count, 0.0F);
   if (!from.views.empty()) mesh.views.assign(count, 0);
   if (!from.vertex_marks.empty()) mesh.vertex_marks.assign(count, Mark::Measured);
   parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+    if (run.stop.stop_requested()) return;  // run.check() below throws
     for (std::size_t v = begin; v < end; ++v) {
       const auto near = scene.nearest(mesh.vertices_mm[v].cast<double>());
       if (near) transfer_at(mesh, v, from, *near);
     }
   });
+  run.check();
   if (!from.triangle_marks.empty()) {
     mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
     parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      if (run.stop.stop_requested()) return;
       for (std::size_t t = begin; t < end; ++t) {
         const auto& [a, b, c] = mesh.triangles[t];
-        const Eigen::Vector3f middle =
+        const Eigen::Vector3f centroid =
             (mesh.vertices_mm[a] + mesh.vertices_mm[b] + mesh.vertices_mm[c]) / 3.0F;
-        const auto near = scene.nearest(middle.cast<double>());
+        const auto near = scene.nearest(centroid.cast<double>());
         if (near) mesh.triangle_marks[t] = from.triangle_marks[near->triangle];
       }
     });
+    run.check();
   }
   if (!from.normals.empty()) mesh.normals = vertex_normals(mesh);
 }

@@ -1,13 +1,17 @@
 #pragma once
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
 
 namespace frangia {
 
-/// Gives each vertex of a mesh what is known at the nearest position of another: sigma between the
-/// corners there, the fewest views, the worst mark; and each triangle the mark of the nearest one
-/// to its middle. Normals are computed anew, when the other has any.
-void transfer_vertex_data(Mesh& mesh, const RayScene& scene);
+/// Copies vertex and triangle data from a scene to a mesh at nearest points: the interpolated
+/// sigma, the fewest views of the nearest triangle, the mark of its nearest corner, and for a
+/// triangle the mark of the triangle nearest to its centroid. Recomputes normals if the scene's
+/// mesh has any.
+///
+/// errors   Error(Cancelled)
+void transfer_vertex_data(Mesh& mesh, const RayScene& scene, const Run& run = {});
 
 }  // namespace frangia

@@ -2,17 +2,20 @@
 
 #include <optional>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// The outer surface of two closed bodies that cross: what of each lies inside the other is gone,
-/// and the rest is joined along the curves where they meet.
+/// Computes the union of two closed bodies: the parts of each inside the other are removed, and the
+/// rest is joined along the intersection curves.
 ///
-/// Vertices that stay keep their places and all that is known of them; along the curves it is taken
-/// from the nearest place. Nothing when either is not closed or crosses itself, or in a build
-/// without CGAL.
+/// Vertices that remain keep their position and data; new vertices on the intersection curves take
+/// the data of the nearest point.
+///
+/// missing  nullopt when a body is not closed or intersects itself, or in a build without CGAL
+/// errors   Error(Cancelled)
 /// source   CGAL, Polygon Mesh Processing: corefinement and Boolean operations
-[[nodiscard]] std::optional<Mesh> unite_bodies(const Mesh& a, const Mesh& b);
+[[nodiscard]] std::optional<Mesh> unite_bodies(const Mesh& a, const Mesh& b, const Run& run = {});
 
 }  // namespace frangia
