@@ -4,6 +4,7 @@
 
 #include "support/emulated_boards.h"
 #include "support/error_of.h"
+#include "support/pseudo_terminal_test.h"
 
 namespace frangia {
 namespace {
@@ -12,21 +13,23 @@ using testing::EmulatedPort;
 using testing::EmulatedScpi;
 using testing::error_of;
 
-TEST(OpenTransport, APortThatIsNotThereIsNamed) {
+class OpenTransport : public testing::PseudoTerminalTest {};
+
+TEST_F(OpenTransport, APortThatIsNotThereIsNamed) {
   EXPECT_EQ(error_of([] {
               static_cast<void>(open_serial({"/dev/ttyNONE9"}));
             }).find("/dev/ttyNONE9: cannot be opened"),
             0U);
 }
 
-TEST(OpenTransport, APortIsForOneProgramAtATime) {
+TEST_F(OpenTransport, APortIsForOneProgramAtATime) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   const auto first = open_serial({port.path()});
   EXPECT_NE(error_of([&] { static_cast<void>(open_serial({port.path()})); }).find("in use"),
             std::string::npos);
 }
 
-TEST(OpenTransport, AWrongTcpPortIsNamed) {
+TEST_F(OpenTransport, AWrongTcpPortIsNamed) {
   int closed = 0;
   {
     const EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
@@ -37,7 +40,7 @@ TEST(OpenTransport, AWrongTcpPortIsNamed) {
   EXPECT_EQ(sentence.find("127.0.0.1:" + std::to_string(closed) + ": no connection"), 0U);
 }
 
-TEST(OpenTransport, LinesComeWholeAndInOrderOverBoth) {
+TEST_F(OpenTransport, LinesComeWholeAndInOrderOverBoth) {
   for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
     const Deadline deadline = Deadline::in(3.0);
@@ -51,7 +54,7 @@ TEST(OpenTransport, LinesComeWholeAndInOrderOverBoth) {
   }
 }
 
-TEST(OpenTransport, WhatWasGivenUpIsDiscarded) {
+TEST_F(OpenTransport, WhatWasGivenUpIsDiscarded) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   const auto line = open_serial({port.path()});
   line->write("*IDN?\n", Deadline::in(1.0));
@@ -61,7 +64,7 @@ TEST(OpenTransport, WhatWasGivenUpIsDiscarded) {
   EXPECT_EQ(read_line(*line, Deadline::in(1.0)), "1");
 }
 
-TEST(OpenTransport, AnUnpluggedDeviceIsAnErrorAndNoWait) {
+TEST_F(OpenTransport, AnUnpluggedDeviceIsAnErrorAndNoWait) {
   for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
     const auto line = kind == EmulatedPort::Kind::Tcp
@@ -79,7 +82,7 @@ TEST(OpenTransport, AnUnpluggedDeviceIsAnErrorAndNoWait) {
   }
 }
 
-TEST(OpenTransport, WhatCannotBePrintedIsTold) {
+TEST_F(OpenTransport, WhatCannotBePrintedIsTold) {
   EXPECT_EQ(printable("ok\r\xff"), "ok\\x0d\\xff");
 }
 

@@ -224,7 +224,8 @@ Rgb screen_color(const Vector3d& light) {
 }  // namespace
 
 Image<Rgb> render_mesh(const Mesh& mesh, const RenderOptions& options, const Run& run) {
-  require(!mesh.empty(), "render_mesh: the mesh has no triangles");
+  require(!mesh.empty(),
+          "the mesh has no triangles to draw, only points; give a mesh with triangles");
   require(options.width_px > 0 && options.height_px > 0 && options.samples_across > 0,
           "render_mesh: the picture needs a width, a height and samples above 0");
   require(options.values.empty() || options.values.size() == mesh.vertices_mm.size(),

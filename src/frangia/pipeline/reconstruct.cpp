@@ -65,8 +65,7 @@ double remove_turntable_top(ViewStore& views,
   const double height_mm = -turntable_top->offset() / turntable_top->normal().z();
   run.note(
       fmt::format("the turntable top, at a height of {:.2f} mm, is left out with {} points; "
-                  "--keep-turntable-top "
-                  "keeps it",
+                  "set `keep_turntable_top` to keep it",
                   height_mm,
                   dropped));
   return height_mm;

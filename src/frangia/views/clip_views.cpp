@@ -70,7 +70,7 @@ std::size_t clip_views(ViewStore& views,
   }
   require(all.kept > 0,
           "nothing is left of the object: every point lies below the clip or beyond its radius; "
-          "lower --clip-below or widen --clip-radius");
+          "lower `clip_below` or widen `clip_radius`");
   return all.removed;
 }
 

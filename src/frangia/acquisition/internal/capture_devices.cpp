@@ -64,7 +64,7 @@ void check_devices(const RigDevices& devices,
   if (!devices.turntable) {
     require(angles_rad.size() < 2,
             "the rig has no [devices.turntable], which several views need; add it to rig.toml, or "
-            "take --views 1");
+            "set `views` to 1");
     return;
   }
   const TurntableInfo& info = devices.turntable->info();

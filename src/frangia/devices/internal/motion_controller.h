@@ -48,7 +48,7 @@ class MotionController {
 struct MotionControllerSettings {
   char axis = 'X';
   double boot_s = 2.5;          ///< a board that resets when its port is opened is up within this
-  double steps_per_unit = 0.0;  ///< GRBL: written to the board where it differs; 0 leaves it
+  double steps_per_unit = 0.0;  ///< GRBL: written when the motor is enabled; 0 keeps the board's
 };
 
 /// GRBL 1.1 and what descends from it.
