@@ -1,4 +1,4 @@
-// What the program reports for scans that cannot be registered: one sentence each.
+// What the program says of scans that cannot be put together: one clear sentence each.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,7 +27,7 @@ class RegistrationProgram : public ::testing::Test {
   [[nodiscard]] std::string path(const std::string& name) const {
     return "'" + (folder_.path() / name).string() + "'";
   }
-  /// Writes a height field over a grid, with triangles that face +z.
+  /// A height over a grid of points with triangles, that faces +z.
   void write_relief(const std::string& name,
                     const std::function<double(double, double)>& height_mm) const {
     constexpr std::uint32_t kSide = 60;
@@ -47,7 +47,7 @@ class RegistrationProgram : public ::testing::Test {
   void write_scan_of(const std::string& part, int views) const {
     static_cast<void>(testing::small_scan(folder_.path() / "scan", part, "digital", views, {}));
   }
-  /// Writes a scan of a bracket that was displaced for one view.
+  /// A scan of a bracket in which one view was taken after a push.
   void write_pushed_scan(std::size_t pushed_view) const {
     const Scan scan = testing::small_scan(folder_.path() / "scan", "bracket", "digital", 6, {});
     Mesh part = make_part("bracket");
@@ -61,19 +61,19 @@ class RegistrationProgram : public ::testing::Test {
     std::filesystem::remove_all(scan.folder / view);
     std::filesystem::rename(plan.folder / view, scan.folder / view);
   }
-  /// Expects one sentence, the exit code and no new file.
+  /// One sentence and an exit code, and no file under any name.
   void expect_refused(const std::string& arguments, int exit_code, const std::string& what) const {
     const auto count = [&] {
       return std::distance(std::filesystem::directory_iterator(folder_.path()), {});
     };
     const auto before = count();
     const Answer answer = run_program("--quiet " + arguments + " -o " + path("refused.ply"));
-    expect_answer(answer, exit_code, what);
+    expect_told(answer, exit_code, what);
     const std::string last = answer.output.substr(answer.output.rfind("frangia: "));
     EXPECT_EQ(std::count(last.begin(), last.end(), '\n'), 1) << answer.output;
     EXPECT_EQ(count(), before) << answer.output;
   }
-  static void expect_answer(const Answer& answer, int exit_code, const std::string& what) {
+  static void expect_told(const Answer& answer, int exit_code, const std::string& what) {
     EXPECT_EQ(answer.exit_code, exit_code) << answer.output;
     EXPECT_NE(answer.output.find(what), std::string::npos) << answer.output;
   }
@@ -86,42 +86,42 @@ double dome(double x, double y) {
   return std::sqrt(std::max(0.0, 900.0 - x * x - y * y));
 }
 
-TEST_F(RegistrationProgram, ASingleScanIsMergedUnchanged) {
+TEST_F(RegistrationProgram, OneScanAloneIsMergedAsItIs) {
   write_relief("one.ply", dome);
-  expect_answer(
+  expect_told(
       run_program("merge " + path("one.ply") + " -o " + path("a.ply")), 0, "one scan alone");
 }
 
-TEST_F(RegistrationProgram, ScansWhosePosesCannotBeFoundAreRefused) {
-  write_relief("one.ply", dome);  // a sphere determines no rotation
+TEST_F(RegistrationProgram, ScansThatNothingPlacesAreRefusedInOneSentence) {
+  write_relief("one.ply", dome);  // a ball turns on a ball
   write_relief("two.ply", dome);
   expect_refused("merge " + path("one.ply") + " " + path("two.ply") + " --poses shape",
                  3,
                  "look alike from several sides");
 }
 
-TEST_F(RegistrationProgram, MergeWritesEveryFormatAndLimitsTheDxf) {
+TEST_F(RegistrationProgram, MergeWritesEveryFileKindAndCapsADxf) {
   write_relief("one.ply", dome);
   const Answer answer =
       run_program("merge " + path("one.ply") + " --dxf mesh --dxf-faces 500 --stl-text -o " +
                   path("a.dxf") + " -o " + path("a.stl") + " -o " + path("a.glb"));
-  expect_answer(answer, 0, "are kept, which lie nowhere farther than");
+  expect_told(answer, 0, "are kept, which lie nowhere farther than");
 }
 
-TEST_F(RegistrationProgram, AVoxelThatNeedsTooMuchMemoryIsRefusedAndOneThatFitsIsNamed) {
+TEST_F(RegistrationProgram, AVoxelThatNeedsTooMuchMemoryIsRefusedWithOneThatFits) {
   write_relief("one.ply", dome);
   expect_refused("merge " + path("one.ply") + " --voxel 0.0001", 3, "mm fit");
 }
 
-TEST_F(RegistrationProgram, ASingleViewKeepsTheRigAndIsReported) {
+TEST_F(RegistrationProgram, AViewAloneKeepsTheRigAndSaysSo) {
   write_scan_of("blade", 1);
-  expect_answer(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
-                0,
-                "one view alone cannot be registered");
+  expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
+              0,
+              "one view alone cannot be registered");
   expect_refused("reconstruct " + path("scan") + " --voxel 0.0001", 3, "mm fit");
 }
 
-TEST_F(RegistrationProgram, AClipThatRemovesEverythingIsRefused) {
+TEST_F(RegistrationProgram, AClipThatTakesAllIsRefused) {
   write_scan_of("blade", 1);
   expect_refused(
       "reconstruct " + path("scan") + " --clip-below 1000", 3, "nothing is left of the object");
@@ -129,33 +129,33 @@ TEST_F(RegistrationProgram, AClipThatRemovesEverythingIsRefused) {
       "reconstruct " + path("scan") + " --clip-radius 0.001", 3, "nothing is left of the object");
 }
 
-TEST_F(RegistrationProgram, AViewOfADisplacedPartIsNamedAndLeftOut) {
+TEST_F(RegistrationProgram, AViewOfAPartThatWasPushedIsNamedAndLeftOut) {
   write_pushed_scan(1);
   const Answer answer = run_program("--quiet reconstruct " + path("scan") + " -o " + path("a.ply"));
-  expect_answer(answer, 0, "view views/1 contradicts the others");
+  expect_told(answer, 0, "view views/1 contradicts the others");
   EXPECT_EQ(answer.output.find("contradict each other"), std::string::npos) << answer.output;
 }
 
-TEST_F(RegistrationProgram, TheAxisUncertaintyOfViewsWithLittleOverlapIsReported) {
+TEST_F(RegistrationProgram, OppositeViewsWithLittleInCommonSayHowWellTheyFit) {
   write_scan_of("blade", 2);
-  expect_answer(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
-                0,
-                "tell where the axis is to no better than");
+  expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
+              0,
+              "tell where the axis is to no better than");
 }
 
-TEST_F(RegistrationProgram, ViewsWithoutOverlapKeepTheRigAndAreReported) {
+TEST_F(RegistrationProgram, ViewsWithNothingInCommonKeepTheRigAndSaySo) {
   write_scan_of("plate", 2);
-  expect_answer(
+  expect_told(
       run_program("reconstruct " + path("scan") + " -o " + path("a.ply")), 0, "do not overlap");
 }
 
-TEST_F(RegistrationProgram, ScansWithoutOverlapKeepTheirPosesAndAreReported) {
+TEST_F(RegistrationProgram, ScansThatDoNotOverlapKeepTheirPosesAndTheProgramSaysSo) {
   write_relief("one.ply", dome);
   write_relief("two.ply", [](double x, double y) { return 500.0 + dome(x, y); });
-  expect_answer(run_program("merge " + path("one.ply") + " " + path("two.ply") +
-                            " --poses given -o " + path("a.ply")),
-                0,
-                "the scans do not overlap where they are said to be");
+  expect_told(run_program("merge " + path("one.ply") + " " + path("two.ply") +
+                          " --poses given -o " + path("a.ply")),
+              0,
+              "the scans do not overlap where they are said to be");
 }
 
 }  // namespace

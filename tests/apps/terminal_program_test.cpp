@@ -23,7 +23,7 @@ using testing::run_program;
 using testing::run_shell;
 using testing::TemporaryFolder;
 
-bool holds(const Answer& answer, const std::string& part) {
+bool shows(const Answer& answer, const std::string& part) {
   return answer.output.find(part) != std::string::npos;
 }
 
@@ -48,22 +48,22 @@ TEST_F(TerminalProgram, ShowsASummaryByDefaultAndTheRestUnderVerbose) {
   const std::string reconstruct = "reconstruct " + path("scan") + " -o " + path("a.ply");
   const Answer brief = run_program(reconstruct);
   EXPECT_EQ(brief.exit_code, 0);
-  EXPECT_TRUE(holds(brief, "points from 1 view -> ")) << brief.output;
-  EXPECT_TRUE(holds(brief, "wrote " + path("a.ply"))) << brief.output;
-  EXPECT_FALSE(holds(brief, "algorithm") || holds(brief, "contrast") || holds(brief, " MB"))
+  EXPECT_TRUE(shows(brief, "points from 1 view -> ")) << brief.output;
+  EXPECT_TRUE(shows(brief, "wrote " + path("a.ply"))) << brief.output;
+  EXPECT_FALSE(shows(brief, "algorithm") || shows(brief, "contrast") || shows(brief, " MB"))
       << brief.output;
   EXPECT_LE(std::count(brief.output.begin(), brief.output.end(), '\n'), 6) << brief.output;
   const Answer all = run_program("--verbose " + reconstruct);
-  EXPECT_TRUE(holds(all, "contrast") && holds(all, " MB")) << all.output;
+  EXPECT_TRUE(shows(all, "contrast") && shows(all, " MB")) << all.output;
 }
 
 TEST_F(TerminalProgram, SaysWhatItWrote) {
   const Answer simulated = run_program("simulate plate --views 1 -o " + path("scan"));
-  EXPECT_TRUE(holds(simulated, "wrote " + path("scan") + ": 1 view of 3 patterns"))
+  EXPECT_TRUE(shows(simulated, "wrote " + path("scan") + ": 1 view of 3 patterns"))
       << simulated.output;
   const Answer calibrated =
       run_program("calibrate piezo " + rig_file() + " --steps 13 -o " + path("rig.toml"));
-  EXPECT_TRUE(holds(calibrated, "wrote " + path("rig.toml"))) << calibrated.output;
+  EXPECT_TRUE(shows(calibrated, "wrote " + path("rig.toml"))) << calibrated.output;
 }
 
 TEST_F(TerminalProgram, TakesLengthsWithUnits) {
@@ -85,7 +85,7 @@ TEST_F(TerminalProgram, NamesTheLimitThatRejectedAllPixels) {
   const Answer answer =
       run_program("--quiet reconstruct " + path("scan") + " --max-sigma 1e-9 -o " + path("a.ply"));
   EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_TRUE(holds(answer, "less certain than --max-sigma, 1e-09 rad")) << answer.output;
+  EXPECT_TRUE(shows(answer, "less certain than --max-sigma, 1e-09 rad")) << answer.output;
 }
 
 TEST_F(TerminalProgram, NamesAVoxelThatIsLargerThanThePart) {
@@ -93,7 +93,7 @@ TEST_F(TerminalProgram, NamesAVoxelThatIsLargerThanThePart) {
   const Answer answer =
       run_program("--quiet reconstruct " + path("scan") + " --voxel 500mm -o " + path("a.ply"));
   EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_TRUE(holds(answer, "voxel of 500 mm") && holds(answer, "smaller --voxel"))
+  EXPECT_TRUE(shows(answer, "voxel of 500 mm") && shows(answer, "smaller --voxel"))
       << answer.output;
 }
 
@@ -102,7 +102,7 @@ TEST_F(TerminalProgram, NamesAnEmptyFrame) {
   std::filesystem::resize_file(folder_.path() / "scan/views/000/p1280-0.png", 0);
   const Answer answer = run_program("--quiet reconstruct " + path("scan") + " -o " + path("a.ply"));
   EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_TRUE(holds(answer, "p1280-0.png: is an empty file of 0 bytes")) << answer.output;
+  EXPECT_TRUE(shows(answer, "p1280-0.png: is an empty file of 0 bytes")) << answer.output;
 }
 
 TEST_F(TerminalProgram, NamesAMeshWithoutTriangles) {
@@ -111,15 +111,15 @@ TEST_F(TerminalProgram, NamesAMeshWithoutTriangles) {
          "property float z\nend_header\n0 0 0\n";
   const Answer answer = run_program("picture " + path("points.ply") + " -o " + path("a.png"));
   EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_TRUE(holds(answer, "no triangles")) << answer.output;
-  EXPECT_FALSE(holds(answer, "render_mesh")) << answer.output;
+  EXPECT_TRUE(shows(answer, "no triangles")) << answer.output;
+  EXPECT_FALSE(shows(answer, "render_mesh")) << answer.output;
 }
 
 TEST_F(TerminalProgram, RefusesOptionsThatTheRigCannotShow) {
   const auto refused = [&](const std::string& options, const std::string& sentence) {
     const Answer answer = run_program("simulate plate " + options + " -o " + path("scan"));
     EXPECT_EQ(answer.exit_code, 3) << options;
-    EXPECT_TRUE(holds(answer, sentence)) << answer.output;
+    EXPECT_TRUE(shows(answer, sentence)) << answer.output;
     EXPECT_EQ(std::count(answer.output.begin(), answer.output.end(), '\n'), 1) << answer.output;
     EXPECT_FALSE(std::filesystem::exists(path("scan"))) << options;
   };
@@ -133,7 +133,7 @@ TEST_F(TerminalProgram, AnUnfinishedScanIsNamedAsSuch) {
   std::filesystem::create_directories(folder_.path() / "scan/capture");
   const Answer answer = run_program("reconstruct " + path("scan") + " -o " + path("a.ply"));
   EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_TRUE(holds(answer, "is a scan that was not finished")) << answer.output;
+  EXPECT_TRUE(shows(answer, "is a scan that was not finished")) << answer.output;
 }
 
 TEST_F(TerminalProgram, TheDemoDeletesNothingThatItDidNotWrite) {
@@ -142,7 +142,7 @@ TEST_F(TerminalProgram, TheDemoDeletesNothingThatItDidNotWrite) {
   std::ofstream(kept) << "mine";
   const Answer answer = run_program("demo -o " + folder_.path().string());
   EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_TRUE(holds(answer, "holds files that `frangia demo` did not write")) << answer.output;
+  EXPECT_TRUE(shows(answer, "holds files that `frangia demo` did not write")) << answer.output;
   EXPECT_TRUE(std::filesystem::exists(kept));
 }
 
@@ -155,7 +155,7 @@ TEST_F(TerminalProgram, PrintsTheCommandThatContinuesAnInterruptedScan) {
       command,
       path("a scan")));
   EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
-  EXPECT_TRUE(holds(stopped,
+  EXPECT_TRUE(shows(stopped,
                     fmt::format("continue with: {} scan {} -o '{}' --views 300",
                                 FRANGIA_PROGRAM,
                                 rig_file(),
