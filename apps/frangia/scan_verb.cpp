@@ -52,12 +52,13 @@ void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
           "--fringes-per-degree", patterns.fringes_per_degree, "angular projector: finest fringes")
       ->check(above_zero())
       ->capture_default_str();
-  verb.add_option(
+  auto* sequence = verb.add_option(
       "--sequence",
       patterns.sequence,
       "instead of these: doubling, negative-exponential, heterodyne or gray, with --fringes");
   verb.add_option("--fringes", patterns.fringes, "finest fringes of --sequence over the field")
       ->check(above_zero())
+      ->needs(sequence)
       ->capture_default_str();
   verb.add_option("--ramp",
                   patterns.ramp,

@@ -77,7 +77,7 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                                                  "angular projector: finest fringes")
                                      ->check(above_zero())
                                      ->capture_default_str();
-  verb.add_option(
+  auto* sequence = verb.add_option(
       "--sequence",
       arguments.patterns.sequence,
       "instead of these: doubling, negative-exponential, heterodyne or gray, with --fringes");
@@ -93,6 +93,7 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
   verb.add_option(
           "--fringes", arguments.patterns.fringes, "finest fringes of --sequence over the field")
       ->check(above_zero())
+      ->needs(sequence)
       ->capture_default_str();
   verb.add_option("--seed", arguments.options.seed, "seed of the random noise")
       ->check(zero_or_more())
