@@ -42,7 +42,7 @@ void begin_together(const Mesh& mesh, VertexLoop& first, VertexLoop& second) {
 Mesh bridge_loops(Mesh mesh, std::size_t first_loop, std::size_t second_loop) {
   const std::vector<BoundaryLoop> loops = boundary_loops(mesh);
   require(first_loop < loops.size() && second_loop < loops.size(),
-          "bridge: the mesh has no hole of this number; `list` shows them");
+          "bridge: the mesh has no hole of this number; --list shows them");
   require(first_loop != second_loop, "bridge: name two different holes");
   VertexLoop first = vertices_of(mesh, loops[first_loop]);
   VertexLoop second = vertices_of(mesh, loops[second_loop]);

@@ -154,7 +154,7 @@ void report(const std::vector<Filling>& fillings,
   if (crossing > 0) {
     run.warn(
         fmt::format("what fills {} of {} holes crosses the surface or itself somewhere; "
-                    "`remove_self_intersections` mends that",
+                    "--remove-self-intersections mends that",
                     crossing,
                     fillings.size()));
   }
@@ -238,7 +238,7 @@ Mesh fill_holes(Mesh mesh, const FillHolesOptions& options, const Run& run) {
   const std::vector<BoundaryLoop> loops = boundary_loops(mesh, edges);
   for (const std::size_t number : options.only) {
     require(number < loops.size(),
-            "fill_holes: the mesh has no hole of this number; `list` shows them");
+            "fill_holes: the mesh has no hole of this number; --list shows them");
   }
   const auto base = static_cast<std::uint32_t>(mesh.vertices_mm.size());
   std::vector<VertexLoop> vertex_loops;

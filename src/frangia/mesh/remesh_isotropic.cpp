@@ -27,7 +27,7 @@ using PlainSurface = CGAL::Surface_mesh<Plain::Point_3>;
 PlainSurface plain_surface_of(const Mesh& mesh) {
   std::optional<PlainSurface> surface = to_cgal<PlainSurface>(mesh);
   require(surface.has_value(),
-          "remesh: the mesh is not manifold; make it so first with `make_manifold`");
+          "remesh: the mesh is not manifold; make it so first (--make-manifold)");
   return *std::move(surface);
 }
 
