@@ -125,8 +125,11 @@ TEST_F(TerminalProgram, RefusesOptionsThatTheRigCannotShow) {
   };
   refused("--rig angular --periods 100", "--periods is for a digital projector");
   refused("--fringes-per-degree 5", "--fringes-per-degree is for an angular projector");
-  refused("--periods 1.5", "a fringe period of 1.5 projector pixels cannot be shown");
-  refused("--rig angular --sequence doubling --fringes 1e300", "--fringes must be a number");
+  refused("--periods 1.5", "a fringe period");
+  refused("--rig angular --sequence doubling --fringes 1e300", "fringes");
+  const Answer plan = run_program("plan --fringes 1e300");
+  EXPECT_EQ(plan.exit_code, 3);
+  EXPECT_EQ(std::count(plan.output.begin(), plan.output.end(), '\n'), 1) << plan.output;
 }
 
 TEST_F(TerminalProgram, AnUnfinishedScanIsNamedAsSuch) {
