@@ -136,7 +136,7 @@ TEST_F(TerminalProgram, AnUnfinishedScanIsNamedAsSuch) {
   std::filesystem::create_directories(folder_.path() / "scan/capture");
   const Answer answer = run_program("reconstruct " + path("scan") + " -o " + path("a.ply"));
   EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_TRUE(shows(answer, "is a scan that was not finished")) << answer.output;
+  EXPECT_TRUE(shows(answer, "`frangia scan`")) << answer.output;
 }
 
 TEST_F(TerminalProgram, TheDemoDeletesNothingThatItDidNotWrite) {

@@ -293,12 +293,6 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run) {
                             folder.string()));
   }
   const std::filesystem::path file = folder / "scan.toml";
-  if (!std::filesystem::exists(file) && std::filesystem::exists(folder / "capture")) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: is a scan that was not finished; continue it with the `frangia "
-                            "scan` command that began it",
-                            folder.string()));
-  }
   const toml::table table = parse_toml(file, "frangia-scan");
   TomlReader reader(file, "", table);
   for (const auto* known : {"format", "version"})

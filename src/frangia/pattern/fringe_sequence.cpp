@@ -13,13 +13,6 @@ namespace {
 
 /// Least ratio of a plan. Below it more frames per map are better than more maps.
 constexpr double kMinRatio = 1.1;
-constexpr double kMaxFringes = 1e5;  // no projector has as many pixels or grid lines across
-
-void check_fringes(double fringes) {
-  require(std::isfinite(fringes) && fringes >= 1.0 && fringes <= kMaxFringes,
-          "`fringes` must be a number from 1 to 100000: how many fringes the finest pattern shows "
-          "over the field");
-}
 
 }  // namespace
 
@@ -28,7 +21,7 @@ double wrong_order_probability(double sigma_rad) {
 }
 
 std::vector<double> fringe_sequence(const std::string& name, double fringes) {
-  check_fringes(fringes);
+  require(std::isfinite(fringes) && fringes >= 1.0, "a sequence needs at least one fringe");
   std::vector<double> all = {fringes};
   if (name == "doubling") {
     while (all.back() > 1.0)
@@ -65,8 +58,8 @@ double sigma_for_wrong_order_probability(double probability) {
 }
 
 SequencePlan plan_sequence(double fringes, double sigma_rad, double max_wrong_order) {
-  check_fringes(fringes);
-  require(std::isfinite(sigma_rad) && sigma_rad > 0.0, "`sigma` must be above 0 rad");
+  require(std::isfinite(fringes) && fringes >= 1.0, "a plan needs at least one fringe");
+  require(std::isfinite(sigma_rad) && sigma_rad > 0.0, "a plan needs a sigma above 0 rad");
   for (int steps = 0;; ++steps) {
     const double ratio = steps == 0 ? 1.0 : std::pow(fringes, 1.0 / steps);
     if (steps == 0 && fringes > 1.0) continue;

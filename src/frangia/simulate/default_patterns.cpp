@@ -23,28 +23,6 @@ std::vector<double> even_shifts(int count) {
   return shifts;
 }
 
-void check_period(double period_px) {
-  constexpr double kShortest_px = 2.0;  // a light and a dark pixel
-  if (std::isfinite(period_px) && period_px >= kShortest_px) return;
-  throw Error(
-      ErrorKind::Input,
-      fmt::format("a fringe period of {:.4g} projector pixels cannot be shown; the shortest "
-                  "is {} pixels",
-                  period_px,
-                  kShortest_px));
-}
-
-void check_resolved(double fringes) {
-  constexpr double kMaxFringes = 1e5;  // finer than any grating over the field of a projector
-  if (std::isfinite(fringes) && fringes <= kMaxFringes) return;
-  throw Error(
-      ErrorKind::Input,
-      fmt::format("{:.4g} fringes over the field of the projector cannot be shown; the most "
-                  "are {:.0f}",
-                  fringes,
-                  kMaxFringes));
-}
-
 Pattern angular_pattern(const std::string& name, double fringes_per_degree, int shifts) {
   Pattern pattern;
   pattern.name = name;
@@ -54,8 +32,6 @@ Pattern angular_pattern(const std::string& name, double fringes_per_degree, int 
 }
 
 std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
-  require(plan.periods_px.empty(),
-          "`periods` is for a digital projector; the rig's is angular: set `fringes_per_degree`");
   const double finest = plan.fringes_per_degree;
   require(std::isfinite(finest) && finest > 0.0, "fringes per degree must be above 0");
   if (rig.laser_sheet) {
@@ -66,7 +42,6 @@ std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
   }
   const auto& field = std::get<AngularModel>(rig.projector.model);
   const double fringes = finest * deg_from_rad(field.field_max_rad - field.field_min_rad);
-  check_resolved(fringes);
   // A whisker of slack: a field of exactly 32 fringes needs five doublings, not six.
   const int doublings = std::max(0, static_cast<int>(std::ceil(std::log2(fringes) - 1e-9)));
   std::vector<Pattern> patterns;
@@ -86,7 +61,7 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const Pattern
   std::sort(periods.begin(), periods.end(), std::greater<>());
   std::vector<Pattern> patterns;
   for (const double period : periods) {
-    check_period(period);
+    require(std::isfinite(period) && period > 0.0, "a fringe period must be above 0 pixels");
     Pattern pattern;
     pattern.name = fmt::format("p{:g}", period);
     pattern.period_px = period;
@@ -103,12 +78,10 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
   const bool gray = plan.sequence == "gray";
   require(!gray || pinhole != nullptr,
           "Gray code is for a digital projector; the rig's is angular");
-  require(plan.periods_px.empty(), "`periods` and `sequence` exclude each other; set only one");
   for (const double fringes :
        gray ? std::vector<double>{plan.fringes} : fringe_sequence(plan.sequence, plan.fringes)) {
     const std::string name = fmt::format("f{:g}", fringes);
     if (pinhole != nullptr) {
-      check_period(pinhole->width_px / fringes);
       Pattern pattern{.name = name, .period_px = pinhole->width_px / fringes};
       pattern.shifts_rad = even_shifts(plan.shifts);
       patterns.push_back(pattern);
