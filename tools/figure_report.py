@@ -1,21 +1,21 @@
-"""What the studies of figures share: the program's answers, and a report that appears when it is whole."""
+"""Shared by the scripts that measure figures: calls of the program, and a report that is written at the end."""
 import json
 import subprocess
 
 
 def ask(program, *arguments):
-    """The program's JSON answer."""
+    """The JSON result of the program."""
     result = subprocess.run([program, "--json", *map(str, arguments)], check=True, capture_output=True, text=True)
     return json.loads(result.stdout)
 
 
 class Report:
-    """Lines of Markdown, printed as they come."""
+    """Lines of Markdown, also printed at once."""
 
     def __init__(self):
         self.lines = []
 
-    def tell(self, text=""):
+    def add(self, text=""):
         print(text, flush=True)
         self.lines.append(text)
 

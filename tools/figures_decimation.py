@@ -1,4 +1,4 @@
-"""How far decimated meshes lie from the scan, as MeshLab measures it: a section of tools/figures.py."""
+"""Distances of decimated meshes from the scan, measured by MeshLab: a section of tools/figures.py."""
 import re
 
 import meshlab
@@ -10,7 +10,7 @@ HAUSDORFF = [("RichMesh", "SampledMesh", 0), ("RichMesh", "TargetMesh", 1), ("Ri
 
 
 def distance(sampled, target):
-    """The largest and the RMS distance, mm, from two million points of a mesh to another."""
+    """The maximum and the RMS distance, mm, from two million points of one mesh to the other."""
     text = meshlab.apply("Hausdorff Distance", HAUSDORFF, [sampled, target])
     found = re.search(r"max (\S+)\s+mean : \S+\s+RMS : (\S+)", text)
     if not found:
@@ -18,18 +18,18 @@ def distance(sampled, target):
     return float(found[1]), float(found[2])
 
 
-def decimation(tell, data):
-    tell("## Decimation, judged by MeshLab")
+def decimation(add, data):
+    add("## Decimation, measured by MeshLab")
     scan = data / "scan.ply"
     meshes = {"frangia": data / "tenth.ply", "CGAL, Garland-Heckbert": data / "tenth-by-cgal.ply"}
     missing = [path.name for path in (scan, *meshes.values()) if not path.exists()]
     missing += meshlab.is_missing()
     if missing:
-        tell(f"Not measured: there is no {', no '.join(missing)}. `./run bench` makes the meshes.\n")
+        add(f"Not measured: missing {', '.join(missing)}. `./run bench` makes the meshes.\n")
         return
-    tell("A scan of two million triangles, decimated to a tenth (`bench_mesh` writes both meshes): its vertices, a million points on its edges and about as many on its triangles, and the nearest place of the other; wanted: no farther than CGAL's.\n")
-    tell("| | farthest of it from the scan, mm | RMS | farthest of the scan from it, mm | RMS |\n|---|---|---|---|---|")
+    add("A scan of two million triangles, decimated to a tenth (`bench_mesh` writes both meshes). Distances from all vertices, a million points on the edges and about as many on the triangles of one mesh to the other; wanted: no larger than those of CGAL.\n")
+    add("| | maximum from mesh to scan, mm | RMS | maximum from scan to mesh, mm | RMS |\n|---|---|---|---|---|")
     for name, mesh in meshes.items():
         (there, there_rms), (back, back_rms) = distance(mesh, scan), distance(scan, mesh)
-        tell(f"| {name} | {there:.4f} | {there_rms:.4f} | {back:.4f} | {back_rms:.4f} |")
-    tell()
+        add(f"| {name} | {there:.4f} | {there_rms:.4f} | {back:.4f} | {back_rms:.4f} |")
+    add()

@@ -1,8 +1,8 @@
-"""Kills `frangia scan` with SIGKILL at random moments and starts it again until it is done.
+"""Kills `frangia scan` with SIGKILL at random moments and repeats the command until the scan is complete.
 
 Usage: kill_study.py PROGRAM RIG KILLS [VIEWS]. Counts acknowledged frames that were lost, and scans
-that differ from one that was left alone, in their frames or in the mesh that is made of them.
-Prints one line of JSON; fails when anything was lost or differs.
+whose frames or mesh differ from those of a scan that was not killed. Prints one line of JSON; fails when a
+frame was lost or a scan differs.
 """
 import hashlib
 import json
@@ -23,7 +23,7 @@ def command(scan):
 
 
 def digest(scan):
-    """Of all frames, and of the mesh."""
+    """A hash of all frames and of the mesh."""
     mesh = scan.parent / "mesh.ply"
     subprocess.run([program, "--quiet", "reconstruct", str(scan), "-o", str(mesh)], check=True, stderr=subprocess.DEVNULL)
     found = hashlib.sha256(mesh.read_bytes())
@@ -32,8 +32,8 @@ def digest(scan):
     return found.hexdigest()
 
 
-def lost_of(scan):
-    """Acknowledged frames that are not there, or not as they were."""
+def count_lost(scan):
+    """The number of acknowledged frames that are missing or changed."""
     manifest = scan / "capture" / "manifest.txt"
     lines = manifest.read_text().splitlines(keepends=True) if manifest.exists() else []
     lost = 0
@@ -63,8 +63,8 @@ with tempfile.TemporaryDirectory(prefix="frangia-kills-") as name:
                 process.kill()
                 process.wait()
                 killed += 1
-            lost += lost_of(scan)
-        lost += lost_of(scan)
+            lost += count_lost(scan)
+        lost += count_lost(scan)
         different += digest(scan) != whole
 print(json.dumps({"kills": killed, "scans": scans, "lost": lost, "different": different}))
 sys.exit(bool(lost or different))

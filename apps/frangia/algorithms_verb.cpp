@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-/// Ripple at step errors of -10 to 10 %, for plots.
+/// Ripple at step errors from -10 to 10 %, for plots.
 std::vector<double> ripples(const PublishedAlgorithm& published, bool step_known) {
   const auto shifts = example_shifts(published);
   std::vector<double> values;
@@ -66,16 +66,18 @@ void print_algorithms(const Terminal& terminal) {
     return;
   }
   fmt::print(
-      "\nripple: peak to valley, a step 5 % long or short; noise: c of sigma_phi = c sigma_I / B;\n"
-      "h2, h3: phase error for a second or third harmonic, over its share of B. N = 6 where N may\n"
-      "be chosen, 4 frames for global-carre.\n");
+      "\nripple: peak-to-valley phase error at a step error of 5 %; noise: c in sigma_phi = c "
+      "sigma_I "
+      "/ B;\nh2, h3: phase error per relative amplitude of the second or third harmonic. N = 6 "
+      "where "
+      "N is free,\n4 frames for global-carre.\n");
 }
 
 }  // namespace
 
 void add_algorithms_verb(CLI::App& program, Terminal& terminal) {
   CLI::App* verb =
-      program.add_subcommand("algorithms", "the phase-shift algorithms and their errors");
+      program.add_subcommand("algorithms", "list the phase-shift algorithms and their errors");
   verb->footer("example:\n  frangia algorithms");
   verb->callback([&terminal] { print_algorithms(terminal); });
 }

@@ -42,7 +42,7 @@ std::string lines_of(const PhaseCurve& curve) {
                      fmt::join(degrees(curve.phases_rad), ", "));
 }
 
-/// The rig's text with the curve in its [devices.fringes], in the place of what told it before.
+/// The text of the rig with the curve in [devices.fringes] instead of the keys it replaces.
 std::string with_curve(const std::filesystem::path& rig, const PhaseCurve& curve) {
   std::ifstream in(rig);
   std::string out;
@@ -80,32 +80,36 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
     fmt::print("{}\n", result.dump(2));
   } else {
     fmt::print("# for [devices.fringes], instead of command_per_turn\n{}", lines_of(sweep.curve));
+    if (!arguments.output.empty()) terminal.print_written(arguments.output.string());
   }
 }
 
 }  // namespace
 
 void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
-  auto* verb = program.add_subcommand("calibrate", "measure a rig's devices");
+  auto* verb = program.add_subcommand("calibrate", "calibrate the devices of a rig");
   verb->require_subcommand(1);
   auto* piezo = verb->add_subcommand(
-      "piezo", "the phase that each command of a phase shifter makes, from the frames alone");
+      "piezo", "measure the phase shift of each command of a phase shifter, from the frames alone");
   piezo->footer(
       "Example:\n  frangia calibrate piezo rig.toml -o rig-calibrated.toml\n"
-      "A part, or a sheet of paper, must stand in the fringes; nothing turns.");
+      "Put a part or a sheet of paper into the fringes; the turntable does not move.");
   auto arguments = std::make_shared<PiezoArguments>();
-  piezo->add_option("rig,--rig", arguments->rig, "the rig.toml, with its [devices.*]")->required();
-  piezo->add_option("-o,--output", arguments->output, "the same rig with the curve in it");
-  piezo->add_option("--steps", arguments->options.steps, "commands over the shifter's range")
+  piezo->add_option("rig,--rig", arguments->rig, "the rig.toml, with [devices.*]")->required();
+  piezo->add_option(
+      "-o,--output", arguments->output, "write the rig with the measured curve to this file");
+  piezo
+      ->add_option(
+          "--steps", arguments->options.steps, "number of commands over the range of the shifter")
       ->check(from_to(6, 200))
       ->capture_default_str();
-  piezo->add_option("--exposure", arguments->options.capture.camera.exposure_ms, "milliseconds")
+  piezo->add_option("--exposure", arguments->options.capture.camera.exposure_ms, "exposure, ms")
       ->check(above_zero())
       ->capture_default_str();
   piezo
       ->add_option("--fringes-per-degree",
                    arguments->options.fringes_per_degree,
-                   "of the fringes to look at")
+                   "pitch of the fringes that are shown")
       ->check(above_zero())
       ->capture_default_str();
   piezo->callback([arguments, &terminal] { calibrate_piezo(*arguments, terminal); });

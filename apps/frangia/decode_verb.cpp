@@ -54,7 +54,7 @@ void print_result(const DecodedView& decoded,
   }
   if (terminal.json) fmt::print("{}\n", json.dump(2));
   if (!terminal.json && !terminal.quiet) {
-    fmt::print("wrote {} files into {}; index.html shows all pictures\n",
+    fmt::print("wrote {} files to {}; index.html shows all pictures\n",
                files.size(),
                arguments.folder.string());
   }
@@ -65,9 +65,9 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   const Scan scan = read_scan(arguments.scan, run);
   if (arguments.view >= scan.views.size()) {
     throw Error(ErrorKind::Input,
-                fmt::format("--view {} is not in {}, which has views 0 to {}",
-                            arguments.view,
+                fmt::format("{} has no `view` {}; its views are 0 to {}",
                             arguments.scan.string(),
+                            arguments.view,
                             scan.views.size() - 1));
   }
   const auto rays = rays_of(scan.rig.camera.model);
@@ -85,14 +85,15 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
 
 void add_decode_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<DecodeArguments>();
-  CLI::App* verb = program.add_subcommand("decode", "write the images of each stage of one view");
+  CLI::App* verb =
+      program.add_subcommand("decode", "write the images of each decoding stage of one view");
   verb->footer("example:\n  frangia decode ball-bar --view 3 -o stages");
   verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
       ->required();
-  verb->add_option("--view", arguments->view, "number of the view, from 0")
+  verb->add_option("--view", arguments->view, "number of the view, counted from 0")
       ->check(zero_or_more())
       ->capture_default_str();
-  verb->add_option("-o,--output", arguments->folder, "the folder to write into")->required();
+  verb->add_option("-o,--output", arguments->folder, "folder to write to")->required();
   add_decode_options(*verb, arguments->options);
   arguments->options.spatial.keep_growth_order = true;
   verb->callback([arguments, &terminal] { decode_verb(*arguments, terminal); });

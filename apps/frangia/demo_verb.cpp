@@ -1,6 +1,6 @@
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +22,8 @@
 #include "frangia/simulate/rig_presets.h"
 #include "frangia/simulate/simulate_scan.h"
 
+#include "counted.h"
+#include "show_file.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -32,14 +34,14 @@ struct DemoArguments {
   bool open = false;
 };
 
-/// One part on one rig, from its scan to what is known of the result.
+/// One part on one rig, its reconstruction and the measured errors.
 struct DemoCase {
   std::string part;
   std::string rig;
   Reconstruction result;
   SurfaceError error;
   SurfaceCompleteness completeness;
-  std::vector<Image<Rgb>> pictures;  ///< its fringes, its phase, its mesh, its error
+  std::vector<Image<Rgb>> pictures;  ///< fringes, phase, mesh, error
 };
 
 constexpr int kViews = 8;
@@ -69,7 +71,7 @@ Image<Rgb> grey_picture(const Frame& frame, int white_level) {
   return picture;
 }
 
-/// The view's first fringe frame and its phase modulo 2 pi, as in the paper's Fig. 3 and 4.
+/// The first fringe frame of a view and its wrapped phase, as in the paper's Fig. 3 and 4.
 void picture_phase(const Scan& scan, DemoCase& demo_case, const Run& run) {
   const auto stacks = read_frames(scan, 0, run);
   const DecodedView decoded =
@@ -111,7 +113,7 @@ void measure(const Scan& scan, const Mesh& truth, DemoCase& demo_case, const Run
 void run_case(DemoCase& demo_case, const std::filesystem::path& folder, const Run& run) {
   run.stage("simulate");
   const Scan plan = plan_of(demo_case, folder);
-  std::filesystem::remove_all(plan.folder);  // of an earlier demo
+  std::filesystem::remove_all(plan.folder);  // from an earlier demo; see claim_folder
   const Mesh truth = make_part(demo_case.part);
   const Scan scan = simulate_scan(truth, plan, {.samples_per_px = 4}, run);
   demo_case.result = reconstruct(scan, {}, run);
@@ -150,7 +152,7 @@ void print_table(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
              "triangles",
              "error RMS, mm",
              "99 %, mm",
-             "covered");
+             "complete");
   for (const DemoCase& demo_case : demo_cases) {
     fmt::print("{:<8}{:<10}{:>9}{:>11}{:>17.4f}{:>11.4f}{:>8.1f} %\n",
                demo_case.part,
@@ -161,19 +163,39 @@ void print_table(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
                demo_case.error.p99_mm,
                100.0 * demo_case.completeness.share);
   }
-  fmt::print("(covered: of what a view could measure, has mesh within {} mm)\n\n", kWithinMm);
+  fmt::print("(complete: share of the measurable surface that has mesh within {} mm)\n", kWithinMm);
+  if (!terminal.verbose) return;
   for (const auto& [stage, seconds] : terminal.stage_seconds())
     fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
 }
 
-void demo(const DemoArguments& arguments, Terminal& terminal) {
-  const Run run = terminal.run();
+/// Creates the folder, or takes one that is empty or was marked by an earlier demo. The demo
+/// deletes and overwrites only in a folder with its mark.
+void claim_folder(const std::filesystem::path& folder) {
+  const auto mark = folder / ".frangia-demo";
   std::error_code error;
-  std::filesystem::create_directories(arguments.folder, error);
+  std::filesystem::create_directories(folder, error);
   if (error) {
     throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be made: {}", arguments.folder.string(), error.message()));
+                fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
   }
+  if (std::filesystem::exists(mark)) return;
+  if (!std::filesystem::is_empty(folder)) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: holds files that `frangia demo` did not write; name a new or empty "
+                    "folder as `output`",
+                    folder.string()));
+  }
+  std::ofstream out(mark);
+  out << "frangia demo writes to this folder and deletes what it wrote before\n";
+  if (!out.flush())
+    throw Error(ErrorKind::File, fmt::format("{}: cannot be written", mark.string()));
+}
+
+void demo(const DemoArguments& arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  claim_folder(arguments.folder);
   std::vector<DemoCase> demo_cases(2);
   demo_cases[0].part = "bust";
   demo_cases[0].rig = "digital";
@@ -181,7 +203,8 @@ void demo(const DemoArguments& arguments, Terminal& terminal) {
   demo_cases[1].rig = "angular";
   std::vector<std::vector<Image<Rgb>>> rows;
   for (DemoCase& demo_case : demo_cases) {
-    run.note(fmt::format("{} on the {} rig, {} views", demo_case.part, demo_case.rig, kViews));
+    run.note(fmt::format(
+        "{} on the {} rig, {}", demo_case.part, demo_case.rig, counted(kViews, "view")));
     run_case(demo_case, arguments.folder, run);
     rows.push_back(demo_case.pictures);
   }
@@ -192,12 +215,13 @@ void demo(const DemoArguments& arguments, Terminal& terminal) {
     print_json(demo_cases, terminal);
   } else {
     print_table(demo_cases, terminal);
-    fmt::print(
-        "\nmeshes and pictures are in {}; look at {}\n", arguments.folder.string(), sheet.string());
+    fmt::print("wrote meshes and pictures to {}; {} shows them all\n",
+               arguments.folder.string(),
+               sheet.string());
   }
   if (!arguments.open) return;
-  const std::string command = "xdg-open '" + sheet.string() + "'";
-  if (std::system(command.c_str()) != 0) run.warn("no program opens " + sheet.string());  // NOLINT
+  if (!show_file(sheet))
+    run.warn(fmt::format("{}: xdg-open cannot show it; open it yourself", sheet.string()));
 }
 
 }  // namespace
@@ -205,11 +229,13 @@ void demo(const DemoArguments& arguments, Terminal& terminal) {
 void add_demo_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<DemoArguments>();
   CLI::App* verb = program.add_subcommand(
-      "demo", "scan two parts on the simulated rig and measure them, in about a minute");
+      "demo", "scan two parts on simulated rigs and measure the errors, in about a minute");
   verb->footer("example:\n  frangia demo --open");
-  verb->add_option("-o,--output", arguments->folder, "the folder to write into")
+  verb->add_option("-o,--output",
+                   arguments->folder,
+                   "folder to write to, new or empty or of an earlier demo")
       ->capture_default_str();
-  verb->add_flag("--open", arguments->open, "show the picture when it is done");
+  verb->add_flag("--open", arguments->open, "show the picture at the end");
   verb->callback([arguments, &terminal] { demo(*arguments, terminal); });
 }
 

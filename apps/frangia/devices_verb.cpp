@@ -29,7 +29,7 @@ Json list_drivers(const std::vector<Driver>& drivers) {
   return all;
 }
 
-/// What is connected. A driver whose search fails says so, and the others go on.
+/// The devices that are connected. A driver whose search fails is reported; the others go on.
 Json find_devices(const std::vector<Driver>& drivers, const Run& run) {
   Json all = Json::array();
   for (const Driver& driver : drivers) {
@@ -43,18 +43,18 @@ Json find_devices(const std::vector<Driver>& drivers, const Run& run) {
       }
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::Cancelled) throw;
-      run.warn(fmt::format("{} cannot be searched for: {}", driver.name, error.what()));
+      run.warn(fmt::format("the search for {} devices failed: {}", driver.name, error.what()));
     }
   }
   return all;
 }
 
-/// Opens and asks every device of a rig, each by itself, whatever the others say.
+/// Opens and queries every device of a rig, even if another one fails.
 Json test_devices(const std::filesystem::path& rig_file,
                   const std::vector<Driver>& drivers,
                   const Run& run) {
   const Rig rig = read_rig(rig_file, run);
-  std::vector<std::unique_ptr<Device>> opened;  // until the end: tables may share a board
+  std::vector<std::unique_ptr<Device>> opened;  // kept open: tables may share a board
   Json all = Json::array();
   for (DeviceSettings& settings : read_device_settings(rig_file)) {
     Json entry{{"table", settings.device()}};
@@ -86,7 +86,7 @@ void print(const Json& drivers, const Json& found, const Json& tested) {
                "\"" + driver["driver"].get<std::string>() + "\"",
                driver["description"].get<std::string>());
   }
-  fmt::print("\nConnected{}\n", found.empty() ? ": nothing that can be found by itself" : "");
+  fmt::print("\nConnected{}\n", found.empty() ? ": no device was found" : "");
   for (const Json& device : found) {
     fmt::print("  {}\n    [devices.{}]\n",
                device["name"].get<std::string>(),
@@ -128,7 +128,7 @@ void list(const std::filesystem::path& rig, bool search, Terminal& terminal) {
     faults += device.contains("fault") ? 1 : 0;
   if (faults > 0) {
     throw Error(ErrorKind::Device,
-                fmt::format("{} of the {} devices of {} do not work, as said above",
+                fmt::format("{} of the {} devices of {} failed; see the faults above",
                             faults,
                             tested.size(),
                             rig.string()));
@@ -138,16 +138,16 @@ void list(const std::filesystem::path& rig, bool search, Terminal& terminal) {
 }  // namespace
 
 void add_devices_verb(CLI::App& program, Terminal& terminal) {
-  auto* verb =
-      program.add_subcommand("devices", "the drivers, what is connected, and a test of a rig's");
+  auto* verb = program.add_subcommand(
+      "devices", "list drivers and connected devices; test the devices of a rig");
   verb->footer(
       "Example:\n"
       "  frangia devices\n"
-      "  frangia devices rig.toml       opens and tests each device of this rig, moving none");
+      "  frangia devices rig.toml       opens and queries each device of this rig; nothing moves");
   auto rig = std::make_shared<std::filesystem::path>();
   auto no_search = std::make_shared<bool>(false);
-  verb->add_option("rig,--rig", *rig, "open and test every device that this rig.toml names");
-  verb->add_flag("--no-search", *no_search, "do not look for what is connected");
+  verb->add_option("rig,--rig", *rig, "open and query every device of this rig.toml");
+  verb->add_flag("--no-search", *no_search, "do not search for connected devices");
   verb->callback([rig, no_search, &terminal] { list(*rig, !*no_search, terminal); });
 }
 

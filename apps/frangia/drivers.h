@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// Every driver of this program: of real devices, and of simulated ones.
+/// The drivers of real and of simulated devices.
 [[nodiscard]] std::vector<Driver> all_drivers();
 
 }  // namespace frangia

@@ -9,7 +9,9 @@
 #include "frangia/core/error.h"
 
 #include "merge_verb.h"
+#include "option_names.h"
 #include "option_values.h"
+#include "shell_quoted.h"
 #include "usage.h"
 #include "verbs.h"
 
@@ -34,19 +36,23 @@ int exit_code_of(ErrorKind kind) {
 }
 
 int print_error(Terminal& terminal, const std::string& sentence, int code) {
+  terminal.release();
   terminal.finish();
-  fmt::print(stderr, "frangia: {}\n", sentence);
+  fmt::print(stderr, "frangia: {}\n", with_flags(sentence));
   return code;
 }
 
 int run_program(int argc, char** argv) {
   Terminal terminal;
+  for (int i = 0; i < argc; ++i)
+    terminal.command_line += (i > 0 ? " " : "") + shell_quoted(argv[i]);
   CLI::App program("frangia: a 360-degree fringe projection 3D scanner", "frangia");
   program.require_subcommand(1);
   program.set_version_flag("--version", FRANGIA_VERSION);
-  program.set_help_all_flag("--help-all", "the help of every verb");
+  program.set_help_all_flag("--help-all", "show the help of every verb");
   program.add_flag("--json", terminal.json, "results as JSON on standard output, no progress");
   program.add_flag("--quiet", terminal.quiet, "warnings and errors only");
+  program.add_flag("--verbose", terminal.verbose, "all notes, the time of each stage, the memory");
   std::unique_ptr<tbb::global_control> threads;
   program
       .add_option_function<std::size_t>(
@@ -55,7 +61,7 @@ int run_program(int argc, char** argv) {
             threads = std::make_unique<tbb::global_control>(
                 tbb::global_control::max_allowed_parallelism, count);
           },
-          "cores to use; the result has the same bytes for any number")
+          "number of cores to use; the result is the same for any number")
       ->check(from_to(1, 1024));
   program.fallthrough();
   add_demo_verb(program, terminal);
@@ -84,13 +90,14 @@ int run_program(int argc, char** argv) {
   } catch (const Error& error) {
     return print_error(terminal, error.what(), exit_code_of(error.kind()));
   } catch (const std::bad_alloc&) {
-    return print_error(
-        terminal, "the machine's memory does not hold this; try a larger voxel", NumericFault);
+    return print_error(terminal,
+                       "this does not fit into the memory of the machine; set a larger `voxel`",
+                       NumericFault);
   } catch (const std::exception& error) {
     return print_error(terminal, error.what(), NumericFault);
   }
   terminal.finish();
-  return 0;
+  return terminal.exit_code;
 }
 
 }  // namespace
@@ -99,7 +106,7 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return frangia::run_program(argc, argv);
-  } catch (const std::exception& error) {  // before the parse, or while an answer was printed
+  } catch (const std::exception& error) {  // before the parse, or while printing a result
     static_cast<void>(std::fprintf(stderr, "frangia: %s\n", error.what()));  // NOLINT(*-vararg)
     return frangia::NumericFault;
   }

@@ -13,6 +13,7 @@
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/pipeline/merge_scans.h"
 
+#include "counted.h"
 #include "mesh_result.h"
 #include "option_values.h"
 #include "write_options.h"
@@ -61,13 +62,13 @@ void print_result(const MergedScans& result,
       for (const std::size_t scan : result.found_poses->left_out)
         json["left_out"].push_back(scan);
     }
-    print_mesh_result(std::move(json), terminal, arguments.outputs.paths);
+    print_mesh_result(std::move(json), result.untrusted_reason, terminal, arguments.outputs.paths);
     return;
   }
   if (terminal.quiet) return;
-  fmt::print("{} points from {} scans -> {} triangles\n",
+  fmt::print("{} points from {} -> {} triangles\n",
              result.points,
-             scans,
+             counted(scans, "scan"),
              result.mesh.triangles.size());
   print_mesh_summary(terminal, arguments.outputs.paths);
 }
@@ -78,9 +79,11 @@ void merge(MergeArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
   run.stage("files");
   const std::vector<RangeScan> scans = read_all(arguments.scans);
+  terminal.hold();
   const MergedScans result = merge_scans(scans, arguments.options, run);
   run.stage("files");
   arguments.outputs.write_all(result.mesh, run);
+  terminal.judge(result.untrusted_reason);
   print_result(result, scans.size(), arguments, terminal);
 }
 
@@ -96,35 +99,34 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
       "  frangia merge front.ply back.ply side.ply --poses shape -o part.stl");
   verb->add_option("SCANS",
                    arguments->scans,
-                   "range scans as .ply: with faces, with Stanford's grid, or of points that face "
-                   "+z; all in one frame, each in its own, or named with their poses in a .conf")
+                   "range scans as .ply, with faces, with Stanford's range grid, or as points seen "
+                   "along -z; or a .conf that lists scans with their poses")
       ->required();
   add_mesh_outputs(*verb, arguments->outputs);
   static const std::map<std::string, ScanPoses> kPoses = {
       {"auto", ScanPoses::Auto}, {"given", ScanPoses::Given}, {"shape", ScanPoses::Shape}};
   verb->add_option("--poses",
                    arguments->options.poses,
-                   "where the scans stand: given, as the files say; shape, found from their shape; "
-                   "auto (the default), found when what the files say cannot be")
+                   "poses of the scans: given, as in the files; shape, found from the shape of the "
+                   "scans; auto (default), found from the shape if the given ones cannot be right")
       ->transform(named(kPoses));
-  verb->add_flag("--no-register", arguments->no_register, "take the poses as they are");
-  verb->add_option(
-          "--max-distance",
-          arguments->options.registration.reach_mm,
-          "how far surfaces that are one may lie apart at the start, in mm; 3 % of a scan's "
-          "size when not given")
-      ->check(above_zero());
+  verb->add_flag("--no-register", arguments->no_register, "do not refine the poses");
+  verb->add_option("--max-distance",
+                   arguments->options.registration.reach_mm,
+                   "largest distance between corresponding surfaces before registration, mm; 3 % of "
+                   "a scan's size by default")
+      ->transform(length_above_zero());
   verb->add_option("--voxel",
                    arguments->options.fusion.voxel_mm,
-                   "sampling of the surface in mm; chosen from the data when not given")
-      ->check(above_zero());
+                   "sampling distance of the surface, mm; chosen from the data by default")
+      ->transform(length_above_zero());
   verb->add_flag("--watertight",
                  arguments->options.finish.watertight,
-                 "close what was not seen; each such triangle is marked as synthesized");
+                 "close all holes; their triangles are marked as synthesized");
   verb->add_option("--tolerance",
                    arguments->options.finish.tolerance_mm,
-                   "fewer triangles, never farther than this from the mesh, in mm")
-      ->check(above_zero());
+                   "simplify the mesh within this distance, mm")
+      ->transform(length_above_zero());
   verb->callback([arguments, &terminal] { merge(*arguments, terminal); });
 }
 

@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// Adds the verb that merges range scans of other programs; see verbs.h.
+/// Adds the verb that merges range scans of other scanners; see verbs.h.
 void add_merge_verb(CLI::App& program, Terminal& terminal);
 
 }  // namespace frangia

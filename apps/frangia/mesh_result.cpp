@@ -16,8 +16,11 @@ double peak_memory_mb() {
 }  // namespace
 
 void print_mesh_result(nlohmann::ordered_json result,
+                       const std::string& untrusted_reason,
                        Terminal& terminal,
                        const std::vector<std::filesystem::path>& outputs) {
+  result["trustworthy"] = untrusted_reason.empty();
+  if (!untrusted_reason.empty()) result["reason"] = untrusted_reason;
   for (const auto& [stage, seconds] : terminal.stage_seconds())
     result["seconds"][stage] = seconds;
   result["peak_memory_mb"] = peak_memory_mb();
@@ -28,9 +31,11 @@ void print_mesh_result(nlohmann::ordered_json result,
 }
 
 void print_mesh_summary(Terminal& terminal, const std::vector<std::filesystem::path>& outputs) {
-  for (const auto& [stage, seconds] : terminal.stage_seconds())
-    fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
-  fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
+  if (terminal.verbose) {
+    for (const auto& [stage, seconds] : terminal.stage_seconds())
+      fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
+    fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
+  }
   for (const auto& path : outputs)
     fmt::print("wrote {}\n", path.string());
 }

@@ -11,13 +11,16 @@
 
 namespace frangia {
 
-/// Prints the result of a verb that made a mesh, as JSON: what the verb has to say, and what all of
-/// them end with, the seconds of each stage, the memory, the warnings and the files.
+/// Prints the JSON result of a verb that makes a mesh: `result`, then the keys that all of these
+/// verbs share: whether the result is trustworthy and the reason if not, the seconds of each stage,
+/// the peak memory, the warnings and the files written.
 void print_mesh_result(nlohmann::ordered_json result,
+                       const std::string& untrusted_reason,
                        Terminal& terminal,
                        const std::vector<std::filesystem::path>& outputs);
 
-/// The same end for people: the seconds of each stage, the memory and the files.
+/// Prints the end of the result for people: the files written and, under --verbose, the seconds of
+/// each stage and the peak memory.
 void print_mesh_summary(Terminal& terminal, const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace frangia

@@ -6,6 +6,9 @@
 
 #include <fmt/ranges.h>
 
+#include "frangia/core/error.h"
+#include "frangia/core/parse_length.h"
+
 namespace frangia {
 namespace {
 
@@ -32,7 +35,34 @@ CLI::Validator number_that(const IsRight& is_right,
           help};
 }
 
+template <typename IsRight>
+CLI::Validator length_that(const IsRight& is_right, const char* what) {
+  return {[=](std::string& input) {
+            try {
+              const double length_mm = parse_length_mm(input);
+              if (!is_right(length_mm)) return fmt::format("{} is not {}", input, what);
+              input = fmt::format("{}", length_mm);
+              return std::string();
+            } catch (const Error& error) {
+              return std::string(error.what());
+            }
+          },
+          "LENGTH"};
+}
+
 }  // namespace
+
+CLI::Validator a_length() {
+  return length_that([](double) { return true; }, "a length");
+}
+
+CLI::Validator length_above_zero() {
+  return length_that([](double length_mm) { return length_mm > 0.0; }, "a length above 0");
+}
+
+CLI::Validator length_zero_or_more() {
+  return length_that([](double length_mm) { return length_mm >= 0.0; }, "a length of 0 or more");
+}
 
 CLI::Validator a_number() {
   return number_that([](double) { return true; }, "a number", "");

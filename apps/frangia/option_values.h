@@ -9,25 +9,32 @@
 
 namespace frangia {
 
-// What the value of an option may be; each says in plain words what it is when it is not. CLI11's
-// own take "nan" for a positive number and answer with the largest double in full.
+// Checks of option values, with one clear message each. CLI11's own checks accept "nan" as a
+// positive number and print the largest double in full.
 
 /// A finite number.
 [[nodiscard]] CLI::Validator a_number();
 
-/// A finite number above 0, or one of some words.
+/// A finite number above 0, or one of `words`.
 [[nodiscard]] CLI::Validator above_zero(const std::vector<std::string>& words = {});
 
 /// A finite number of 0 or more.
 [[nodiscard]] CLI::Validator zero_or_more();
 
-/// A finite number within two.
+/// A finite number from `least` to `most`.
 [[nodiscard]] CLI::Validator from_to(double least, double most);
 
-/// One of some words.
+/// One of `words`.
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// One of the names of an enum's values; for CLI::Option::transform.
+// Lengths: "1mm", "0.5in", or a number in mm, as parse_length_mm reads them. For
+// CLI::Option::transform: the option's variable receives mm.
+
+[[nodiscard]] CLI::Validator a_length();
+[[nodiscard]] CLI::Validator length_above_zero();
+[[nodiscard]] CLI::Validator length_zero_or_more();
+
+/// The name of an enum's value, one of the keys of `values`; for CLI::Option::transform.
 template <typename Enum>
 [[nodiscard]] CLI::Validator named(const std::map<std::string, Enum>& values) {
   std::vector<std::string> names;

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/rig_presets.h"
 
+#include "counted.h"
 #include "option_values.h"
 #include "verbs.h"
 
@@ -35,6 +37,9 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
   for (const double fringes : found.fringes) {
     if (pinhole != nullptr) {
       values.push_back(pinhole->width_px / fringes);
+      require(values.back() >= 2.0,
+              "a fringe of the finest pattern is narrower than 2 projector pixels; set fewer "
+              "`fringes`");
     } else {
       const auto& field = std::get<AngularModel>(rig.projector.model);
       values.push_back(fringes / deg_from_rad(field.field_max_rad - field.field_min_rad));
@@ -48,8 +53,9 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
     return;
   }
   fmt::print(
-      "{} patterns, {} = {:.6g}\nfringes over the field: {:.4g}\nwrong order: {:.1e} a pixel\n",
-      values.size(),
+      "{}, {} = {:.6g}\nfringes over the field: {:.4g}\nprobability of a wrong order: {:.1e} per "
+      "pixel\n",
+      counted(values.size(), "pattern"),
       key,
       fmt::join(values, ", "),
       fmt::join(found.fringes, ", "),
@@ -59,15 +65,20 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
 }  // namespace
 
 void add_plan_verb(CLI::App& program, Terminal& terminal) {
-  CLI::App* verb = program.add_subcommand("plan", "the shortest sequence of patterns for a noise");
+  CLI::App* verb =
+      program.add_subcommand("plan", "find the shortest pattern sequence for a given phase noise");
   verb->footer("example:\n  frangia plan --rig digital --fringes 64 --sigma 0.1");
   auto arguments = std::make_shared<PlanArguments>();
-  verb->add_option("--rig", arguments->rig, "a rig's name, or a rig.toml")->capture_default_str();
-  verb->add_option("--fringes", arguments->fringes, "over the field, of the finest pattern")
+  verb->add_option("--rig", arguments->rig, "name of a rig, or a rig.toml")->capture_default_str();
+  verb->add_option("--fringes", arguments->fringes, "fringes of the finest pattern over the field")
+      ->check(above_zero())
       ->capture_default_str();
-  verb->add_option("--sigma", arguments->sigma_rad, "noise of one phase map, rad")
+  verb->add_option("--sigma", arguments->sigma_rad, "phase noise of one map, rad")
+      ->check(above_zero())
       ->capture_default_str();
-  verb->add_option("--max-wrong-order", arguments->max_wrong_order, "chance allowed a pixel")
+  verb->add_option("--max-wrong-order",
+                   arguments->max_wrong_order,
+                   "allowed probability of a wrong fringe order per pixel")
       ->check(from_to(1e-15, 0.5))
       ->capture_default_str();
   verb->callback([arguments, &terminal] { plan(*arguments, terminal); });

@@ -13,7 +13,7 @@
 
 namespace frangia {
 
-/// The options of `reconstruct` that `decode` has too.
+/// The options that `reconstruct` and `decode` share.
 inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
   verb.add_option("--algorithm",
                   options.algorithm,
@@ -23,28 +23,29 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
       {"default", SpatialMethod::RunMerging},
       {"takeda-abe", SpatialMethod::QualityGuided},
       {"herraez", SpatialMethod::ReliabilitySorted}};
-  verb.add_option("--unwrap",
-                  options.spatial.method,
-                  "how a phase is unwrapped in space: default, takeda-abe (the paper's growth) or "
-                  "herraez (sorted by reliability)")
+  verb.add_option(
+          "--unwrap",
+          options.spatial.method,
+          "spatial phase unwrapping: default (run-merging), takeda-abe (quality-guided, as in "
+          "the 1997 paper) or herraez (reliability-sorted)")
       ->transform(named(kMethods));
   verb.add_flag("--recover-saturated",
                 options.recover_saturated,
-                "recover the one saturated frame of four, 90 degrees apart, from the others");
+                "recover a pixel that is saturated in one of four frames, 90 degrees apart");
   verb.add_option_function<std::string>(
       "--undo-response",
       [&options](const std::string& path) {
         options.response = read_rig(path).projector.response;
         if (!options.response) {
           throw Error(ErrorKind::Input,
-                      path + " has no [projector.response]; `frangia response` writes one");
+                      path + " has no [projector.response]; measure one with `frangia response`");
         }
       },
-      "a rig.toml whose [projector.response] the projector had while it showed the patterns "
-      "without its look-up table: undone in the phase");
+      "a rig.toml with the [projector.response] of a projector that showed the patterns without a "
+      "look-up table; the response is corrected in the phase");
   verb.add_option("--max-sigma",
                   options.wrap.max_sigma_rad,
-                  "drop pixels whose phase is less certain than this, in rad")
+                  "discard pixels whose phase has a larger standard deviation, rad")
       ->check(above_zero())
       ->capture_default_str();
 }

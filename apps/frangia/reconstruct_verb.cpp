@@ -14,6 +14,7 @@
 #include "frangia/files/ply.h"
 #include "frangia/pipeline/reconstruct.h"
 
+#include "counted.h"
 #include "mesh_result.h"
 #include "option_values.h"
 #include "reconstruct_options.h"
@@ -78,16 +79,17 @@ void print_result(const Reconstruction& result,
     if (result.registration) json["registration"] = json_of(*result.registration);
     if (!std::isnan(result.turntable_top_height_mm))
       json["turntable_top_height_mm"] = result.turntable_top_height_mm;
-    print_mesh_result(std::move(json), terminal, arguments.outputs.paths);
+    print_mesh_result(std::move(json), result.untrusted_reason, terminal, arguments.outputs.paths);
     return;
   }
   if (terminal.quiet) return;
   terminal.finish();
-  fmt::print("{} points from {} views -> {} triangles\n",
+  fmt::print("{} points from {} -> {} triangles\n",
              result.points,
-             result.views,
+             counted(result.views, "view"),
              result.mesh.triangles.size());
   print_mesh_summary(terminal, arguments.outputs.paths);
+  if (!arguments.raw.empty()) terminal.print_written(arguments.raw.string());
 }
 
 void write_outputs(const Reconstruction& result,
@@ -105,60 +107,61 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   arguments.outputs.check();
   arguments.options.keep_raw = !arguments.raw.empty();
   if (arguments.options.keep_raw) {
-    require(lowercase_extension(arguments.raw) == ".ply",
-            "--keep-raw: points with their sigma are written as .ply; name such a file");
+    require(
+        lowercase_extension(arguments.raw) == ".ply",
+        "`keep_raw` writes points with their sigma as .ply; give a file name that ends with .ply");
     const AtomicFile probe(arguments.raw);
   }
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
+  terminal.hold();
   const Reconstruction result = reconstruct(scan, arguments.options, run);
   run.stage("files");
   write_outputs(result, arguments, run);
+  terminal.judge(result.untrusted_reason);
   print_result(result, arguments, terminal);
 }
 
 void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
   verb.add_option("--clip-below",
                   arguments.options.clip_below_mm,
-                  "leave out what lies below this height above the turntable's origin, in mm")
-      ->check(a_number());
+                  "remove points below this height over the turntable's origin, mm")
+      ->transform(a_length());
   verb.add_option("--clip-radius",
                   arguments.options.clip_radius_mm,
-                  "leave out what lies farther from the turntable's axis, in mm")
-      ->check(above_zero());
+                  "remove points farther than this from the turntable's axis, mm")
+      ->transform(length_above_zero());
   verb.add_flag("--keep-turntable-top",
                 arguments.options.keep_turntable_top,
-                "do not look for the top of the turntable and leave it out");
-  verb.add_flag("--no-register",
-                arguments.no_register,
-                "take the turntable's axis and angles as the rig and the scan say");
+                "keep the points of the turntable top, which are removed by default");
+  verb.add_flag(
+      "--no-register", arguments.no_register, "do not refine the turntable's axis and angles");
 }
 
 void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
   verb.add_option("--voxel",
                   arguments.options.fusion.voxel_mm,
-                  "sampling of the surface in mm; chosen from the data when not given")
-      ->check(above_zero());
+                  "sampling distance of the surface, mm; chosen from the data by default")
+      ->transform(length_above_zero());
   verb.add_flag("--watertight",
                 arguments.options.finish.watertight,
-                "close what was not seen; each such triangle is marked as synthesized (mark 2 in a "
-                "PLY, its own layer in a DXF)");
+                "close all holes; their triangles are marked as synthesized (mark 2 in a PLY, a "
+                "layer of their own in a DXF)");
   verb.add_option("--tolerance",
                   arguments.options.finish.tolerance_mm,
-                  "fewer triangles where the part is flat, never farther than this from the mesh, "
-                  "in mm")
-      ->check(above_zero());
+                  "simplify the mesh within this distance, mm")
+      ->transform(length_above_zero());
   verb.add_option(
-      "--keep-raw", arguments.raw, "write the registered points with sigma to this .ply");
+      "--keep-raw", arguments.raw, "write the registered points with their sigma to this .ply");
 }
 
 }  // namespace
 
 void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<ReconstructArguments>();
-  CLI::App* verb = program.add_subcommand("reconstruct", "turn a scan into a measured mesh");
+  CLI::App* verb = program.add_subcommand("reconstruct", "reconstruct a measured mesh from a scan");
   verb->footer(
-      "example:\n  frangia reconstruct ball-bar -o ball-bar.dxf -o ball-bar.ply --clip-below 1");
+      "example:\n  frangia reconstruct ball-bar -o ball-bar.dxf -o ball-bar.ply --clip-below 1mm");
   verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
       ->required();
   add_mesh_outputs(*verb, arguments->outputs);

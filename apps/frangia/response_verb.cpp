@@ -46,7 +46,7 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   if (terminal.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"light", response->light}}.dump(2));
   } else if (!terminal.quiet) {
-    fmt::print("half of the drive gives {:.1f} % of the light\nwrote {}\n",
+    fmt::print("half of full drive gives {:.1f} % of full light\nwrote {}\n",
                100.0 * response->light_of(0.5),
                arguments.output.string());
   }
@@ -57,15 +57,15 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
 void add_response_verb(CLI::App& program, Terminal& terminal) {
   auto arguments = std::make_shared<ResponseArguments>();
   CLI::App* verb = program.add_subcommand(
-      "response", "measure a projector's response from a grey ramp or fringes");
+      "response", "measure the response of a projector from a grey ramp or fringes");
   verb->footer(
       "example:\n  frangia simulate plate --display-gamma 2.2 --ramp 17 -o ramp\n"
       "  frangia response ramp -o rig.toml");
   verb->add_option("SCAN",
                    arguments->scan,
-                   "a scan that holds a pattern of kind \"ramp\", or fringes of 6 frames or more")
+                   "scan with a pattern of kind \"ramp\", or with fringes of 6 frames or more")
       ->required();
-  verb->add_option("-o,--output", arguments->output, "the rig.toml to write, with the response")
+  verb->add_option("-o,--output", arguments->output, "rig.toml to write, with the response")
       ->required();
   verb->callback([arguments, &terminal] { response_verb(*arguments, terminal); });
 }

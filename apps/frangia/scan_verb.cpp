@@ -8,9 +8,11 @@
 
 #include "frangia/acquisition/capture_scan.h"
 #include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/default_patterns.h"
 
+#include "counted.h"
 #include "drivers.h"
 #include "option_values.h"
 #include "verbs.h"
@@ -31,58 +33,60 @@ struct ScanArguments {
 
 void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
   PatternPlan& patterns = arguments.patterns;
-  verb.add_option("rig,--rig", arguments.rig, "the rig.toml, with its [devices.*]")->required();
-  verb.add_option("-o,--output", arguments.output, "the scan folder; one begun is gone on with")
+  verb.add_option("rig,--rig", arguments.rig, "the rig.toml, with [devices.*]")->required();
+  verb.add_option(
+          "-o,--output", arguments.output, "scan folder to write; an interrupted scan is continued")
       ->required();
-  verb.add_option("--views", arguments.views, "stations of the turntable, evenly over a turn")
+  verb.add_option("--views", arguments.views, "turntable stations, evenly over one turn")
       ->check(from_to(1, 3600))
       ->capture_default_str();
-  verb.add_option("--shifts", patterns.shifts, "frames of each fringe pattern")
+  verb.add_option("--shifts", patterns.shifts, "frames per fringe pattern")
       ->check(from_to(3, 360))
       ->capture_default_str();
   verb.add_option("--periods",
                   patterns.periods_px,
-                  "a digital projector's fringe periods in pixels, such as 1280,160,20")
+                  "digital projector: fringe periods, px, such as 1280,160,20")
       ->delimiter(',')
       ->check(above_zero());
-  verb.add_option("--fringes-per-degree",
-                  patterns.fringes_per_degree,
-                  "an angular projector's finest fringes")
+  verb.add_option(
+          "--fringes-per-degree", patterns.fringes_per_degree, "angular projector: finest fringes")
       ->check(above_zero())
       ->capture_default_str();
-  verb.add_option("--sequence",
-                  patterns.sequence,
-                  "instead: doubling, negative-exponential, heterodyne or gray, up to --fringes");
-  verb.add_option("--fringes", patterns.fringes, "over the field, of the --sequence")
+  auto* sequence = verb.add_option(
+      "--sequence",
+      patterns.sequence,
+      "instead of these: doubling, negative-exponential, heterodyne or gray, with --fringes");
+  verb.add_option("--fringes", patterns.fringes, "finest fringes of --sequence over the field")
       ->check(above_zero())
+      ->needs(sequence)
       ->capture_default_str();
   verb.add_option("--ramp",
                   patterns.ramp,
-                  "levels of a grey ramp, to measure the projector's response by; 0 for none")
+                  "levels of a grey ramp to measure the projector response; 0 for none")
       ->check(from_to(0, 256));
 }
 
 void add_light_options(CLI::App& verb, ScanArguments& arguments) {
   CaptureOptions& options = arguments.options;
-  verb.add_option(
-          "--exposure",
-          arguments.exposure,
-          "milliseconds; or auto: as long as nothing much saturates; or bracket: as many as "
-          "a part that shines needs")
+  verb.add_option("--exposure",
+                  arguments.exposure,
+                  "exposure, ms; or auto: the longest without saturation; or bracket: several "
+                  "exposures, for "
+                  "glossy parts")
       ->check(above_zero({"auto", "bracket"}))
       ->capture_default_str()
       ->group("Light");
   verb.add_option("--exposures",
                   arguments.patterns.exposures_ms,
-                  "take each frame at these exposures in ms, such as 2,8")
+                  "capture each frame at these exposures, ms, such as 2,8")
       ->delimiter(',')
       ->check(above_zero())
       ->group("Light");
-  verb.add_option("--gain", options.camera.gain_db, "of the camera, dB")
+  verb.add_option("--gain", options.camera.gain_db, "camera gain, dB")
       ->check(from_to(0.0, 60.0))
       ->capture_default_str()
       ->group("Light");
-  verb.add_option("--black-level", options.camera.black_level_counts, "of the camera, counts")
+  verb.add_option("--black-level", options.camera.black_level_counts, "camera black level, counts")
       ->check(from_to(0.0, 65535.0))
       ->capture_default_str()
       ->group("Light");
@@ -96,14 +100,14 @@ void add_reliability_options(CLI::App& verb, ScanArguments& arguments) {
         ->capture_default_str()
         ->group("Reliability");
   };
-  add("--settle", options.settle_s, "wait after a move of the table, s");
-  add("--patience", options.timeout_s, "of each call to a device, s");
-  add("--frame-attempts", options.frame_attempts, "for a frame that arrives incomplete");
-  add("--set-attempts", options.set_attempts, "for a set of frames that shows motion");
-  add("--view-attempts", options.view_attempts, "for a view with a device's fault");
+  add("--settle", options.settle_s, "wait after each turntable move, s");
+  add("--patience", options.timeout_s, "timeout of each call to a device, s");
+  add("--frame-attempts", options.frame_attempts, "attempts for a frame that arrives incomplete");
+  add("--set-attempts", options.set_attempts, "attempts for a set of frames that shows motion");
+  add("--view-attempts", options.view_attempts, "attempts for a view in which a device fails");
   verb.add_flag("--no-step-control",
                 arguments.no_step_control,
-                "do not correct the phase shifter by the steps that the frames show")
+                "do not correct the phase shifter by the steps measured in the frames")
       ->group("Reliability");
 }
 
@@ -124,20 +128,19 @@ void print(const ScanArguments& arguments, const CaptureReport& report, Terminal
     fmt::print("{}\n", result.dump(2));
     return;
   }
-  terminal.run().note(fmt::format(
-      "{}: {} frames taken, {} already there, {} taken again, {} sets retaken, {} views skipped",
-      arguments.output.string(),
-      report.captured,
-      report.resumed,
-      report.frame_retries,
-      report.set_retakes,
-      report.skipped.size()));
-  if (report.captured > 0) {
-    terminal.run().note(
-        fmt::format("devices {:.1f} s, disk {:.1f} s, and {:.1f} ms a frame of the program's own",
-                    report.device_s,
-                    report.disk_s,
-                    report.overhead_ms()));
+  terminal.run().note(
+      fmt::format("{}: {} captured, {} already there, {} repeated, {} retaken, {} skipped",
+                  arguments.output.string(),
+                  counted(report.captured, "frame"),
+                  report.resumed,
+                  report.frame_retries,
+                  counted(report.set_retakes, "set"),
+                  counted(report.skipped.size(), "view")));
+  if (report.captured > 0 && terminal.verbose) {
+    terminal.run().note(fmt::format("devices {:.1f} s, disk {:.1f} s, program {:.1f} ms per frame",
+                                    report.device_s,
+                                    report.disk_s,
+                                    report.overhead_ms()));
   }
 }
 
@@ -167,25 +170,31 @@ void scan(const ScanArguments& arguments, Terminal& terminal) {
   }
   if (options.exposure != ExposureChoice::Given && !arguments.patterns.exposures_ms.empty()) {
     throw Error(ErrorKind::Input,
-                "--exposures and --exposure " + arguments.exposure +
-                    " contradict each other; leave one of them out");
+                "`exposures` and `exposure` " + arguments.exposure +
+                    " exclude each other; set only one of them");
   }
   constexpr double kOpening_s = 30.0;
   RigDevices devices =
       open_devices(arguments.rig, plan.rig, all_drivers(), Deadline::in(kOpening_s, run.stop), run);
   run.stage("scan");
-  print(arguments, capture_scan(plan, devices, options, run), terminal);
+  try {
+    print(arguments, capture_scan(plan, devices, options, run), terminal);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Cancelled) throw;
+    throw Error(ErrorKind::Cancelled,
+                fmt::format("{}; continue with: {}", error.what(), terminal.command_line));
+  }
 }
 
 }  // namespace
 
 void add_scan_verb(CLI::App& program, Terminal& terminal) {
-  auto* verb = program.add_subcommand("scan", "capture a scan, or the rest of one");
+  auto* verb = program.add_subcommand("scan", "capture a scan, or continue an interrupted one");
   verb->footer(
       "Example:\n"
       "  frangia scan examples/simulated-digital.toml -o my-scan\n"
       "  frangia reconstruct my-scan -o part.ply\n"
-      "What was interrupted goes on when the same command is given again.");
+      "Repeat the same command to continue a scan that was interrupted.");
   auto arguments = std::make_shared<ScanArguments>();
   add_plan_options(*verb, *arguments);
   add_light_options(*verb, *arguments);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/core/random.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/rig/read_rig.h"
@@ -17,13 +18,14 @@
 #include "frangia/simulate/rig_presets.h"
 #include "frangia/simulate/simulate_scan.h"
 
+#include "counted.h"
 #include "option_values.h"
 #include "verbs.h"
 
 namespace frangia {
 namespace {
 
-/// What the command line says. Angles in degrees, as everywhere on screen.
+/// The options. Angles in degrees, as everywhere on screen.
 struct SimulateArguments {
   std::string part;
   std::string rig = "digital";
@@ -36,114 +38,166 @@ struct SimulateArguments {
   double step_jitter_deg = 0.0;
   double angle_error_deg = 0.0;
   double axis_tilt_deg = 0.0;
+  const CLI::Option* fringes_per_degree = nullptr;
 };
 
 void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
-  verb.add_option("part",
-                  arguments.part,
-                  fmt::format("{}; or a .stl, .ply or .obj file in mm, standing on z = 0 about the "
-                              "z axis",
-                              fmt::join(part_names(), ", ")))
+  verb.add_option(
+          "part",
+          arguments.part,
+          fmt::format("{}; or a .stl, .ply or .obj file in mm, standing on z = 0 around the "
+                      "z axis",
+                      fmt::join(part_names(), ", ")))
       ->required();
-  verb.add_option("-o,--output", arguments.output, "the scan folder to write")->required();
+  verb.add_option("-o,--output", arguments.output, "scan folder to write")->required();
   verb.add_option("--rig",
                   arguments.rig,
                   fmt::format("{}; or a rig.toml", fmt::join(rig_preset_names(), ", ")))
       ->capture_default_str();
-  verb.add_option("--views", arguments.views, "stations of the turntable, evenly over a turn")
+  verb.add_option("--views", arguments.views, "turntable stations, evenly over one turn")
       ->check(from_to(1, 3600))
       ->capture_default_str();
-  verb.add_option("--setups",
-                  arguments.setup_tilts_deg,
-                  "further setups of as many views, in each of which the part is tilted by so many "
-                  "degrees and set down anyhow, such as 180 or 90,180")
+  verb.add_option(
+          "--setups",
+          arguments.setup_tilts_deg,
+          "further setups of the same number of views, with the part tilted by these degrees "
+          "and at a random place on the table, such as 180 or 90,180")
       ->delimiter(',')
       ->check(from_to(-360.0, 360.0));
-  verb.add_option("--shifts", arguments.patterns.shifts, "frames of each fringe pattern")
+  verb.add_option("--shifts", arguments.patterns.shifts, "frames per fringe pattern")
       ->check(from_to(3, 360))
       ->capture_default_str();
   verb.add_option("--periods",
                   arguments.patterns.periods_px,
-                  "a digital projector's fringe periods in pixels, such as 1280,160,20")
+                  "digital projector: fringe periods, px, such as 1280,160,20")
       ->delimiter(',')
       ->check(above_zero());
-  verb.add_option("--fringes-per-degree",
-                  arguments.patterns.fringes_per_degree,
-                  "an angular projector's finest fringes")
-      ->check(above_zero())
-      ->capture_default_str();
-  verb.add_option("--sequence",
-                  arguments.patterns.sequence,
-                  "instead: doubling, negative-exponential, heterodyne or gray, up to --fringes");
+  arguments.fringes_per_degree = verb.add_option("--fringes-per-degree",
+                                                 arguments.patterns.fringes_per_degree,
+                                                 "angular projector: finest fringes")
+                                     ->check(above_zero())
+                                     ->capture_default_str();
+  auto* sequence = verb.add_option(
+      "--sequence",
+      arguments.patterns.sequence,
+      "instead of these: doubling, negative-exponential, heterodyne or gray, with --fringes");
   verb.add_option("--exposures",
                   arguments.patterns.exposures_ms,
-                  "take each frame at these exposures in ms, such as 2,8; the first is --exposure")
+                  "capture each frame at these exposures, ms, such as 2,8; the first is --exposure")
       ->delimiter(',')
       ->check(above_zero());
   verb.add_option("--ramp",
                   arguments.patterns.ramp,
-                  "levels of a grey ramp, to measure the projector's response by; 0 for none")
+                  "levels of a grey ramp to measure the projector response; 0 for none")
       ->check(from_to(0, 256));
-  verb.add_option("--fringes", arguments.patterns.fringes, "over the field, of the --sequence")
+  verb.add_option(
+          "--fringes", arguments.patterns.fringes, "finest fringes of --sequence over the field")
       ->check(above_zero())
+      ->needs(sequence)
       ->capture_default_str();
-  verb.add_option("--seed", arguments.options.seed, "another seed, other noise")
+  verb.add_option("--seed", arguments.options.seed, "seed of the random noise")
       ->check(zero_or_more())
       ->capture_default_str();
-  verb.add_option("--samples", arguments.options.samples_per_px, "rays a pixel; 4 mix its edges")
+  verb.add_option("--samples",
+                  arguments.options.samples_per_px,
+                  "rays per pixel; with 4 a pixel at an edge mixes two surfaces")
+      ->check(from_to(1, 64))
       ->capture_default_str();
+}
+
+/// Adds one option to `group`. The caller adds the check of its values.
+template <typename Value>
+CLI::Option* add_fault(
+    CLI::App& verb, const char* group, const char* name, Value& value, const char* help) {
+  return verb.add_option(name, value, help)->capture_default_str()->group(group);
 }
 
 void add_camera_faults(CLI::App& verb, SimulateArguments& arguments) {
+  constexpr const char* kGroup = "Camera";
   SimulateOptions& options = arguments.options;
-  const auto add = [&](const char* name, auto& value, const char* help) {
-    verb.add_option(name, value, help)->capture_default_str()->group("Camera");
-  };
-  add("--bits", options.bits, "8, 10, 12 or 16");
-  add("--full-well", options.full_well_e, "electrons of a white pixel");
-  add("--read-noise", options.read_e, "electrons");
-  add("--exposure", options.exposure, "1 puts the brightest diffuse pixel at 80 % of white");
-  add("--ambient", options.ambient, "other light, as a share of white");
-  verb.add_flag("--no-noise", arguments.no_noise, "no shot and no read noise")->group("Camera");
+  add_fault(verb, kGroup, "--bits", options.bits, "8, 10, 12 or 16")
+      ->check(one_of({"8", "10", "12", "16"}));
+  add_fault(verb, kGroup, "--full-well", options.full_well_e, "electrons of a white pixel")
+      ->check(above_zero());
+  add_fault(verb, kGroup, "--read-noise", options.read_e, "read noise, electrons rms")
+      ->check(zero_or_more());
+  add_fault(verb,
+            kGroup,
+            "--exposure",
+            options.exposure,
+            "relative exposure; at 1 the brightest diffuse pixel is at 80 % of white")
+      ->check(above_zero());
+  add_fault(verb, kGroup, "--ambient", options.ambient, "ambient light, as a share of white")
+      ->check(zero_or_more());
+  verb.add_flag("--no-noise", arguments.no_noise, "no shot and no read noise")->group(kGroup);
 }
 
 void add_projector_faults(CLI::App& verb, SimulateArguments& arguments) {
+  constexpr const char* kGroup = "Projector";
   SimulateOptions& options = arguments.options;
-  const auto add = [&](const char* name, double& value, const char* help) {
-    verb.add_option(name, value, help)->capture_default_str()->group("Projector");
-  };
-  add("--contrast", options.contrast, "of the fringes, 0 to 1");
-  add("--step-error", options.step_error, "all shifts too large by this share");
-  add("--step-jitter", arguments.step_jitter_deg, "degrees rms, for each frame");
-  add("--display-gamma", options.display_gamma, "of a digital projector");
-  add("--line-width", options.line_sigma_mm, "sigma of the laser sheet, mm");
+  add_fault(verb, kGroup, "--contrast", options.contrast, "fringe contrast, 0 to 1")
+      ->check(from_to(0.0, 1.0));
+  add_fault(verb, kGroup, "--step-error", options.step_error, "relative error of all phase steps")
+      ->check(a_number());
+  add_fault(verb,
+            kGroup,
+            "--step-jitter",
+            arguments.step_jitter_deg,
+            "phase-shift jitter of each frame, degrees rms")
+      ->check(zero_or_more());
+  add_fault(verb, kGroup, "--display-gamma", options.display_gamma, "gamma of a digital projector")
+      ->check(above_zero());
+  add_fault(verb, kGroup, "--line-width", options.line_sigma_mm, "sigma of the laser sheet, mm")
+      ->transform(length_above_zero());
 }
 
 void add_part_faults(CLI::App& verb, SimulateArguments& arguments) {
+  constexpr const char* kGroup = "Part";
   SimulateOptions& options = arguments.options;
-  const auto add = [&](const char* name, double& value, const char* help) {
-    verb.add_option(name, value, help)->capture_default_str()->group("Part");
-  };
-  add("--texture", options.texture, "dark patches on the surface, 0 to 1");
-  add("--gloss", options.gloss, "strength of the highlight");
-  add("--shininess", options.shininess, "exponent of the highlight");
-  add("--speckle", options.speckle, "contrast of laser speckle, 0 to 1");
-  add("--speckle-grain", options.speckle_grain_px, "pixels");
-  add("--speckle-correlation",
-      options.speckle_correlation,
-      "of the two interfering beams; below 1 it moves the phase");
+  add_fault(verb, kGroup, "--texture", options.texture, "strength of dark patches, 0 to 1")
+      ->check(from_to(0.0, 1.0));
+  add_fault(verb, kGroup, "--gloss", options.gloss, "strength of the highlight")
+      ->check(zero_or_more());
+  add_fault(verb, kGroup, "--shininess", options.shininess, "exponent of the highlight")
+      ->check(above_zero());
+  add_fault(verb, kGroup, "--speckle", options.speckle, "contrast of laser speckle, 0 to 1")
+      ->check(from_to(0.0, 1.0));
+  add_fault(verb, kGroup, "--speckle-grain", options.speckle_grain_px, "speckle size, px")
+      ->check(above_zero());
+  add_fault(verb,
+            kGroup,
+            "--speckle-correlation",
+            options.speckle_correlation,
+            "correlation of the speckle of the two interfering beams; below 1 it shifts the phase")
+      ->check(from_to(0.0, 1.0));
 }
 
 void add_turntable_faults(CLI::App& verb, SimulateArguments& arguments) {
-  const auto add = [&](const char* name, double& value, const char* help) {
-    verb.add_option(name, value, help)->capture_default_str()->group("Turntable");
-  };
-  add("--angle-error", arguments.angle_error_deg, "degrees rms, for each view");
-  add("--axis-offset", arguments.options.axis_offset_mm, "mm from where rig.toml says");
-  add("--axis-tilt", arguments.axis_tilt_deg, "degrees from where rig.toml says");
-  add("--turntable-top",
-      arguments.options.turntable_top_radius_mm,
-      "radius of a disc below the part, mm");
+  constexpr const char* kGroup = "Turntable";
+  add_fault(verb,
+            kGroup,
+            "--angle-error",
+            arguments.angle_error_deg,
+            "error of each view's angle, degrees rms")
+      ->check(zero_or_more());
+  add_fault(verb,
+            kGroup,
+            "--axis-offset",
+            arguments.options.axis_offset_mm,
+            "offset of the axis from the one in rig.toml, mm")
+      ->transform(a_length());
+  add_fault(verb,
+            kGroup,
+            "--axis-tilt",
+            arguments.axis_tilt_deg,
+            "tilt of the axis against the one in rig.toml, degrees")
+      ->check(a_number());
+  add_fault(verb,
+            kGroup,
+            "--turntable-top",
+            arguments.options.turntable_top_radius_mm,
+            "radius of a turntable top below the part, mm; 0 for none")
+      ->transform(length_zero_or_more());
 }
 
 Mesh part_of(const std::string& name) {
@@ -152,8 +206,7 @@ Mesh part_of(const std::string& name) {
   }
   if (std::filesystem::path(name).has_extension()) return read_mesh(name);
   throw Error(ErrorKind::Input,
-              fmt::format("there is no part \"{}\"; choose one of {}, or name a .stl, .ply or .obj "
-                          "file",
+              fmt::format("there is no part \"{}\"; choose one of {}, or a .stl, .ply or .obj file",
                           name,
                           fmt::join(part_names(), ", ")));
 }
@@ -162,7 +215,7 @@ Rig rig_of(const std::string& name, const Run& run) {
   return std::filesystem::path(name).has_extension() ? read_rig(name, run) : rig_preset(name);
 }
 
-/// The stations of every setup, and how the part stands in the further ones.
+/// The stations of all setups, and the part poses of the further ones.
 void add_setups(Scan& plan, const Mesh& part, const SimulateArguments& arguments) {
   const int setups = 1 + static_cast<int>(arguments.setup_tilts_deg.size());
   for (int i = 0; i < setups * arguments.views; ++i) {
@@ -191,6 +244,11 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   plan.folder = arguments.output;
   plan.name = std::filesystem::path(arguments.part).stem().string();
   plan.rig = rig_of(arguments.rig, run);
+  if (arguments.fringes_per_degree->count() > 0 && !plan.rig.projector.is_angular()) {
+    throw Error(ErrorKind::Input,
+                "`fringes_per_degree` is for an angular projector; the rig's is digital: set "
+                "`periods`");
+  }
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
   const Mesh part = part_of(arguments.part);
   add_setups(plan, part, arguments);
@@ -209,22 +267,21 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
     fmt::print("{}\n", result.dump(2));
     return;
   }
-  run.note(fmt::format("{}: {} views of {} patterns, and truth.ply",
+  run.note(fmt::format("wrote {}: {} of {}, and truth.ply",
                        scan.folder.string(),
-                       scan.views.size(),
-                       scan.patterns.size()));
+                       counted(scan.views.size(), "view"),
+                       counted(scan.patterns.size(), "pattern")));
 }
 
 }  // namespace
 
 void add_simulate_verb(CLI::App& program, Terminal& terminal) {
-  auto* verb =
-      program.add_subcommand("simulate", "render a scan of a part, with the truth beside it");
+  auto* verb = program.add_subcommand("simulate", "render a scan of a part, with the true surface");
   verb->footer(
       "Example:\n"
       "  frangia simulate bust --rig carducci -o bust-scan\n"
-      "  frangia simulate bracket --setups 90 -o bracket-stood-and-laid\n"
-      "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5 -o bracket-scan");
+      "  frangia simulate bracket --setups 90 -o bracket-two-setups\n"
+      "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5mm -o bracket-scan");
   auto arguments = std::make_shared<SimulateArguments>();
   add_scan_options(*verb, *arguments);
   add_camera_faults(*verb, *arguments);

@@ -7,41 +7,61 @@
 
 #include "frangia/core/run.h"
 
+#include "progress_line.h"
+
 namespace frangia {
 
-/// What the person at the program sees: a progress line on a terminal, warnings, notes, and how
-/// long each stage took. All of it goes to standard error; standard output is for results.
+/// What the user sees while a verb works: a progress line, warnings and notes, all on standard
+/// error; standard output is for results.
+///
+/// A line a view and a summary are shown by default. `verbose` adds the notes of the stages that
+/// work view by view, the seconds of each stage and the peak memory.
 class Terminal {
  public:
-  bool json = false;   ///< results as JSON on standard output, no progress
-  bool quiet = false;  ///< warnings and errors only
+  bool json = false;         ///< results as JSON on standard output, no progress
+  bool quiet = false;        ///< warnings and errors only
+  bool verbose = false;      ///< all notes, times and memory
+  std::string command_line;  ///< as the user typed it, quoted for a shell
+  int exit_code = 0;         ///< of a verb that ends without an error
 
-  /// A Run that is stopped by Ctrl-C or SIGTERM and reports here. The Terminal must outlive it.
+  /// A Run that reports here and is stopped by Ctrl-C or SIGTERM. The Terminal must outlive it.
   [[nodiscard]] Run run();
 
-  /// Stages in the order they first began, with the seconds spent in each.
+  /// Keeps warnings and notes back until `release`, so that a verdict can be the first line.
+  void hold() { holding_ = !verbose; }
+  /// Prints what was kept back.
+  void release();
+
+  /// For a result that must not be trusted: prints the reason before everything that was kept back
+  /// and sets the exit code. Does nothing but `release` when `reason` is empty.
+  void judge(const std::string& reason);
+
+  /// Stages in the order in which they first began, with the seconds spent in each.
   [[nodiscard]] std::vector<std::pair<std::string, double>> stage_seconds();
 
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// Prints "wrote PATH", unless results are JSON or `quiet` is set.
+  void print_written(const std::string& path);
 
   /// Ends the progress line.
   void finish();
 
  private:
-  using Clock = std::chrono::steady_clock;
   void begin_stage(const std::string& name);
   void draw(double done);
-  [[nodiscard]] std::string time_left(double done);
+  void show(const std::string& line);
   void print_line(const std::string& text);
 
   std::vector<std::pair<std::string, double>> seconds_;
   std::vector<std::string> warnings_;
   std::vector<std::string> notes_;
+  std::vector<std::string> held_;
   std::string stage_;
-  Clock::time_point stage_begin_;
-  Clock::time_point last_drawn_;
-  Clock::time_point first_drawn_;  ///< of the stage
-  double first_done_ = -1.0;       ///< then; below 0 before
+  std::chrono::steady_clock::time_point stage_begin_;
+  std::chrono::steady_clock::time_point last_drawn_;
+  ProgressLine progress_;
+  bool holding_ = false;
   bool line_open_ = false;
 };
 

@@ -11,7 +11,8 @@
 namespace frangia {
 namespace {
 
-/// How many letters make one word of the other: Levenshtein 1966.
+/// Number of letters to insert, delete or replace to turn one word into the other (Levenshtein
+/// 1966).
 std::size_t edit_distance(const std::string& word, const std::string& name) {
   std::vector<std::size_t> row(name.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -26,7 +27,7 @@ std::size_t edit_distance(const std::string& word, const std::string& name) {
   return row.back();
 }
 
-/// ", perhaps ... was meant" when one of the names is nearly the word.
+/// ", perhaps NAME was meant" for the nearest name, if it is near enough.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const auto nearest = std::min_element(
       names.begin(), names.end(), [&](const std::string& one, const std::string& other) {
@@ -36,7 +37,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near ? fmt::format(", perhaps {} was meant", *nearest) : "";
 }
 
-/// The program, the verb that was called, and its own verb where it has some.
+/// The program, the verb that was called, and its subverb if it has one.
 using VerbPath = std::vector<const CLI::App*>;
 VerbPath verb_path(const CLI::App& program) {
   VerbPath path{&program};
@@ -45,7 +46,7 @@ VerbPath verb_path(const CLI::App& program) {
   return path;
 }
 
-/// "calibrate piezo", and nothing of the program alone.
+/// "calibrate piezo"; empty for the program itself.
 std::string name_of(const VerbPath& path) {
   std::string name;
   for (std::size_t i = 1; i < path.size(); ++i)
@@ -73,10 +74,18 @@ std::vector<std::string> options_of(const VerbPath& path) {
   return names;
 }
 
-/// Of words that nothing takes, and of a verb that none of them is.
+bool is_option(const std::string& word) {
+  return !word.empty() && word.front() == '-';
+}
+
+bool has_unknown_option(const VerbPath& path) {
+  const std::vector<std::string> words = path.front()->remaining(true);
+  return std::any_of(words.begin(), words.end(), is_option);
+}
+
+/// The sentence for words that no option takes, or for a verb that does not exist.
 std::string unexpected_argument(const VerbPath& path) {
   const std::vector<std::string> words = path.front()->remaining(true);
-  const auto is_option = [](const std::string& word) { return word[0] == '-'; };
   const auto word = std::find_if_not(words.begin(), words.end(), is_option);
   const auto option = std::find_if(words.begin(), words.end(), is_option);
   const std::vector<std::string> verbs = verbs_of(*path.back());
@@ -90,7 +99,7 @@ std::string unexpected_argument(const VerbPath& path) {
   return fmt::format("{} needs a verb: {}", name, fmt::join(verbs, ", "));
 }
 
-/// Of "Could not convert: --views = 2.5".
+/// The sentence for CLI11's "Could not convert: --views = 2.5".
 std::string conversion_failure(const std::string& what) {
   const std::size_t name = what.find(": ");
   const std::size_t value = what.rfind(" = ");
@@ -99,7 +108,8 @@ std::string conversion_failure(const std::string& what) {
       "{} cannot be {}", what.substr(name + 2, value - name - 2), what.substr(value + 3));
 }
 
-/// Of "--voxel: 1 required FLOAT missing" and "--voxel: At Most 1 required but received 2".
+/// The sentence for CLI11's "--voxel: 1 required FLOAT missing" and "--voxel: At Most 1 required
+/// but received 2".
 std::string count_mismatch(const std::string& what) {
   const std::string name = what.substr(0, what.find(": "));
   const auto has = [&](const char* words) { return what.find(words) != std::string::npos; };
@@ -113,9 +123,11 @@ std::string count_mismatch(const std::string& what) {
 std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error) {
   const VerbPath path = verb_path(program);
   std::string what = error.what();
-  const bool lacks_verb =
-      dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !verbs_of(*path.back()).empty();
-  if (lacks_verb || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+  const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  const bool lacks_verb = required && !verbs_of(*path.back()).empty();
+  // What is missing may be there under a misspelt name: that name is the fault to tell.
+  const bool misspelt = required && has_unknown_option(path);
+  if (lacks_verb || misspelt || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     what = unexpected_argument(path);
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) what = conversion_failure(what);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) what = count_mismatch(what);

@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// What is wrong with how the program was called, and whose help tells more: one sentence.
+/// One sentence that says what is wrong with the command line and which help to read.
 [[nodiscard]] std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error);
 
 }  // namespace frangia

@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-/// Each adds one verb to the program, in the file of its name. The work is done in the verb's
-/// callback; an Error thrown there becomes a sentence and an exit code in main.
+/// Each function adds one verb to the program; its source has the verb's name. The verb's callback
+/// does the work; main turns an Error thrown there into a sentence and an exit code.
 void add_demo_verb(CLI::App& program, Terminal& terminal);
 void add_simulate_verb(CLI::App& program, Terminal& terminal);
 void add_reconstruct_verb(CLI::App& program, Terminal& terminal);

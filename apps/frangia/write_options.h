@@ -19,12 +19,12 @@
 
 namespace frangia {
 
-/// What an -o says of the files it takes.
+/// The help of -o: which files it writes.
 [[nodiscard]] inline std::string output_help() {
-  return fmt::format("where to write the mesh: {}; may be given more than once", mesh_extensions());
+  return fmt::format("mesh file to write: {}; may be given more than once", mesh_extensions());
 }
 
-/// The variants of formats that have some. `options` must outlive the verb.
+/// Adds the options that choose variants of a format. `options` must outlive the verb.
 inline void add_write_options(CLI::App& verb, WriteOptions& options) {
   static const std::map<std::string, DxfVariant> kVariants = {
       {"faces", DxfVariant::Faces}, {"polyface", DxfVariant::Polyface}, {"mesh", DxfVariant::Mesh}};
@@ -35,20 +35,20 @@ inline void add_write_options(CLI::App& verb, WriteOptions& options) {
   verb.add_flag("--stl-text", options.stl.ascii, "STL as text instead of binary");
 }
 
-/// Where a mesh that was measured goes, and in which variants.
+/// The files that a measured mesh is written to, and their variants.
 struct MeshOutputs {
   std::vector<std::filesystem::path> paths;
   WriteOptions write;
-  std::size_t dxf_faces = 200000;  ///< the most triangles of a DXF; 0 for all
+  std::size_t dxf_faces = 200000;  ///< the most triangles of a DXF; 0: no limit
 
-  /// Tells before the work what could not be written after it.
+  /// Fails before the work where a file could not be written after it.
   void check() const {
     for (const auto& path : paths) {
       check_mesh_extension(path);
       const AtomicFile probe(path);
     }
   }
-  /// Writes every file; a DXF gets fewer triangles, and a note of `run` says how far off they are.
+  /// Writes every file. A DXF is simplified to `dxf_faces`; a note of `run` states the deviation.
   void write_all(const Mesh& mesh, const Run& run) const {
     for (const auto& path : paths) {
       const bool dxf = lowercase_extension(path) == ".dxf";
@@ -63,7 +63,7 @@ inline void add_mesh_outputs(CLI::App& verb, MeshOutputs& outputs) {
   add_write_options(verb, outputs.write);
   verb.add_option("--dxf-faces",
                   outputs.dxf_faces,
-                  "the most triangles that a DXF gets, simplified to it; 0 for all")
+                  "simplify the mesh of a DXF to this number of triangles; 0 for no limit")
       ->check(zero_or_more())
       ->capture_default_str();
 }

@@ -1,4 +1,4 @@
-// frangia scan, devices and calibrate piezo as a user meets them: exit codes and one sentence.
+// The verbs scan, devices and calibrate piezo: exit codes and one sentence.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +20,7 @@ using testing::run_shell;
 
 class CaptureProgram : public ::testing::Test {
  protected:
-  /// The small simulated rig with some of its text replaced.
+  /// Writes the small simulated rig with `from` replaced by `to`.
   [[nodiscard]] std::string rig(const std::string& from = "", const std::string& to = "") const {
     std::ifstream in(std::string(FRANGIA_SOURCE_DIR) + "/tests/data/small-interferometer.toml");
     std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -38,7 +38,7 @@ bool holds(const Answer& answer, const std::string& part) {
   return answer.output.find(part) != std::string::npos;
 }
 
-TEST_F(CaptureProgram, TestsEachDeviceOfARigAndNamesTheOneThatDoesNotWork) {
+TEST_F(CaptureProgram, TestsEachDeviceOfARigAndNamesTheOneThatFails) {
   const Answer well = run_program("devices --no-search " + rig());
   EXPECT_EQ(well.exit_code, 0) << well.output;
   EXPECT_TRUE(holds(well, "[devices.camera] works: simulated camera: 160 x 160 pixels"));
@@ -52,7 +52,7 @@ TEST_F(CaptureProgram, TestsEachDeviceOfARigAndNamesTheOneThatDoesNotWork) {
   EXPECT_TRUE(holds(ill, "1 of the 5 devices"));
 }
 
-TEST_F(CaptureProgram, AnUnknownDriverIsNamedWithThoseThereAre) {
+TEST_F(CaptureProgram, AnUnknownDriverIsNamedWithTheKnownOnes) {
   const Answer answer = run_program(
       "scan " + rig("driver = \"simulated-piezo\"", "driver = \"crystal\"") + " -o " + scan());
   EXPECT_EQ(answer.exit_code, 3);
@@ -61,12 +61,12 @@ TEST_F(CaptureProgram, AnUnknownDriverIsNamedWithThoseThereAre) {
       << answer.output;
 }
 
-TEST_F(CaptureProgram, IsStoppedByASignalAndGoesOn) {
-  // As slow as a real rig, so that the signal meets it at work.
+TEST_F(CaptureProgram, IsStoppedByASignalAndContinues) {
+  // As slow as a real rig, so that the signal arrives during the capture.
   const std::string slow = rig("part = \"plate\"", "part = \"plate\"\nreal_time = true");
   const std::string command =
       fmt::format("{} scan {} -o {} --views 3 --exposure 200", FRANGIA_PROGRAM, slow, scan());
-  // The signal comes once a frame is stored, however slow the machine is.
+  // The signal is sent once a frame is stored, however slow the machine is.
   const Answer stopped = run_shell(fmt::format(
       "{} & until ls {}/views/*/*-1.png >/dev/null 2>&1 || ! kill -0 $!; do sleep 0.05; done; "
       "kill -TERM $!; wait $!",

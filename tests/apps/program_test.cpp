@@ -1,4 +1,4 @@
-// The program as a user meets it: exit codes, one sentence on standard error, nothing half-written.
+// Exit codes, one sentence on standard error, and no half-written files.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -49,12 +49,13 @@ TEST_F(Program, SimulatesAndReconstructsToEveryFormat) {
 
 TEST_F(Program, AnswersMachinesInJson) {
   simulate();
-  // Warnings go to standard error: whoever reads standard output gets JSON alone.
+  // Warnings go to standard error; standard output holds JSON alone.
   const Answer answer = run_program("--json reconstruct " + quoted(scan()) + " -o " +
                                     quoted(out("a.ply")) + " 2>/dev/null");
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_EQ(answer.output.front(), '{') << answer.output;
   EXPECT_NE(answer.output.find("\"triangles\""), std::string::npos);
+  EXPECT_NE(answer.output.find("\"trustworthy\": true"), std::string::npos) << answer.output;
 }
 
 TEST_F(Program, DecodesTheStagesOfOneView) {
@@ -83,7 +84,7 @@ TEST_F(Program, DecodesTheStagesOfOneView) {
   EXPECT_NE(answer.output.find("white: measured"), std::string::npos) << answer.output;
 }
 
-TEST_F(Program, ShowsWhatAnEditWouldDoAndWritesNoMesh) {
+TEST_F(Program, PreviewsAnEditAndWritesNoMesh) {
   const auto mesh = out("box.off");
   std::ofstream(mesh) << "OFF\n4 4 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n"
                          "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
@@ -101,7 +102,7 @@ void expect_usage_error(const std::string& arguments, const std::string& sentenc
   EXPECT_EQ(answer.output, fmt::format("frangia: {}\n", sentence)) << arguments;
 }
 
-TEST_F(Program, SaysUsageErrorsWithTwoAndOneSentence) {
+TEST_F(Program, UsageErrorsExitWithTwoAndOneSentence) {
   EXPECT_EQ(run_program("").exit_code, 2);
   expect_usage_error("fly", "the program has no verb fly; see frangia --help");
   expect_usage_error(
@@ -116,6 +117,9 @@ TEST_F(Program, SaysUsageErrorsWithTwoAndOneSentence) {
                      "frangia calibrate piezo --help");
   expect_usage_error("demo --jsn",
                      "demo has no option --jsn, perhaps --json was meant; see frangia demo --help");
+  expect_usage_error("reconstruct x --ouput y.ply",
+                     "reconstruct has no option --ouput, perhaps --output was meant; see frangia "
+                     "reconstruct --help");
   expect_usage_error("reconstruct", "SCAN is required; see frangia reconstruct --help");
   expect_usage_error("reconstruct x -o", "--output needs a value; see frangia reconstruct --help");
   expect_usage_error(
@@ -126,17 +130,26 @@ TEST_F(Program, SaysUsageErrorsWithTwoAndOneSentence) {
                      "reconstruct --help");
 }
 
-TEST_F(Program, SaysWhatTheValueOfAnOptionMayBe) {
+TEST_F(Program, NamesTheAllowedValuesOfAnOption) {
   const auto expect = [](const std::string& options, const std::string& sentence) {
     expect_usage_error("reconstruct x -o y.ply " + options,
                        sentence + "; see frangia reconstruct --help");
   };
-  for (const char* wrong : {"0", "-3", "nan", "inf", "wide"}) {
+  for (const char* wrong : {"0", "-3", "0mm"}) {
     expect(fmt::format("--voxel {}", wrong),
-           fmt::format("--voxel: {} is not a number above 0", wrong));
+           fmt::format("--voxel: {} is not a length above 0", wrong));
+  }
+  for (const char* wrong : {"nan", "inf", "wide", "1km"}) {
+    expect(
+        fmt::format("--voxel {}", wrong),
+        fmt::format("--voxel: '{}' is not a length: write a number and um, mm, cm, m or in, such "
+                    "as 1.5mm",
+                    wrong));
   }
   expect("--voxel 1 --voxel 2", "--voxel is given more than once");
-  expect("--clip-below low", "--clip-below: low is not a number");
+  expect("--clip-below low",
+         "--clip-below: 'low' is not a length: write a number and um, mm, cm, m or in, such as "
+         "1.5mm");
   expect("--dxf-faces -1", "--dxf-faces: -1 is not a number of 0 or more");
   expect("--dxf-faces 2.5", "--dxf-faces cannot be 2.5");
   expect("--unwrap 1", "--unwrap: 1 is not one of default, herraez, takeda-abe");
@@ -156,14 +169,14 @@ void expect_bad_input(const Answer& answer, const std::string& names) {
   EXPECT_NE(answer.output.find(names), std::string::npos) << answer.output;
 }
 
-TEST_F(Program, SaysBadInputWithThreeAndOneSentence) {
+TEST_F(Program, BadInputExitsWithThreeAndOneSentence) {
   expect_bad_input(run_program("reconstruct /nowhere -o " + quoted(out("a.ply"))), "/nowhere");
   expect_bad_input(run_program("simulate teapot -o " + quoted(scan())), "teapot");
   simulate();
   expect_bad_input(run_program("reconstruct " + quoted(scan()) + " -o " + quoted(out("a.doc"))),
                    "a.doc");
   expect_bad_input(run_program("decode " + quoted(scan()) + " --view 9 -o " + quoted(out("d"))),
-                   "--view 9");
+                   "has no --view 9");
 }
 
 TEST_F(Program, RefusesAnUnwritableOutputBeforeTheWork) {

@@ -9,6 +9,7 @@
 #include "support/emulated_boards.h"
 #include "support/emulated_grbl.h"
 #include "support/error_of.h"
+#include "support/pseudo_terminal_test.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -19,7 +20,7 @@ using testing::EmulatedPort;
 using testing::EmulatedScpi;
 using testing::error_of;
 
-class HardwareDrivers : public ::testing::Test {
+class HardwareDrivers : public testing::PseudoTerminalTest {
  protected:
   [[nodiscard]] RigDevices open(const std::string& devices, double seconds = 3.0) {
     const auto file = folder_.path() / "rig.toml";

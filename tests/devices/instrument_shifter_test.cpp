@@ -7,6 +7,7 @@
 
 #include "support/emulated_boards.h"
 #include "support/error_of.h"
+#include "support/pseudo_terminal_test.h"
 #include "support/soon.h"
 
 namespace frangia {
@@ -18,6 +19,10 @@ using testing::EmulatedPrologix;
 using testing::EmulatedScpi;
 using testing::error_of;
 using testing::soon;
+
+class ScpiShifter : public testing::PseudoTerminalTest {};
+class PrologixShifter : public testing::PseudoTerminalTest {};
+class Gcs2Shifter : public testing::PseudoTerminalTest {};
 
 ShifterInfo up_to(double most) {
   ShifterInfo info;
@@ -32,7 +37,7 @@ InstrumentShifter shifter_at(const EmulatedPort& port,
   return {open_serial({port.path()}), protocol, up_to(most), 0.0, soon()};
 }
 
-TEST(ScpiShifter, SetsItsCommandsAndSwitchesTheOutputOffAtTheEnd) {
+TEST_F(ScpiShifter, SetsItsCommandsAndSwitchesTheOutputOffAtTheEnd) {
   EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
   {
     InstrumentShifter piezo(
@@ -49,7 +54,7 @@ TEST(ScpiShifter, SetsItsCommandsAndSwitchesTheOutputOffAtTheEnd) {
   port.with<EmulatedScpi>([](auto& generator) { EXPECT_FALSE(generator.output); });
 }
 
-TEST(ScpiShifter, SendsNothingOutsideItsRange) {
+TEST_F(ScpiShifter, SendsNothingOutsideItsRange) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 4.0);
   const std::string sentence = error_of([&] { piezo.drive(4.5, soon()); });
@@ -57,7 +62,7 @@ TEST(ScpiShifter, SendsNothingOutsideItsRange) {
   port.with<EmulatedScpi>([](auto& generator) { EXPECT_TRUE(generator.set.empty()); });
 }
 
-TEST(ScpiShifter, ReportsTheErrorOfTheInstrumentWithTheCommand) {
+TEST_F(ScpiShifter, ReportsTheErrorOfTheInstrumentWithTheCommand) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 10.0);
   const std::string sentence = error_of([&] { piezo.drive(9.0, soon()); });
@@ -65,7 +70,7 @@ TEST(ScpiShifter, ReportsTheErrorOfTheInstrumentWithTheCommand) {
   EXPECT_NE(sentence.find("VOLT:OFFS 9"), std::string::npos) << sentence;
 }
 
-TEST(ScpiShifter, FailsAtTheDeadlineWhenSilentOrUnsettled) {
+TEST_F(ScpiShifter, FailsAtTheDeadlineWhenSilentOrUnsettled) {
   for (const bool silent : {true, false}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>());
     InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 4.0);
@@ -82,7 +87,7 @@ TEST(ScpiShifter, FailsAtTheDeadlineWhenSilentOrUnsettled) {
   }
 }
 
-TEST(Gcs2Shifter, ReturnsFromAMoveOnTarget) {
+TEST_F(Gcs2Shifter, ReturnsFromAMoveOnTarget) {
   EmulatedPort port(std::make_unique<EmulatedGcs2>());
   InstrumentShifter stage = shifter_at(port, gcs2_protocol(), 200.0);
   stage.drive(12.5, soon());
@@ -93,7 +98,7 @@ TEST(Gcs2Shifter, ReturnsFromAMoveOnTarget) {
   EXPECT_NE(error_of([&] { stage.drive(150.0, soon()); }).find("reports 7"), std::string::npos);
 }
 
-TEST(PrologixShifter, AnInstrumentOnGpibWorksAsOnItsOwnLine) {
+TEST_F(PrologixShifter, AnInstrumentOnGpibWorksAsOnItsOwnLine) {
   EmulatedPort port(std::make_unique<EmulatedPrologix>(std::make_unique<EmulatedScpi>(), 9),
                     EmulatedPort::Kind::Tcp);
   InstrumentShifter piezo(open_prologix(open_tcp("127.0.0.1", port.tcp_port(), soon()), 9, soon()),
@@ -107,7 +112,7 @@ TEST(PrologixShifter, AnInstrumentOnGpibWorksAsOnItsOwnLine) {
   });
 }
 
-TEST(PrologixShifter, AnUnusedAddressAndAMissingAdapterAreNamed) {
+TEST_F(PrologixShifter, AnUnusedAddressAndAMissingAdapterAreNamed) {
   EmulatedPort port(std::make_unique<EmulatedPrologix>(std::make_unique<EmulatedScpi>(), 9),
                     EmulatedPort::Kind::Tcp);
   const std::string sentence = error_of([&] {

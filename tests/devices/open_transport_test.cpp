@@ -4,6 +4,7 @@
 
 #include "support/emulated_boards.h"
 #include "support/error_of.h"
+#include "support/pseudo_terminal_test.h"
 
 namespace frangia {
 namespace {
@@ -12,21 +13,23 @@ using testing::EmulatedPort;
 using testing::EmulatedScpi;
 using testing::error_of;
 
-TEST(OpenTransport, NamesAMissingPort) {
+class OpenTransport : public testing::PseudoTerminalTest {};
+
+TEST_F(OpenTransport, NamesAMissingPort) {
   EXPECT_EQ(error_of([] {
               static_cast<void>(open_serial({"/dev/ttyNONE9"}));
             }).find("/dev/ttyNONE9: cannot be opened"),
             0U);
 }
 
-TEST(OpenTransport, LocksAPortForOneProgram) {
+TEST_F(OpenTransport, LocksAPortForOneProgram) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   const auto first = open_serial({port.path()});
   EXPECT_NE(error_of([&] { static_cast<void>(open_serial({port.path()})); }).find("in use"),
             std::string::npos);
 }
 
-TEST(OpenTransport, NamesAWrongTcpPort) {
+TEST_F(OpenTransport, NamesAWrongTcpPort) {
   int closed = 0;
   {
     const EmulatedPort port(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp);
@@ -37,7 +40,7 @@ TEST(OpenTransport, NamesAWrongTcpPort) {
   EXPECT_EQ(sentence.find("127.0.0.1:" + std::to_string(closed) + ": no connection"), 0U);
 }
 
-TEST(OpenTransport, ReadsWholeLinesInOrderOverSerialAndTcp) {
+TEST_F(OpenTransport, ReadsWholeLinesInOrderOverSerialAndTcp) {
   for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
     const Deadline deadline = Deadline::in(3.0);
@@ -51,7 +54,7 @@ TEST(OpenTransport, ReadsWholeLinesInOrderOverSerialAndTcp) {
   }
 }
 
-TEST(OpenTransport, DiscardsAbandonedAnswers) {
+TEST_F(OpenTransport, DiscardsAbandonedAnswers) {
   EmulatedPort port(std::make_unique<EmulatedScpi>());
   const auto line = open_serial({port.path()});
   line->write("*IDN?\n", Deadline::in(1.0));
@@ -61,7 +64,7 @@ TEST(OpenTransport, DiscardsAbandonedAnswers) {
   EXPECT_EQ(read_line(*line, Deadline::in(1.0)), "1");
 }
 
-TEST(OpenTransport, ReportsAnUnpluggedDeviceAtOnce) {
+TEST_F(OpenTransport, ReportsAnUnpluggedDeviceAtOnce) {
   for (const auto kind : {EmulatedPort::Kind::Terminal, EmulatedPort::Kind::Tcp}) {
     EmulatedPort port(std::make_unique<EmulatedScpi>(), kind);
     const auto line = kind == EmulatedPort::Kind::Tcp
@@ -79,7 +82,7 @@ TEST(OpenTransport, ReportsAnUnpluggedDeviceAtOnce) {
   }
 }
 
-TEST(OpenTransport, EscapesUnprintableBytes) {
+TEST_F(OpenTransport, EscapesUnprintableBytes) {
   EXPECT_EQ(printable("ok\r\xff"), "ok\\x0d\\xff");
 }
 

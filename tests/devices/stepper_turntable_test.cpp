@@ -12,6 +12,7 @@
 #include "support/emulated_boards.h"
 #include "support/emulated_grbl.h"
 #include "support/error_of.h"
+#include "support/pseudo_terminal_test.h"
 #include "support/soon.h"
 
 namespace frangia {
@@ -23,6 +24,10 @@ using testing::EmulatedMarlin;
 using testing::EmulatedPort;
 using testing::error_of;
 using testing::soon;
+
+class GrblTurntable : public testing::PseudoTerminalTest {};
+class HorusTurntable : public testing::PseudoTerminalTest {};
+class MarlinTurntable : public testing::PseudoTerminalTest {};
 
 MotionControllerSettings quick() {
   MotionControllerSettings settings;
@@ -52,7 +57,7 @@ std::unique_ptr<MotionController> grbl_at(const EmulatedPort& port) {
   return make_grbl(open_serial({port.path()}), quick());
 }
 
-TEST(GrblTurntable, IsAtStandstillAtTheAngleWhenAMoveReturns) {
+TEST_F(GrblTurntable, IsAtStandstillAtTheAngleWhenAMoveReturns) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 10.0; });
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
@@ -65,7 +70,7 @@ TEST(GrblTurntable, IsAtStandstillAtTheAngleWhenAMoveReturns) {
   EXPECT_NEAR(table.angle_rad().value(), rad_from_deg(45.0), 1e-12);
 }
 
-TEST(GrblTurntable, ApproachesEveryTargetFromBelow) {
+TEST_F(GrblTurntable, ApproachesEveryTargetFromBelow) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   StepperTurntable table(ready(grbl_at(port)), options_with(2.0));
   start(table);
@@ -76,7 +81,7 @@ TEST(GrblTurntable, ApproachesEveryTargetFromBelow) {
   EXPECT_EQ(targets, (std::vector<double>{-2.0, 0.0, 30.0, 31.0, 8.0, 10.0}));
 }
 
-TEST(GrblTurntable, LosesTheAngleOnAResetInMotionAndRefusesToMoveUntilHomed) {
+TEST_F(GrblTurntable, LosesTheAngleOnAResetInMotionAndRefusesToMoveUntilHomed) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
   start(table);
@@ -92,7 +97,7 @@ TEST(GrblTurntable, LosesTheAngleOnAResetInMotionAndRefusesToMoveUntilHomed) {
   EXPECT_TRUE(table.angle_rad().has_value());
 }
 
-TEST(GrblTurntable, EnforcesItsOwnLimitsAndThoseOfTheBoard) {
+TEST_F(GrblTurntable, EnforcesItsOwnLimitsAndThoseOfTheBoard) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.travel = 100.0; });
   StepperTurntableOptions options = options_with(0.0);
@@ -109,7 +114,7 @@ TEST(GrblTurntable, EnforcesItsOwnLimitsAndThoseOfTheBoard) {
   EXPECT_FALSE(table.angle_rad().has_value());
 }
 
-TEST(GrblTurntable, StopsAMoveAtItsDeadline) {
+TEST_F(GrblTurntable, StopsAMoveAtItsDeadline) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
@@ -121,7 +126,7 @@ TEST(GrblTurntable, StopsAMoveAtItsDeadline) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.moving()); });
 }
 
-TEST(GrblTurntable, StopsWaitingOnAStopRequest) {
+TEST_F(GrblTurntable, StopsWaitingOnAStopRequest) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 0.01; });
   StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
@@ -136,7 +141,7 @@ TEST(GrblTurntable, StopsWaitingOnAStopRequest) {
   EXPECT_LT(Deadline::Clock::now() - begun, std::chrono::seconds(3));
 }
 
-TEST(GrblTurntable, SwitchesLampsAndLasersOffAtTheEnd) {
+TEST_F(GrblTurntable, SwitchesLampsAndLasersOffAtTheEnd) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   {
     const auto board = ready(grbl_at(port));
@@ -149,7 +154,7 @@ TEST(GrblTurntable, SwitchesLampsAndLasersOffAtTheEnd) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle || grbl.coolant); });
 }
 
-TEST(GrblTurntable, SwitchesTheLaserOffOnAFaultOfTheTable) {
+TEST_F(GrblTurntable, SwitchesTheLaserOffOnAFaultOfTheTable) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   const auto board = ready(grbl_at(port));
   StepperTurntable table(board, options_with(0.0));
@@ -162,13 +167,14 @@ TEST(GrblTurntable, SwitchesTheLaserOffOnAFaultOfTheTable) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle); });
 }
 
-TEST(GrblTurntable, WritesStepsOnlyWhenDifferentAndLosesNoCommand) {
+TEST_F(GrblTurntable, WritesStepsOnlyWhenDifferentAndLosesNoCommand) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   MotionControllerSettings settings = quick();
   settings.steps_per_unit = 88.889;
   for (int time = 0; time < 2; ++time) {
     const auto firmware = make_grbl(open_serial({port.path()}), settings);
     firmware->connect(soon());
+    firmware->enable_motor(true, soon());
     firmware->command("M5", soon());
     firmware->stop();
   }
@@ -178,7 +184,20 @@ TEST(GrblTurntable, WritesStepsOnlyWhenDifferentAndLosesNoCommand) {
   });
 }
 
-TEST(GrblTurntable, AsksForHomingOfALockedBoard) {
+TEST_F(GrblTurntable, ConnectingAndIdentifyingWriteNothingToTheBoard) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  MotionControllerSettings settings = quick();
+  settings.steps_per_unit = 88.889;
+  const auto firmware = make_grbl(open_serial({port.path()}), settings);
+  firmware->connect(soon());
+  EXPECT_NE(firmware->identify(soon()).find("Idle"), std::string::npos);
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    EXPECT_EQ(grbl.settings_written, 0);
+    EXPECT_DOUBLE_EQ(grbl.settings[100], 250.0);
+  });
+}
+
+TEST_F(GrblTurntable, AsksForHomingOfALockedBoard) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   const auto firmware = grbl_at(port);
   firmware->connect(soon());
@@ -187,7 +206,7 @@ TEST(GrblTurntable, AsksForHomingOfALockedBoard) {
             std::string::npos);
 }
 
-TEST(GrblTurntable, ReportsSilenceAndGarbageByTheDeadline) {
+TEST_F(GrblTurntable, ReportsSilenceAndGarbageByTheDeadline) {
   for (const bool garbage : {false, true}) {
     auto board = std::make_unique<EmulatedGrbl>();
     board->silent = true;
@@ -205,7 +224,7 @@ TEST(GrblTurntable, ReportsSilenceAndGarbageByTheDeadline) {
   }
 }
 
-TEST(MarlinTurntable, WaitsWhileBusyAndRepeatsBrokenLines) {
+TEST_F(MarlinTurntable, WaitsWhileBusyAndRepeatsBrokenLines) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
   StepperTurntable table(ready(make_marlin(open_serial({port.path()}), quick())),
                          options_with(0.0));
@@ -218,7 +237,7 @@ TEST(MarlinTurntable, WaitsWhileBusyAndRepeatsBrokenLines) {
   });
 }
 
-TEST(MarlinTurntable, LosesTheAngleWhenTheBoardHalts) {
+TEST_F(MarlinTurntable, LosesTheAngleWhenTheBoardHalts) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
   StepperTurntable table(ready(make_marlin(open_serial({port.path()}), quick())),
                          options_with(0.0));
@@ -228,7 +247,7 @@ TEST(MarlinTurntable, LosesTheAngleWhenTheBoardHalts) {
   EXPECT_FALSE(table.angle_rad().has_value());
 }
 
-TEST(MarlinTurntable, GivesUpALineThatNeverArrivesIntact) {
+TEST_F(MarlinTurntable, GivesUpALineThatNeverArrivesIntact) {
   EmulatedPort port(std::make_unique<EmulatedMarlin>());
   const auto firmware = make_marlin(open_serial({port.path()}), quick());
   firmware->connect(soon());
@@ -236,7 +255,7 @@ TEST(MarlinTurntable, GivesUpALineThatNeverArrivesIntact) {
   EXPECT_NE(error_of([&] { firmware->command("M5", soon()); }).find("again"), std::string::npos);
 }
 
-TEST(HorusTurntable, TurnsAndSwitchesLasersOff) {
+TEST_F(HorusTurntable, TurnsAndSwitchesLasersOff) {
   EmulatedPort port(std::make_unique<EmulatedHorus>());
   {
     const auto board = ready(make_horus(open_serial({port.path()}), quick()));
@@ -254,7 +273,7 @@ TEST(HorusTurntable, TurnsAndSwitchesLasersOff) {
   port.with<EmulatedHorus>([](auto& horus) { EXPECT_FALSE(horus.lasers[0] || horus.motor); });
 }
 
-TEST(HorusTurntable, NamesAnotherFirmware) {
+TEST_F(HorusTurntable, NamesAnotherFirmware) {
   auto board = std::make_unique<EmulatedHorus>();
   board->version = "Horus 0.1 ['$' for help]";
   EmulatedPort port(std::move(board));

@@ -34,6 +34,7 @@ std::vector<char> bytes_of(const std::filesystem::path& path) {
   file.seekg(0);
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file) fail(path, "cannot be read; check the disk");
+  if (bytes.empty()) fail(path, "is an empty file of 0 bytes; copy or capture the frame again");
   return bytes;
 }
 
@@ -101,7 +102,7 @@ Frame read_png(const std::filesystem::path& path) {
   const Context context(spng_ctx_new(0));
   spng_set_image_limits(context.get(), kMaxSide, kMaxSide);
   if (spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != 0) {
-    fail(path, "cannot be read");
+    fail(path, "cannot be decoded; copy or capture the frame again");
   }
   spng_ihdr header{};
   if (const int error = spng_get_ihdr(context.get(), &header); error != 0) {

@@ -74,7 +74,7 @@ Mesh fuse_views(const ViewStore& views,
   const CameraRays rays(camera);
   const Sampling sampling = measure_sampling(views, rays, run);
 
-  require(sampling.points > 0, "no view holds a point: there is no surface to paste");
+  require(sampling.points > 0, "no view holds a point: there is no surface to fuse");
   const double voxel_mm = choose_voxel(sampling, options, run);
   const VoxelBudget budget = voxel_budget(voxel_mm, options.max_memory_mb);
   budget.check(sampling, views.size());
@@ -104,8 +104,15 @@ Mesh fuse_views(const ViewStore& views,
         run.report(done += progress);
       });
 
-  require(!field.blocks.empty(),
-          "no two points of the views are neighbours: there is no surface to paste");
+  if (field.blocks.empty()) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("no surface is left at a voxel of {:.4g} mm, for points that are {:.3g} "
+                    "mm apart: the part is smaller than the voxel, or its points are no "
+                    "neighbours; set a smaller `voxel`",
+                    voxel_mm,
+                    sampling.spacing_mm));
+  }
   const EdgeCrossings crossings = find_edge_crossings(field);
   field = {};
 

@@ -135,7 +135,8 @@ class Renderer {
 }  // namespace
 
 Image<Rgb> render_mesh(const Mesh& mesh, const RenderOptions& options, const Run& run) {
-  require(!mesh.empty(), "the mesh has no triangles; a picture needs a surface");
+  require(!mesh.empty(),
+          "the mesh has no triangles to draw, only points; give a mesh with triangles");
   require(options.width_px > 0 && options.height_px > 0 && options.samples_across > 0,
           "the width, the height and the samples of a picture must be above 0");
   require(options.values.empty() || options.values.size() == mesh.vertices_mm.size(),

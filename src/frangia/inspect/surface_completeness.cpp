@@ -42,7 +42,8 @@ SurfaceCompleteness completeness_of(const RayScene& reference,
                                     const CompletenessOptions& options,
                                     const Run& run) {
   const auto samples = sample_surface(reference.mesh(), options.samples, options.seed);
-  require(!samples.empty(), "the reference has no triangles; completeness needs a surface");
+  require(!samples.empty(),
+          "the reference has no triangles, only points; give a mesh with triangles");
   std::vector<SampleStatus> found(samples.size(), SampleStatus::Excluded);
   constexpr std::size_t kChunk = 1024;
   parallel_chunks(samples.size(), kChunk, [&](std::size_t begin, std::size_t end) {

@@ -12,7 +12,8 @@ namespace {
 std::vector<float> signed_distances(const std::vector<Eigen::Vector3d>& points,
                                     const RayScene& reference,
                                     const Run& run) {
-  require(!reference.mesh().empty(), "the reference has no triangles; deviations need a surface");
+  require(!reference.mesh().empty(),
+          "the reference has no triangles, only points; give a mesh with triangles");
   constexpr std::size_t kChunk = 2048;
   constexpr std::size_t kBlock = 64 * kChunk;  // between checks for cancellation
   std::vector<float> distances(points.size());
@@ -60,7 +61,7 @@ SurfaceError surface_error(const Mesh& mesh,
                            const SurfaceErrorOptions& options,
                            const Run& run) {
   const std::vector<Eigen::Vector3d> points = points_of(mesh, options);
-  require(!points.empty(), "the mesh has no triangles; deviations need a surface");
+  require(!points.empty(), "the mesh has no triangles, only points; give a mesh with triangles");
   std::vector<float> distances = signed_distances(points, reference, run);
 
   SurfaceError error;

@@ -8,6 +8,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
+#include "frangia/pipeline/internal/explain_no_points.h"
 #include "frangia/pipeline/internal/measure_views.h"
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
@@ -83,9 +84,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     out.points += setup.measured.points;
   }
   if (out.points == 0) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: no view has a lit pixel; check light, exposure and white_level",
-                            scan.folder.string()));
+    throw Error(ErrorKind::Input, explain_no_points(scan, rays, options.decode, run));
   }
 
   // All setups in the frame of the first one.

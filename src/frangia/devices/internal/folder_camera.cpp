@@ -75,7 +75,8 @@ class FolderCamera final : public CameraDevice {
     deadline.check();
     const auto view = static_cast<std::size_t>(label.view);
     if (view >= views_.size()) {
-      fail_device(*this, fmt::format("has {} views; capture no more than that", views_.size()));
+      fail_device(*this,
+                  fmt::format("has {} views; set `views` to no more than that", views_.size()));
     }
     const auto bracketed =
         views_[view] / fmt::format("{}-{}@{}.png", label.pattern, label.frame, label.exposure);

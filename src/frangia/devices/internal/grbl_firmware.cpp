@@ -78,7 +78,6 @@ class Grbl final : public MotionController {
                                       printable(last_line_)));
       }
     }
-    if (settings_.steps_per_unit > 0.0) set_steps(deadline);
   }
 
   [[nodiscard]] std::string identify(const Deadline& deadline) override {
@@ -90,8 +89,11 @@ class Grbl final : public MotionController {
   }
 
   // GRBL holds its motor according to $1; there is no command for it.
-  void enable_motor(bool /*on*/, const Deadline& deadline) override {
+  // The settings of the board are written here and not in `connect`: connecting and identifying
+  // only ask.
+  void enable_motor(bool on, const Deadline& deadline) override {
     static_cast<void>(identify(deadline));
+    if (on && settings_.steps_per_unit > 0.0) set_steps(deadline);
   }
 
   void home(const Deadline& deadline) override {

@@ -48,7 +48,7 @@ class MotionController {
 struct MotionControllerSettings {
   char axis = 'X';
   double boot_s = 2.5;          ///< boot time of a board that resets when its port is opened
-  double steps_per_unit = 0.0;  ///< GRBL: written to the board when different; 0: unchanged
+  double steps_per_unit = 0.0;  ///< GRBL: written when the motor is enabled; 0 keeps the board's
 };
 
 /// GRBL 1.1 and derived firmware.

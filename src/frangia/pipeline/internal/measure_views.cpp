@@ -30,7 +30,7 @@ double share(const Image<PixelStatus>& status, PixelStatus which) {
 std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatus>& status) {
   return fmt::format(
       "{}: no point was measured, and the view is left out: {:.1f} % of its pixels are unmodulated "
-      "and {:.1f} % saturated; check light and exposure",
+      "or less certain than `max_sigma`, and {:.1f} % are saturated",
       (scan.folder / scan.views[view].folder).string(),
       share(status, PixelStatus::Unmodulated),
       share(status, PixelStatus::Saturated));
