@@ -6,14 +6,14 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/geometry/selected_one_rings.h"
+#include "frangia/geometry/one_rings.h"
 
 namespace frangia {
 namespace {
 
 using Vertex = std::uint32_t;
 
-/// Twice the area vector.
+/// Returns twice the area vector.
 Eigen::Vector3f cross_of(const Mesh& mesh, const Mesh::Triangle& t) {
   const Eigen::Vector3f& origin = mesh.vertices_mm[t[0]];
   return (mesh.vertices_mm[t[1]] - origin).cross(mesh.vertices_mm[t[2]] - origin);
@@ -27,7 +27,7 @@ float height_of(const Mesh& mesh, const Mesh::Triangle& t) {
   return longest > 0.0F ? cross_of(mesh, t).norm() / longest : 0.0F;
 }
 
-/// How much a triangle faces the way its vertices do: the cosine of the angle between.
+/// Returns the cosine of the angle between a triangle and the mean normal of its vertices.
 float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
   const Eigen::Vector3f cross = cross_of(mesh, t);
   const Eigen::Vector3f outward = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
@@ -35,7 +35,7 @@ float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
   return size > 0.0F ? cross.dot(outward) / size : -1.0F;
 }
 
-/// A low triangle, turned so that its longest edge comes first: a, b, and c between them.
+/// A low triangle a, b, c, rotated so that a-b is its longest edge.
 struct Cap {
   std::uint32_t triangle;
   Vertex a, b, c;
@@ -60,8 +60,9 @@ std::vector<Cap> find_caps(const Mesh& mesh,
   return caps;
 }
 
-/// The triangle on the other side of the cap's longest edge; the cap itself at the rim.
-std::uint32_t across(const Mesh& mesh, const SelectedOneRings& one_rings, const Cap& cap) {
+/// Returns the triangle on the other side of the cap's longest edge; the cap itself at the
+/// boundary.
+std::uint32_t across(const Mesh& mesh, const OneRings& one_rings, const Cap& cap) {
   for (const std::uint32_t t : one_rings.of(cap.a)) {
     if (t != cap.triangle && has_vertex(mesh.triangles[t], cap.b)) return t;
   }
@@ -80,12 +81,10 @@ Vertex opposite(const Mesh::Triangle& t, const Cap& cap) {
 bool flip_caps(Mesh& mesh, float lowest_mm, SliverCandidates& candidates) {
   const std::vector<Cap> caps = find_caps(mesh, candidates.triangles(), lowest_mm);
   if (caps.empty()) return false;
-  std::vector<SelectedOneRings::Edge> edges;
-  for (const Cap& cap : caps) {
-    edges.emplace_back(cap.a, cap.b);
-    edges.emplace_back(cap.c, cap.c);
-  }
-  const SelectedOneRings one_rings(mesh, edges);
+  std::vector<Vertex> corners;
+  for (const Cap& cap : caps)
+    corners.insert(corners.end(), {cap.a, cap.b, cap.c});
+  const OneRings one_rings(mesh, corners);
   std::vector<bool> touched(mesh.vertices_mm.size(), false);
   bool any = false;
   for (const Cap& cap : caps) {
@@ -110,7 +109,7 @@ bool flip_caps(Mesh& mesh, float lowest_mm, SliverCandidates& candidates) {
       touched[v] = true;
     any = true;
   }
-  candidates.add(one_rings.triangles());
+  candidates.add(one_rings.selected_triangles());
   return any;
 }
 
