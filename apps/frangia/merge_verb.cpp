@@ -111,10 +111,11 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
                    "scans; auto (default), found from the shape if the given ones cannot be right")
       ->transform(named(kPoses));
   verb->add_flag("--no-register", arguments->no_register, "do not refine the poses");
-  verb->add_option("--max-distance",
-                   arguments->options.registration.reach_mm,
-                   "largest distance between corresponding surfaces before registration, mm; 3 % of "
-                   "a scan's size by default")
+  verb->add_option(
+          "--max-distance",
+          arguments->options.registration.reach_mm,
+          "largest distance between corresponding surfaces before registration, mm; 3 % of "
+          "a scan's size by default")
       ->transform(length_above_zero());
   verb->add_option("--voxel",
                    arguments->options.fusion.voxel_mm,

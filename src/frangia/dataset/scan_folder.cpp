@@ -99,7 +99,7 @@ void require_complete(const std::filesystem::path& folder) {
                                : nullptr;
   if (verb == nullptr) return;
   throw Error(ErrorKind::Input,
-              fmt::format("{}: the scan is not complete: run `{}` again with the same options",
+              fmt::format("{}: the scan is not complete: run `frangia {}` again with the same options",
                           folder.string(),
                           verb));
 }
