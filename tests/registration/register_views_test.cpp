@@ -1,8 +1,6 @@
 #include "frangia/registration/register_views.h"
 
-#include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -11,60 +9,17 @@
 
 #include "frangia/core/error.h"
 
-#include "support/analytic_views.h"
+#include "support/misaligned_table.h"
 
 namespace frangia {
 namespace {
 
+using testing::axis_error_rad;
+using testing::knobbly;
+using Table = testing::MisalignedTable;
 using testing::Shape;
+using testing::shift_mm;
 using testing::small_camera_model;
-
-/// The true turntable of a camera that looks down on a part 650 mm away, and the given one.
-struct Table {
-  Turntable truth{{2.0, 8.0, 650.0}, Eigen::Vector3d(0.03, -0.9, -0.4).normalized()};
-  Turntable given = truth;
-  std::vector<double> true_angles_rad;
-  std::vector<double> angles_rad;
-
-  explicit Table(int views, double angle_noise_rad = rad_from_deg(0.15)) {
-    std::mt19937 generator(5);
-    std::normal_distribution<double> noise(0.0, angle_noise_rad);
-    for (int i = 0; i < views; ++i) {
-      true_angles_rad.push_back(kTwoPi * i / views);
-      angles_rad.push_back(true_angles_rad.back() + (i == 0 ? 0.0 : noise(generator)));
-    }
-    given.axis = Eigen::AngleAxisd(rad_from_deg(0.3), Eigen::Vector3d::UnitX()) * truth.axis;
-    given.point_mm += Eigen::Vector3d(0.4, 0.2, 0.2);
-  }
-  [[nodiscard]] std::vector<Station> stations() const {
-    std::vector<Station> all;
-    for (const double angle : angles_rad)
-      all.push_back({angle, ""});
-    return all;
-  }
-  [[nodiscard]] ViewStore take(const Shape& shape,
-                               const CameraModel& model = small_camera_model()) const {
-    std::vector<Eigen::Isometry3d> poses;
-    for (const double angle : true_angles_rad)
-      poses.push_back(truth.rig_from_object(angle));
-    return testing::snapshots(shape, model, poses);
-  }
-};
-
-/// A body with bumps and without symmetry.
-double knobbly(const Eigen::Vector3d& p) {
-  const double bumps =
-      std::sin(0.22 * p.x()) * std::sin(0.19 * p.y() + 0.4) * std::sin(0.25 * p.z() + 0.2);
-  return 0.6 * (Eigen::Vector3d(p.x() / 1.2, p.y(), p.z()).norm() - 38.0 - 2.0 * bumps);
-}
-
-double axis_error_rad(const Turntable& one, const Turntable& other) {
-  return std::asin(one.axis.cross(other.axis).norm());
-}
-double shift_mm(const Turntable& one, const Turntable& other) {
-  const Eigen::Vector3d away = one.point_mm - other.point_mm;
-  return (away - other.axis * other.axis.dot(away)).norm();
-}
 
 TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   const Table table(8);
@@ -125,75 +80,6 @@ TEST(RegisterViews, LeavesWhatARoundPartDoesNotDetermineToThePrior) {
     EXPECT_NEAR(report.angles_rad[i], table.angles_rad[i], rad_from_deg(0.2)) << i;
   }
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.03));
-}
-
-TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
-  const Table table(8);
-  ViewStore views = table.take(knobbly);
-  const Shape pushed = [](const Eigen::Vector3d& p) {
-    return knobbly(p - Eigen::Vector3d(4.0, -3.0, 0.0));
-  };
-  views.replace(
-      3,
-      testing::snapshot(
-          pushed, small_camera_model(), table.truth.rig_from_object(table.true_angles_rad[3])));
-  std::vector<std::string> warnings;
-  frangia::Run run;
-  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  const auto report =
-      register_views(views, small_camera_model(), {table.given, table.stations()}, {}, run);
-  ASSERT_EQ(report.outliers.size(), 1U);
-  EXPECT_EQ(report.outliers[0], 3U);
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("view 3"), std::string::npos);
-  const View emptied = views.load(3);
-  const auto depth = emptied.range.depth_mm.pixels();
-  EXPECT_TRUE(std::all_of(depth.begin(), depth.end(), [](float z) { return std::isnan(z); }));
-  EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
-}
-
-TEST(RegisterViews, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
-  const Table table(6);
-  const Shape angle = testing::both(testing::box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0}),
-                                    testing::box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0}));
-  const Shape pushed = [&](const Eigen::Vector3d& p) {
-    return angle(p - Eigen::Vector3d(0.8, 0.6, 0.0));
-  };
-  ViewStore views = table.take(angle);
-  views.replace(
-      1,
-      testing::snapshot(
-          pushed, small_camera_model(), table.truth.rig_from_object(table.true_angles_rad[1])));
-  const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
-  EXPECT_EQ(report.outliers, std::vector<std::size_t>{1});
-  EXPECT_LT(shift_mm(report.table, table.truth), 0.03);
-}
-
-TEST(RegisterViews, IsNotTrustworthyWhenTooManyViewsContradictEachOther) {
-  const Table table(6);
-  const CameraModel model = small_camera_model(150, 750.0);
-  ViewStore views = table.take(knobbly, model);
-  for (const std::size_t i : {1U, 3U, 5U}) {  // every other view is pushed, each elsewhere
-    const double way = rad_from_deg(130.0) * static_cast<double>(i);
-    const Shape pushed = [&](const Eigen::Vector3d& p) {
-      return knobbly(p - Eigen::Vector3d(1.0 * std::cos(way), 1.0 * std::sin(way), 0.8));
-    };
-    views.replace(
-        i, testing::snapshot(pushed, model, table.truth.rig_from_object(table.true_angles_rad[i])));
-  }
-  std::vector<std::string> warnings;
-  frangia::Run run;
-  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  RegisterOptions few;
-  few.max_iterations = 10;
-  const auto report = register_views(views, model, {table.given, table.stations()}, few, run);
-  ASSERT_FALSE(warnings.empty()) << report.text();
-  EXPECT_NE(warnings.back().find("contradict each other"), std::string::npos) << warnings.back();
-  EXPECT_FALSE(report.trustworthy);
-  EXPECT_GT(report.contradiction, few.max_contradiction);
-  EXPECT_EQ(report.text().find("agree"), std::string::npos) << report.text();
-  EXPECT_NE(report.text().find("not trustworthy"), std::string::npos) << report.text();
-  EXPECT_EQ(report.untrusted_reason(), warnings.back());
 }
 
 TEST(RegisterViews, ReportsHowWellAnOverlapConstrainsTheAxis) {
