@@ -61,8 +61,8 @@ Vector3d unit_displacement(const VertexPlanes& planes) {
   return displacement;
 }
 
-/// Whether a vertex keeps the distance of the offset from the original surface. On an offset
-/// surface that exists, some vertices do.
+/// Whether a vertex keeps the distance of the offset from the original surface, on the side of the
+/// offset. On an offset surface that exists, some vertices do.
 bool any_keeps_distance(const Mesh& original,
                         const std::vector<Eigen::Vector3f>& offset_mm,
                         double distance_mm,
@@ -72,7 +72,10 @@ bool any_keeps_distance(const Mesh& original,
   for (std::size_t v = 0; v < offset_mm.size(); ++v) {
     if (v % kStepsPerCheck == 0) run.check();
     if (offset_mm[v] == original.vertices_mm[v]) continue;
-    if (!scene.nearest(offset_mm[v].cast<double>(), kShare * std::abs(distance_mm))) return true;
+    const auto nearest = scene.nearest(offset_mm[v].cast<double>());
+    if (!nearest) continue;
+    const double along_mm = std::copysign(1.0, distance_mm) * nearest->signed_distance_mm;
+    if (along_mm >= kShare * std::abs(distance_mm)) return true;
   }
   return false;
 }

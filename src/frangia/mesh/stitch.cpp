@@ -11,6 +11,7 @@
 #include "frangia/core/random.h"
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/internal/are_adjacent.h"
 #include "frangia/mesh/internal/steps_per_check.h"
 #include "frangia/mesh/make_manifold.h"
 
@@ -71,17 +72,10 @@ class PointHash {
       const auto distance =
           static_cast<double>((mesh_.vertices_mm[other] - mesh_.vertices_mm[vertex]).norm());
       const bool nearer = distance < nearest || (distance == nearest && best == vertex);
-      if (!nearer || are_adjacent(vertex, other)) continue;
+      if (!nearer || are_adjacent(mesh_, edges_, vertex, other)) continue;
       best = other;
       nearest = distance;
     }
-  }
-
-  [[nodiscard]] bool are_adjacent(std::uint32_t a, std::uint32_t b) const {
-    const auto around = edges_.outgoing(a);
-    return std::any_of(around.begin(), around.end(), [&](std::uint32_t edge) {
-      return target_vertex(mesh_, edge) == b || opposite_vertex(mesh_, edge) == b;
-    });
   }
 
   const Mesh& mesh_;

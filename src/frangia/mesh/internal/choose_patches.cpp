@@ -9,17 +9,11 @@
 
 #include "frangia/geometry/triangles_intersect.h"
 #include "frangia/mesh/fill_holes.h"
+#include "frangia/mesh/internal/are_adjacent.h"
 #include "frangia/mesh/internal/patch_intersections.h"
 
 namespace frangia {
 namespace {
-
-bool are_adjacent(const Mesh& mesh, const HalfEdges& edges, std::uint32_t a, std::uint32_t b) {
-  const auto outgoing = edges.outgoing(a);
-  return std::any_of(outgoing.begin(), outgoing.end(), [&](std::uint32_t edge) {
-    return target_vertex(mesh, edge) == b || opposite_vertex(mesh, edge) == b;
-  });
-}
 
 /// Whether the mesh has no inner edge of the patch already.
 bool keeps_manifold(const Mesh& mesh,

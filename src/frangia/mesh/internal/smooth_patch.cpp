@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/mesh/internal/are_adjacent.h"
 #include "frangia/mesh/internal/fair_patch.h"
 #include "frangia/mesh/internal/hole_patch.h"
 #include "frangia/mesh/internal/minimum_area_triangulation.h"
@@ -95,7 +96,7 @@ std::vector<PatchSpacing> spacing_of(const Mesh& mesh,
 }
 
 /// Splits chords of the patch that the mesh has as an edge already.
-void split_duplicate_edges(PatchMesh& patch, const PatchMesh::AreAdjacent& are_adjacent) {
+void split_duplicate_edges(PatchMesh& patch, const PatchMesh::AreAdjacent& have_edge) {
   const std::uint32_t edges = patch.half_edges();
   for (std::uint32_t edge = 0; edge < edges; ++edge) {
     const std::uint32_t a = patch.from(edge);
@@ -103,7 +104,7 @@ void split_duplicate_edges(PatchMesh& patch, const PatchMesh::AreAdjacent& are_a
     if (a >= patch.boundary_vertices() || b >= patch.boundary_vertices() ||
         patch.twin(edge) == PatchMesh::kBoundary)
       continue;
-    if (are_adjacent(a, b)) patch.split_edge(edge, 0.5 * (patch.position(a) + patch.position(b)));
+    if (have_edge(a, b)) patch.split_edge(edge, 0.5 * (patch.position(a) + patch.position(b)));
   }
 }
 
@@ -134,22 +135,17 @@ HolePatch smooth_patch(const Mesh& mesh,
                        const Run& run) {
   if (boundary.size() < 3) return {};
   VertexLoop loop(boundary.rbegin(), boundary.rend());  // the patch has the opposite direction
-  const auto are_adjacent = [&](std::size_t a, std::size_t b) {
-    const auto outgoing = edges.outgoing(loop[a]);
-    return std::any_of(outgoing.begin(), outgoing.end(), [&](std::uint32_t edge) {
-      return target_vertex(mesh, edge) == loop[b] || opposite_vertex(mesh, edge) == loop[b];
-    });
+  const auto have_edge = [&](std::size_t a, std::size_t b) {
+    return are_adjacent(mesh, edges, loop[a], loop[b]);
   };
   std::vector<Vector3d> positions;
   for (const std::uint32_t vertex : loop)
     positions.push_back(position_of(mesh, vertex));
   const PatchSurroundings around = surroundings_of(mesh, edges, loop);
   const auto triangles = minimum_area_triangulation(
-      positions,
-      {.normals = boundary_normals(positions, around), .is_forbidden = are_adjacent},
-      run);
-  PatchMesh patch(std::move(positions), triangles, are_adjacent);
-  split_duplicate_edges(patch, are_adjacent);
+      positions, {.normals = boundary_normals(positions, around), .is_forbidden = have_edge}, run);
+  PatchMesh patch(std::move(positions), triangles, have_edge);
+  split_duplicate_edges(patch, have_edge);
   patch.restore_delaunay();
   std::vector<PatchSpacing> spacing = spacing_of(mesh, edges, loop);
   while (spacing.size() < patch.count())
