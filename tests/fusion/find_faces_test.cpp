@@ -29,7 +29,7 @@ Mesh corner() {
 Faces faces_of(const Mesh& mesh, const Eigen::Vector3f& near) {
   std::vector<std::uint32_t> all(mesh.vertices_mm.size());
   std::iota(all.begin(), all.end(), 0U);
-  return find_faces(mesh, all, near, 1.0F);
+  return find_faces(mesh, all, near, EdgeLimits({}, 1.0F));
 }
 
 TEST(FindFaces, FindsTheThreeOfACorner) {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/fusion/internal/accumulate_view.h"
 #include "frangia/fusion/internal/distance_field.h"
 #include "frangia/fusion/internal/edge_crossings.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
@@ -26,7 +27,9 @@ namespace {
 
 double choose_voxel(const Sampling& sampling, const FusionOptions& options, const Run& run) {
   if (options.voxel_mm > 0.0) return options.voxel_mm;
-  const double voxel_mm = std::max(1.5 * sampling.spacing_mm, 3.0 * sampling.sigma_mm);
+  const FieldParameters& field = options.parameters.field;
+  const double voxel_mm =
+      std::max(field.voxel_spacings * sampling.spacing_mm, field.voxel_sigmas * sampling.sigma_mm);
   run.note(
       fmt::format("the surface is sampled every {:.3g} mm: the points are {:.3g} mm apart, their "
                   "sigma is {:.2g} mm",
@@ -36,7 +39,7 @@ double choose_voxel(const Sampling& sampling, const FusionOptions& options, cons
   return voxel_mm;
 }
 
-/// Calls `use` with every `step`-th pixel of each view in turn; while one is used the next is read.
+/// Calls `use` with every `step`-th pixel of each view in turn. The next view is read meanwhile.
 void for_each_view(const ViewStore& views,
                    int step,
                    const CameraRays& camera,
@@ -59,10 +62,28 @@ void for_each_view(const ViewStore& views,
   }
 }
 
-/// The field only tells where to look: pixels closer together than its voxels tell it no more.
-int field_pixel_step(const Sampling& sampling, double voxel_mm) {
-  constexpr double kCoarsest = 1.2;  // voxels between pixels
-  return std::max(1, static_cast<int>(kCoarsest * voxel_mm / sampling.spacing_mm));
+/// Pixel step for the field. The field only locates the crossings, so pixels denser than its voxels
+/// add nothing.
+int field_pixel_step(const Sampling& sampling, double voxel_mm, const FieldParameters& parameters) {
+  return std::max(
+      1, static_cast<int>(parameters.max_pixel_step_voxels * voxel_mm / sampling.spacing_mm));
+}
+
+TruncationBand truncation_band(const Sampling& sampling,
+                               double voxel_mm,
+                               const FieldParameters& parameters) {
+  const double noise_mm = parameters.band_sigmas * sampling.sigma_mm;
+  const double per_voxel2 = 1.0 / (voxel_mm * voxel_mm);
+  TruncationBand band;
+  band.voxel_mm = voxel_mm;
+  band.front_mm = parameters.front_voxels * voxel_mm + noise_mm;
+  band.back_mm = parameters.back_voxels * voxel_mm + noise_mm;
+  band.falloff_mm = parameters.falloff_voxels * voxel_mm + noise_mm;
+  band.allocation_mm = parameters.near_voxels * voxel_mm + noise_mm;
+  band.deepest_mm = parameters.deep_bands * band.back_mm;
+  band.extrapolated_weight = parameters.extrapolated_weight * per_voxel2;
+  band.deep_weight = parameters.deep_weight * per_voxel2;
+  return band;
 }
 
 }  // namespace
@@ -74,26 +95,21 @@ Mesh fuse_views(const ViewStore& views,
   const CameraRays rays(camera);
   const Sampling sampling = measure_sampling(views, rays, run);
 
-  require(sampling.points > 0, "no view holds a point: there is no surface to paste");
+  require(sampling.points > 0, "no view holds a point: there is no surface to fuse");
   const double voxel_mm = choose_voxel(sampling, options, run);
   const VoxelBudget budget = voxel_budget(voxel_mm, options.max_memory_mb);
   budget.check(sampling, views.size());
-  const double noise_mm = 4.0 * sampling.sigma_mm;
-  const double near_mm = 0.75 * voxel_mm + noise_mm;
-  const TruncationBand band{voxel_mm,
-                            3.0 * voxel_mm + noise_mm,
-                            2.0 * voxel_mm + noise_mm,
-                            0.5 * voxel_mm + noise_mm,
-                            near_mm};
+  const FusionParameters& parameters = options.parameters;
+  const TruncationBand band = truncation_band(sampling, voxel_mm, parameters.field);
   const double progress = 0.4 / static_cast<double>(views.size());
   double done = 0.0;
 
-  const int step = field_pixel_step(sampling, voxel_mm);
+  const int step = field_pixel_step(sampling, voxel_mm, parameters.field);
   std::optional<CameraRays> thinned;
   if (step > 1) thinned.emplace(subsample(camera, step));
   const CameraRays& thin_rays = thinned ? *thinned : rays;
-  const int extrapolate_px =
-      static_cast<int>(std::ceil(2.0 * voxel_mm / (step * sampling.spacing_mm)));
+  const int extrapolate_px = static_cast<int>(
+      std::ceil(parameters.field.extrapolate_voxels * voxel_mm / (step * sampling.spacing_mm)));
   DistanceField field;
   field.voxel_mm = voxel_mm;
   for_each_view(
@@ -104,17 +120,19 @@ Mesh fuse_views(const ViewStore& views,
       });
 
   require(!field.blocks.empty(),
-          "no two points of the views are neighbours: there is no surface to paste");
-  const EdgeCrossings crossings = find_edge_crossings(field);
+          "no two points of the views are neighbours: there is no surface to fuse");
+  const EdgeCrossings crossings = find_edge_crossings(field, parameters.field);
   field = {};
 
   HermiteAccumulators hermite(crossings.points_mm.size());
   for_each_view(views, 1, rays, {.widen = true}, [&](const LocalPlanes& view) {
-    accumulate_view(hermite, crossings, view, rays, {near_mm, band.front_mm});
+    accumulate_view(
+        hermite, crossings, view, rays, {band.allocation_mm, band.front_mm, parameters.hermite});
     run.report(done += progress);
   });
   add_between_view_variance(hermite, crossings);
-  Mesh mesh = mesh_quads(place_vertices(crossings, hermite), crossings, hermite);
+  Mesh mesh =
+      mesh_quads(place_vertices(crossings, hermite, parameters), crossings, hermite, parameters);
   run.report(0.95);
   clean_mesh(mesh, options.min_component_triangles);
   run.report(1.0);

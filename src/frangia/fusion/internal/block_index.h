@@ -8,7 +8,7 @@
 
 namespace frangia {
 
-/// A block's place as one number; places run from -2^20 to 2^20 - 1.
+/// The coordinates of a block packed into one number; each runs from -2^20 to 2^20 - 1.
 [[nodiscard]] constexpr std::uint64_t block_key(int x, int y, int z) {
   constexpr int kOffset = 1 << 20;
   return (static_cast<std::uint64_t>(z + kOffset) << 42) |
@@ -18,25 +18,25 @@ namespace frangia {
   return block_key(coords.x(), coords.y(), coords.z());
 }
 
-/// Numbers of blocks by `block_key`: a table without pointers, since it is asked millions of times.
+/// Maps `block_key` to block numbers: an open-addressing hash table for millions of look-ups.
 class BlockIndex {
  public:
   static constexpr std::uint32_t kNone = ~0U;
 
-  /// The block's number, or kNone.
+  /// Returns the block's number, or kNone.
   [[nodiscard]] std::uint32_t find(std::uint64_t key) const {
     return slots_.empty() ? kNone : slots_[slot_of(key)].number;
   }
-  /// Adds a block that is not there yet.
+  /// Adds a block whose key is not in the table yet.
   void add(std::uint64_t key, std::uint32_t number);
 
  private:
   struct Slot {
     std::uint64_t key = 0;
-    std::uint32_t number = kNone;  ///< of an empty slot
+    std::uint32_t number = kNone;  ///< kNone in an empty slot
   };
 
-  /// The slot that holds the key, or the empty one where it belongs.
+  /// Returns the slot that holds the key, or the empty slot where it would be added.
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     constexpr std::uint64_t kScramble = 0x9e3779b97f4a7c15ULL;
@@ -46,7 +46,7 @@ class BlockIndex {
     return slot;
   }
 
-  std::vector<Slot> slots_;  ///< a power of two, at most half of them taken
+  std::vector<Slot> slots_;  ///< a power of two, at most half of them used
   std::size_t size_ = 0;
 };
 

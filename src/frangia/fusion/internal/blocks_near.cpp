@@ -11,12 +11,13 @@
 namespace frangia {
 namespace {
 
-/// Voxels around a measured point within which the field is wanted: a cell's corners are one from a
-/// point in it, and the next point looked at is kStep voxels away.
+/// Voxels around a measured point within which the field is needed: the corners of its cell are up
+/// to one voxel away, and the next point visited is up to kStep voxels away, of which half, plus a
+/// margin for the diagonal, is covered from either side.
 constexpr float kMargin = 1.75F;
 constexpr double kStep = 1.05;
 
-/// Collects keys of blocks, cheap when the same ones come again and again.
+/// A set of block keys. A small cache drops most repeated keys before they are stored.
 class KeySet {
  public:
   void add(std::uint64_t key) {
@@ -40,12 +41,12 @@ class KeySet {
     keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   }
 
-  std::array<std::uint64_t, 256> recent_{};  ///< one for each hash
+  std::array<std::uint64_t, 256> recent_{};  ///< by hash
   std::size_t limit_ = 4096;
   std::vector<std::uint64_t> keys_;
 };
 
-/// The block that holds a voxel coordinate. `std::floor` would be a call.
+/// The block that holds a voxel coordinate. Faster than `std::floor`, which is a function call.
 int block_of(float voxel) {
   const float block = voxel * 0.125F;
   const int toward_zero = static_cast<int>(block);
@@ -55,7 +56,7 @@ Eigen::Array3i block_of(const Eigen::Array3f& voxel) {
   return {block_of(voxel.x()), block_of(voxel.y()), block_of(voxel.z())};
 }
 
-/// All blocks from one to another.
+/// Adds all blocks of a box.
 void add_box(KeySet& keys, const Eigen::Array3i& first, const Eigen::Array3i& last) {
   for (int z = first.z(); z <= last.z(); ++z) {
     for (int y = first.y(); y <= last.y(); ++y) {
@@ -65,26 +66,25 @@ void add_box(KeySet& keys, const Eigen::Array3i& first, const Eigen::Array3i& la
   }
 }
 
-/// All blocks that hold the corners of cells around the segment.
+/// Adds all blocks that hold the corners of cells around a segment.
 void add_segment(KeySet& keys, const Eigen::Array3f& from, const Eigen::Array3f& to) {
   const Eigen::Array3i first = block_of(from.min(to) - kMargin);
   const Eigen::Array3i last = block_of(from.max(to) + kMargin);
   if ((last - first).sum() <= 1) return add_box(keys, first, last);
-  const Eigen::Array3f whole = to - from;
-  const int steps = static_cast<int>(whole.abs().maxCoeff() / (2.0F * kMargin)) + 1;
-  const Eigen::Array3f step = whole / static_cast<float>(steps);
+  const Eigen::Array3f length = to - from;
+  const int steps = static_cast<int>(length.abs().maxCoeff() / (2.0F * kMargin)) + 1;
+  const Eigen::Array3f step = length / static_cast<float>(steps);
   for (int i = 0; i <= steps; ++i) {
     const Eigen::Array3f point = from + step * static_cast<float>(i);
     add_box(keys, block_of(point - kMargin), block_of(point + kMargin));
   }
 }
 
-/// How many pixels to step so that, with the margin, no corner of a cell between two of them is
-/// left out.
+/// Pixel step at which the margins of neighbouring points still cover every cell between them.
 int pixel_stride(const LocalPlanes& view, const CameraRays& camera, const TruncationBand& band) {
   float nearest = 0.0F;
   for (const float q : view.inverse_depth.pixels())
-    nearest = std::max(nearest, q);  // passes NaN over
+    nearest = std::max(nearest, q);  // ignores NaN
   const double voxel_px =
       band.voxel_mm * static_cast<double>(nearest) * camera.model.focal_px.minCoeff();
   return std::clamp(static_cast<int>(std::lround(kStep * voxel_px)), 1, 8);
@@ -98,7 +98,7 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
   const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
   const Eigen::Matrix3f rotation = (object_from_rig.linear() / band.voxel_mm).cast<float>();
   const Eigen::Vector3f origin = (object_from_rig.translation() / band.voxel_mm).cast<float>();
-  constexpr float kLongest = 2.0F;  // at grazing incidence the band along the ray has no end
+  constexpr float kLongest = 2.0F;  // limits the band along the ray at grazing incidence
   const auto near = static_cast<float>(band.allocation_mm / band.voxel_mm);
   const int stride = pixel_stride(view, camera, band);
 

@@ -7,7 +7,8 @@
 
 namespace frangia {
 
-/// Keys of all blocks that hold a corner of a cell near what a view saw, ascending.
+/// Returns the keys of all blocks that hold a corner of a cell near the surface of a view, in
+/// ascending order.
 [[nodiscard]] std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
                                                      const CameraRays& camera,
                                                      const TruncationBand& band);

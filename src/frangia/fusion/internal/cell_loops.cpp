@@ -5,7 +5,7 @@
 namespace frangia {
 namespace {
 
-/// The edge between two neighbouring corners.
+/// Returns the edge between two neighbouring corners.
 int edge_between(int one, int other) {
   const int low = one < other ? one : other;
   const int across = one ^ other;
@@ -13,7 +13,7 @@ int edge_between(int one, int other) {
   return 4 * axis + (low >> ((axis + 1) % 3) & 1) + 2 * (low >> ((axis + 2) % 3) & 1);
 }
 
-/// The corners of a face in a ring.
+/// Returns the corners of a face in cyclic order.
 std::array<int, 4> face_ring(int face) {
   const int axis = face / 2;
   const int base = (face & 1) << axis;
@@ -22,7 +22,7 @@ std::array<int, 4> face_ring(int face) {
   return {base, base | b, base | b | c, base | c};
 }
 
-/// For each crossed edge, the edges that it is joined to across its two faces.
+/// For each crossed edge, the edges it is connected to across its two faces.
 struct EdgeLinks {
   std::array<std::array<int, 2>, 12> to{};
   std::array<int, 12> count{};

@@ -5,11 +5,12 @@
 
 namespace frangia {
 
-/// How the surface runs through a cell of 8 voxels.
+/// The topology of the surface in a cell, whose corners are 8 voxels.
 ///
 /// Corner c is at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge 4 a + o runs along axis a from the corner
 /// at offset (o & 1, o >> 1) on axes (a + 1) % 3 and (a + 2) % 3. Face 2 a + s is the one at side s
-/// of axis a. A loop is a closed curve of surface over the cell's faces: one vertex each.
+/// of axis a. A loop is a closed curve in which the surface intersects the cell's faces. Each loop
+/// gets one vertex.
 struct CellLoops {
   static constexpr std::uint8_t kNone = 255;
 
@@ -18,13 +19,13 @@ struct CellLoops {
   std::uint8_t pinched_faces = 0;               ///< bit f: one loop crosses face f twice
 };
 
-/// The loops of each sign pattern: bit c is set where corner c is inside.
+/// Returns the loops of each sign pattern, whose bit c is set when corner c is inside.
 ///
-/// Where a face is crossed four times its inside corners are kept apart, which depends on the face
-/// alone, so that neighbouring cells agree and the surface is manifold.
+/// A face that is crossed four times is ambiguous; its two inside corners are always separated.
+/// That depends on the face alone, so neighbouring cells agree and the surface is manifold.
 [[nodiscard]] const std::array<CellLoops, 256>& cell_loops();
 
-/// The two corners of an edge, the lower one first.
+/// Returns the two corners of an edge, the lower one first.
 [[nodiscard]] constexpr std::array<int, 2> edge_corners(int edge) {
   const int axis = edge / 4;
   const int low = ((edge & 1) << ((axis + 1) % 3)) | ((edge >> 1 & 1) << ((axis + 2) % 3));

@@ -1,6 +1,8 @@
 #include "frangia/fusion/internal/collapse_slivers.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace {
 using Vertex = std::uint32_t;
 using Pair = SelectedOneRings::Edge;
 
-/// Short edges, each once, in a fixed order.
+/// Returns the short edges of the candidates, each once, in ascending order.
 std::vector<Pair> short_edges(const Mesh& mesh,
                               const std::vector<std::uint32_t>& near,
                               float shortest_mm) {
@@ -33,8 +35,10 @@ std::vector<Pair> short_edges(const Mesh& mesh,
   return edges;
 }
 
-/// Joining a and b keeps the mesh manifold: they share no more neighbours than triangles, and no
-/// rim runs through both ends of an edge within.
+/// Whether the mesh stays manifold when a and b collapse: they share as many neighbours as
+/// triangles, and an inner edge does not connect two boundary vertices.
+///
+/// source   the link condition, Dey et al. 1999
 bool satisfies_link_condition(std::vector<Vertex> of_a, std::vector<Vertex> of_b, Vertex b) {
   const auto triangles = std::count(of_a.begin(), of_a.end(), b);
   const auto on_boundary = [](const std::vector<Vertex>& sorted) {
@@ -52,11 +56,13 @@ bool satisfies_link_condition(std::vector<Vertex> of_a, std::vector<Vertex> of_b
   return std::ssize(shared) == triangles;
 }
 
-/// Whether the triangles around `v` that do not hold `other` still face outward with v at `point`.
+/// Whether the triangles around the first vertex that do not contain the second one still face
+/// outward with the first vertex at `point`.
 bool keeps_orientation(const Mesh& mesh,
                        const SelectedOneRings& one_rings,
                        const Pair& ends,
-                       const Eigen::Vector3f& point) {
+                       const Eigen::Vector3f& point,
+                       float turn_cosine) {
   const auto& [v, other] = ends;
   for (const std::uint32_t t : one_rings.of(v)) {
     Mesh::Triangle corners = mesh.triangles[t];
@@ -67,21 +73,22 @@ bool keeps_orientation(const Mesh& mesh,
     const Eigen::Vector3f outward =
         mesh.normals[corners[0]] + mesh.normals[corners[1]] + mesh.normals[corners[2]];
     const Eigen::Vector3f before = (b - mesh.vertices_mm[v]).cross(c - mesh.vertices_mm[v]);
-    if (before.dot(outward) <= 0.0F) continue;  // nothing to lose
+    if (before.dot(outward) <= 0.0F) continue;  // it faces inward already
     const Eigen::Vector3f after = (b - point).cross(c - point);
-    constexpr float kTurned = 0.5F;
-    if (after.dot(outward) <= 0.0F || after.dot(before) < kTurned * after.norm() * before.norm()) {
+    if (after.dot(outward) <= 0.0F ||
+        after.dot(before) < turn_cosine * after.norm() * before.norm()) {
       return false;
     }
   }
   return true;
 }
 
-/// One pass over edges that do not touch; returns whether any was collapsed.
+/// Collapses a set of edges that do not share neighbours. Returns whether any was collapsed.
 bool collapse_once(Mesh& mesh,
                    std::span<const std::uint8_t> sharp,
                    float shortest_mm,
-                   SliverCandidates& candidates) {
+                   SliverCandidates& candidates,
+                   float turn_cosine) {
   const std::vector<Pair> edges = short_edges(mesh, candidates.triangles(), shortest_mm);
   if (edges.empty()) return false;
   const SelectedOneRings one_rings(mesh, edges);
@@ -98,12 +105,12 @@ bool collapse_once(Mesh& mesh,
         !satisfies_link_condition(of_a, of_b, b)) {
       continue;
     }
-    const bool alike = sharpness(a) == sharpness(b);
+    const bool same_kind = sharpness(a) == sharpness(b);
     const Eigen::Vector3f point =
-        alike ? Eigen::Vector3f(0.5F * (mesh.vertices_mm[a] + mesh.vertices_mm[b]))
-              : mesh.vertices_mm[a];
-    if (!keeps_orientation(mesh, one_rings, {a, b}, point) ||
-        !keeps_orientation(mesh, one_rings, {b, a}, point))
+        same_kind ? Eigen::Vector3f(0.5F * (mesh.vertices_mm[a] + mesh.vertices_mm[b]))
+                  : mesh.vertices_mm[a];
+    if (!keeps_orientation(mesh, one_rings, {a, b}, point, turn_cosine) ||
+        !keeps_orientation(mesh, one_rings, {b, a}, point, turn_cosine))
       continue;
     mesh.vertices_mm[a] = point;
     for (const std::uint32_t t : one_rings.of(b)) {
@@ -129,11 +136,15 @@ bool collapse_once(Mesh& mesh,
 bool collapse_slivers(Mesh& mesh,
                       std::span<const std::uint8_t> sharp,
                       float shortest_mm,
-                      SliverCandidates& candidates) {
+                      SliverCandidates& candidates,
+                      const CleanupParameters& parameters) {
   constexpr int kPasses = 2;
+  const auto turn_cosine = static_cast<float>(std::cos(parameters.collapse_turn_rad));
   bool any = false;
-  for (int pass = 0; pass < kPasses && collapse_once(mesh, sharp, shortest_mm, candidates); ++pass)
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (!collapse_once(mesh, sharp, shortest_mm, candidates, turn_cosine)) break;
     any = true;
+  }
   return any;
 }
 

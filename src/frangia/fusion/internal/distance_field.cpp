@@ -13,15 +13,7 @@ namespace {
 
 constexpr int kEdge = DistanceField::kEdge;
 
-/// Of a guess beside what was seen, in 1/mm^2: it counts where nobody knows better.
-constexpr float kExtrapolatedWeight = 1e-6F;
-
-/// And of one deeper than the band: that the object is there needs no saying but at a rim, where a
-/// cell would lack a corner.
-constexpr float kDeepWeight = 1e-9F;
-constexpr float kDeepest = 10.0F;  // times the band's depth
-
-/// Distance of voxels from what a view saw, a row of a block at a time.
+/// The parameters of one view's integration, as floats for vector code.
 struct Sampler {
   const LocalPlanes& view;
   FastCameraModel model;
@@ -29,6 +21,9 @@ struct Sampler {
   float back;
   float falloff;
   float voxel;
+  float deepest;
+  float extrapolated_weight;
+  float deep_weight;
 
   Sampler(const LocalPlanes& seen, const CameraModel& camera, const TruncationBand& band)
       : view(seen),
@@ -36,24 +31,27 @@ struct Sampler {
         front(static_cast<float>(band.front_mm)),
         back(static_cast<float>(band.back_mm)),
         falloff(static_cast<float>(band.falloff_mm)),
-        voxel(static_cast<float>(band.voxel_mm)) {}
+        voxel(static_cast<float>(band.voxel_mm)),
+        deepest(static_cast<float>(band.deepest_mm)),
+        extrapolated_weight(static_cast<float>(band.extrapolated_weight)),
+        deep_weight(static_cast<float>(band.deep_weight)) {}
 
-  /// What a view's word on a voxel counts, 0 outside the band. Behind its surface a view can only
-  /// guess: the object may be thin, or end beside the ray.
+  /// Weight of a distance, 0 outside the band. It decreases behind the surface, where a view has no
+  /// measurement: the object may be thin, or end beside the ray.
   [[nodiscard]] float weight_of(float weight, float distance) const {
     const float depth = std::min(distance, 0.0F) / falloff;
     const float trust = 1.0F / ((1.0F + depth * depth) * (1.0F + depth * depth));
-    const float deep = distance > -kDeepest * back ? kDeepWeight : 0.0F;
+    const float deep = distance > -deepest ? deep_weight : 0.0F;
     const float behind = distance > -back ? weight * trust : deep;
     return distance < front ? behind : 0.0F;
   }
-  /// The distance that it gives: below the band a voxel, so that a crossing beside it is no jump.
+  /// Distance to store: one voxel below the band, so that a neighbouring crossing is not a step.
   [[nodiscard]] float truncated(float distance) const {
     return distance > -back ? distance : -voxel;
   }
 };
 
-/// Eight voxels in a row, seen from the view.
+/// Eight consecutive voxels along x, in image coordinates.
 struct Row {
   template <typename T>
   using Eight = std::array<T, kEdge>;
@@ -68,7 +66,7 @@ struct Row {
   alignas(32) Eight<float> weighted{};
 };
 
-/// Where the voxels lie in the image. Points behind the camera and NaN lie outside.
+/// Projects the voxels into the image. Points behind the camera and NaN are outside.
 [[gnu::always_inline]] inline void project_row(Row& row,
                                                const Sampler& sampler,
                                                const Eigen::Vector3f& start,
@@ -118,8 +116,8 @@ struct Row {
   }
 }
 
-/// The voxels over smooth quads. What is strewn over memory is fetched first: the rest is vector
-/// code.
+/// Samples the voxels that project into smooth quads. The first loop gathers from memory, so that
+/// the second one vectorizes.
 [[gnu::always_inline]] inline void sample_smooth(Row& row, const Sampler& sampler) {
   constexpr auto kSmooth = static_cast<std::int32_t>(LocalPlanes::Kind::Smooth);
   const Sampler how = sampler;
@@ -155,21 +153,23 @@ struct Row {
   }
 }
 
-/// A voxel where faces meet, or beside what was seen.
+/// Samples a voxel that projects into a creased or extrapolated quad.
 void sample_creased(Row& row, std::size_t i, const Sampler& sampler, const Eigen::Vector3f& point) {
   const LocalPlanes& view = sampler.view;
   const auto kind = static_cast<LocalPlanes::Kind>(row.kind[i]);
-  const bool beside = kind == LocalPlanes::Kind::Extrapolated;
-  const float distance = beside ? view.extrapolated_mm(row.u[i], row.v[i], point)
-                                : view.nearest_face(row.u[i], row.v[i], point).in_front_mm(point);
+  const bool extrapolated = kind == LocalPlanes::Kind::Extrapolated;
+  const float distance = extrapolated
+                             ? view.extrapolated_mm(row.u[i], row.v[i], point)
+                             : view.nearest_face(row.u[i], row.v[i], point).in_front_mm(point);
   const auto quad = static_cast<std::size_t>(row.quad[i]);
-  const float weight = beside ? kExtrapolatedWeight : view.quads.pixels()[quad].weight;
+  const float weight =
+      extrapolated ? sampler.extrapolated_weight : view.quads.pixels()[quad].weight;
   row.weight[i] = sampler.weight_of(weight, distance);
   row.weighted[i] = row.weight[i] * sampler.truncated(distance);
 }
 
-/// Adds a view to a block, given in camera coordinates: the first voxel, and the step along each
-/// axis.
+/// Adds a view to a block. `first` is the block's first voxel and the columns of `steps` are the
+/// steps between voxels, both in camera coordinates.
 FRANGIA_VECTORIZED_WIDE void add_block(DistanceField::Block& block,
                                        const Sampler& sampler,
                                        const Eigen::Vector3f& first,

@@ -13,39 +13,43 @@
 
 namespace frangia {
 
-/// How far from a measured point the field reaches, along the surface's normal.
+/// The truncation of the field around the surface of a view, along its normal, and the weights of
+/// unmeasured voxels. `FieldParameters` explains the values.
 struct TruncationBand {
   double voxel_mm = 0.0;
-  double front_mm = 0.0;       ///< towards the camera
-  double back_mm = 0.0;        ///< into the object
-  double falloff_mm = 0.0;     ///< a view's word on what lies deeper than this counts little
-  double allocation_mm = 0.0;  ///< blocks are made where the surface may be, no farther than this
+  double front_mm = 0.0;             ///< reach towards the camera
+  double back_mm = 0.0;              ///< reach into the object
+  double falloff_mm = 0.0;           ///< depth at which the weight has fallen to a quarter
+  double allocation_mm = 0.0;        ///< blocks are allocated within this distance of a point
+  double deepest_mm = 0.0;           ///< reach of `deep_weight` into the object
+  double extrapolated_weight = 0.0;  ///< of an extrapolated distance, 1/mm^2
+  double deep_weight = 0.0;          ///< of a voxel deeper than `back_mm`, 1/mm^2
 };
 
 /// Signed distance to the surface in the object frame, positive outside, averaged over the views.
 ///
-/// Kept in blocks of 8^3 voxels that exist near the surface only. Voxel (i, j, k) is the point
-/// `voxel_mm * (i, j, k)`; it belongs to block (i >> 3, j >> 3, k >> 3).
+/// Stored in blocks of 8^3 voxels, which are allocated near the surface only. Voxel (i, j, k) is
+/// the point `voxel_mm * (i, j, k)`; it belongs to block (i >> 3, j >> 3, k >> 3).
 struct DistanceField {
   static constexpr int kEdge = 8;
   static constexpr std::size_t kVoxels = std::size_t{kEdge} * kEdge * kEdge;
 
   struct Voxel {
     float weighted_mm;  ///< sum of weight * distance
-    float weight;       ///< 0 where no view has spoken
+    float weight;       ///< 0 where no view has contributed
   };
   using Block = std::array<Voxel, kVoxels>;  ///< x runs fastest
 
   double voxel_mm = 0.0;
-  std::vector<Eigen::Vector3i> block_coords;  ///< of each block, in blocks
+  std::vector<Eigen::Vector3i> block_coords;  ///< of each block, in units of blocks
   ChunkedVector<Block> blocks;
   BlockIndex index;
 };
 
-/// Adds what one view saw to the blocks within its band, making those that are new.
+/// Adds the distances from one view's surface to the field and allocates the blocks it needs.
 ///
 /// A voxel takes the distance from the plane of the quad that it projects into, never across a
-/// depth step, weighted by cos^2/sigma^2 and, behind the surface, less and less.
+/// depth step, weighted by cos^2/sigma^2. Behind the surface the weight decreases with depth.
 /// source   Curless & Levoy 1996; Niessner et al. 2013
 void integrate_view(DistanceField& field,
                     const LocalPlanes& view,

@@ -5,128 +5,31 @@
 #include <cmath>
 #include <memory>
 
-#include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/fusion/internal/cell_loops.h"
+#include "frangia/fusion/internal/corner_distances.h"
 
 namespace frangia {
 namespace {
 
 constexpr int kEdge = DistanceField::kEdge;
-constexpr float kLargestJump = 2.5F;  // voxels, between the ends of an edge one voxel long
 
-/// Distances at the corners of a block's cells: 9^3, NaN where unseen.
-struct CornerDistances {
-  static constexpr int kSide = kEdge + 1;
-  std::array<float, std::size_t{kSide} * kSide * kSide> distance{};
-
-  static constexpr std::size_t at(int x, int y, int z) {
-    const int coords = x + kSide * (y + kSide * z);
-    return static_cast<std::size_t>(coords);
-  }
-};
-
-constexpr std::size_t voxel_at(int x, int y, int z) {
-  return static_cast<std::size_t>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
-}
-
-/// The block at a place and those next to it in the upward directions, by bits x, y, z.
-using UpperNeighbors = std::array<const DistanceField::Block*, 8>;
-UpperNeighbors upper_neighbors(const DistanceField& field, const Eigen::Vector3i& coords) {
-  UpperNeighbors around{};
-  for (int i = 0; i < 8; ++i) {
-    const std::uint32_t found = field.index.find(
-        block_key(coords.x() + (i & 1), coords.y() + (i >> 1 & 1), coords.z() + (i >> 2)));
-    if (found != BlockIndex::kNone) around[static_cast<std::size_t>(i)] = &field.blocks[found];
-  }
-  return around;
-}
-
-CornerDistances corners_of(const DistanceField& field, const Eigen::Vector3i& coords) {
-  const UpperNeighbors around = upper_neighbors(field, coords);
-  const auto distance_of = [](const DistanceField::Voxel& voxel) {
-    return voxel.weight > 0.0F ? voxel.weighted_mm / voxel.weight : kMissing;
-  };
-  CornerDistances corners;
-  corners.distance.fill(kMissing);
-  for (int z = 0; z <= kEdge; ++z) {
-    for (int y = 0; y <= kEdge; ++y) {
-      const auto row = static_cast<std::size_t>((y >> 3) << 1 | (z >> 3) << 2);
-      float* to = &corners.distance[CornerDistances::at(0, y, z)];
-      if (const auto* block = around[row]) {
-        const DistanceField::Voxel* from = &(*block)[voxel_at(0, y, z)];
-        for (int x = 0; x < kEdge; ++x)
-          to[x] = distance_of(from[x]);
-      }
-      if (const auto* block = around[row | 1]) to[kEdge] = distance_of((*block)[voxel_at(0, y, z)]);
-    }
-  }
-  return corners;
-}
-
-/// Bit x of a row of corners.
-struct RowBits {
-  unsigned seen = 0;
-  unsigned inside = 0;
-};
-using CornerBits =
-    std::array<std::array<RowBits, CornerDistances::kSide>, CornerDistances::kSide>;  ///< [z][y]
-
-CornerBits bits_of(const CornerDistances& corners) {
-  CornerBits bits{};
-  for (int z = 0; z <= kEdge; ++z) {
-    for (int y = 0; y <= kEdge; ++y) {
-      RowBits& row = bits[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)];
-      for (int x = 0; x <= kEdge; ++x) {
-        const float d = corners.distance[CornerDistances::at(x, y, z)];
-        row.seen |= static_cast<unsigned>(!std::isnan(d)) << static_cast<unsigned>(x);
-        row.inside |= static_cast<unsigned>(d < 0.0F) << static_cast<unsigned>(x);
-      }
-    }
-  }
-  return bits;
-}
-
-/// Bit x: the surface may cross the cell (x, y, z), all of whose corners were seen.
-unsigned crossed_cells(const CornerBits& bits, std::size_t y, std::size_t z) {
-  unsigned seen = ~0U;
-  unsigned any = 0;
-  unsigned all = ~0U;
-  for (const RowBits& row : {bits[z][y], bits[z][y + 1], bits[z + 1][y], bits[z + 1][y + 1]}) {
-    seen &= row.seen & row.seen >> 1;
-    any |= row.inside | row.inside >> 1;
-    all &= row.inside & row.inside >> 1;
-  }
-  return seen & any & ~all;
-}
-
-/// Bit x: the surface may cross an edge that goes up from voxel (x, y, z).
-unsigned crossed_edges(const CornerBits& bits, std::size_t y, std::size_t z) {
-  const RowBits& row = bits[z][y];
-  const auto differ = [&](unsigned seen, unsigned inside) {
-    return row.seen & seen & (row.inside ^ inside);
-  };
-  const RowBits& beside = bits[z][y + 1];
-  const RowBits& above = bits[z + 1][y];
-  return differ(row.seen >> 1, row.inside >> 1) | differ(beside.seen, beside.inside) |
-         differ(above.seen, above.inside);
-}
-
-/// What one block holds, before the blocks are numbered through.
+/// The crossings of one block, before the offsets of the blocks are known.
 struct BlockCrossings {
   std::unique_ptr<EdgeCrossings::Block> block = std::make_unique<EdgeCrossings::Block>();
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<std::int8_t> outward;
   std::uint32_t vertices = 0;
-  std::size_t crossings_before = 0;  ///< in the blocks before, once they are numbered
+  std::size_t crossings_before = 0;  ///< of all earlier blocks; set by `assign_offsets`
 };
 
-std::uint8_t pattern_at(const CornerDistances& corners, int x, int y, int z, float largest_jump) {
+/// Returns the sign pattern of a cell; 0 when a corner has no distance or an edge has a step.
+std::uint8_t pattern_at(const CornerDistances& corners, int x, int y, int z, float max_step_mm) {
   std::array<float, 8> d{};
   unsigned inside = 0;
   for (int c = 0; c < 8; ++c) {
     const float value =
-        corners.distance[CornerDistances::at(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
+        corners.distance_mm[CornerDistances::at(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
     if (std::isnan(value)) return 0;
     d[static_cast<std::size_t>(c)] = value;
     if (value < 0.0F) inside |= 1U << static_cast<unsigned>(c);
@@ -136,7 +39,7 @@ std::uint8_t pattern_at(const CornerDistances& corners, int x, int y, int z, flo
     const auto [low, high] = edge_corners(edge);
     const float a = d[static_cast<std::size_t>(low)];
     const float b = d[static_cast<std::size_t>(high)];
-    if ((a < 0.0F) != (b < 0.0F) && std::abs(a - b) > largest_jump) return 0;
+    if ((a < 0.0F) != (b < 0.0F) && std::abs(a - b) > max_step_mm) return 0;
   }
   return static_cast<std::uint8_t>(inside);
 }
@@ -144,17 +47,17 @@ std::uint8_t pattern_at(const CornerDistances& corners, int x, int y, int z, flo
 void add_crossings(BlockCrossings& found,
                    const CornerDistances& corners,
                    const Eigen::Vector3i& voxel,
-                   float edge_mm) {
+                   float edge_mm,
+                   float max_step_mm) {
   const int x = voxel.x() & 7;
   const int y = voxel.y() & 7;
   const int z = voxel.z() & 7;
-  const float here = corners.distance[CornerDistances::at(x, y, z)];
+  const float here = corners.distance_mm[CornerDistances::at(x, y, z)];
   const std::size_t i = voxel_at(x, y, z);
   for (int axis = 0; axis < 3; ++axis) {
-    const float there = corners.distance[CornerDistances::at(
+    const float there = corners.distance_mm[CornerDistances::at(
         x + (axis == 0 ? 1 : 0), y + (axis == 1 ? 1 : 0), z + (axis == 2 ? 1 : 0))];
-    if (!((here < 0.0F) != (there < 0.0F) && std::abs(here - there) <= kLargestJump * edge_mm))
-      continue;
+    if (!((here < 0.0F) != (there < 0.0F) && std::abs(here - there) <= max_step_mm)) continue;
     Eigen::Vector3f point = voxel.cast<float>();
     point[axis] += here / (here - there);
     found.block->axes[i] |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(axis));
@@ -164,9 +67,10 @@ void add_crossings(BlockCrossings& found,
 }
 
 std::unique_ptr<BlockCrossings> find_in_block(const DistanceField& field,
-                                              const Eigen::Vector3i& coords) {
-  const CornerDistances corners = corners_of(field, coords);
-  const CornerBits bits = bits_of(corners);
+                                              const Eigen::Vector3i& coords,
+                                              const FieldParameters& parameters) {
+  const CornerDistances corners = corner_distances(field, coords);
+  const CornerBits bits = corner_bits(corners);
   bool any_inside = false;
   bool any_outside = false;
   for (const auto& layer : bits) {
@@ -177,6 +81,7 @@ std::unique_ptr<BlockCrossings> find_in_block(const DistanceField& field,
   }
   if (!any_inside || !any_outside) return nullptr;
   const auto edge_mm = static_cast<float>(field.voxel_mm);
+  const float max_step_mm = static_cast<float>(parameters.max_step_voxels) * edge_mm;
   auto found = std::make_unique<BlockCrossings>();
   for (int row = 0; row < kEdge * kEdge; ++row) {
     const int y = row % kEdge;
@@ -190,18 +95,19 @@ std::unique_ptr<BlockCrossings> find_in_block(const DistanceField& field,
       found->block->vertices[i] = static_cast<std::uint16_t>(found->vertices);
       found->block->crossings[i] = static_cast<std::uint16_t>(found->points_mm.size());
       if ((cells >> x & 1U) != 0) {
-        found->block->inside[i] = pattern_at(corners, x, y, z, kLargestJump * edge_mm);
+        found->block->inside[i] = pattern_at(corners, x, y, z, max_step_mm);
         found->vertices += cell_loops()[found->block->inside[i]].count;
       }
       if ((edges >> x & 1U) != 0)
-        add_crossings(*found, corners, coords * kEdge + Eigen::Vector3i(x, y, z), edge_mm);
+        add_crossings(
+            *found, corners, coords * kEdge + Eigen::Vector3i(x, y, z), edge_mm, max_step_mm);
     }
   }
   const bool empty = found->points_mm.empty() && found->vertices == 0;
   return empty ? nullptr : std::move(found);
 }
 
-/// The blocks, and room for what they hold.
+/// Numbers the crossings and vertices of all blocks and allocates the crossings.
 EdgeCrossings assign_offsets(const DistanceField& field,
                              const std::vector<std::unique_ptr<BlockCrossings>>& parts) {
   EdgeCrossings all;
@@ -247,11 +153,11 @@ std::uint32_t EdgeCrossings::Neighborhood::crossing(const Eigen::Vector3i& voxel
          static_cast<std::uint32_t>(std::popcount(lower));
 }
 
-EdgeCrossings find_edge_crossings(const DistanceField& field) {
+EdgeCrossings find_edge_crossings(const DistanceField& field, const FieldParameters& parameters) {
   std::vector<std::unique_ptr<BlockCrossings>> parts(field.block_coords.size());
   parallel_chunks(parts.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      parts[i] = find_in_block(field, field.block_coords[i]);
+      parts[i] = find_in_block(field, field.block_coords[i], parameters);
   });
   EdgeCrossings all = assign_offsets(field, parts);
   parallel_chunks(parts.size(), 64, [&](std::size_t begin, std::size_t end) {

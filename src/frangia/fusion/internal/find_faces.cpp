@@ -11,26 +11,24 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kFewest = 5;
-
-/// Of the vertices of one face, how far they lie off their plane.
-struct Fit {
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< from the point that it is for
+/// Weighted moments of the vertices of one face.
+struct FaceMoments {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< relative to the given point
   Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
-  float noise2 = 0.0F;  ///< mean of their variance
+  float noise2 = 0.0F;  ///< mean variance of the vertices
   Eigen::Vector3f outward = Eigen::Vector3f::Zero();
 };
 
-/// Vertices near the point count most: a face may be curved.
-Fit fit_of(const Mesh& mesh,
-           const std::vector<std::uint32_t>& members,
-           const Eigen::Vector3f& near,
-           float reach_mm) {
-  Fit fit;
+/// Vertices near the point have the largest weight, since a face may be curved.
+FaceMoments moments_of(const Mesh& mesh,
+                       const std::vector<std::uint32_t>& members,
+                       const Eigen::Vector3f& near,
+                       float reach_mm) {
+  FaceMoments fit;
   float sum = 0.0F;
   const auto weight = [&](std::uint32_t v) {
     const float ratio2 = (mesh.vertices_mm[v] - near).squaredNorm() / (reach_mm * reach_mm);
-    constexpr float kLeast = 0.01F;
+    constexpr float kLeast = 0.01F;  // keeps the sum positive
     const float inner = std::max(0.0F, 1.0F - ratio2);
     return std::max(kLeast, inner * inner);
   };
@@ -49,38 +47,37 @@ Fit fit_of(const Mesh& mesh,
   return fit;
 }
 
-/// The best plane through some vertices, when they lie in one and not in a row.
+/// Returns the plane of a face; nothing when its vertices are not flat, or lie on a line.
 std::optional<Faces::Plane> plane_through(const Mesh& mesh,
                                           const std::vector<std::uint32_t>& members,
                                           const Eigen::Vector3f& near,
-                                          float voxel_mm) {
-  constexpr float kFlat = 0.03F;  // voxels off the plane, RMS, beyond
-  constexpr float kNoise = 2.0F;  // sigmas
-  constexpr float kWide = 0.2F;   // voxels
-  const Fit fit = fit_of(mesh, members, near, kFaceReach * voxel_mm);
+                                          const EdgeLimits& limits) {
+  const float voxel_mm = limits.voxel_mm;
+  const FaceMoments fit = moments_of(mesh, members, near, limits.face_reach_mm);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(fit.spread);
   const Eigen::Vector3f squares = solver.eigenvalues() / (voxel_mm * voxel_mm);
-  const float flat = kFlat * kFlat + kNoise * kNoise * fit.noise2 / (voxel_mm * voxel_mm);
-  if (!(squares[0] <= flat && squares[1] >= kWide * kWide)) return std::nullopt;
+  const float flat = limits.flat_voxels * limits.flat_voxels +
+                     limits.flat_sigmas * limits.flat_sigmas * fit.noise2 / (voxel_mm * voxel_mm);
+  if (!(squares[0] <= flat && squares[1] >= limits.face_width_voxels * limits.face_width_voxels))
+    return std::nullopt;
   const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized();
   return Faces::Plane(normal.dot(fit.outward) < 0.0F ? Eigen::Vector3f(-normal) : normal,
                       near + fit.mean);
 }
 
-/// The most vertices that lie on one plane with one of them, and face alike.
+/// Returns the largest set of vertices in the plane of one of them and with similar normals.
 std::vector<std::uint32_t> largest_face(const Mesh& mesh,
                                         const std::vector<std::uint32_t>& vertices,
-                                        float voxel_mm) {
-  constexpr float kAlike = 0.94F;  // cosine
-  constexpr float kOff = 0.25F;    // voxels
+                                        const EdgeLimits& limits) {
   std::vector<std::uint32_t> best;
   for (const std::uint32_t seed : vertices) {
     const Eigen::Vector3f& normal = mesh.normals[seed];
     std::vector<std::uint32_t> members;
     for (const std::uint32_t v : vertices) {
       const float off = std::abs(normal.dot(mesh.vertices_mm[v] - mesh.vertices_mm[seed]));
-      if (mesh.normals[v].dot(normal) > kAlike && off < kOff * voxel_mm) members.push_back(v);
+      if (mesh.normals[v].dot(normal) > limits.face_normal_cosine && off < limits.face_offset_mm)
+        members.push_back(v);
     }
     if (members.size() > best.size()) best = std::move(members);
   }
@@ -89,11 +86,9 @@ std::vector<std::uint32_t> largest_face(const Mesh& mesh,
 
 }  // namespace
 
-bool form_edge(const Eigen::Vector3f& one, const Eigen::Vector3f& other) {
-  constexpr float kNearest = 0.87F;
-  constexpr float kFarthest = -0.77F;
+bool form_edge(const Eigen::Vector3f& one, const Eigen::Vector3f& other, const EdgeLimits& limits) {
   const float cosine = one.dot(other);
-  return cosine < kNearest && cosine > kFarthest;
+  return cosine < limits.min_edge_cosine && cosine > limits.max_edge_cosine;
 }
 
 Eigen::Vector3f intersect_planes(const Faces::Plane& one,
@@ -122,16 +117,16 @@ Eigen::Vector3f intersect_planes(const std::array<Faces::Plane, 3>& planes,
 Faces find_faces(const Mesh& mesh,
                  std::span<const std::uint32_t> vertices,
                  const Eigen::Vector3f& near,
-                 float voxel_mm) {
+                 const EdgeLimits& limits) {
   std::vector<std::uint32_t> left(vertices.begin(), vertices.end());
   Faces faces;
-  while (faces.count < faces.planes.size() && left.size() >= kFewest) {
-    const std::vector<std::uint32_t> members = largest_face(mesh, left, voxel_mm);
-    if (members.size() < kFewest) break;
-    const auto plane = plane_through(mesh, members, near, voxel_mm);
+  while (faces.count < faces.planes.size() && left.size() >= limits.min_face_vertices) {
+    const std::vector<std::uint32_t> members = largest_face(mesh, left, limits);
+    if (members.size() < limits.min_face_vertices) break;
+    const auto plane = plane_through(mesh, members, near, limits);
     const Eigen::Vector3f normal = plane ? plane->normal() : mesh.normals[members[0]];
     if (plane) faces.planes[faces.count++] = *plane;
-    const auto same = [&](std::uint32_t v) { return !form_edge(mesh.normals[v], normal); };
+    const auto same = [&](std::uint32_t v) { return !form_edge(mesh.normals[v], normal, limits); };
     left.erase(std::remove_if(left.begin(), left.end(), same), left.end());
   }
   const auto nearer = [&](const Faces::Plane& a, const Faces::Plane& b) {

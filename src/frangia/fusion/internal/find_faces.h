@@ -7,11 +7,12 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/fusion/internal/edge_limits.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// Planes of the object near a point, the nearest first.
+/// Up to three faces of the object near a point, the nearest one first.
 struct Faces {
   using Plane = Eigen::Hyperplane<float, 3>;
 
@@ -19,28 +20,28 @@ struct Faces {
   std::size_t count = 0;
 };
 
-/// Whether two faces make an edge: they differ by 30 to 140 degrees. The edge of a knife has no
-/// place to speak of.
-[[nodiscard]] bool form_edge(const Eigen::Vector3f& one, const Eigen::Vector3f& other);
+/// Whether two faces with these normals form an edge: whether their angle is between `min_edge_rad`
+/// and `max_edge_rad`.
+[[nodiscard]] bool form_edge(const Eigen::Vector3f& one,
+                             const Eigen::Vector3f& other,
+                             const EdgeLimits& limits);
 
-/// The point nearest to `from` on both planes, which must not be parallel.
+/// Returns the point nearest to `from` on both planes, which must not be parallel.
 [[nodiscard]] Eigen::Vector3f intersect_planes(const Faces::Plane& one,
                                                const Faces::Plane& other,
                                                const Eigen::Vector3f& from);
 
-/// The point on all three planes.
+/// Returns the intersection of three planes, which must be independent.
 [[nodiscard]] Eigen::Vector3f intersect_planes(const std::array<Faces::Plane, 3>& planes,
                                                const Eigen::Vector3f& from);
 
-/// How far a face is looked for, in voxels.
-inline constexpr float kFaceReach = 5.0F;
-
-/// The planes that some vertices lie on: those that lie and face alike, five of them or more.
+/// Fits faces to vertices: the largest set of vertices with similar normals in one plane, then the
+/// next one among the rest.
 ///
-/// missing  none where they are not flat, to their sigma and some hundredths of a voxel
+/// missing  a set of fewer than `min_face_vertices`, or one that is not flat, is no face
 [[nodiscard]] Faces find_faces(const Mesh& mesh,
                                std::span<const std::uint32_t> vertices,
                                const Eigen::Vector3f& near,
-                               float voxel_mm);
+                               const EdgeLimits& limits);
 
 }  // namespace frangia

@@ -8,52 +8,49 @@
 namespace frangia {
 namespace {
 
-/// The mesh around the vertex that is looked at.
+/// The mesh around a vertex.
 struct Surroundings {
   const Mesh& mesh;
   const OneRings& one_rings;
   const std::vector<std::uint8_t>& near_edge;  ///< not 0 near an edge
-  float voxel_mm;
+  const EdgeLimits& limits;
 
   [[nodiscard]] Faces faces_at(std::uint32_t vertex) const {
-    constexpr int kRings = 16;  // more than the reach holds
-    auto around = vertices_within(mesh, one_rings, vertex, kRings, kFaceReach * voxel_mm);
-    const auto doubtful = [&](std::uint32_t v) { return near_edge[v] != 0; };
-    around.erase(std::remove_if(around.begin(), around.end(), doubtful), around.end());
-    return find_faces(mesh, around, mesh.vertices_mm[vertex], voxel_mm);
+    constexpr int kRings = 16;  // more than the reach contains
+    auto around = vertices_within(mesh, one_rings, vertex, kRings, limits.face_reach_mm);
+    const auto uncertain = [&](std::uint32_t v) { return near_edge[v] != 0; };
+    around.erase(std::remove_if(around.begin(), around.end(), uncertain), around.end());
+    return find_faces(mesh, around, mesh.vertices_mm[vertex], limits);
   }
 
-  /// Whether the surface around a vertex is the faces, but for what lies close to their edge.
+  /// Whether all vertices around one lie on the faces or near their edges.
   [[nodiscard]] bool is_made_of(const Faces& faces, std::uint32_t vertex) const {
-    constexpr float kClose = 0.9F;  // voxels
-    constexpr float kReach = 2.0F;
-    constexpr float kOff = 0.08F;
-    constexpr float kSigmas = 3.0F;
-    const auto around = vertices_within(mesh, one_rings, vertex, 2, kReach * voxel_mm);
+    const auto around = vertices_within(mesh, one_rings, vertex, 2, limits.check_reach_mm);
     return std::all_of(around.begin(), around.end(), [&](std::uint32_t v) {
       const Eigen::Vector3f& point = mesh.vertices_mm[v];
       float off = faces.planes[0].absDistance(point);
-      bool close = false;
+      bool near_an_edge = false;
       for (std::size_t a = 1; a < faces.count; ++a) {
         off = std::min(off, faces.planes[a].absDistance(point));
         for (std::size_t b = 0; b < a; ++b) {
           const Eigen::Vector3f edge = intersect_planes(faces.planes[a], faces.planes[b], point);
-          close = close || (edge - point).norm() < kClose * voxel_mm;
+          near_an_edge = near_an_edge || (edge - point).norm() < limits.edge_zone_mm;
         }
       }
-      return close || off < kOff * voxel_mm + kSigmas * mesh.sigma_mm[v];
+      return near_an_edge || off < limits.on_face_mm + limits.on_face_sigmas * mesh.sigma_mm[v];
     });
   }
 };
 
-/// A vertex whose triangles slope as they should is of a face, and stays where it was measured.
+/// A vertex next to a chamfer: it lies on a face and keeps its measured position.
 FeatureVertex face_vertex(const Surroundings& around, std::uint32_t vertex) {
-  constexpr float kAlike = 0.9F;
   FeatureVertex feature;
   feature.target = around.mesh.vertices_mm[vertex];
   feature.faces = around.faces_at(vertex);
   for (std::size_t i = 0; i < feature.faces.count; ++i) {
-    if (feature.faces.planes[i].normal().dot(around.mesh.normals[vertex]) < kAlike) continue;
+    if (feature.faces.planes[i].normal().dot(around.mesh.normals[vertex]) <
+        around.limits.face_vertex_cosine)
+      continue;
     std::swap(feature.faces.planes[0], feature.faces.planes[i]);
     feature.kind = FeatureVertex::Kind::Face;
     break;
@@ -61,41 +58,36 @@ FeatureVertex face_vertex(const Surroundings& around, std::uint32_t vertex) {
   return feature;
 }
 
+/// A vertex on a chamfer: it moves to a corner, an edge or a face of the object.
 FeatureVertex chamfer_vertex(const Surroundings& around, std::uint32_t vertex) {
-  constexpr float kOnCorner = 0.85F;  // voxels
-  constexpr float kOnEdge = 0.45F;
-  constexpr float kOnFace = 0.45F;
   const Eigen::Vector3f& here = around.mesh.vertices_mm[vertex];
   FeatureVertex feature;
   feature.faces = around.faces_at(vertex);
   const auto& planes = feature.faces.planes;
   if (feature.faces.count < 2 || !around.is_made_of(feature.faces, vertex)) return feature;
-  const auto is_near = [&](float voxels) {
-    return (feature.target - here).norm() < voxels * around.voxel_mm;
-  };
+  const auto is_within = [&](float reach_mm) { return (feature.target - here).norm() < reach_mm; };
   if (feature.faces.count == 3) {
     feature.target = intersect_planes(planes, here);
-    if (is_near(kOnCorner)) {
+    if (is_within(around.limits.to_corner_mm)) {
       feature.kind = FeatureVertex::Kind::Corner;
       return feature;
     }
   }
-  if (form_edge(planes[0].normal(), planes[1].normal())) {
+  if (form_edge(planes[0].normal(), planes[1].normal(), around.limits)) {
     feature.target = intersect_planes(planes[0], planes[1], here);
-    if (is_near(kOnEdge)) {
+    if (is_within(around.limits.to_edge_mm)) {
       feature.kind = FeatureVertex::Kind::Edge;
       return feature;
     }
   }
   feature.target = planes[0].projection(here);
-  if (is_near(kOnFace)) feature.kind = FeatureVertex::Kind::Face;
+  if (is_within(around.limits.to_face_mm)) feature.kind = FeatureVertex::Kind::Face;
   return feature;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> chamfer_vertices(const Mesh& mesh) {
-  constexpr float kChamfer = 0.966F;  // cosine of 15 degrees
+std::vector<std::uint32_t> chamfer_vertices(const Mesh& mesh, const EdgeLimits& limits) {
   constexpr std::size_t kChunk = 16384;
   std::vector<std::vector<std::uint32_t>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
   parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -104,7 +96,7 @@ std::vector<std::uint32_t> chamfer_vertices(const Mesh& mesh) {
       const Eigen::Vector3f& origin = mesh.vertices_mm[t[0]];
       const Eigen::Vector3f cross =
           (mesh.vertices_mm[t[1]] - origin).cross(mesh.vertices_mm[t[2]] - origin);
-      const float least = kChamfer * cross.norm();
+      const float least = limits.chamfer_cosine * cross.norm();
       for (const std::uint32_t v : t) {
         if (cross.dot(mesh.normals[v]) < least) parts[begin / kChunk].push_back(v);
       }
@@ -128,13 +120,12 @@ float FeatureVertex::agreement(const Eigen::Vector3f& normal) const {
 FeatureVertices find_feature_vertices(const Mesh& mesh,
                                       const OneRings& one_rings,
                                       std::span<const std::uint32_t> chamfered,
-                                      float voxel_mm) {
+                                      const EdgeLimits& limits) {
   FeatureVertices all;
   all.index_of.assign(mesh.vertices_mm.size(), FeatureVertices::kNone);
   std::vector<std::uint8_t> near_edge(mesh.vertices_mm.size(), 0);
   for (const std::uint32_t v : chamfered) {
-    for (const std::uint32_t other :
-         vertices_within(mesh, one_rings, v, 1, kFaceReach * voxel_mm)) {
+    for (const std::uint32_t other : vertices_within(mesh, one_rings, v, 1, limits.face_reach_mm)) {
       if (all.index_of[other] != FeatureVertices::kNone) continue;
       all.index_of[other] = static_cast<std::uint32_t>(all.vertices.size());
       all.vertices.push_back(other);
@@ -142,7 +133,7 @@ FeatureVertices find_feature_vertices(const Mesh& mesh,
     }
   }
   all.features.resize(all.vertices.size());
-  const Surroundings around{mesh, one_rings, near_edge, voxel_mm};
+  const Surroundings around{mesh, one_rings, near_edge, limits};
   parallel_chunks(all.vertices.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t v = all.vertices[i];

@@ -9,45 +9,46 @@
 
 namespace frangia {
 
-/// Where a vertex beside an edge of the object belongs.
+/// The faces, edge or corner of the object that a vertex near an edge lies on.
 struct FeatureVertex {
   enum class Kind : std::uint8_t { Unknown, Face, Edge, Corner };
 
   Kind kind = Kind::Unknown;
-  Faces faces;                                       ///< first those it lies on
-  Eigen::Vector3f target = Eigen::Vector3f::Zero();  ///< where the vertex goes
+  Faces faces;                                       ///< those it lies on come first
+  Eigen::Vector3f target = Eigen::Vector3f::Zero();  ///< position of the vertex on them
 
   [[nodiscard]] const Faces::Plane& face() const { return faces.planes[0]; }
-  /// The cosine between a normal and the nearest of the faces that the vertex lies on.
+  /// Returns the largest cosine between a normal and the faces that the vertex lies on.
   [[nodiscard]] float agreement(const Eigen::Vector3f& normal) const;
 };
 
-/// The vertices near edges of the object, and what is known of them.
+/// The vertices near edges of the object and their features.
 struct FeatureVertices {
   static constexpr std::uint32_t kNone = ~0U;
 
   std::vector<std::uint32_t> vertices;
-  std::vector<FeatureVertex> features;  ///< one for each of them
-  LargeVector<std::uint32_t> index_of;  ///< of each vertex of the mesh in there, or kNone
+  std::vector<FeatureVertex> features;  ///< one for each of `vertices`
+  LargeVector<std::uint32_t> index_of;  ///< for each vertex of the mesh, or kNone
 
-  /// Null where nothing is known.
+  /// Returns the feature of a vertex of the mesh; null when it is unknown.
   [[nodiscard]] const FeatureVertex* at(std::uint32_t vertex) const {
     const FeatureVertex* found = index_of[vertex] == kNone ? nullptr : &features[index_of[vertex]];
     return found == nullptr || found->kind == FeatureVertex::Kind::Unknown ? nullptr : found;
   }
 };
 
-/// The vertices at triangles that slope otherwise, by 15 degrees, than the views say there: they
-/// are on edges that were cut off. In ascending order.
-[[nodiscard]] std::vector<std::uint32_t> chamfer_vertices(const Mesh& mesh);
+/// Returns the vertices of triangles that deviate from the normals of their vertices by more than
+/// `chamfer_rad`, in ascending order: they lie on edges that sampling cut off.
+[[nodiscard]] std::vector<std::uint32_t> chamfer_vertices(const Mesh& mesh,
+                                                          const EdgeLimits& limits);
 
-/// What the rough vertices, and their neighbours, belong to.
+/// Finds the features of the chamfer vertices and their neighbours.
 ///
-/// The faces are those of the vertices beyond, as far as five voxels. They count where all of the
-/// surface around a vertex is on one of them, but for what lies close to an edge.
+/// The faces are fitted to the vertices beyond, up to `face_reach_voxels` away. They are valid when
+/// all of the surface around a vertex lies on one of them or near one of their edges.
 [[nodiscard]] FeatureVertices find_feature_vertices(const Mesh& mesh,
                                                     const OneRings& one_rings,
                                                     std::span<const std::uint32_t> chamfered,
-                                                    float voxel_mm);
+                                                    const EdgeLimits& limits);
 
 }  // namespace frangia

@@ -9,8 +9,8 @@
 namespace frangia {
 namespace {
 
-/// Offsets of the four cells around an edge along axis a, on axes b = a + 1 and c = a + 2: counter-
-/// clockwise seen from the edge's upper end.
+/// Offsets of the four cells around an edge along axis a, on axes a + 1 and a + 2,
+/// counter-clockwise seen from the edge's upper end.
 constexpr std::array<std::array<int, 2>, 4> kRing{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
 
 Eigen::Vector3i cell_of(const Quad& quad, std::size_t corner) {
@@ -20,8 +20,9 @@ Eigen::Vector3i cell_of(const Quad& quad, std::size_t corner) {
   return cell;
 }
 
-/// Of the two strands of surface through a pinched face, the one around the inside corner that is
-/// lower along the face's first axis gets a vertex of its own.
+/// Whether the quad's side needs an additional vertex on its face. Of the two strands of surface
+/// through a pinched face, the one around the inside corner that is lower along the face's first
+/// axis gets it.
 bool is_pinched(const EdgeCrossings::Neighborhood& around,
                 const Quad& quad,
                 std::size_t side,

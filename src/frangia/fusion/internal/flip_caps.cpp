@@ -13,7 +13,7 @@ namespace {
 
 using Vertex = std::uint32_t;
 
-/// Twice the area vector.
+/// Returns twice the area vector.
 Eigen::Vector3f cross_of(const Mesh& mesh, const Mesh::Triangle& t) {
   const Eigen::Vector3f& origin = mesh.vertices_mm[t[0]];
   return (mesh.vertices_mm[t[1]] - origin).cross(mesh.vertices_mm[t[2]] - origin);
@@ -27,7 +27,7 @@ float height_of(const Mesh& mesh, const Mesh::Triangle& t) {
   return longest > 0.0F ? cross_of(mesh, t).norm() / longest : 0.0F;
 }
 
-/// How much a triangle faces the way its vertices do: the cosine of the angle between.
+/// Returns the cosine of the angle between a triangle and the mean normal of its vertices.
 float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
   const Eigen::Vector3f cross = cross_of(mesh, t);
   const Eigen::Vector3f outward = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
@@ -35,7 +35,7 @@ float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
   return size > 0.0F ? cross.dot(outward) / size : -1.0F;
 }
 
-/// A low triangle, turned so that its longest edge comes first: a, b, and c between them.
+/// A low triangle a, b, c, rotated so that a-b is its longest edge.
 struct Cap {
   std::uint32_t triangle;
   Vertex a, b, c;
@@ -60,7 +60,8 @@ std::vector<Cap> find_caps(const Mesh& mesh,
   return caps;
 }
 
-/// The triangle on the other side of the cap's longest edge; the cap itself at the rim.
+/// Returns the triangle on the other side of the cap's longest edge; the cap itself at the
+/// boundary.
 std::uint32_t across(const Mesh& mesh, const SelectedOneRings& one_rings, const Cap& cap) {
   for (const std::uint32_t t : one_rings.of(cap.a)) {
     if (t != cap.triangle && has_vertex(mesh.triangles[t], cap.b)) return t;

@@ -5,11 +5,11 @@
 
 namespace frangia {
 
-/// Turns the longest edge of each triangle that is lower than `lowest_mm`, in place, so that its
-/// three corners no longer lie in a row.
+/// Flips the longest edge of each triangle lower than `lowest_mm`, in place. Returns whether any
+/// edge was flipped.
 ///
-/// Nothing is turned that would fold a triangle over or make the mesh non-manifold. Returns whether
-/// any was. `rough` tells what to look at; those around what was turned are added.
+/// No flip folds a triangle over or makes the mesh non-manifold. `candidates` are the triangles to
+/// examine; those around flipped edges are added.
 bool flip_caps(Mesh& mesh, float lowest_mm, SliverCandidates& candidates);
 
 }  // namespace frangia

@@ -32,8 +32,9 @@ HermiteSample lesser_sample(const EdgeCrossings& crossings,
 }
 
 HermiteSamples make_hermite_samples(const EdgeCrossings& crossings,
-                                    const HermiteAccumulators& hermite) {
-  constexpr float kMinShare = 0.1F;  // of the main face's weight
+                                    const HermiteAccumulators& hermite,
+                                    const HermiteParameters& parameters) {
+  const auto min_share = static_cast<float>(parameters.lesser_share);
   HermiteSamples samples(hermite.size());
   parallel_chunks(hermite.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -43,7 +44,7 @@ HermiteSamples make_hermite_samples(const EdgeCrossings& crossings,
       const HermiteAccumulator::PlaneSum& side = hermite.lesser(i);
       samples[i] = sample_of(crossings.points_mm[i], main);
       samples[i].common_variance = hermite[i].common_variance;
-      samples[i].has_lesser = side.views != 0 && side.weight >= kMinShare * main.weight;
+      samples[i].has_lesser = side.views != 0 && side.weight >= min_share * main.weight;
     }
   });
   return samples;

@@ -10,29 +10,28 @@
 
 namespace frangia {
 
-/// The surface at one crossing, as most of the views that saw it say: what the four cells around it
-/// take.
+/// Position and normal of the surface at one crossing, from the face with the largest weight.
 ///
 /// units    mm, object frame
 struct HermiteSample {
-  Eigen::Vector3f point;   ///< of the surface, nearest to the crossing
+  Eigen::Vector3f point;   ///< on the surface, nearest to the crossing
   Eigen::Vector3f normal;  ///< unit
-  float noise_mm;          ///< what the views' noise leaves of itself
-  float spacing_mm;        ///< of pixels
-  float common_variance;   ///< variance that does not average away between neighbours
+  float noise_mm;          ///< standard deviation from independent noise
+  float spacing_mm;        ///< of pixels on the surface
+  float common_variance;   ///< variance common to neighbouring crossings
   std::uint16_t views;
-  bool supported;  ///< see `HermiteAccumulators::is_supported`; the rest says nothing where it does
-                   ///< not
-  bool has_lesser;  ///< another face runs near, and more than chance speaks for it
+  bool supported;   ///< see `HermiteAccumulators::is_supported`; otherwise the rest is undefined
+  bool has_lesser;  ///< a second face near the crossing has enough weight to count
 };
 
 using HermiteSamples = ChunkedVector<HermiteSample>;
 
-/// One facet a crossing.
+/// Returns one sample for each crossing.
 [[nodiscard]] HermiteSamples make_hermite_samples(const EdgeCrossings& crossings,
-                                                  const HermiteAccumulators& hermite);
+                                                  const HermiteAccumulators& hermite,
+                                                  const HermiteParameters& parameters = {});
 
-/// The plane of the other face near a crossing.
+/// Returns the sample of the second face near a crossing, the one with less weight.
 [[nodiscard]] HermiteSample lesser_sample(const EdgeCrossings& crossings,
                                           const HermiteAccumulators& hermite,
                                           std::size_t crossing);

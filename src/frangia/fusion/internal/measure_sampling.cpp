@@ -1,20 +1,11 @@
 #include "frangia/fusion/internal/measure_sampling.h"
 
-#include <algorithm>
+#include <span>
 #include <vector>
 
+#include "frangia/core/median.h"
+
 namespace frangia {
-namespace {
-
-float median(std::vector<float>& values) {
-  if (values.empty()) return 0.0F;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
 Sampling measure_sampling(const ViewStore& views, const CameraRays& camera, const Run& run) {
   constexpr int kRows = 16;
   std::vector<float> gaps;
@@ -24,7 +15,7 @@ Sampling measure_sampling(const ViewStore& views, const CameraRays& camera, cons
     run.check();
     const RangeGrid range = views.load(i).range;
     require(same_size(range.depth_mm, camera.rays),
-            "a view's size is not that of the rig's camera");
+            "the size of a view differs from that of the rig's camera");
     const auto point = [&](int x, int y) -> Eigen::Vector3f {
       return range.depth_mm(x, y) * camera.rays(x, y).homogeneous();
     };
@@ -38,8 +29,8 @@ Sampling measure_sampling(const ViewStore& views, const CameraRays& camera, cons
     }
   }
   sampling.points *= kRows;
-  sampling.spacing_mm = median(gaps);
-  sampling.sigma_mm = median(sigmas);
+  sampling.spacing_mm = median_in_place(std::span(gaps));
+  sampling.sigma_mm = median_in_place(std::span(sigmas));
   return sampling;
 }
 

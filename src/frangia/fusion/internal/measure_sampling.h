@@ -8,16 +8,17 @@
 
 namespace frangia {
 
-/// How densely and how well the views saw the object.
+/// Density and noise of the points of all views.
 struct Sampling {
   std::size_t points = 0;
   double spacing_mm = 0.0;  ///< median distance between the points of neighbouring pixels
   double sigma_mm = 0.0;    ///< median, along the ray
 };
 
-/// Looks at every 16th row of each view.
+/// Measures the sampling on every 16th row of each view.
 ///
-/// missing  without a point all are 0
+/// missing  all members are 0 when no view holds a point
+/// errors   Error(Input) when the size of a view differs from the camera's
 [[nodiscard]] Sampling measure_sampling(const ViewStore& views,
                                         const CameraRays& camera,
                                         const Run& run = {});

@@ -20,14 +20,17 @@
 namespace frangia {
 namespace {
 
-constexpr float kSliver = 0.1F;  // voxels: shorter edges are not worth their triangles
-
-/// How a quad reads when cut between corners `from` and `from + 2`.
+/// The two triangles of a quad that is cut between corners `from` and `from + 2`.
 struct Diagonal {
   bool unflipped = true;  ///< neither triangle faces inward
-  bool folded = false;    ///< one does, and is more than a sliver
-  float away_mm = 0.0F;   ///< of the cut's middle from the surface at the crossing
+  bool folded = false;    ///< one faces inward and is larger than a sliver
+  float away_mm = 0.0F;   ///< distance of the diagonal's middle from the plane at the crossing
   float length_mm = 0.0F;
+};
+
+struct QuadLimits {
+  float sliver_mm2;          ///< twice the area below which an inward triangle is a sliver
+  float diagonal_tolerance;  ///< see `CleanupParameters`
 };
 
 /// Corners of a quad, counter-clockwise from outside.
@@ -39,35 +42,34 @@ Ring ring_of(const Quad& quad, const EdgeCrossings& crossings) {
   return ring;
 }
 
-/// One of the two triangles beside the cut from a corner.
+/// Returns one of the two triangles next to the diagonal from a corner.
 Mesh::Triangle half_of(const Ring& ring, std::size_t from, std::size_t half) {
   const std::size_t start = from + 2 * half;
   return {ring[start % 4], ring[(start + 1) % 4], ring[(start + 2) % 4]};
 }
 
-/// The surface at a crossing: its plane, and which way out is along the grid's edge.
-struct Surface {
+/// The surface at a crossing.
+struct CrossingPlane {
   Eigen::Hyperplane<float, 3> plane;
-  Eigen::Vector3f outward;
-  float voxel_mm = 0.0F;
+  Eigen::Vector3f outward;  ///< direction of the grid edge, towards the outside
 };
 
-Surface surface_at(const EdgeCrossings& crossings,
-                   const HermiteAccumulators& hermite,
-                   std::uint32_t crossing) {
+CrossingPlane plane_at(const EdgeCrossings& crossings,
+                       const HermiteAccumulators& hermite,
+                       std::uint32_t crossing) {
   const HermiteAccumulator::PlaneSum& face = hermite.dominant(crossing);
   const Eigen::Vector3f normal = face.normal.normalized();
   const int axis = std::abs(crossings.outward[crossing]) - 1;
   const float sign = crossings.outward[crossing] > 0 ? 1.0F : -1.0F;
   return {{normal, crossings.points_mm[crossing] - normal * face.distance_mm()},
-          sign * Eigen::Vector3f::Unit(axis),
-          static_cast<float>(crossings.voxel_mm)};
+          sign * Eigen::Vector3f::Unit(axis)};
 }
 
 Diagonal evaluate_diagonal(const Mesh& mesh,
                            const Ring& ring,
                            std::size_t from,
-                           const Surface& surface) {
+                           const CrossingPlane& surface,
+                           float sliver_mm2) {
   const Eigen::Vector3f& one = mesh.vertices_mm[ring[from]];
   const Eigen::Vector3f& other = mesh.vertices_mm[ring[(from + 2) % 4]];
   Diagonal cut;
@@ -78,23 +80,28 @@ Diagonal evaluate_diagonal(const Mesh& mesh,
     const Eigen::Vector3f& origin = mesh.vertices_mm[triangle[0]];
     const Eigen::Vector3f cross =
         (mesh.vertices_mm[triangle[1]] - origin).cross(mesh.vertices_mm[triangle[2]] - origin);
-    // Against the edge of the grid, which a triangle within the cells never is, or the plane.
+    // A triangle within the cells always faces along the grid edge.
     const float facing = std::max(cross.dot(surface.outward), cross.dot(surface.plane.normal()));
     cut.unflipped = cut.unflipped && facing > 0.0F;
-    cut.folded = cut.folded || facing < -kSliver * surface.voxel_mm * surface.voxel_mm;
+    cut.folded = cut.folded || facing < -sliver_mm2;
   }
   return cut;
 }
 
-/// The cut that folds no triangle over, then stays on the surface, then is short.
-void choose_diagonal(Quad& quad, const Mesh& mesh, const Ring& ring, const Surface& surface) {
-  const Diagonal one = evaluate_diagonal(mesh, ring, 0, surface);
-  const Diagonal other = evaluate_diagonal(mesh, ring, 1, surface);
+/// Chooses the diagonal that folds no triangle, else the one nearer to the surface, else the
+/// shorter one.
+void choose_diagonal(Quad& quad,
+                     const Mesh& mesh,
+                     const Ring& ring,
+                     const CrossingPlane& surface,
+                     const QuadLimits& limits) {
+  const Diagonal one = evaluate_diagonal(mesh, ring, 0, surface, limits.sliver_mm2);
+  const Diagonal other = evaluate_diagonal(mesh, ring, 1, surface, limits.sliver_mm2);
   const bool second = [&] {
-    constexpr float kAlike = 0.02F;  // of the cut's length
     if (one.folded != other.folded) return one.folded;
     if (one.unflipped != other.unflipped) return other.unflipped;
-    if (std::abs(one.away_mm - other.away_mm) > kAlike * (one.length_mm + other.length_mm))
+    if (std::abs(one.away_mm - other.away_mm) >
+        limits.diagonal_tolerance * (one.length_mm + other.length_mm))
       return other.away_mm < one.away_mm;
     return other.length_mm < one.length_mm;
   }();
@@ -105,17 +112,21 @@ void choose_diagonal(Quad& quad, const Mesh& mesh, const Ring& ring, const Surfa
 void choose_diagonals(Quads& quads,
                       const Mesh& mesh,
                       const EdgeCrossings& crossings,
-                      const HermiteAccumulators& hermite) {
+                      const HermiteAccumulators& hermite,
+                      const QuadLimits& limits) {
   parallel_chunks(quads.size(), 1, [&](std::size_t part, std::size_t) {
     for (Quad& quad : quads[part]) {
-      choose_diagonal(
-          quad, mesh, ring_of(quad, crossings), surface_at(crossings, hermite, quad.crossing));
+      choose_diagonal(quad,
+                      mesh,
+                      ring_of(quad, crossings),
+                      plane_at(crossings, hermite, quad.crossing),
+                      limits);
     }
   });
 }
 
-/// Pulls the vertices of quads that fold, or are pinched, back into their cells; false when there
-/// are none.
+/// Returns the vertices of quads that are folded or pinched to their cells; returns false without
+/// such quads.
 bool return_to_cells(const Quads& quads, PlacedVertices& vertices) {
   bool any = false;
   for (const auto& part : quads) {
@@ -144,7 +155,7 @@ void add_triangles(Mesh& mesh, const EdgeCrossings& crossings, const Quads& quad
   }
 }
 
-std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t like) {
+std::uint32_t copy_vertex_to(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t like) {
   mesh.vertices_mm.push_back(point);
   mesh.normals.push_back(mesh.normals[like]);
   mesh.sigma_mm.push_back(mesh.sigma_mm[like]);
@@ -152,7 +163,8 @@ std::uint32_t add_vertex(Mesh& mesh, const Eigen::Vector3f& point, std::uint32_t
   return static_cast<std::uint32_t>(mesh.vertices_mm.size() - 1);
 }
 
-/// Fans of triangles around the crossings of pinched quads, with the vertices on their faces.
+/// Adds a fan of triangles around the crossing of each pinched quad, with vertices on its pinched
+/// faces.
 void add_pinched(Mesh& mesh, const EdgeCrossings& crossings, const Quads& quads) {
   std::vector<Quad> pinched;
   for (const auto& part : quads) {
@@ -171,16 +183,16 @@ void add_pinched(Mesh& mesh, const EdgeCrossings& crossings, const Quads& quads)
       const std::tuple key{low.x(), low.y(), low.z(), face_axis(quad, side)};
       const auto found = on_face.find(key);
       if (found == on_face.end()) {
-        const std::uint32_t vertex = add_vertex(mesh, point, quad.ring[side]);
+        const std::uint32_t vertex = copy_vertex_to(mesh, point, quad.ring[side]);
         on_face.emplace(key, vertex);
         ring.push_back(vertex);
-      } else {  // the second of the strand's two quads: halfway between their crossings
+      } else {  // the second of the two quads at the face: halfway between their crossings
         mesh.vertices_mm[found->second] = 0.5F * (mesh.vertices_mm[found->second] + point);
         ring.push_back(found->second);
       }
     }
     if (crossings.outward[quad.crossing] < 0) std::reverse(ring.begin(), ring.end());
-    const std::uint32_t center = add_vertex(mesh, point, ring[0]);
+    const std::uint32_t center = copy_vertex_to(mesh, point, ring[0]);
     for (std::size_t i = 0; i < ring.size(); ++i) {
       mesh.triangles.push_back({center, ring[i], ring[(i + 1) % ring.size()]});
     }
@@ -191,22 +203,26 @@ void add_pinched(Mesh& mesh, const EdgeCrossings& crossings, const Quads& quads)
 
 Mesh mesh_quads(PlacedVertices vertices,
                 const EdgeCrossings& crossings,
-                const HermiteAccumulators& hermite) {
+                const HermiteAccumulators& hermite,
+                const FusionParameters& parameters) {
+  const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
+  const float sliver_mm = static_cast<float>(parameters.cleanup.sliver_voxels) * voxel_mm;
+  const QuadLimits limits{sliver_mm * voxel_mm,
+                          static_cast<float>(parameters.cleanup.diagonal_tolerance)};
   Mesh& mesh = vertices.mesh;
   Quads quads = find_quads(crossings, hermite);
-  choose_diagonals(quads, mesh, crossings, hermite);
-  constexpr int kRounds = 3;  // pulling one quad's vertices back may fold the next
-  for (int round = 0; round < kRounds && return_to_cells(quads, vertices); ++round)
-    choose_diagonals(quads, mesh, crossings, hermite);
+  choose_diagonals(quads, mesh, crossings, hermite, limits);
+  constexpr int kMostPasses = 3;  // returning one quad's vertices may fold its neighbour
+  for (int pass = 0; pass < kMostPasses && return_to_cells(quads, vertices); ++pass)
+    choose_diagonals(quads, mesh, crossings, hermite, limits);
   add_triangles(mesh, crossings, quads);
   add_pinched(mesh, crossings, quads);
   quads = {};
 
-  const auto voxel_mm = static_cast<float>(crossings.voxel_mm);
-  remove_slivers(mesh, vertices.sharp, kSliver * voxel_mm);
-  const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm);
-  remove_slivers(mesh, sharp, kSliver * voxel_mm);
-  remove_foldovers(mesh, sharp);
+  remove_slivers(mesh, vertices.sharp, sliver_mm, parameters.cleanup);
+  const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm, parameters.edges);
+  remove_slivers(mesh, sharp, sliver_mm, parameters.cleanup);
+  remove_foldovers(mesh, sharp, parameters.cleanup);
 
   return std::move(vertices.mesh);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "frangia/fusion/fusion_parameters.h"
 #include "frangia/fusion/internal/edge_crossings.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
 #include "frangia/fusion/internal/place_vertices.h"
@@ -7,15 +8,17 @@
 
 namespace frangia {
 
-/// Joins the vertices of `place_vertices`: around each crossing that the views hold up, the quad of
-/// the four cells that share its edge, cut along the diagonal that follows the surface.
+/// Connects the vertices of `place_vertices` to a triangle mesh with sharp edges and without
+/// slivers.
 ///
-/// No edge is in more than two triangles: where two neighbouring cells share a face that one sheet
-/// of surface crosses twice, a vertex on the face keeps the two edges apart.
-/// Vertices that would fold a triangle over go back into their cells, where none can.
-/// missing  no quad where a cell has an unseen corner, nor where no view saw the surface
+/// Each supported crossing gets the quad of the four cells around its grid edge, cut along the
+/// diagonal that follows the surface. The mesh is manifold: where one sheet of the surface crosses
+/// the face between two cells twice, an additional vertex on the face separates the two edges.
+/// Vertices that fold a triangle over return to their cells, where no triangle can fold.
+/// missing  no quad where a cell has a corner without a distance, nor at an unsupported crossing
 [[nodiscard]] Mesh mesh_quads(PlacedVertices vertices,
                               const EdgeCrossings& crossings,
-                              const HermiteAccumulators& hermite);
+                              const HermiteAccumulators& hermite,
+                              const FusionParameters& parameters = {});
 
 }  // namespace frangia

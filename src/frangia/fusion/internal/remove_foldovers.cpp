@@ -1,7 +1,7 @@
 #include "frangia/fusion/internal/remove_foldovers.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -15,7 +15,7 @@ namespace {
 
 using Vertex = std::uint32_t;
 
-/// How a triangle faces by the normals of its corners: the cosine of the angle between.
+/// Returns the cosine of the angle between a triangle and the mean normal of its vertices.
 float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
   const Eigen::Vector3f& origin = mesh.vertices_mm[t[0]];
   const Eigen::Vector3f cross =
@@ -25,7 +25,7 @@ float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
   return size > 0.0F ? cross.dot(outward) / size : 0.0F;
 }
 
-/// The triangles that are less upright than `least`.
+/// Returns the triangles whose normal agreement is below `least`.
 std::vector<std::uint32_t> find_foldovers(const Mesh& mesh, float least) {
   constexpr std::size_t kChunk = 65536;
   std::vector<std::vector<std::uint32_t>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
@@ -41,21 +41,21 @@ std::vector<std::uint32_t> find_foldovers(const Mesh& mesh, float least) {
   return foldovers;
 }
 
-/// How much of the triangles around a vertex is folded: 0 when nothing is.
+/// Returns how far the triangles around a vertex are folded: the sum of what their normal agreement
+/// lacks to kUpright.
 float foldover_measure(const Mesh& mesh, const SelectedOneRings& one_rings, Vertex v) {
-  constexpr float kUpright = 0.4F;
+  constexpr float kUpright = 0.4F;  // cosine, a little above that of a foldover
   float sum = 0.0F;
   for (const std::uint32_t t : one_rings.of(v))
     sum += std::max(0.0F, kUpright - normal_agreement(mesh, mesh.triangles[t]));
   return sum;
 }
 
-/// Moves a vertex along the surface to the middle of its neighbours, when that unfolds more than it
-/// folds.
+/// Moves a vertex along the surface to the mean of its neighbours if that reduces the foldovers.
 void relax_tangentially(Mesh& mesh, const SelectedOneRings& one_rings, Vertex v) {
   const std::vector<Vertex> around = one_ring_neighbors(mesh, one_rings, v);
   for (std::size_t i = 0; i < around.size(); i += 2) {
-    if (i + 1 == around.size() || around[i] != around[i + 1]) return;  // at the rim
+    if (i + 1 == around.size() || around[i] != around[i + 1]) return;  // at the boundary
   }
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
   for (const Vertex other : around)
@@ -68,7 +68,7 @@ void relax_tangentially(Mesh& mesh, const SelectedOneRings& one_rings, Vertex v)
   if (foldover_measure(mesh, one_rings, v) >= folded) mesh.vertices_mm[v] = before;
 }
 
-/// Whether no other triangle is on one of its edges.
+/// Whether one of the triangle's edges is at the boundary.
 bool is_at_boundary(const Mesh& mesh, const SelectedOneRings& one_rings, std::uint32_t triangle) {
   const Mesh::Triangle& corners = mesh.triangles[triangle];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -95,11 +95,12 @@ void erase_triangles(Mesh& mesh, const std::vector<std::uint32_t>& ascending) {
 
 enum class FoldoverAction : std::uint8_t { Relax, Remove };
 
-/// Deals with the triangles that are less upright than `least`; false when there is none.
+/// Relaxes or removes the triangles whose normal agreement is below `least`; returns false without
+/// any.
 bool treat_foldovers(Mesh& mesh,
                      std::span<const std::uint8_t> sharp,
                      float least,
-                     FoldoverAction what) {
+                     FoldoverAction action) {
   const std::vector<std::uint32_t> foldovers = find_foldovers(mesh, least);
   if (foldovers.empty()) return false;
   std::vector<SelectedOneRings::Edge> corners;
@@ -110,7 +111,7 @@ bool treat_foldovers(Mesh& mesh,
   const SelectedOneRings one_rings(mesh, corners);
   std::vector<std::uint32_t> removed;
   for (const std::uint32_t t : foldovers) {
-    if (what == FoldoverAction::Remove || is_at_boundary(mesh, one_rings, t)) {
+    if (action == FoldoverAction::Remove || is_at_boundary(mesh, one_rings, t)) {
       removed.push_back(t);
       continue;
     }
@@ -124,11 +125,13 @@ bool treat_foldovers(Mesh& mesh,
 
 }  // namespace
 
-void remove_foldovers(Mesh& mesh, std::span<const std::uint8_t> sharp) {
-  constexpr int kRounds = 4;
-  constexpr float kLeans = 0.35F;  // 70 degrees off what the views say: nobody saw that
-  for (int round = 0; round < kRounds; ++round) {
-    if (!treat_foldovers(mesh, sharp, kLeans, FoldoverAction::Relax)) break;
+void remove_foldovers(Mesh& mesh,
+                      std::span<const std::uint8_t> sharp,
+                      const CleanupParameters& parameters) {
+  constexpr int kMostPasses = 4;
+  const auto foldover_cosine = static_cast<float>(std::cos(parameters.foldover_rad));
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (!treat_foldovers(mesh, sharp, foldover_cosine, FoldoverAction::Relax)) break;
   }
   treat_foldovers(mesh, sharp, 0.0F, FoldoverAction::Remove);
 }

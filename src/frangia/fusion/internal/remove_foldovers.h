@@ -3,18 +3,21 @@
 #include <cstdint>
 #include <span>
 
+#include "frangia/fusion/fusion_parameters.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// Lays folds out flat, in place: triangles that face against the normals of their corners, or lean
-/// more than 70 degrees off them.
+/// Removes foldovers, in place: triangles that deviate from the normals of their vertices by more
+/// than `foldover_rad`.
 ///
-/// Where noise is as large as triangles, a vertex may come to lie beyond its neighbours. It moves
-/// along the surface, not across it, towards their middle; at the rim, where that would move the
-/// rim, the triangle goes. What faces inward all the same is taken away, too.
-/// shape    `sharp`: not 0 for a vertex on an edge or a corner of the object, which stays where it
-/// is
-void remove_foldovers(Mesh& mesh, std::span<const std::uint8_t> sharp);
+/// Where noise is as large as the triangles, a vertex may lie beyond its neighbours. It is relaxed
+/// towards their mean along the surface, not across it. At the boundary the triangle is removed
+/// instead. Triangles that still face inward after that are removed, too.
+/// shape    `sharp`: not 0 for a vertex on an edge or a corner of the object, which does not move;
+///          it may be shorter than the list of vertices
+void remove_foldovers(Mesh& mesh,
+                      std::span<const std::uint8_t> sharp,
+                      const CleanupParameters& parameters = {});
 
 }  // namespace frangia

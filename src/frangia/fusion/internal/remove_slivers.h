@@ -3,14 +3,17 @@
 #include <cstdint>
 #include <span>
 
+#include "frangia/fusion/fusion_parameters.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// Takes slivers and caps away, in place: what is lower than `lowest_mm`, edges shorter than twice
-/// that.
+/// Removes triangles lower than `lowest_mm` and edges shorter than twice that, in place.
 ///
 /// shape    `sharp`: see `collapse_slivers`
-void remove_slivers(Mesh& mesh, std::span<const std::uint8_t> sharp, float lowest_mm);
+void remove_slivers(Mesh& mesh,
+                    std::span<const std::uint8_t> sharp,
+                    float lowest_mm,
+                    const CleanupParameters& parameters = {});
 
 }  // namespace frangia

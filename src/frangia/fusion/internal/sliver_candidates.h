@@ -10,15 +10,15 @@ namespace frangia {
 /// Whether a triangle's height over its longest edge is below `lowest_mm`.
 [[nodiscard]] bool is_low(const Mesh& mesh, const Mesh::Triangle& t, float lowest_mm);
 
-/// The few triangles of a mesh that may be slivers or caps: all others need no second look.
+/// The few triangles of a mesh that may be slivers or caps.
 class SliverCandidates {
  public:
-  /// Those with an edge shorter than `shortest_mm`, or lower than `lowest_mm`.
+  /// Collects triangles with an edge shorter than `shortest_mm` or a height below `lowest_mm`.
   SliverCandidates(const Mesh& mesh, float shortest_mm, float lowest_mm);
 
-  /// Ascending, each once.
+  /// The candidates in ascending order.
   [[nodiscard]] const std::vector<std::uint32_t>& triangles() const { return triangles_; }
-  /// Adds some, ascending, that have changed or whose neighbours have.
+  /// Adds triangles in ascending order that have changed or whose neighbours have.
   void add(const std::vector<std::uint32_t>& triangles);
 
  private:

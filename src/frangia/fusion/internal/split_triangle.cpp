@@ -10,7 +10,7 @@ void add(SplitTriangle& t, std::size_t a, std::size_t b, std::size_t c) {
       static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(c)};
 }
 
-/// The corner between two points, and the four-sided rest along its shorter diagonal.
+/// Cuts off the corner between two points, and the remaining quad along its shorter diagonal.
 void cut_corner(SplitTriangle& t, std::size_t corner) {
   const std::size_t next = (corner + 1) % 3;
   const std::size_t last = (corner + 2) % 3;

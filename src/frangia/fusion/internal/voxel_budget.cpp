@@ -14,23 +14,33 @@
 namespace frangia {
 namespace {
 
-/// Measured on a sphere: of the blocks this share is crossed, 64 times each, and a crossing makes
-/// two triangles and a vertex, which are copied once.
+/// Share of the blocks that the surface of a sphere crosses, and the crossings of such a block.
+/// VoxelBudget.AssumesTheCrossingsOfASphere measures both; the budget is linear in either.
+constexpr double kCrossedShare = 0.63;
+constexpr double kCrossingsPerBlock = 64.0;
+
+/// A crossing makes two triangles and one vertex. Their list exists twice while `clean_mesh` runs.
+constexpr double kMeshBytesPerCrossing = 170.0;
+
 constexpr double kBytesPerBlock =
     sizeof(DistanceField::Block) +
-    0.63 * (sizeof(EdgeCrossings::Block) +
-            64.0 * (sizeof(HermiteAccumulator) + sizeof(HermiteAccumulator::PlaneSum) +
-                    sizeof(HermiteSample) + 170.0));
+    kCrossedShare *
+        (sizeof(EdgeCrossings::Block) +
+         kCrossingsPerBlock * (sizeof(HermiteAccumulator) + sizeof(HermiteAccumulator::PlaneSum) +
+                               sizeof(HermiteSample) + kMeshBytesPerCrossing));
 
-/// Blocks for each that the surface of one view would fill: they reach into the neighbours.
+/// Allocated blocks over the blocks that the area of a view would fill if it were flat and along
+/// the grid: the band reaches into neighbouring blocks. It is a lower bound, so that no voxel size
+/// is refused that fits.
 constexpr double kBlocksPerFlatOne = 1.8;
 
 }  // namespace
 
 void VoxelBudget::check(double blocks) const {
   if (blocks <= static_cast<double>(max_blocks)) return;
-  // Blocks finer than the points are apart leave gaps that coarser ones fill: the size named must
-  // fit.
+  // Voxels finer than the point spacing leave gaps that coarser voxels close, so the number of
+  // blocks falls more slowly than the area in blocks. FuseViews.RefusesVoxelsThatDoNotFit... fuses
+  // with the size that the message names.
   constexpr double kSpare = 2.4;
   const double needed_gb = blocks * kBytesPerBlock * 1e-9;
   throw Error(

@@ -6,18 +6,23 @@
 
 namespace frangia {
 
-/// How many blocks of voxels there is memory for.
+/// The number of voxel blocks that fit into memory.
 struct VoxelBudget {
   double voxel_mm = 0.0;
   std::size_t max_blocks = 0;
 
-  /// errors   Error(Input) that names a size that fits, when `blocks` are too many
+  /// errors   Error(Input) when `blocks` exceeds the budget; the message names a voxel size that
+  /// fits
   void check(double blocks) const;
-  /// The same before any block is made: one view alone cannot need more than all of them.
+  /// Checks a lower bound before any block is allocated: the blocks of one average view.
+  ///
+  /// errors   as above
   void check(const Sampling& sampling, std::size_t views) const;
 };
 
-/// shape    `max_memory_mb` 0 is half of the machine's
+/// Returns the budget for a voxel size.
+///
+/// shape    `max_memory_mb` 0 stands for half of the machine's memory
 [[nodiscard]] VoxelBudget voxel_budget(double voxel_mm, std::size_t max_memory_mb);
 
 }  // namespace frangia

@@ -1,0 +1,164 @@
+#pragma once
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+
+// Heuristic thresholds of the fusion. No length is absolute: lengths are in voxels, in pixels, in
+// pixel spacings on the surface or in sigmas of the points. docs/parameters.md lists what half and
+// double of each do to the meshes of six small scans; tools/sensitivity.py measures that table.
+
+/// The voxel size and the signed distance field.
+struct FieldParameters {
+  /// Automatic voxel size: at least this many pixel spacings. Smaller voxels add triangles, not
+  /// information.
+  double voxel_spacings = 1.5;
+  /// Automatic voxel size: at least this many sigmas of a point.
+  double voxel_sigmas = 3.0;
+  /// Sigmas that are added to each depth of the truncation band.
+  double band_sigmas = 4.0;
+  /// Depth of the truncation band in front of the surface, voxels. A cell's diagonal is 1.7.
+  double front_voxels = 3.0;
+  /// Depth of the truncation band behind the surface, voxels.
+  double back_voxels = 2.0;
+  /// Depth behind the surface at which the weight has fallen to a quarter, voxels.
+  double falloff_voxels = 0.5;
+  /// A view observes the same surface as another within this distance, voxels.
+  double near_voxels = 0.75;
+  /// The field samples a view at pixels no farther apart than this, voxels.
+  double max_pixel_step_voxels = 1.2;
+  /// Distance that planes are extrapolated beyond the boundary of a view's data, voxels.
+  double extrapolate_voxels = 2.0;
+  /// Weight of an extrapolated distance, 1 / voxel^2. It is far below that of any measurement,
+  /// 1 / sigma^2, so it only counts where there is no measurement.
+  double extrapolated_weight = 1e-6;
+  /// Weight of a voxel deeper than the band, 1 / voxel^2, far below `extrapolated_weight`. It fills
+  /// the inner corners of cells at the boundary of the data.
+  double deep_weight = 1e-9;
+  /// Depth to which `deep_weight` is added, in depths of the band behind the surface.
+  double deep_bands = 10.0;
+  /// Largest difference of the distances at the ends of a crossed edge, voxels. A distance changes
+  /// by at most 1; a larger step separates two surfaces.
+  double max_step_voxels = 2.5;
+};
+
+/// What each view contributes to a crossing, and how the variances combine.
+struct HermiteParameters {
+  /// Normals that differ by less belong to one face.
+  double same_face_rad = rad_from_deg(37.0);
+  /// A normal at more than this angle to the outward direction of the crossed edge belongs to the
+  /// back of a thin wall.
+  double back_face_rad = rad_from_deg(107.5);
+  /// A point so far behind a view's surface is hidden, in distances at which surfaces are the same.
+  double hidden_bands = 2.0;
+  /// Radius around the pixel within which free space must be observed on all sides, px.
+  double clear_sight_px = 4.0;
+  /// Distance that the surface at that radius must lie behind the point, as a share of that at the
+  /// pixel.
+  double clear_sight_share = 0.5;
+  /// Weight of free space over the weight of the surface observed behind it. The points that speak
+  /// for a surface may be smoothed over 7 x 7 pixels, which raises their weight by this factor:
+  /// 147 / 11, the inverse of `value_variance(3)`. The points behind may not be smoothed at all.
+  double free_space_factor = 147.0 / 11.0;
+  /// Weight of a point half a pixel beyond the boundary of the data, as a share of the pixel's.
+  double boundary_share = 0.1;
+  /// Largest incidence at which such a point counts.
+  double boundary_incidence_rad = rad_from_deg(72.5);
+  /// The same where the plane was fitted to 3 x 3 pixels, whose slope is less certain.
+  double small_window_incidence_rad = rad_from_deg(60.0);
+  /// Variance that bilinear interpolation leaves of a smoothed pixel's, as a share.
+  double interpolated_variance = 0.73;
+  /// Error of lens model and pixel response within the image, px.
+  double lateral_px = 0.02;
+  /// RMS error of the position of a pixel at the boundary of the data, px: the part fills a share
+  /// of its square between 1 and 1/2, so the centroid of that share is off by 0 to 1/4, evenly
+  /// distributed: 1 / (4 sqrt 3).
+  double boundary_lateral_px = 0.144;
+  /// A second face counts from this share of the weight of the first.
+  double lesser_share = 0.1;
+};
+
+/// Vertex placement.
+struct VertexParameters {
+  /// Eigenvalues of sum n n^T below this share of the largest are noise. Two faces that meet at
+  /// less than 25 degrees count as one.
+  double min_eigenvalue = 0.05;
+  /// Planes within this angle of their mean are parallel.
+  double parallel_rad = rad_from_deg(14.0);
+  /// Distance that a vertex may leave its cell by, voxels: an edge of the object can run where the
+  /// grid has no crossing.
+  double max_excursion_voxels = 0.5;
+  /// Half the width over which the error of smoothed pixels is correlated, px.
+  double correlation_px = 1.6;
+};
+
+/// Reconstruction of sharp edges and corners.
+struct EdgeParameters {
+  /// A triangle that deviates from the normals of its vertices by more is part of a chamfer.
+  double chamfer_rad = rad_from_deg(15.0);
+  /// Radius within which the vertices of a face are collected, voxels.
+  double face_reach_voxels = 5.0;
+  /// Fewest vertices of a face.
+  double min_face_vertices = 5.0;
+  /// Vertices of one face: largest angle between their normals.
+  double face_normal_rad = rad_from_deg(20.0);
+  /// Vertices of one face: largest distance from the plane of the seed, voxels.
+  double face_offset_voxels = 0.25;
+  /// Largest RMS distance of a face's vertices from their plane, voxels, ...
+  double flat_voxels = 0.03;
+  /// ... plus this many sigmas.
+  double flat_sigmas = 2.0;
+  /// Smallest RMS extent of a face across its longest direction, voxels.
+  double face_width_voxels = 0.2;
+  /// Two faces form an edge from this angle ...
+  double min_edge_rad = rad_from_deg(29.5);
+  /// ... to this angle. A knife edge is not determined by its faces.
+  double max_edge_rad = rad_from_deg(140.0);
+  /// Radius around a chamfer vertex within which all vertices must lie on its faces, voxels.
+  double check_reach_voxels = 2.0;
+  /// A vertex lies on a face within this distance, voxels, ...
+  double on_face_voxels = 0.08;
+  /// ... plus this many sigmas.
+  double on_face_sigmas = 3.0;
+  /// A vertex this near to an edge may lie on no face, voxels.
+  double edge_zone_voxels = 0.9;
+  /// A face vertex: largest angle between its normal and the face.
+  double face_vertex_rad = rad_from_deg(26.0);
+  /// Farthest that a chamfer vertex moves to a corner, voxels; half the diagonal of a cell is 0.87.
+  double to_corner_voxels = 0.85;
+  /// Farthest that a chamfer vertex moves to an edge, voxels.
+  double to_edge_voxels = 0.45;
+  /// Farthest that a chamfer vertex moves to a face, voxels.
+  double to_face_voxels = 0.45;
+  /// Farthest that a new edge vertex lies from the middle of the mesh edge it splits, voxels.
+  double max_split_voxels = 1.2;
+  /// Farthest that a new corner vertex lies from a corner of the triangle it splits, voxels.
+  double max_corner_voxels = 3.0;
+  /// Fewest vertices and splits along an edge of the object; shorter ones are folds.
+  double min_edge_vertices = 24.0;
+  /// A triangle folds when its normal differs from those of its faces by more.
+  double fold_rad = rad_from_deg(60.0);
+};
+
+/// Removal of slivers and foldovers.
+struct CleanupParameters {
+  /// Triangles lower than this, and edges shorter than twice this, are slivers, voxels.
+  double sliver_voxels = 0.1;
+  /// The diagonals of a quad are equally near to the surface within this share of their length.
+  double diagonal_tolerance = 0.02;
+  /// A collapse turns no triangle by more.
+  double collapse_turn_rad = rad_from_deg(60.0);
+  /// A triangle that deviates from the normals of its vertices by more is a foldover.
+  double foldover_rad = rad_from_deg(69.5);
+};
+
+/// Heuristic thresholds of the fusion, by stage.
+struct FusionParameters {
+  FieldParameters field;
+  HermiteParameters hermite;
+  VertexParameters vertices;
+  EdgeParameters edges;
+  CleanupParameters cleanup;
+};
+
+}  // namespace frangia

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "frangia/fusion/fusion_parameters.h"
+#include "frangia/fusion/internal/edge_crossings.h"
+#include "frangia/fusion/internal/hermite_accumulators.h"
+#include "frangia/local_fit/local_planes.h"
+
+namespace frangia {
+
+struct HermiteOptions {
+  double near_mm = 0.0;        ///< a view's surface farther from a crossing is another surface
+  double free_space_mm = 0.0;  ///< a view's surface farther behind a crossing votes against it
+  HermiteParameters parameters;
+};
+
+/// Samples one view at every crossing and adds its position and normal, or its vote for free space.
+///
+/// A view votes for free space only when it observes free space all around the pixel: next to a
+/// silhouette, a small error of the pose looks like free space.
+void accumulate_view(HermiteAccumulators& hermite,
+                     const EdgeCrossings& crossings,
+                     const LocalPlanes& view,
+                     const CameraRays& camera,
+                     const HermiteOptions& options);
+
+}  // namespace frangia
