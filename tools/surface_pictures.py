@@ -1,8 +1,8 @@
 """Makes the pictures of docs/surface.md: python3 tools/surface_pictures.py PROGRAM docs/images
 
-Scans of simulated parts are made, reconstructed and drawn by the program itself; what is only here is the
-putting together of single views, and the field with marching cubes that the block's edge is compared with.
-Names after the folder (registration, rounds, sigma_and_closing, block_edge) make these alone.
+The program simulates, reconstructs and draws the parts. This script adds the meshes of single views, and the
+distance field with marching cubes that the edge of the block is compared with. Names after the folder
+(registration, setups, sigma_and_closing, block_edge) select pictures.
 """
 import json
 import math
@@ -32,7 +32,7 @@ def simulate(part, name, *options):
 
 
 class Rig:
-    """The parts of rig.toml that turn a depth image into points of the object frame."""
+    """Camera and turntable of rig.toml, to transform a depth image into points of the object frame."""
 
     def __init__(self, path):
         import tomllib
@@ -94,7 +94,7 @@ def depth_of(scan, view):
 
 
 def triangles_of(depth, steepest_mm):
-    """Both halves of every quad of measured pixels without a depth step."""
+    """Returns both triangles of every quad of measured pixels without a depth step."""
     number = numpy.arange(depth.size).reshape(depth.shape)
     corners = numpy.stack([depth[:-1, :-1], depth[:-1, 1:], depth[1:, 1:], depth[1:, :-1]])
     whole = numpy.isfinite(corners).all(0) & (numpy.ptp(corners, axis=0) < steepest_mm)
@@ -117,8 +117,8 @@ def write_ply(path, vertices, label, triangles):
     path.write_bytes(head.encode() + rows.tobytes() + faces.tobytes())
 
 
-def put_together(path, rig, depths, places, label=lambda number: number + 1):
-    """All views as one mesh, each vertex labelled with its view's number, or what `label` makes of it."""
+def combine_views(path, rig, depths, places, label=lambda number: number + 1):
+    """Writes all views as one mesh. Each vertex has the label of its view."""
     rays, vertices, labels, triangles, count = rig.rays(), [], [], [], 0
     for number, depth in enumerate(depths):
         points = places(rays * depth[..., None], number).reshape(-1, 3)
@@ -130,12 +130,12 @@ def put_together(path, rig, depths, places, label=lambda number: number + 1):
     write_ply(path, numpy.concatenate(vertices), numpy.concatenate(labels), numpy.concatenate(triangles))
 
 
-WIDTH = 1800  # of a sheet: pages show it at about half
+WIDTH = 1800  # of a sheet, px; pages show it at about half of that
 CAPTION = ImageFont.truetype("DejaVuSans.ttf", 44)
 
 
 def side_by_side(path, pictures):
-    """Pictures beside each other, each with its caption above it, in letters that can be read on a page."""
+    """Places pictures side by side, each below its caption."""
     each = WIDTH // len(pictures)
     images = [Image.open(picture).convert("RGB") for picture, _ in pictures]
     images = [image.resize((each, round(image.height * each / image.width)), Image.LANCZOS) for image in images]
@@ -152,18 +152,18 @@ def side_by_side(path, pictures):
 
 
 def middle_of(picture, box):
-    """Cuts a picture down to a part of it, given in shares of its size."""
+    """Crops a picture to a box, given as fractions of its size."""
     image = Image.open(picture)
     image.crop(tuple(round(share * size) for share, size in zip(box, image.size * 2))).save(picture)
     return picture
 
 
-HALF = (0.25, 0.02, 0.75, 0.98)  # what a part that stands upright fills
+HALF = (0.25, 0.02, 0.75, 0.98)  # the box of an upright part
 
 
 def registration():
-    scan = simulate("bust", "worn", "--axis-offset", 0.5, "--axis-tilt", 0.3, "--angle-error", 0.15)
-    mesh = WORK / "worn.ply"
+    scan = simulate("bust", "misaligned", "--axis-offset", 0.5, "--axis-tilt", 0.3, "--angle-error", 0.15)
+    mesh = WORK / "misaligned.ply"
     answer = run("reconstruct", scan, "-o", mesh)["registration"]
     rig = Rig(scan / "rig.toml")
     depths = [depth_of(scan, view) for view in range(8)]
@@ -172,12 +172,12 @@ def registration():
     after = lambda points, view: rig.to_object(points, answer["angles_deg"][view], axis, point)
     pictures = []
     for name, places in (("before", before), ("after", after)):
-        put_together(WORK / f"{name}.ply", rig, depths, places)
+        combine_views(WORK / f"{name}.ply", rig, depths, places)
         run("inspect", WORK / f"{name}.ply", "--show", "views", "--picture", WORK / f"{name}.png")
     side_by_side(
         IMAGES / "surface-registration.png",
         [
-            (middle_of(WORK / "before.png", HALF), f"as the rig says: {answer['rms_before_mm']:.2f} mm apart"),
+            (middle_of(WORK / "before.png", HALF), f"poses of the rig: {answer['rms_before_mm']:.2f} mm"),
             (middle_of(WORK / "after.png", HALF), f"registered: {answer['rms_after_mm']:.3f} mm"),
         ],
     )
@@ -202,45 +202,45 @@ def sigma_and_closing():
     side_by_side(
         IMAGES / "surface-watertight.png",
         [
-            (middle_of(WORK / "open.png", HALF), "what was seen, from below"),
-            (middle_of(WORK / "marks.png", HALF), "--watertight: red is invented"),
+            (middle_of(WORK / "open.png", HALF), "measured, from below"),
+            (middle_of(WORK / "marks.png", HALF), "--watertight: red is synthesized"),
         ],
     )
 
 
-def turned(scan):
-    """The table's angle and the round of each view."""
+def stations_of(scan):
+    """Returns the angle and the setup of each view."""
     import tomllib
 
     views = tomllib.loads((scan / "scan.toml").read_text())["view"]
-    return [view["angle_deg"] for view in views], [view.get("round", 0) for view in views]
+    return [view["angle_deg"] for view in views], [view.get("setup", 0) for view in views]
 
 
-def rounds():
-    """The bracket stood and laid: as if it had not been moved, and where the rounds were found to belong."""
-    scan = simulate("bracket", "rounds", "--rounds", 90)
-    answer = run("reconstruct", scan, "-o", WORK / "rounds.ply")["registration"]
+def setups():
+    """Draws the bracket standing and lying: with unchanged pose, and with aligned setups."""
+    scan = simulate("bracket", "setups", "--setups", 90)
+    answer = run("reconstruct", scan, "-o", WORK / "setups.ply")["registration"]
     rig = Rig(scan / "rig.toml")
-    angles, round_of = turned(scan)
+    angles, setup_of = stations_of(scan)
     depths = [depth_of(scan, view) for view in range(len(angles))]
     axis, point = numpy.array(answer["axis"]), numpy.array(answer["point_mm"])
-    placing = numpy.array(answer["placings"][0])
+    part_pose = numpy.array(answer["part_poses"][0])
 
     def on_table(points, view):
         return rig.to_object(points, answer["angles_deg"][view], axis, point)
 
-    def together(points, view):
-        placed = on_table(points, view)
-        return placed if round_of[view] == 0 else (placed - placing[:, 3]) @ placing[:, :3]
+    def aligned(points, view):
+        on_turntable = on_table(points, view)
+        return on_turntable if setup_of[view] == 0 else (on_turntable - part_pose[:, 3]) @ part_pose[:, :3]
 
     pictures = []
-    for name, places in (("moved", on_table), ("joined", together)):
-        put_together(WORK / f"{name}.ply", rig, depths, places, lambda view: 1 + 4 * round_of[view])
+    for name, places in (("moved", on_table), ("aligned", aligned)):
+        combine_views(WORK / f"{name}.ply", rig, depths, places, lambda view: 1 + 4 * setup_of[view])
         run("inspect", WORK / f"{name}.ply", "--show", "views", "--picture", WORK / f"{name}.png", "--from", "50,25")
         pictures.append(middle_of(WORK / f"{name}.png", (0.18, 0.02, 0.82, 0.98)))
     side_by_side(
-        IMAGES / "surface-rounds.png",
-        [(pictures[0], "two rounds: stood, then laid"), (pictures[1], "joined by their shape")],
+        IMAGES / "surface-setups.png",
+        [(pictures[0], "two setups: standing and lying"), (pictures[1], "aligned by their shape")],
     )
 
 
@@ -253,7 +253,7 @@ def write_block(path):
 
 
 def normals_of(points):
-    """From the neighbours to both sides, towards the camera."""
+    """Computes normals from the neighbouring points, towards the camera."""
     right, down = numpy.gradient(points, axis=1), numpy.gradient(points, axis=0)
     normal = numpy.cross(down, right)
     normal /= numpy.maximum(numpy.linalg.norm(normal, axis=-1, keepdims=True), 1e-12)
@@ -261,10 +261,10 @@ def normals_of(points):
 
 
 def block_edge():
-    """A corner of the block with sharp edges: ours, and marching cubes of a field of the same views.
+    """Draws a corner of the block with sharp edges: by Frangia, and by marching cubes in a usual distance field.
 
-    The field is as it is usually made: distances along the normals, weighted by the cosine of incidence and less
-    behind the surface; a cell whose corners are not all known stays open.
+    The field holds distances along the normals, weighted by the cosine of incidence, with less weight behind the
+    surface. A cell with an unknown corner stays open.
     """
     write_block(WORK / "block-part.ply")
     scan = simulate(WORK / "block-part.ply", "block")
@@ -275,7 +275,7 @@ def block_edge():
     grid = numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     total, weight = numpy.zeros(len(grid)), numpy.zeros(len(grid))
     rays = rig.rays()
-    for view, angle in enumerate(turned(scan)[0]):
+    for view, angle in enumerate(stations_of(scan)[0]):
         points = rays * depth_of(scan, view)[..., None]
         normals = normals_of(points)
         seen = rig.to_rig(grid, angle)
@@ -296,7 +296,7 @@ def block_edge():
     for corner in numpy.ndindex(2, 2, 2):
         cells &= known[tuple(slice(c, n - 1 + c) for c, n in zip(corner, shape))]
     mask = numpy.zeros(shape, bool)
-    mask[1:, 1:, 1:] = cells  # as marching_cubes reads it: a cell by its last corner
+    mask[1:, 1:, 1:] = cells  # marching_cubes indexes a cell by its last corner
     low = numpy.array([a[0] for a in axes])
     vertices, faces, _, _ = marching_cubes(numpy.nan_to_num(field, nan=9.0), 0.0, mask=mask)
     vertices = vertices * voxel + low
@@ -316,7 +316,7 @@ def block_edge():
 
 
 IMAGES.mkdir(parents=True, exist_ok=True)
-ONLY = sys.argv[3:]  # names of what is wanted; all when there are none
-for wanted in (registration, rounds, sigma_and_closing, block_edge):
+ONLY = sys.argv[3:]  # names of the pictures; all of them when it is empty
+for wanted in (registration, setups, sigma_and_closing, block_edge):
     if not ONLY or wanted.__name__ in ONLY:
         wanted()

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/geometry/clean_mesh.h"
-#include "frangia/geometry/selected_one_rings.h"
+#include "frangia/geometry/one_rings.h"
 
 #include "support/test_meshes.h"
 

@@ -33,7 +33,7 @@ TEST(RayScene, HitsAPlaneExactlyFromFarAway) {
   }
 }
 
-TEST(RayScene, BarycentricWeightsRebuildThePointThatWasHit) {
+TEST(RayScene, BarycentricWeightsReproduceTheHitPoint) {
   const Mesh mesh = sphere({1, 2, 3}, 20.0);
   const RayScene scene(mesh);
   const Vector3d eye(90, -70, 50);
@@ -50,7 +50,7 @@ TEST(RayScene, BarycentricWeightsRebuildThePointThatWasHit) {
   EXPECT_GT(hit->barycentric.minCoeff(), -1e-4);
 }
 
-TEST(RayScene, SeesNothingBesideBehindOrBeyondTheReach) {
+TEST(RayScene, HitsNothingBesideBehindOrBeyondTheLargestDistance) {
   const RayScene scene = unit_cube();
   EXPECT_FALSE(scene.first_hit({5, 1.01, 0}, {-1, 0, 0}));
   EXPECT_FALSE(scene.first_hit({5, 0, 0}, {1, 0, 0}));
@@ -83,7 +83,7 @@ TEST(RayScene, NearestIsThatOfASearchThroughAllTriangles) {
   }
 }
 
-TEST(RayScene, NearestKnowsInsideFromOutsideAtEdgesAndCorners) {
+TEST(RayScene, NearestDistinguishesInsideFromOutsideAtEdgesAndCorners) {
   const RayScene scene = unit_cube();
   EXPECT_NEAR(scene.nearest({2, 2, 2})->signed_distance_mm, std::sqrt(3.0), 1e-9);
   EXPECT_NEAR(scene.nearest({1.3, 1.4, 0.2})->signed_distance_mm, 0.5, 1e-7);
@@ -97,13 +97,13 @@ TEST(RayScene, NearestKnowsInsideFromOutsideAtEdgesAndCorners) {
   }
 }
 
-TEST(RayScene, NearestKeepsToItsReach) {
+TEST(RayScene, NearestStopsAtTheLargestDistance) {
   const RayScene scene = unit_cube();
   EXPECT_FALSE(scene.nearest({3, 0, 0}, 1.999));
   EXPECT_TRUE(scene.nearest({3, 0, 0}, 2.001));
 }
 
-TEST(RayScene, LeavesOutTrianglesWithoutArea) {
+TEST(RayScene, IgnoresTrianglesWithoutArea) {
   Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
   mesh.vertices_mm.emplace_back(0, 0, 9);
   mesh.triangles.push_back({8, 8, 8});
@@ -112,10 +112,26 @@ TEST(RayScene, LeavesOutTrianglesWithoutArea) {
   EXPECT_NEAR(nearest->distance_mm, 9.0, 1e-9);
 }
 
-TEST(RayScene, RefusesATriangleOfAVertexThatIsNotThere) {
+TEST(RayScene, RefusesATriangleOfAVertexThatDoesNotExist) {
   Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
   mesh.triangles.push_back({0, 1, 8});
   EXPECT_THROW(RayScene{mesh}, Error);
+}
+
+TEST(RayScene, GivesAScaledAnswerForAScaledMesh) {
+  // Near an edge of a tiny box, two triangles are less than a micrometre apart.
+  for (const float scale : {1.0F, 1.0F / 1024.0F, 1024.0F}) {
+    const RayScene scene(box({-scale, -scale, -scale}, {scale, scale, scale}));
+    const double s = static_cast<double>(scale);
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const Vector3d p(2.0 * uniform_from(hash(1, i)), 1.0 + 1e-5 * uniform_from(hash(2, i)), 0.3);
+      const auto one = unit_cube().nearest(p);
+      const auto scaled = scene.nearest(s * p);
+      ASSERT_TRUE(one && scaled);
+      EXPECT_EQ(scaled->triangle, one->triangle);
+      EXPECT_NEAR(scaled->signed_distance_mm / s, one->signed_distance_mm, 1e-12);
+    }
+  }
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ double area(const Polygon& polygon) {
   return sum;
 }
 
-/// Checks that triangles are the polygon: each turns left, their areas add up, all points are used.
+/// Checks the triangles of a polygon: each turns left, their areas add up, and all points are used.
 void expect_fills(const Polygon& outer, const std::vector<Polygon>& holes = {}) {
   Polygon points = outer;
   double expected = area(outer);
@@ -44,7 +44,7 @@ void expect_fills(const Polygon& outer, const std::vector<Polygon>& holes = {}) 
   std::set<std::size_t> used;
   for (const auto& [a, b, c] : triangles) {
     const double own = area({points[a], points[b], points[c]});
-    EXPECT_GE(own, -1e-12);
+    EXPECT_GE(own, -1e-12 * std::abs(expected));
     sum += own;
     used.insert({a, b, c});
   }
@@ -52,12 +52,12 @@ void expect_fills(const Polygon& outer, const std::vector<Polygon>& holes = {}) 
   EXPECT_EQ(used.size(), points.size());
 }
 
-TEST(TriangulatePolygon, FillsConvexAndHookedPolygons) {
+TEST(TriangulatePolygon, FillsConvexAndConcavePolygons) {
   expect_fills(round({3, 4}, 10.0, 200));
   expect_fills({{0, 0}, {10, 0}, {10, 10}, {8, 10}, {8, 2}, {2, 2}, {2, 10}, {0, 10}});
 }
 
-TEST(TriangulatePolygon, KeepsPointsThatLieOnAStraightEdge) {
+TEST(TriangulatePolygon, KeepsCollinearPoints) {
   expect_fills({{0, 0}, {3, 0}, {5, 0}, {10, 0}, {10, 10}, {4, 10}, {0, 10}, {0, 5}});
 }
 
@@ -72,7 +72,7 @@ TEST(TriangulatePolygon, LeavesHolesOpen) {
                 round({0, 0}, 6.0, -100)});
 }
 
-TEST(TriangulatePolygon, RefusesWhatIsNoPolygon) {
+TEST(TriangulatePolygon, RefusesInvalidPolygons) {
   const Polygon bow{{0, 0}, {10, 10}, {10, 0}, {0, 10}};
   const Polygon clockwise{{0, 0}, {0, 10}, {10, 10}, {10, 0}};
   const Polygon square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
@@ -80,6 +80,13 @@ TEST(TriangulatePolygon, RefusesWhatIsNoPolygon) {
   EXPECT_THROW(static_cast<void>(triangulate_polygon(clockwise)), Error);
   EXPECT_THROW(static_cast<void>(triangulate_polygon({{0, 0}, {1, 1}})), Error);
   EXPECT_THROW(static_cast<void>(triangulate_polygon(square, {round({30, 5}, 2.0, -16)})), Error);
+}
+
+TEST(TriangulatePolygon, WorksAtAnyScale) {
+  for (const double scale : {1e-6, 1e6}) {
+    expect_fills(round({0, 0}, 10.0 * scale, 200), {round({0, 0}, 5.0 * scale, -64)});
+    expect_fills({{0, 0}, {3 * scale, 0}, {9 * scale, 0}, {9 * scale, 7 * scale}, {0, 7 * scale}});
+  }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kChunk = 65'536;
 
-/// The bits of x, 21 of them, with two zeros between each.
+/// Spreads the low 21 bits of x, with two zeros between each.
 std::uint64_t spread_bits(std::uint64_t x) {
   x &= 0x1FFFFFU;
   x = (x | x << 32U) & 0x1F00000000FFFFU;
@@ -50,7 +50,7 @@ AabbTree::AabbTree(const Mesh& mesh) {
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t vertex : triangle) {
       require(vertex < mesh.vertices_mm.size(),
-              "AabbTree: a triangle refers to a vertex that is not there; repair the mesh first");
+              "AabbTree: a triangle refers to a vertex that does not exist; repair the mesh first");
       all.extend(mesh.vertices_mm[vertex]);
     }
   }

@@ -11,28 +11,31 @@
 
 namespace frangia {
 
-/// Boxes of a mesh's triangles in a tree, along a curve through space: to find those that overlap.
+/// A tree of the bounding boxes of a mesh's triangles, in Morton order. It finds overlapping boxes.
 ///
-/// source   Lauterbach et al. 2009, Fast BVH Construction (the curve of Morton)
+/// units    mm
+/// errors   Error(Input) when a triangle refers to a vertex that does not exist
+/// source   Lauterbach et al. 2009, Fast BVH Construction on GPUs
 class AabbTree {
  public:
-  /// errors   Error(Input) when a triangle refers to a vertex that is not there
   explicit AabbTree(const Mesh& mesh);
 
-  /// Leaves hold a few triangles each that lie near to each other.
+  /// Returns the number of leaves. Each holds up to four triangles that are near each other.
   [[nodiscard]] std::size_t leaves() const { return (order_.size() + kLeaf - 1) / kLeaf; }
 
-  /// Calls `work(a, b)` for each pair of triangles whose boxes touch, of which one is in this leaf
-  /// and the other in it or in a later one: over all leaves that is every pair once.
+  /// Calls `work(a, b)` for each pair of triangles with overlapping boxes, where `a` is in this
+  /// leaf and `b` is in the same or a later leaf. Called for all leaves, this visits each pair
+  /// once.
   template <typename Work>
   void overlapping_pairs(std::size_t leaf, const Work& work) const {
     visit_pairs({.node = 1, .begin = 0, .end = leaves_}, leaf, work);
   }
-  /// Calls `work(a)` for each triangle whose box touches this one.
+  /// Calls `work(a)` for each triangle whose box overlaps `box`.
   template <typename Work>
   void overlapping(const Eigen::AlignedBox3f& box, const Work& work) const {
     visit({.node = 1, .begin = 0, .end = leaves_}, box, work);
   }
+  /// Returns the bounding box of a triangle.
   [[nodiscard]] static Eigen::AlignedBox3f box_of(const Mesh& mesh, std::uint32_t triangle);
 
  private:
@@ -72,8 +75,8 @@ class AabbTree {
   }
 
   std::vector<std::uint32_t> order_;
-  std::vector<Eigen::AlignedBox3f> triangle_boxes_;  ///< of the triangles, in that order
-  std::vector<Eigen::AlignedBox3f> node_boxes_;      ///< node n has 2 n and 2 n + 1
+  std::vector<Eigen::AlignedBox3f> triangle_boxes_;  ///< of the triangles in `order_`
+  std::vector<Eigen::AlignedBox3f> node_boxes_;      ///< the children of node n are 2 n and 2 n + 1
   std::size_t leaves_ = 1;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint32_t kNone = HalfEdges::kBoundary;
 
-/// The boundary edge that follows one: turns about its end from triangle to triangle.
+/// Returns the boundary edge that starts where `edge` ends, by rotating about that vertex.
 std::uint32_t following(const HalfEdges& edges, std::uint32_t edge) {
   std::uint32_t turned = HalfEdges::next(edge);
   while (edges.has_twin(turned))

@@ -9,7 +9,7 @@ namespace frangia {
 
 Selection grow_selection(const Mesh& mesh, Selection selection, int rings) {
   require(selection.size() == mesh.triangles.size(),
-          "grow_selection: there must be one flag a triangle");
+          "grow_selection: the selection must have one flag for each triangle");
   std::vector<std::uint8_t> touched(mesh.vertices_mm.size());
   for (int ring = 0; ring < rings; ++ring) {
     for (std::size_t i = 0; i < selection.size(); ++i) {

@@ -6,16 +6,21 @@
 namespace frangia {
 
 /// Adds the triangles that share a vertex with a selected one, `rings` times.
+///
+/// errors   Error(Input) when the selection has not one flag for each triangle
 [[nodiscard]] Selection grow_selection(const Mesh& mesh, Selection selection, int rings = 1);
 
-/// Takes away the triangles that share a vertex with one that is not selected, `rings` times.
+/// Removes the triangles that share a vertex with an unselected one, `rings` times.
+///
+/// errors   as grow_selection
 [[nodiscard]] Selection shrink_selection(const Mesh& mesh, Selection selection, int rings = 1);
 
+/// Inverts every flag.
 [[nodiscard]] Selection invert_selection(Selection selection);
 
-/// The mesh without its selected triangles, and without the vertices that only they used.
+/// Returns the mesh without the selected triangles and the vertices that only they used.
 ///
-/// errors   Error(Input) when there is not one flag a triangle
+/// errors   Error(Input) when the selection has not one flag for each triangle
 [[nodiscard]] Mesh delete_selected(Mesh mesh, const Selection& selection);
 
 }  // namespace frangia

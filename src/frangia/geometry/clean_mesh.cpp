@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -12,7 +13,7 @@
 namespace frangia {
 namespace {
 
-/// A number for each vertex that tells its edges apart.
+/// Hashes a vertex number (splitmix64), so that sums over different edges differ.
 std::uint64_t hashed(std::uint32_t i) {
   std::uint64_t x = i + 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -20,7 +21,8 @@ std::uint64_t hashed(std::uint32_t i) {
   return x ^ (x >> 31);
 }
 
-/// Vertices at the mesh's rim: around others each edge is entered as often as it is left.
+/// Returns the vertices at the mesh's boundary. Around an inner vertex, each neighbour follows and
+/// precedes the vertex equally often, so the sum of the signed hashes is zero.
 std::vector<bool> boundary_of(const Mesh& mesh) {
   LargeVector<std::uint64_t> balance(mesh.vertices_mm.size(), 0);
   for (const auto& t : mesh.triangles) {
@@ -28,10 +30,10 @@ std::vector<bool> boundary_of(const Mesh& mesh) {
     for (std::size_t i = 0; i < 3; ++i)
       balance[t[i]] += number[(i + 1) % 3] - number[(i + 2) % 3];
   }
-  std::vector<bool> rim(balance.size());
-  for (std::size_t i = 0; i < rim.size(); ++i)
-    rim[i] = balance[i] != 0;
-  return rim;
+  std::vector<bool> boundary(balance.size());
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+    boundary[i] = balance[i] != 0;
+  return boundary;
 }
 
 struct Corner {
@@ -45,15 +47,26 @@ void repeat(std::vector<T>& values, std::uint32_t which) {
   if (!values.empty()) values.push_back(T(values[which]));
 }
 
-/// Numbers the fans among the corners of one vertex; corners that share an edge are of one fan.
+/// Returns the fan of each corner of one vertex, as the number of one of its corners. Triangles
+/// that share an edge belong to one fan.
 std::vector<std::uint32_t> fans_of(const Mesh& mesh, const std::vector<Corner>& corners) {
+  const auto next = [&](std::uint32_t i) {
+    return mesh.triangles[corners[i].triangle][(corners[i].index + 1) % 3];
+  };
+  const auto previous = [&](std::uint32_t i) {
+    return mesh.triangles[corners[i].triangle][(corners[i].index + 2) % 3];
+  };
+  std::vector<std::uint32_t> by_next(corners.size());
+  std::iota(by_next.begin(), by_next.end(), 0U);
+  std::stable_sort(by_next.begin(), by_next.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return next(a) < next(b);
+  });
   DisjointSets parts(corners.size());
   for (std::uint32_t a = 0; a < corners.size(); ++a) {
-    for (std::uint32_t b = 0; b < corners.size(); ++b) {
-      const auto& one = mesh.triangles[corners[a].triangle];
-      const auto& other = mesh.triangles[corners[b].triangle];
-      if (one[(corners[a].index + 2) % 3] == other[(corners[b].index + 1) % 3]) parts.join(a, b);
-    }
+    auto b = std::partition_point(
+        by_next.begin(), by_next.end(), [&](std::uint32_t i) { return next(i) < previous(a); });
+    for (; b != by_next.end() && next(*b) == previous(a); ++b)
+      parts.join(a, *b);
   }
   std::vector<std::uint32_t> fans(corners.size());
   for (std::uint32_t a = 0; a < corners.size(); ++a)
@@ -61,7 +74,7 @@ std::vector<std::uint32_t> fans_of(const Mesh& mesh, const std::vector<Corner>& 
   return fans;
 }
 
-/// The connected parts of a mesh that have too few triangles.
+/// The connected components of a mesh that have too few triangles.
 class SmallComponents {
  public:
   SmallComponents(const Mesh& mesh, std::size_t min_triangles)
@@ -95,15 +108,15 @@ class SmallComponents {
   }
 
   DisjointSets components_;
-  LargeVector<std::uint32_t> sizes_;  ///< in triangles, of each part at its own number
+  LargeVector<std::uint32_t> sizes_;  ///< in triangles, of each component
   std::size_t min_triangles_;
 };
 
-void split_at(const std::vector<bool>& rim, Mesh& mesh) {
+void split_at(const std::vector<bool>& boundary, Mesh& mesh) {
   std::vector<Corner> corners;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::uint32_t i = 0; i < 3; ++i) {
-      if (rim[mesh.triangles[t][i]]) corners.push_back({mesh.triangles[t][i], t, i});
+      if (boundary[mesh.triangles[t][i]]) corners.push_back({mesh.triangles[t][i], t, i});
     }
   }
   std::stable_sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
@@ -141,18 +154,19 @@ void split_nonmanifold_vertices(Mesh& mesh) {
 }
 
 void clean_mesh(Mesh& mesh, std::size_t min_triangles) {
-  // Both look at all triangles, and without the small parts the rim of the others is the same.
+  // Both loops read all triangles. Removing small components does not change the boundary of the
+  // others, so they can run at the same time.
   std::optional<SmallComponents> small;
-  std::vector<bool> rim;
+  std::vector<bool> boundary;
   parallel_chunks(2, 1, [&](std::size_t which, std::size_t) {
     if (which == 0) {
       small.emplace(mesh, min_triangles);
     } else {
-      rim = boundary_of(mesh);
+      boundary = boundary_of(mesh);
     }
   });
   small->remove_from(mesh);
-  split_at(rim, mesh);
+  split_at(boundary, mesh);
   remove_unused_vertices(mesh);
 }
 

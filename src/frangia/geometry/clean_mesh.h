@@ -6,16 +6,16 @@
 
 namespace frangia {
 
-/// Drops connected parts of fewer triangles than `min_triangles`, in place.
+/// Removes connected components of fewer than `min_triangles` triangles, in place.
 void remove_small_components(Mesh& mesh, std::size_t min_triangles);
 
-/// Gives each fan of triangles a vertex of its own where several meet in one vertex only.
+/// Duplicates each vertex at which several fans of triangles meet, so that each fan has its own.
 void split_nonmanifold_vertices(Mesh& mesh);
 
-/// All of that, and drops what vertices it leaves unused.
+/// Removes small components, splits non-manifold vertices and removes unused vertices.
 void clean_mesh(Mesh& mesh, std::size_t min_triangles);
 
-/// Drops vertices without a triangle; the others keep their order.
+/// Removes vertices without a triangle. The others keep their order.
 void remove_unused_vertices(Mesh& mesh);
 
 }  // namespace frangia

@@ -12,12 +12,12 @@
 namespace frangia {
 namespace {
 
-/// Parts by area, the largest first; ties go to the earlier.
-std::vector<std::size_t> by_area(const std::vector<MeshComponent>& parts) {
-  std::vector<std::size_t> order(parts.size());
+/// Returns the components by area, the largest first; of equal ones the earlier.
+std::vector<std::size_t> by_area(const std::vector<MeshComponent>& components) {
+  std::vector<std::size_t> order(components.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return parts[a].area_mm2 > parts[b].area_mm2;
+    return components[a].area_mm2 > components[b].area_mm2;
   });
   return order;
 }
@@ -78,7 +78,7 @@ Selection select_component(const Mesh& mesh, std::size_t triangle) {
 }
 
 Mesh keep_largest_components(Mesh mesh, std::size_t count) {
-  require(count > 0, "keep_largest_components: at least one part must be kept");
+  require(count > 0, "keep_largest_components: at least one component must be kept");
   const ConnectedComponents parts = connected_components(mesh);
   std::vector<std::size_t> order = by_area(parts.components);
   order.resize(std::min(order.size(), count));

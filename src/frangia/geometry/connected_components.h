@@ -11,26 +11,32 @@ namespace frangia {
 struct MeshComponent {
   std::size_t triangles = 0;
   double area_mm2 = 0.0;
-  double size_mm = 0.0;  ///< the diagonal of the box around it
+  double size_mm = 0.0;  ///< diagonal of the bounding box
 };
 
-/// Triangles that hang together by their vertices.
+/// The sets of triangles that are connected by shared vertices.
 struct ConnectedComponents {
-  std::vector<std::uint32_t> component_of;  ///< one a triangle
-  std::vector<MeshComponent> components;    ///< in the order of their first triangle
+  std::vector<std::uint32_t> component_of;  ///< one for each triangle
+  std::vector<MeshComponent> components;    ///< in the order of their first triangles
 };
 
+/// Finds the connected components of a mesh.
+///
+/// units    mm, mm^2
 [[nodiscard]] ConnectedComponents connected_components(const Mesh& mesh);
 
-/// The part that a triangle belongs to.
+/// Selects the component that a triangle belongs to.
 ///
-/// errors   Error(Input) when there is no such triangle
+/// errors   Error(Input) when the triangle does not exist
 [[nodiscard]] Selection select_component(const Mesh& mesh, std::size_t triangle);
 
-/// The `count` parts of the largest area.
+/// Keeps the `count` components of the largest area.
+///
+/// errors   Error(Input) when `count` is 0
 [[nodiscard]] Mesh keep_largest_components(Mesh mesh, std::size_t count = 1);
 
-/// The mesh without the parts that fit into a box of this diagonal; the largest stays in any case.
+/// Removes the components whose bounding box has at most this diagonal. The component of the
+/// largest area always stays.
 [[nodiscard]] Mesh remove_islands(Mesh mesh, double up_to_mm);
 
 }  // namespace frangia

@@ -10,12 +10,12 @@
 
 namespace frangia {
 
-/// Three normals a triangle for smooth shading that keeps edges sharp.
+/// Computes three normals for each triangle, for smooth shading with sharp edges.
 ///
-/// Each corner takes the mean of the triangles around its vertex that turn from its own by less
-/// than the crease angle, weighted by their angles there.
-/// shape    one array a triangle, in the order of its corners; unit
-/// missing  a triangle without area has zero normals
+/// The normal of a corner is the angle-weighted mean of the triangles around its vertex whose
+/// normals differ from the corner's own triangle by less than the crease angle. shape    one array
+/// for each triangle, in the order of its corners; unit vectors missing  the normals of a triangle
+/// without area are zero
 [[nodiscard]] std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(
     const Mesh& mesh, double crease_rad = rad_from_deg(40.0));
 

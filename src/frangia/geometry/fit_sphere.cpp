@@ -11,7 +11,8 @@
 namespace frangia {
 namespace {
 
-/// |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in its unknowns. Points come centred on their mean.
+/// Solves |p|^2 = 2 c.p + (r^2 - |c|^2), which is linear in c and the bracket. The points must be
+/// centred on their mean.
 Sphere fit_sphere_algebraically(const Eigen::Matrix3Xd& points) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4, 4);
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
@@ -30,7 +31,7 @@ Sphere fit_sphere_algebraically(const Eigen::Matrix3Xd& points) {
   return {x.head<3>(), std::sqrt(std::max(0.0, x[3] + x.head<3>().squaredNorm())), 0.0};
 }
 
-/// One step of Gauss-Newton; returns its length.
+/// Makes one Gauss-Newton step and returns its length.
 double gauss_newton_step(const Eigen::Matrix3Xd& points, Sphere& sphere) {
   Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
   Eigen::Vector4d g = Eigen::Vector4d::Zero();
@@ -59,7 +60,7 @@ Sphere fit_sphere(std::span<const Eigen::Vector3d> points_mm) {
   }
   const Eigen::Vector3d mean = points.rowwise().mean();
   points.colwise() -= mean;
-  // Lengths near 1 keep the normal equations' condition honest.
+  // Unit scale keeps the normal equations well conditioned.
   const double scale = std::sqrt(points.squaredNorm() / static_cast<double>(points.cols()));
   if (!(scale > 0.0)) throw Error(ErrorKind::Numeric, "fit_sphere: all points are the same");
   points /= scale;

@@ -6,14 +6,16 @@
 
 namespace frangia {
 
+/// A sphere fitted to points.
 struct Sphere {
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
   double radius_mm = 0.0;
-  double rms_mm = 0.0;  ///< of the points' distances to the sphere
+  double rms_mm = 0.0;  ///< RMS distance of the points from the sphere
 };
 
-/// The sphere with the least sum of squared distances to the points.
+/// Fits the sphere with the smallest sum of squared distances to the points.
 ///
+/// units    mm
 /// errors   Error(Input) for fewer than four points; Error(Numeric) when they lie in a plane
 /// source   algebraic start, then Gauss-Newton on the geometric distance
 [[nodiscard]] Sphere fit_sphere(std::span<const Eigen::Vector3d> points_mm);

@@ -8,16 +8,18 @@
 
 namespace frangia {
 
-/// Who is beside whom in a mesh: half-edge 3 t + i runs from corner i of triangle t to corner
-/// (i + 1) % 3. Built from the triangles in one pass over them and one over the vertices.
+/// The half-edges of a mesh: half-edge 3 t + i runs from corner i of triangle t to corner (i + 1)
+/// % 3.
 ///
-/// A half-edge has a twin when exactly one other runs the other way and no other runs the same way:
-/// elsewhere the mesh has a boundary or is not manifold.
-/// errors   Error(Input) when a triangle refers to a vertex that is not there
+/// A half-edge has a twin when exactly one other runs in the opposite direction and no other in the
+/// same direction. Elsewhere the mesh has a boundary or is not manifold. The time to build them is
+/// linear in the number of triangles, times the logarithm of the valence at vertices of many.
+/// errors   Error(Input) when a triangle refers to a vertex that does not exist
 class HalfEdges {
  public:
-  static constexpr std::uint32_t kBoundary = 0xFFFFFFFF;     ///< no triangle on the other side
-  static constexpr std::uint32_t kNonManifold = 0xFFFFFFFE;  ///< several, or one turned round
+  static constexpr std::uint32_t kBoundary = 0xFFFFFFFF;  ///< no triangle on the other side
+  static constexpr std::uint32_t kNonManifold =
+      0xFFFFFFFE;  ///< several triangles, or one of opposite orientation
 
   explicit HalfEdges(const Mesh& mesh);
 
@@ -26,7 +28,8 @@ class HalfEdges {
   [[nodiscard]] bool is_boundary(std::uint32_t edge) const { return twins_[edge] == kBoundary; }
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(twins_.size()); }
 
-  /// The half-edges that leave a vertex, one for each of its triangles, in ascending order.
+  /// Returns the half-edges that start at a vertex, one for each of its triangles, in ascending
+  /// order.
   [[nodiscard]] std::span<const std::uint32_t> outgoing(std::uint32_t vertex) const {
     return std::span(edges_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
   }

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kChunk = 1024;
 
-/// The largest distance from the points of one surface to the other.
+/// Returns the largest distance of the samples of one surface from the other one.
 double largest_distance(const Mesh& from, const RayScene& to, double spacing_mm, const Run& run) {
   const std::size_t count = from.triangles.size();
   std::vector<double> largest((count + kChunk - 1) / kChunk);

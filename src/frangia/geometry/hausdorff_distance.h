@@ -6,18 +6,18 @@
 
 namespace frangia {
 
-/// The farthest that a point of either surface lies from the other: their Hausdorff distance, at
-/// the vertices, the middles of the edges and of the triangles of both, and at points inside large
-/// triangles as far apart as `spacing_mm`.
+/// Computes the Hausdorff distance of two surfaces: the largest distance of a point of either
+/// surface from the other one. It samples the vertices, the centres of edges and triangles, and
+/// points inside large triangles no farther apart than `spacing_mm`.
 ///
 /// units    mm
-/// errors   Error(Input) when one of the two has no triangle, or the spacing is not positive
+/// errors   Error(Input) when a mesh has no triangle or the spacing is not positive
 [[nodiscard]] double hausdorff_distance_mm(const RayScene& a,
                                            const RayScene& b,
                                            double spacing_mm,
                                            const Run& run = {});
 
-/// The mean length of a mesh's edges.
+/// Returns the mean length of the triangles' edges; 0 for a mesh without triangles.
 [[nodiscard]] double mean_edge_length_mm(const Mesh& mesh);
 
 }  // namespace frangia

@@ -4,7 +4,7 @@
 
 namespace frangia {
 
-/// The point of a triangle nearest to p.
+/// Returns the point of triangle a, b, c nearest to p.
 ///
 /// source   Ericson, Real-Time Collision Detection, 5.1.5
 [[nodiscard]] inline Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& a,

@@ -32,18 +32,23 @@ Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
           mesh.vertices_mm[c].cast<double>()};
 }
 
-/// Two distances closer than this, in mm, share a nearest point: an edge or a corner.
-constexpr double kTie = 1e-7;
+/// Distances that differ by less belong to one nearest point, on an edge or corner; times the size
+/// of the mesh.
+constexpr double kTie = 1e-9;
+
+/// Margin of Embree's query radius, which is in single precision; times the size of the mesh.
+constexpr double kQueryMargin = 1e-6;
 
 struct Search {
   const Mesh* mesh;
   Eigen::Vector3d point_mm;
   std::optional<NearestPoint> best;
   double max_distance_mm;
-  double squareness = 0.0;  ///< |cos| between the best triangle's normal and the way to it
+  double size_mm;
+  double squareness = 0.0;  ///< |cos| between the best triangle's normal and the direction
 };
 
-/// Keeps the nearer triangle; of two equally near the squarer, then the first.
+/// Keeps the nearer triangle; of two equally near ones the squarer, then the first.
 bool consider(Search& search, std::uint32_t triangle) {
   const Corners corners = corners_of(*search.mesh, triangle);
   const Eigen::Vector3d normal = (corners.b - corners.a).cross(corners.c - corners.a).normalized();
@@ -56,8 +61,8 @@ bool consider(Search& search, std::uint32_t triangle) {
   const double height = way.dot(normal);
   const double squareness = distance > 0.0 ? std::abs(height) / distance : 1.0;
   if (search.best) {
-    if (distance > search.best->distance_mm + kTie) return false;
-    const bool nearer = distance < search.best->distance_mm - kTie;
+    if (distance > search.best->distance_mm + kTie * search.size_mm) return false;
+    const bool nearer = distance < search.best->distance_mm - kTie * search.size_mm;
     const bool squarer = squareness > search.squareness + 1e-9;
     const bool as_square = squareness >= search.squareness - 1e-9;
     if (!nearer && !squarer && !(as_square && triangle < search.best->triangle)) return false;
@@ -70,8 +75,8 @@ bool consider(Search& search, std::uint32_t triangle) {
 bool on_candidate(RTCPointQueryFunctionArguments* arguments) {
   auto& search = *static_cast<Search*>(arguments->userPtr);
   if (!consider(search, arguments->primID)) return false;
-  // Embree prunes in single precision: keep a margin that also lets ties through.
-  const double radius = search.best->distance_mm * (1.0 + 1e-6) + 1e-4;
+  // Embree prunes in single precision: the margin also keeps ties.
+  const double radius = search.best->distance_mm * (1.0 + 1e-6) + kQueryMargin * search.size_mm;
   if (radius >= static_cast<double>(arguments->query->radius)) return false;
   arguments->query->radius = static_cast<float>(radius);
   return true;
@@ -90,7 +95,7 @@ RTCRay ray_of(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, d
   return ray;
 }
 
-/// A copy of its own: Embree reads some bytes past the last vertex.
+/// Copies into a buffer that Embree allocates: it reads some bytes past the last vertex.
 template <typename Item>
 void copy_buffer(RTCGeometry geometry,
                  RTCBufferType type,
@@ -134,9 +139,14 @@ struct RayScene::Embree {
 RayScene::RayScene(Mesh mesh) : mesh_(std::move(mesh)) {
   for (const auto& triangle : mesh_.triangles) {
     require(*std::max_element(triangle.begin(), triangle.end()) < mesh_.vertices_mm.size(),
-            "RayScene: a triangle names a vertex that the mesh does not have");
+            "RayScene: a triangle refers to a vertex that does not exist; repair the mesh first");
   }
-  // One thread: which of two triangles a ray through their edge hits depends on the tree.
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : mesh_.vertices_mm) {
+    if (vertex.allFinite()) box.extend(vertex.cast<double>());
+  }
+  if (!box.isEmpty()) size_mm_ = box.diagonal().norm();
+  // One thread builds the tree: which of two triangles a ray through their edge hits depends on it.
   tbb::task_arena(1).execute([&] {
     embree_ = std::make_unique<Embree>();
     embree_->build(mesh_);
@@ -167,7 +177,7 @@ std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3d& origin_mm,
   RayHit hit;
   hit.triangle = query.hit.primID;
   hit.normal = cross.normalized();
-  // A ray that grazes the plane keeps Embree's distance: there the plane says nothing better.
+  // At grazing incidence the plane's distance is ill-conditioned; Embree's is kept.
   const double steepness = direction.dot(cross);
   const bool grazing = std::abs(steepness) < 1e-6 * direction.norm() * cross.norm();
   hit.distance =
@@ -194,12 +204,12 @@ bool RayScene::occluded(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& t
 
 std::optional<NearestPoint> RayScene::nearest(const Eigen::Vector3d& point_mm,
                                               double max_distance_mm) const {
-  Search search{&mesh_, point_mm, std::nullopt, max_distance_mm};
+  Search search{&mesh_, point_mm, std::nullopt, max_distance_mm, size_mm_};
   RTCPointQuery query{};
   query.x = static_cast<float>(point_mm.x());
   query.y = static_cast<float>(point_mm.y());
   query.z = static_cast<float>(point_mm.z());
-  query.radius = static_cast<float>(max_distance_mm * (1.0 + 1e-6) + 1e-4);
+  query.radius = static_cast<float>(max_distance_mm * (1.0 + 1e-6) + kQueryMargin * size_mm_);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(embree_->scene, &query, &context, on_candidate, &search);

@@ -11,28 +11,29 @@
 
 namespace frangia {
 
-/// Where a ray meets the surface.
+/// The intersection of a ray with the surface.
 struct RayHit {
-  double distance = 0.0;        ///< along the ray, in lengths of its direction
+  double distance = 0.0;        ///< along the ray, in units of its direction vector
   std::uint32_t triangle = 0;   ///< index into the mesh
-  Eigen::Vector3d barycentric;  ///< weights of the triangle's three corners, sum 1
+  Eigen::Vector3d barycentric;  ///< weights of the triangle's corners; their sum is 1
   Eigen::Vector3d normal;       ///< of the triangle, unit, outward
 };
 
-/// The point of the surface nearest to another one.
+/// The point of the surface nearest to a query point.
 struct NearestPoint {
   Eigen::Vector3d point_mm;
   double distance_mm = 0.0;         ///< never negative
-  double signed_distance_mm = 0.0;  ///< positive outside, by the triangle's normal
+  double signed_distance_mm = 0.0;  ///< positive on the side of the triangle's normal
   std::uint32_t triangle = 0;
 };
 
-/// A mesh that answers geometric questions fast. Queries may come from any number of threads.
+/// A mesh with fast ray and nearest-point queries, which may come from several threads.
 ///
-/// Embree finds the triangle in single precision; its plane then gives the answer in double.
-/// missing  triangles without area, or with a corner that is not finite, are not there
-/// errors   Error(Input) when a triangle names a vertex that the mesh does not have
-/// source   Embree (Wald et al. 2014)
+/// Embree finds the triangle in single precision; the result is then computed in double precision.
+/// units    mm
+/// missing  triangles without area, or with a corner that is not finite, are ignored
+/// errors   Error(Input) when a triangle refers to a vertex that does not exist
+/// source   Embree: Wald et al. 2014
 class RayScene {
  public:
   explicit RayScene(Mesh mesh);
@@ -44,17 +45,18 @@ class RayScene {
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 
-  /// The first hit of origin + t * direction with t in [0, max_distance]; both sides count.
+  /// Returns the first hit of origin + t * direction with t in [0, max_distance], from either side.
   [[nodiscard]] std::optional<RayHit> first_hit(
       const Eigen::Vector3d& origin_mm,
       const Eigen::Vector3d& direction,
       double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// Whether anything lies between two points. For one that is itself on the surface, step off it.
+  /// Whether the surface intersects the segment between two points. A point on the surface must be
+  /// moved off it first.
   [[nodiscard]] bool occluded(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm) const;
 
-  /// The nearest point of the surface, or nothing when all of it is farther than `max_distance_mm`.
-  /// Of triangles that share the nearest point the one seen most squarely gives the sign.
+  /// Returns the nearest point of the surface within `max_distance_mm`, if there is one. Of the
+  /// triangles that share it, the one whose normal is nearest to the direction gives the sign.
   [[nodiscard]] std::optional<NearestPoint> nearest(
       const Eigen::Vector3d& point_mm,
       double max_distance_mm = std::numeric_limits<double>::infinity()) const;
@@ -62,6 +64,7 @@ class RayScene {
  private:
   struct Embree;
   Mesh mesh_;
+  double size_mm_ = 0.0;  ///< of the bounding box
   std::unique_ptr<Embree> embree_;
 };
 

@@ -39,7 +39,7 @@ std::vector<SurfaceSample> sample_surface(const Mesh& mesh, std::size_t count, s
     const auto found = std::upper_bound(area_until.begin(), area_until.end(), place);
     const auto triangle =
         static_cast<std::size_t>(std::min(found, area_until.end() - 1) - area_until.begin());
-    // Even over a triangle: Turk 1990.
+    // Uniform over the triangle: Turk 1990.
     const double root = std::sqrt(uniform_from(hash(stream, 1)));
     const double along = uniform_from(hash(stream, 2));
     samples.push_back({(1.0 - root) * corner(mesh, triangle, 0) +

@@ -10,16 +10,17 @@
 
 namespace frangia {
 
+/// A point on the surface of a mesh.
 struct SurfaceSample {
   Eigen::Vector3d point_mm;
   Eigen::Vector3d normal;  ///< of the triangle, unit, outward
   std::uint32_t triangle = 0;
 };
 
-/// Points spread evenly over the area of a mesh, the same for the same seed.
+/// Samples points uniformly over the area of a mesh. Equal seeds give equal points.
 ///
 /// shape    `count` samples; none for a mesh without area
-/// source   stratified along the area: one sample in each of `count` equal parts of it
+/// source   stratified by area: one sample in each of `count` equal parts; Turk 1990 in a triangle
 [[nodiscard]] std::vector<SurfaceSample> sample_surface(const Mesh& mesh,
                                                         std::size_t count,
                                                         std::uint64_t seed = 1);

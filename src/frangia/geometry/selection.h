@@ -6,9 +6,10 @@
 
 namespace frangia {
 
-/// Triangles picked out of a mesh: one flag a triangle, 0 or 1.
+/// A selection of triangles: one flag, 0 or 1, for each triangle of a mesh.
 using Selection = std::vector<std::uint8_t>;
 
+/// Returns the number of selected triangles.
 [[nodiscard]] inline std::size_t count_selected(const Selection& selection) {
   std::size_t count = 0;
   for (const std::uint8_t flag : selection)

@@ -14,9 +14,8 @@ bool has(const IndexedTriangle& t, std::uint32_t vertex) {
   return std::find(t.vertices.begin(), t.vertices.end(), vertex) != t.vertices.end();
 }
 
-/// Whether a certain gap parts the two: all corners of one that are not shared lie surely on the
-/// same side of the other's plane. Coordinates are floats, sums are of doubles: far beyond the
-/// error of rounding.
+/// Whether all unshared corners of `other` lie on one side of the plane of `plane`, beyond the
+/// rounding error.
 bool separated_by_plane(const IndexedTriangle& plane, const IndexedTriangle& other) {
   const Vector3d& origin = plane.corners_mm[0];
   const Vector3d u = plane.corners_mm[1] - origin;
@@ -29,15 +28,16 @@ bool separated_by_plane(const IndexedTriangle& plane, const IndexedTriangle& oth
     if (has(plane, other.vertices.at(i))) continue;
     const Vector3d way = other.corners_mm.at(i) - origin;
     const double height = normal.dot(way);
-    const double doubt = 1e-13 * u.norm() * v.norm() * way.norm();
+    const double rounding = 1e-13 * u.norm() * v.norm() * way.norm();
     ++count;
-    if (height > doubt) ++above;
-    if (height < -doubt) ++below;
+    if (height > rounding) ++above;
+    if (height < -rounding) ++below;
   }
   return count > 0 && (above == count || below == count);
 }
 
-/// The same for lines: seen along the axis that shows `a` best, an edge of it has all of b beyond.
+/// Whether, projected along the dominant axis of the normal of `a`, all unshared corners of `b` lie
+/// beyond one edge of `a`.
 bool separated_by_edge(const IndexedTriangle& a, const IndexedTriangle& b) {
   const Vector3d normal =
       (a.corners_mm[1] - a.corners_mm[0]).cross(a.corners_mm[2] - a.corners_mm[0]);

@@ -4,9 +4,10 @@
 
 namespace frangia {
 
-/// Whether two triangles surely do not cross: a quick answer before triangles_intersect.
+/// Whether two triangles certainly do not intersect: a fast filter before `triangles_intersect`.
 ///
-/// Coordinates are floats and sums are of doubles: what is called parted is so beyond rounding.
+/// Coordinates are floats and the arithmetic is in double, with a bound on the rounding error. A
+/// result of true is exact; false means undecided.
 [[nodiscard]] bool surely_disjoint(const IndexedTriangle& a, const IndexedTriangle& b);
 
 }  // namespace frangia

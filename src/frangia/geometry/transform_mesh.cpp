@@ -21,7 +21,7 @@ Vector3d corner(const Mesh& mesh, std::size_t triangle, std::size_t which) {
   return mesh.vertices_mm[mesh.triangles[triangle][which]].cast<double>();
 }
 
-/// Twice the area, along the outward normal.
+/// Returns twice the area vector, along the outward normal.
 Vector3d area_vector(const Mesh& mesh, std::size_t triangle) {
   const Vector3d a = corner(mesh, triangle, 0);
   return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
@@ -58,7 +58,7 @@ Mesh mirror_mesh(Mesh mesh, const Plane& plane) {
 
 Plane fit_plane(const Mesh& mesh, const Selection& selection) {
   require(selection.size() == mesh.triangles.size(),
-          "fit_plane: there must be one flag a triangle");
+          "fit_plane: the selection must have one flag for each triangle");
   Vector3d mean = Vector3d::Zero();
   Vector3d outward = Vector3d::Zero();
   double weight = 0.0;
@@ -69,7 +69,7 @@ Plane fit_plane(const Mesh& mesh, const Selection& selection) {
     outward += area;
     weight += area.norm();
   }
-  require(weight > 0.0, "fit_plane: nothing is selected that has an area");
+  require(weight > 0.0, "fit_plane: the selected triangles have no area");
   mean /= weight;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < selection.size(); ++i) {
@@ -131,7 +131,7 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   normals.row(1) = second.normal().transpose();
   normals.row(2) = third.normal().transpose();
   require(std::abs(normals.determinant()) > 1e-3,
-          "align: the third face is parallel to the line where the other two meet");
+          "align: the third face is parallel to the intersection of the other two");
   const Vector3d origin =
       -(normals.inverse() * Vector3d(first.offset(), second.offset(), third.offset()));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

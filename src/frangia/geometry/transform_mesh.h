@@ -7,31 +7,35 @@
 
 namespace frangia {
 
-/// The mesh moved as a whole. Nothing is marked: the part is the same, only its frame is another.
+/// Applies a rigid transform to a mesh. Marks do not change, since only the frame does.
+///
+/// units    mm
 [[nodiscard]] Mesh transform_mesh(Mesh mesh, const Eigen::Isometry3d& target_from_mesh);
 
-/// The mesh as a mirror in this plane shows it, still facing outwards.
+/// Reflects a mesh in a plane. Triangles stay oriented outwards.
 [[nodiscard]] Mesh mirror_mesh(Mesh mesh, const Eigen::Hyperplane<double, 3>& plane);
 
-/// The plane through the selected triangles by least squares, weighted by area, its normal on their
-/// outer side.
+/// Fits a plane to the selected triangles by area-weighted least squares. Its normal points
+/// outwards.
 ///
-/// errors   Error(Input) when nothing with an area is selected
+/// errors   Error(Input) when the selection has not one flag for each triangle, or no area
 [[nodiscard]] Eigen::Hyperplane<double, 3> fit_plane(const Mesh& mesh, const Selection& selection);
 
-/// The flat face about a picked position: the triangles that hang together with the one nearest to
-/// it and turn from it by no more than an angle.
+/// Selects the flat face around a point: the triangles connected to the nearest one whose normals
+/// differ from its normal by no more than `within_rad`.
 ///
 /// errors   Error(Input) when the mesh is empty
 [[nodiscard]] Selection select_face(const Mesh& mesh,
                                     const Eigen::Vector3d& picked_mm,
                                     double within_rad = 0.17);
 
-/// The frame in which the first face looks along -z and lies in z = 0, the second looks along -x
-/// and lies in x = 0, and the third lies in y = 0: the 3-2-1 alignment of measuring machines.
+/// Computes the 3-2-1 alignment of three faces. All three pass through the origin. The outward normal
+/// of the first one is -z. The second one's is -x, apart from its deviation from a right angle to the
+/// first. The third one's is close to -y or +y.
 ///
-/// shape    the normals are those of the faces, outwards; they need not be square to each other
-/// errors   Error(Input) when two of the faces are parallel
+/// shape    outward normals, which need not be perpendicular
+/// errors   Error(Input) when two faces are parallel, or the third one is parallel to the
+///          intersection of the others
 [[nodiscard]] Eigen::Isometry3d align_faces(const Eigen::Hyperplane<double, 3>& first,
                                             const Eigen::Hyperplane<double, 3>& second,
                                             const Eigen::Hyperplane<double, 3>& third);

@@ -7,8 +7,9 @@
 
 namespace frangia {
 
-/// Whether `holds(point)` for points all over a triangle: its corners, the middles of its edges,
-/// its own middle, and others between them no farther apart than the spacing.
+/// Whether `predicate(point)` holds for all samples of a triangle: its corners, the centres of its
+/// edges, its centroid, and a grid of points no farther apart than the spacing, but at most 200
+/// points along an edge.
 template <typename Predicate>
 [[nodiscard]] bool all_triangle_samples(const Eigen::Vector3d& a,
                                         const Eigen::Vector3d& b,

@@ -1,4 +1,4 @@
-// CGAL is heavy to compile: it stays in this source.
+// The only source of this module that includes CGAL, which is slow to compile.
 #include "frangia/geometry/triangles_intersect.h"
 
 #include "frangia/core/error.h"
@@ -23,7 +23,7 @@ Kernel::Triangle_3 triangle_of(const IndexedTriangle& t) {
   return {point_of(t.corners_mm[0]), point_of(t.corners_mm[1]), point_of(t.corners_mm[2])};
 }
 
-/// For each corner of a whether b has the same vertex.
+/// Returns for each corner of `a` whether it is a vertex of `b`.
 std::array<bool, 3> shared_of(const IndexedTriangle& a, const IndexedTriangle& b) {
   std::array<bool, 3> shared{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -41,7 +41,7 @@ Kernel::Segment_3 opposite(const IndexedTriangle& t, std::size_t corner) {
   return {point_of(t.corners_mm.at((corner + 1) % 3)), point_of(t.corners_mm.at((corner + 2) % 3))};
 }
 
-/// Two triangles at one edge overlap when they lie in one plane on the same side of it.
+/// Two triangles with a common edge overlap when they are coplanar and on the same side of it.
 bool overlap_at_edge(const IndexedTriangle& a,
                      std::size_t far_a,
                      const IndexedTriangle& b,
@@ -89,7 +89,7 @@ bool can_test_intersections() {
 
 bool triangles_intersect(const IndexedTriangle& /*a*/, const IndexedTriangle& /*b*/) {
   throw Error(ErrorKind::Input,
-              "this build cannot tell which triangles cross: configure it with FRANGIA_CGAL=ON");
+              "this build has no exact intersection test: configure it with FRANGIA_CGAL=ON");
 }
 
 }  // namespace frangia

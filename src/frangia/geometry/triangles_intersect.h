@@ -7,24 +7,24 @@
 
 namespace frangia {
 
-/// A triangle's corners and which vertices they are.
+/// The vertices of a triangle and their positions.
 struct IndexedTriangle {
   std::array<std::uint32_t, 3> vertices;
   std::array<Eigen::Vector3d, 3> corners_mm;
 };
 
-/// Corners by their numbers, at places that `position_of` tells.
+/// Makes an IndexedTriangle of vertices whose positions are `position_of(vertex)`.
 template <typename PositionOf>
 [[nodiscard]] IndexedTriangle indexed_triangle(const std::array<std::uint32_t, 3>& vertices,
                                                const PositionOf& position_of) {
   return {vertices, {position_of(vertices[0]), position_of(vertices[1]), position_of(vertices[2])}};
 }
 
-/// False in a build without CGAL, where triangles_intersect fails.
+/// Whether this build contains CGAL, which `triangles_intersect` needs.
 [[nodiscard]] bool can_test_intersections();
 
-/// Whether two triangles with an area have a point in common beyond the corner or the edge that
-/// they share. Decided exactly.
+/// Whether two triangles have a point in common other than the vertex or edge that they share. The
+/// result is exact. A triangle without area intersects nothing.
 ///
 /// errors   Error(Input) in a build without CGAL
 /// source   CGAL, 2D and 3D Linear Geometry Kernel: exact predicates

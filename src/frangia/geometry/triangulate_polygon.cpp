@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <Eigen/Geometry>
+
 #include "frangia/core/error.h"
 
 namespace frangia {
@@ -11,15 +13,15 @@ namespace {
 using Point = Eigen::Vector2d;
 using Ring = std::vector<std::size_t>;
 
-/// Twice the signed area of a, b, c: positive when they turn left.
+/// Returns twice the signed area of a, b, c: positive for a left turn.
 double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Below this a turn is rounding: lengths are tens of mm, points at least micrometres apart.
-constexpr double kFlat = 1e-9;
+/// A turn below this is rounding. The points are scaled to a bounding box with a diagonal of 1.
+constexpr double kFlat = 1e-12;
 
-/// Whether the open segments p-q and a-b meet, or one end lies inside the other segment.
+/// Whether the open segments p-q and a-b intersect, or an end of one lies inside the other.
 bool crosses(const Point& p, const Point& q, const Point& a, const Point& b) {
   if (a == p || a == q || b == p || b == q) return false;
   const double ta = turn(p, q, a);
@@ -48,7 +50,7 @@ struct Clipper {
     return points[ring[place % ring.size()]];
   }
 
-  /// Whether the way from the ring's corner to q starts inside the polygon.
+  /// Whether the segment from the ring's corner to q starts inside the polygon.
   [[nodiscard]] bool opens_towards(std::size_t place, const Point& q) const {
     const Point& before = at(place + ring.size() - 1);
     const Point& here = at(place);
@@ -66,8 +68,8 @@ struct Clipper {
     return true;
   }
 
-  /// Cuts the polygon open between its boundary and a hole; the nearest free corner takes the
-  /// bridge.
+  /// Joins a hole to the boundary by a bridge from its rightmost point to the nearest visible
+  /// corner.
   void join(const Ring& hole, const std::vector<Ring>& holes_left) {
     const auto start =
         static_cast<std::size_t>(std::max_element(hole.begin(),
@@ -98,7 +100,7 @@ struct Clipper {
       return;
     }
     throw Error(ErrorKind::Numeric,
-                "triangulate_polygon: a hole lies outside or crosses the boundary");
+                "triangulate_polygon: a hole lies outside the boundary or crosses it");
   }
 
   [[nodiscard]] bool is_ear(std::size_t place) const {
@@ -133,7 +135,7 @@ struct Clipper {
                            ring[place],
                            ring[(place + 1) % ring.size()]});
       ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(place));
-      ++place;  // moving on spreads the ears and keeps triangles from becoming a single fan
+      ++place;  // skips a corner, so that the triangles do not form a single fan
     }
     if (turn(at(0), at(1), at(2)) < -kFlat) fail();
     triangles.push_back({ring[0], ring[1], ring[2]});
@@ -156,7 +158,13 @@ std::vector<std::array<std::size_t, 3>> triangulate_polygon(const Polygon& outer
     clipper.points.insert(clipper.points.end(), hole.begin(), hole.end());
     rings.push_back(std::move(ring));
   }
-  // The hole farthest right has nothing between its rightmost point and the boundary.
+  Eigen::AlignedBox2d box;
+  for (const Point& point : clipper.points)
+    box.extend(point);
+  const double size = box.diagonal().norm();
+  for (Point& point : clipper.points)
+    point /= size > 0.0 ? size : 1.0;
+  // Nothing lies between the rightmost hole's rightmost point and the boundary.
   const auto reach = [&](const Ring& ring) {
     double right = clipper.points[ring.front()].x();
     for (const std::size_t i : ring)

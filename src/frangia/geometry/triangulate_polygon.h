@@ -8,15 +8,17 @@
 
 namespace frangia {
 
+/// The vertices of a closed polygon in order.
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// Cuts a polygon with holes into triangles that use its own points only.
+/// Triangulates a polygon with holes without additional points.
 ///
-/// The outer line runs counter-clockwise, holes clockwise. Collinear points keep their place: each
-/// becomes the corner of a triangle, so that a neighbour across the line fits.
-/// shape    triples of indices into outer, then the holes, one after the other
-/// errors   Error(Numeric) when the lines cross or run the wrong way round
-/// source   ear clipping, holes joined by bridges: Eberly, Triangulation by Ear Clipping
+/// The outer polygon runs counter-clockwise, holes run clockwise. Collinear points become corners
+/// of triangles, too, so that a neighbour across the edge fits without T-junctions. shape triples
+/// of indices into `outer` followed by all holes errors   Error(Input) for fewer than three points;
+/// Error(Numeric) when polygons intersect or have
+///          the wrong orientation
+/// source   Eberly, Triangulation by Ear Clipping
 [[nodiscard]] std::vector<std::array<std::size_t, 3>> triangulate_polygon(
     const Polygon& outer, const std::vector<Polygon>& holes = {});
 

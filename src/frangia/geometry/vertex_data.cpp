@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/geometry/clean_mesh.h"
@@ -19,7 +21,7 @@ void repeat(std::vector<T>& values, std::uint32_t which) {
   if (!values.empty()) values.push_back(T(values[which]));
 }
 
-/// Appends `more` to values that one of two meshes may lack.
+/// Appends `more` to an attribute that one of two meshes may lack.
 template <typename T>
 void join(std::vector<T>& values, std::size_t count, const std::vector<T>& more, T missing) {
   if (values.empty() && more.empty()) return;
@@ -88,7 +90,8 @@ void add_triangle(Mesh& mesh, const Mesh::Triangle& triangle, Mark mark) {
 }
 
 void keep_triangles(Mesh& mesh, std::span<const std::uint8_t> keep) {
-  require(keep.size() == mesh.triangles.size(), "keep_triangles: there must be one flag each");
+  require(keep.size() == mesh.triangles.size(),
+          "keep_triangles: there must be one flag for each triangle");
   std::size_t kept = 0;
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (keep[i] == 0) continue;
@@ -121,11 +124,17 @@ void append_mesh(Mesh& mesh, const Mesh& other) {
 }
 
 void mark_displaced(Mesh& mesh, std::span<const Eigen::Vector3f> before_mm) {
-  constexpr float kStillMm = 1e-3F;
+  constexpr float kStill = 1e-5F;  // of the size of the mesh: a vertex without sigma did not move
+  constexpr float kRounding = 1e-8F;  // of the size of the mesh
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : before_mm)
+    box.extend(vertex);
+  const float size_mm = before_mm.empty() ? 0.0F : box.diagonal().norm();
   ensure_marks(mesh);
   for (std::size_t i = 0; i < before_mm.size(); ++i) {
-    const float sigma = mesh.sigma_mm.empty() ? kStillMm : mesh.sigma_mm[i];
-    const float allowed = std::isfinite(sigma) ? std::max(sigma, 1e-6F) : kStillMm;
+    const float sigma = mesh.sigma_mm.empty() ? kMissing : mesh.sigma_mm[i];
+    const float allowed =
+        std::isfinite(sigma) ? std::max(sigma, kRounding * size_mm) : kStill * size_mm;
     const bool moved = (mesh.vertices_mm[i] - before_mm[i]).norm() > allowed;
     if (moved) mesh.vertex_marks[i] = std::max(mesh.vertex_marks[i], Mark::Displaced);
   }

@@ -8,19 +8,19 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/geometry/selected_one_rings.h"
+#include "frangia/geometry/one_rings.h"
 
 namespace frangia {
 namespace {
 
 using Vertex = std::uint32_t;
-using Pair = SelectedOneRings::Edge;
+using Edge = std::pair<Vertex, Vertex>;
 
 /// Returns the short edges of the candidates, each once, in ascending order.
-std::vector<Pair> short_edges(const Mesh& mesh,
+std::vector<Edge> short_edges(const Mesh& mesh,
                               const std::vector<std::uint32_t>& near,
                               float shortest_mm) {
-  std::vector<Pair> edges;
+  std::vector<Edge> edges;
   for (const std::uint32_t t : near) {
     if (is_removed(mesh.triangles[t])) continue;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -59,8 +59,8 @@ bool satisfies_link_condition(std::vector<Vertex> of_a, std::vector<Vertex> of_b
 /// Whether the triangles around the first vertex that do not contain the second one still face
 /// outward with the first vertex at `point`.
 bool keeps_orientation(const Mesh& mesh,
-                       const SelectedOneRings& one_rings,
-                       const Pair& ends,
+                       const OneRings& one_rings,
+                       const Edge& ends,
                        const Eigen::Vector3f& point,
                        float turn_cosine) {
   const auto& [v, other] = ends;
@@ -89,9 +89,12 @@ bool collapse_once(Mesh& mesh,
                    float shortest_mm,
                    SliverCandidates& candidates,
                    float turn_cosine) {
-  const std::vector<Pair> edges = short_edges(mesh, candidates.triangles(), shortest_mm);
+  const std::vector<Edge> edges = short_edges(mesh, candidates.triangles(), shortest_mm);
   if (edges.empty()) return false;
-  const SelectedOneRings one_rings(mesh, edges);
+  std::vector<Vertex> ends;
+  for (const auto& [a, b] : edges)
+    ends.insert(ends.end(), {a, b});
+  const OneRings one_rings(mesh, ends);
   std::vector<bool> touched(mesh.vertices_mm.size(), false);
   const auto sharpness = [&](Vertex v) { return v < sharp.size() ? sharp[v] : std::uint8_t{0}; };
   bool any = false;
@@ -127,7 +130,7 @@ bool collapse_once(Mesh& mesh,
     }
     any = true;
   }
-  candidates.add(one_rings.triangles());
+  candidates.add(one_rings.selected_triangles());
   return any;
 }
 

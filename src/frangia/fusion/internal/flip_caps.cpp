@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/geometry/selected_one_rings.h"
+#include "frangia/geometry/one_rings.h"
 
 namespace frangia {
 namespace {
@@ -62,7 +62,7 @@ std::vector<Cap> find_caps(const Mesh& mesh,
 
 /// Returns the triangle on the other side of the cap's longest edge; the cap itself at the
 /// boundary.
-std::uint32_t across(const Mesh& mesh, const SelectedOneRings& one_rings, const Cap& cap) {
+std::uint32_t across(const Mesh& mesh, const OneRings& one_rings, const Cap& cap) {
   for (const std::uint32_t t : one_rings.of(cap.a)) {
     if (t != cap.triangle && has_vertex(mesh.triangles[t], cap.b)) return t;
   }
@@ -81,12 +81,10 @@ Vertex opposite(const Mesh::Triangle& t, const Cap& cap) {
 bool flip_caps(Mesh& mesh, float lowest_mm, SliverCandidates& candidates) {
   const std::vector<Cap> caps = find_caps(mesh, candidates.triangles(), lowest_mm);
   if (caps.empty()) return false;
-  std::vector<SelectedOneRings::Edge> edges;
-  for (const Cap& cap : caps) {
-    edges.emplace_back(cap.a, cap.b);
-    edges.emplace_back(cap.c, cap.c);
-  }
-  const SelectedOneRings one_rings(mesh, edges);
+  std::vector<Vertex> corners;
+  for (const Cap& cap : caps)
+    corners.insert(corners.end(), {cap.a, cap.b, cap.c});
+  const OneRings one_rings(mesh, corners);
   std::vector<bool> touched(mesh.vertices_mm.size(), false);
   bool any = false;
   for (const Cap& cap : caps) {
@@ -111,7 +109,7 @@ bool flip_caps(Mesh& mesh, float lowest_mm, SliverCandidates& candidates) {
       touched[v] = true;
     any = true;
   }
-  candidates.add(one_rings.triangles());
+  candidates.add(one_rings.selected_triangles());
   return any;
 }
 

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/selected_one_rings.h"
+#include "frangia/geometry/one_rings.h"
 
 namespace frangia {
 namespace {
@@ -43,7 +43,7 @@ std::vector<std::uint32_t> find_foldovers(const Mesh& mesh, float least) {
 
 /// Returns how far the triangles around a vertex are folded: the sum of what their normal agreement
 /// lacks to kUpright.
-float foldover_measure(const Mesh& mesh, const SelectedOneRings& one_rings, Vertex v) {
+float foldover_measure(const Mesh& mesh, const OneRings& one_rings, Vertex v) {
   constexpr float kUpright = 0.4F;  // cosine, a little above that of a foldover
   float sum = 0.0F;
   for (const std::uint32_t t : one_rings.of(v))
@@ -52,7 +52,7 @@ float foldover_measure(const Mesh& mesh, const SelectedOneRings& one_rings, Vert
 }
 
 /// Moves a vertex along the surface to the mean of its neighbours if that reduces the foldovers.
-void relax_tangentially(Mesh& mesh, const SelectedOneRings& one_rings, Vertex v) {
+void relax_tangentially(Mesh& mesh, const OneRings& one_rings, Vertex v) {
   const std::vector<Vertex> around = one_ring_neighbors(mesh, one_rings, v);
   for (std::size_t i = 0; i < around.size(); i += 2) {
     if (i + 1 == around.size() || around[i] != around[i + 1]) return;  // at the boundary
@@ -69,10 +69,10 @@ void relax_tangentially(Mesh& mesh, const SelectedOneRings& one_rings, Vertex v)
 }
 
 /// Whether one of the triangle's edges is at the boundary.
-bool is_at_boundary(const Mesh& mesh, const SelectedOneRings& one_rings, std::uint32_t triangle) {
+bool is_at_boundary(const Mesh& mesh, const OneRings& one_rings, std::uint32_t triangle) {
   const Mesh::Triangle& corners = mesh.triangles[triangle];
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto& one_ring = one_rings.of(corners[i]);
+    const auto one_ring = one_rings.of(corners[i]);
     const auto shared = std::count_if(one_ring.begin(), one_ring.end(), [&](std::uint32_t t) {
       return has_vertex(mesh.triangles[t], corners[(i + 1) % 3]);
     });
@@ -103,12 +103,10 @@ bool treat_foldovers(Mesh& mesh,
                      FoldoverAction action) {
   const std::vector<std::uint32_t> foldovers = find_foldovers(mesh, least);
   if (foldovers.empty()) return false;
-  std::vector<SelectedOneRings::Edge> corners;
-  for (const std::uint32_t t : foldovers) {
-    corners.emplace_back(mesh.triangles[t][0], mesh.triangles[t][1]);
-    corners.emplace_back(mesh.triangles[t][2], mesh.triangles[t][2]);
-  }
-  const SelectedOneRings one_rings(mesh, corners);
+  std::vector<Vertex> corners;
+  for (const std::uint32_t t : foldovers)
+    corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  const OneRings one_rings(mesh, corners);
   std::vector<std::uint32_t> removed;
   for (const std::uint32_t t : foldovers) {
     if (action == FoldoverAction::Remove || is_at_boundary(mesh, one_rings, t)) {

@@ -5,7 +5,7 @@
 #include "frangia/fusion/internal/collapse_slivers.h"
 #include "frangia/fusion/internal/flip_caps.h"
 #include "frangia/fusion/internal/sliver_candidates.h"
-#include "frangia/geometry/selected_one_rings.h"
+#include "frangia/geometry/one_rings.h"
 
 namespace frangia {
 

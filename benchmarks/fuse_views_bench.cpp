@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kDistance_mm = 650.0;
 
-/// A sphere with bumps, seen from all around: noise 0.02 mm, pixels 120 mm / size apart.
-/// source   the data of the table in docs/surface.md
+/// A sphere with bumps, observed from all sides: noise 0.02 mm, pixel spacing 120 mm / size.
+/// source   the plot in docs/surface.md
 struct Sphere {
   int size_px = 0;
   int views = 12;
@@ -44,7 +44,7 @@ const ViewStore& views_of(const Sphere& sphere) {
       const double away = p.norm() - sphere.radius_mm;
       if (away > 3.0) return 0.6 * (away - 1.5);
       const double bumps = std::sin(0.25 * p.x()) * std::sin(0.25 * p.y()) * std::sin(0.25 * p.z());
-      return 0.6 * (away - 1.5 * bumps);  // less than the distance, so as not to step over
+      return 0.6 * (away - 1.5 * bumps);  // a lower bound of the distance, for sphere tracing
     };
     found =
         made.emplace(key,
@@ -55,7 +55,7 @@ const ViewStore& views_of(const Sphere& sphere) {
   return found->second;
 }
 
-/// The points of a view and triangles between neighbours, as programs for range maps want them.
+/// Returns a view as a range map: its points, and triangles between neighbours.
 Mesh range_map(const View& view, const CameraModel& model) {
   constexpr float kLongest_mm = 1.0F;
   const Image<Eigen::Vector2f> rays = rays_of(model);
@@ -87,7 +87,7 @@ Mesh range_map(const View& view, const CameraModel& model) {
   return mesh;
 }
 
-/// For tools/bench_peers.py, which gives them to another program.
+/// Keeps the range maps for tools/bench_merging.py, which passes them to MeshLab.
 void keep_range_maps(const Sphere& sphere) {
   const char* folder = std::getenv("FRANGIA_BENCH_DATA");  // NOLINT(concurrency-mt-unsafe)
   if (folder == nullptr) return;
@@ -98,7 +98,7 @@ void keep_range_maps(const Sphere& sphere) {
   }
 }
 
-/// The whole of fusion; the rate is pixels a second.
+/// Fuses all views; the rate is in pixels per second.
 void fuse(benchmark::State& state, const Sphere& sphere) {
   const ViewStore& views = views_of(sphere);
   const CameraModel model = sphere.model();
@@ -112,12 +112,12 @@ void fuse(benchmark::State& state, const Sphere& sphere) {
   }
   const double least_s = *std::min_element(times_s.begin(), times_s.end());
   state.counters["triangles"] = static_cast<double>(triangles);
-  state.counters["first_s"] = times_s[0];  // its memory was never touched before
+  state.counters["first_s"] = times_s[0];  // touches its memory for the first time
   state.counters["least_s"] = least_s;
   state.SetItemsProcessed(state.iterations() * sphere.views * sphere.size_px * sphere.size_px);
   if (sphere.size_px != 1200) return;
   PerformanceTarget target;
-  target.at_most("a mesh at 0.2 mm, the least of all", least_s, 2.7, "s");
+  target.at_most("a mesh at 0.2 mm, shortest time", least_s, 2.7, "s");
   target.label(state);
 }
 
@@ -147,7 +147,7 @@ BENCHMARK(fuse_by_views)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// By radius; the surface grows with its square.
+/// By radius; the area grows with its square.
 void fuse_by_radius(benchmark::State& state) {
   fuse(state, {600, 12, static_cast<double>(state.range(0))});
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The plot of docs/surface.md: how the time of pasting grows. Debian: python3-matplotlib.
+"""Draws the plot of docs/surface.md: time of the fusion against views and area. Debian: python3-matplotlib.
 
-usage: plot_paste.py BENCH_FOLDER PLOT.svg    the folder holds paste_views.json, as `./run bench` leaves it
+usage: plot_fusion.py BENCH_FOLDER PLOT.svg    the folder holds fuse_views.json, as `./run bench` leaves it
 """
 import json
 import math
@@ -11,17 +11,17 @@ import sys
 import matplotlib
 
 matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 
 
 def points(runs, name):
-    """(argument, seconds) of the runs of one benchmark."""
-    mine = [run for run in runs if run["name"].startswith(name + "/")]
-    return [(float(run["name"].split("/")[1]), run["least_s"]) for run in mine]
+    """Returns (argument, seconds) of the runs of one benchmark."""
+    of_name = [run for run in runs if run["name"].startswith(name + "/")]
+    return [(float(run["name"].split("/")[1]), run["least_s"]) for run in of_name]
 
 
 def draw(axes, values, label):
-    """The points, and the straight line that fits best."""
+    """Draws the points and their least-squares line."""
     xs, ys = zip(*values)
     mean_x, mean_y = sum(xs) / len(xs), sum(ys) / len(ys)
     slope = sum((x - mean_x) * (y - mean_y) for x, y in values) / sum((x - mean_x) ** 2 for x in xs)
@@ -37,11 +37,11 @@ def draw(axes, values, label):
 
 
 def main(bench, plot):
-    runs = json.loads((bench / "paste_views.json").read_text())["benchmarks"]
+    runs = json.loads((bench / "fuse_views.json").read_text())["benchmarks"]
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.4))
-    draw(left, points(runs, "paste_by_views"), "views of one sphere")
-    areas = [(4 * math.pi * radius**2 * 1e-2, seconds) for radius, seconds in points(runs, "paste_by_radius")]
-    draw(right, areas, "surface of the sphere, cm²")
+    draw(left, points(runs, "fuse_by_views"), "views of one sphere")
+    areas = [(4 * math.pi * radius**2 * 1e-2, seconds) for radius, seconds in points(runs, "fuse_by_radius")]
+    draw(right, areas, "area of the sphere, cm²")
     figure.tight_layout()
     figure.savefig(plot, metadata={"Date": None})
 
