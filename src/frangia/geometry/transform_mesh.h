@@ -29,9 +29,9 @@ namespace frangia {
                                     const Eigen::Vector3d& picked_mm,
                                     double within_rad = 0.17);
 
-/// Computes the 3-2-1 alignment of three faces. All three pass through the origin. The outward normal
-/// of the first one is -z. The second one's is -x, apart from its deviation from a right angle to the
-/// first. The third one's is close to -y or +y.
+/// Computes the 3-2-1 alignment of three faces. All three pass through the origin. The outward
+/// normal of the first one is -z. The second one's is -x, apart from its deviation from a right
+/// angle to the first. The third one's is close to -y or +y.
 ///
 /// shape    outward normals, which need not be perpendicular
 /// errors   Error(Input) when two faces are parallel, or the third one is parallel to the
