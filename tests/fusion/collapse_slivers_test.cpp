@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-/// A box with one of its corners cut into two vertices that are close together.
+/// A box with a second vertex close to one of its corners.
 Mesh box_with_sliver() {
   Mesh mesh = testing::box({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F});
   mesh.vertices_mm.emplace_back(0.995F, 1.0F, 1.0F);  // on the edge from corner 6 to corner 7
@@ -33,7 +33,7 @@ void collapse(Mesh& mesh, std::span<const std::uint8_t> sharp) {
   std::erase_if(mesh.triangles, is_removed);
 }
 
-TEST(CollapseSlivers, JoinsVerticesThatAreClose) {
+TEST(CollapseSlivers, CollapsesAShortEdge) {
   Mesh mesh = box_with_sliver();
   ASSERT_EQ(testing::open_edges(mesh), 0U);
   collapse(mesh, {});

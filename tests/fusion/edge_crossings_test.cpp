@@ -40,7 +40,7 @@ DistanceField field_of(const std::function<double(const Eigen::Vector3d&)>& dist
   return field;
 }
 
-constexpr double kVoxel = 0.5;
+constexpr double kSpacing = 0.5;
 constexpr double kRadius = 6.3;
 
 double sphere(const Eigen::Vector3d& p) {
@@ -48,14 +48,14 @@ double sphere(const Eigen::Vector3d& p) {
 }
 
 TEST(EdgeCrossings, OfASphereLieOnItAndFaceOutwards) {
-  const EdgeCrossings crossings = find_edge_crossings(field_of(sphere, kVoxel, 2));
+  const EdgeCrossings crossings = find_edge_crossings(field_of(sphere, kSpacing, 2));
   // Cauchy-Crofton: the grid lines of one axis cross the surface of a sphere 2 pi r^2 / h^2 times.
-  const double expected = 3.0 * kTwoPi * kRadius * kRadius / (kVoxel * kVoxel);
+  const double expected = 3.0 * kTwoPi * kRadius * kRadius / (kSpacing * kSpacing);
   EXPECT_NEAR(static_cast<double>(crossings.points_mm.size()) / expected, 1.0, 0.02);
   ASSERT_EQ(crossings.outward.size(), crossings.points_mm.size());
   for (std::size_t i = 0; i < crossings.points_mm.size(); ++i) {
     const Eigen::Vector3d point = crossings.points_mm[i].cast<double>();
-    EXPECT_NEAR(sphere(point), 0.0, kVoxel * kVoxel / (8.0 * kRadius) + 1e-5);
+    EXPECT_NEAR(sphere(point), 0.0, kSpacing * kSpacing / (8.0 * kRadius) + 1e-5);
     const int outward = crossings.outward[i];
     const double along = point[std::abs(outward) - 1];
     EXPECT_GT(outward > 0 ? along : -along, 0.0);
@@ -65,12 +65,12 @@ TEST(EdgeCrossings, OfASphereLieOnItAndFaceOutwards) {
 TEST(EdgeCrossings, OfAClosedSurfaceFulfilEulersFormula) {
   // Dual contouring of a sphere: a face for each crossing, a vertex for each loop, quads of four
   // edges that two quads share: V - E + F = V - 2 F + F = 2.
-  const EdgeCrossings crossings = find_edge_crossings(field_of(sphere, kVoxel, 2));
+  const EdgeCrossings crossings = find_edge_crossings(field_of(sphere, kSpacing, 2));
   EXPECT_EQ(crossings.vertices, crossings.points_mm.size() + 2);
 }
 
 TEST(EdgeCrossings, AreFoundAgainThroughTheNeighborhood) {
-  const EdgeCrossings crossings = find_edge_crossings(field_of(sphere, kVoxel, 2));
+  const EdgeCrossings crossings = find_edge_crossings(field_of(sphere, kSpacing, 2));
   std::size_t found = 0;
   for (std::size_t block = 0; block < crossings.blocks.size(); ++block) {
     const auto around = crossings.neighborhood(block);
@@ -81,9 +81,9 @@ TEST(EdgeCrossings, AreFoundAgainThroughTheNeighborhood) {
         const unsigned axes = crossings.blocks[block]->axes[static_cast<std::size_t>(i)];
         if ((axes >> axis & 1U) == 0) continue;
         Eigen::Vector3f low = crossings.points_mm[around.crossing(voxel, axis)] -
-                              static_cast<float>(kVoxel) * voxel.cast<float>();
+                              static_cast<float>(kSpacing) * voxel.cast<float>();
         EXPECT_GE(low[axis], -1e-5F);
-        EXPECT_LE(low[axis], static_cast<float>(kVoxel) + 1e-5F);
+        EXPECT_LE(low[axis], static_cast<float>(kSpacing) + 1e-5F);
         low[axis] = 0.0F;
         EXPECT_LT(low.norm(), 1e-5F);
         ++found;
@@ -96,18 +96,18 @@ TEST(EdgeCrossings, AreFoundAgainThroughTheNeighborhood) {
 TEST(EdgeCrossings, LeaveOutStepsThatADistanceCannotHave) {
   // Two parallel surfaces of different views: the distance jumps from +1.5 to -1.5 voxels.
   const auto jump = [](const Eigen::Vector3d& p) {
-    return p.z() < 0.1 ? 1.5 * kVoxel : -1.5 * kVoxel;
+    return p.z() < 0.1 ? 1.5 * kSpacing : -1.5 * kSpacing;
   };
-  EXPECT_TRUE(find_edge_crossings(field_of(jump, kVoxel, 1)).points_mm.empty());
+  EXPECT_TRUE(find_edge_crossings(field_of(jump, kSpacing, 1)).points_mm.empty());
   FieldParameters wide;
   wide.max_step_voxels = 3.5;
-  EXPECT_FALSE(find_edge_crossings(field_of(jump, kVoxel, 1), wide).points_mm.empty());
+  EXPECT_FALSE(find_edge_crossings(field_of(jump, kSpacing, 1), wide).points_mm.empty());
 }
 
 TEST(EdgeCrossings, HaveNoCellWithACornerThatWasNotMeasured) {
   const auto half = [](const Eigen::Vector3d& p) { return p.x() > 0.1 ? kMissing : p.z() - 0.2; };
   const EdgeCrossings crossings =
-      find_edge_crossings(field_of([&](const auto& p) { return half(p); }, kVoxel, 1));
+      find_edge_crossings(field_of([&](const auto& p) { return half(p); }, kSpacing, 1));
   for (std::size_t block = 0; block < crossings.blocks.size(); ++block) {
     for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
       const int x = crossings.block_coords[block].x() * 8 + (i & 7);

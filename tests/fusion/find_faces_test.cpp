@@ -8,7 +8,7 @@
 namespace frangia {
 namespace {
 
-/// Vertices of the three faces at the corner of a cube, from 1 to 4 off its edges.
+/// Vertices of the three faces at the corner of a cube, at 1 to 4 from its edges.
 Mesh corner() {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
@@ -38,7 +38,7 @@ TEST(FindFaces, FindsTheThreeOfACorner) {
   EXPECT_LT(intersect_planes(faces.planes, {-0.3F, -0.2F, -0.1F}).norm(), 1e-4F);
 }
 
-TEST(FindFaces, NamesTheNearestFirst) {
+TEST(FindFaces, ListsTheNearestFaceFirst) {
   const Faces faces = faces_of(corner(), {-0.3F, -0.2F, -0.1F});
   ASSERT_EQ(faces.count, 3U);
   EXPECT_GT(faces.planes[0].normal().z(), 0.999F);
@@ -48,7 +48,7 @@ TEST(FindFaces, NamesTheNearestFirst) {
   EXPECT_LT((edge - Eigen::Vector3f(-0.3F, 0.0F, 0.0F)).norm(), 1e-4F);
 }
 
-TEST(FindFaces, TakesNoRoughSurfaceForAFace) {
+TEST(FindFaces, FindsNoFaceInARoughSurface) {
   Mesh mesh = corner();
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
     mesh.vertices_mm[i] += (i % 2 == 0 ? 0.1F : -0.1F) * mesh.normals[i];

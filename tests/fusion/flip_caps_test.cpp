@@ -6,7 +6,7 @@
 namespace frangia {
 namespace {
 
-/// A square whose lower half is a triangle with its corners in a row, or hanging over by `sag`.
+/// A triangle over a second one whose lower corner is `sag` above their common edge.
 Mesh square(float sag) {
   Mesh mesh;
   mesh.vertices_mm = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, sag, 0}};
@@ -15,8 +15,8 @@ Mesh square(float sag) {
   return mesh;
 }
 
-TEST(FlipCaps, TurnsTheLongEdgeOfACap) {
-  Mesh mesh = square(0.001F);  // folded over, too
+TEST(FlipCaps, FlipsTheLongEdgeOfACap) {
+  Mesh mesh = square(0.001F);  // it is folded over, too
   SliverCandidates candidates(mesh, 0.0F, 0.1F);
   EXPECT_TRUE(flip_caps(mesh, 0.1F, candidates));
   for (const auto& t : mesh.triangles) {

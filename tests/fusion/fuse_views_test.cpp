@@ -25,7 +25,7 @@ using testing::VertexErrors;
 
 constexpr double kDistance = 650.0;
 
-/// A box turned so that nothing of it is along the grid.
+/// A box rotated so that none of its edges is along the grid.
 struct TurnedBox {
   Eigen::Vector3d half_mm{24.0, 20.0, 16.0};
   Eigen::Matrix3d box_from_object =
@@ -38,7 +38,7 @@ struct TurnedBox {
   }
 };
 
-TEST(FuseViews, MakesAClosedSphereMoreExactThanItsPoints) {
+TEST(FuseViews, MakesAClosedSphereMoreAccurateThanItsPoints) {
   const Shape truth = testing::sphere(50.0);
   const Mesh mesh = fuse_views(snapshots(truth, small_camera_model(), all_around(12, kDistance)),
                                small_camera_model());
@@ -46,11 +46,11 @@ TEST(FuseViews, MakesAClosedSphereMoreExactThanItsPoints) {
   EXPECT_EQ(edges.repeated, 0U);
   EXPECT_EQ(edges.open, 0U);
   EXPECT_NEAR(testing::volume_mm3(mesh) / (4.0 / 3.0 * kPi * std::pow(50.0, 3)), 1.0, 1e-3);
-  EXPECT_LT(VertexErrors(mesh, truth).rms_mm, 0.005);  // of points with 0.02 mm
+  EXPECT_LT(VertexErrors(mesh, truth).rms_mm, 0.005);  // the points have a noise of 0.02 mm
 }
 
 TEST(FuseViews, LosesNoAccuracyWithVoxelsThatAreCoarserThanItsPixels) {
-  // A pixel sees 0.22 mm: the field looks at every third, the vertices are placed by all.
+  // A pixel covers 0.22 mm: the field uses every third pixel, the vertices are placed with all.
   const Shape truth = testing::sphere(50.0);
   const CameraModel camera = small_camera_model(600, 3000.0);
   const ViewStore views = snapshots(truth, camera, all_around(8, kDistance));
@@ -62,7 +62,7 @@ TEST(FuseViews, LosesNoAccuracyWithVoxelsThatAreCoarserThanItsPixels) {
   EXPECT_LT(VertexErrors(coarse, truth).rms_sigmas, 1.25);
 }
 
-TEST(FuseViews, StaysOpenWhereNothingWasSeen) {
+TEST(FuseViews, StaysOpenWhereNothingWasMeasured) {
   const Shape truth = testing::sphere(50.0);
   const Mesh mesh =
       fuse_views(snapshots(truth, small_camera_model(), around_table(6, 0.5, kDistance)),
@@ -82,7 +82,7 @@ TEST(FuseViews, ReachesTheEdgeOfTheDataWithinAPixelAndNotBeyond) {
                                          {testing::look_from(0.4, 0.9, kDistance)},
                                          {.steepest_rad = steepest}),
                                small_camera_model());
-  // The cap that one view sees, and a pixel less or half a pixel more of it.
+  // The cap that one view observes, extended by a number of pixels.
   const auto cap_mm2 = [&](double pixels) {
     const double pixel_rad = 1.0 / (1500.0 * std::cos(steepest)) * (kDistance - 20.0) / radius;
     const double from_camera = std::asin(radius * std::sin(steepest) / kDistance);
@@ -136,7 +136,7 @@ TEST(FuseViews, PredictsItsErrors) {
   EXPECT_LT(VertexErrors(mesh, truth).rms_sigmas, 1.25);
 }
 
-TEST(FuseViews, DoesNotAverageAwayWhatAWholeViewIsOffBy) {
+TEST(FuseViews, KeepsTheErrorOfAWholeViewInItsSigma) {
   const Shape truth = testing::sphere(50.0);
   ViewStore views;
   Snapshot how;
@@ -166,12 +166,12 @@ TEST(FuseViews, ConnectsNothingAcrossADepthStep) {
 TEST(FuseViews, RemovesAPatchInTheFreeSpaceOfOtherViews) {
   const Shape truth = testing::sphere(50.0);
   ViewStore views = snapshots(truth, small_camera_model(), all_around(12, kDistance));
-  View lying = views.load(0);
+  View wrong = views.load(0);
   for (int y = 120; y < 160; ++y) {
     for (int x = 120; x < 160; ++x)
-      lying.range.depth_mm(x, y) -= 4.0F;  // a fringe off
+      wrong.range.depth_mm(x, y) -= 4.0F;  // a wrong fringe order
   }
-  views.replace(0, lying);
+  views.replace(0, wrong);
   const Mesh mesh = fuse_views(views, small_camera_model());
   EXPECT_LT(VertexErrors(mesh, truth).max_mm, 0.3);
   EXPECT_EQ(Edges(mesh).open, 0U);
@@ -180,12 +180,12 @@ TEST(FuseViews, RemovesAPatchInTheFreeSpaceOfOtherViews) {
 TEST(FuseViews, GivesTheSameBytesForAnyNumberOfThreads) {
   const ViewStore views =
       snapshots(TurnedBox{}.shape(), small_camera_model(), all_around(5, kDistance));
-  const auto paste = [&](std::size_t threads) {
+  const auto fuse = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return fuse_views(views, small_camera_model());
   };
-  const Mesh one = paste(1);
-  const Mesh two = paste(2);
+  const Mesh one = fuse(1);
+  const Mesh two = fuse(2);
   EXPECT_EQ(one.triangles, two.triangles);
   ASSERT_EQ(one.vertices_mm.size(), two.vertices_mm.size());
   EXPECT_EQ(std::memcmp(one.vertices_mm.data(),
@@ -229,7 +229,7 @@ TEST(FuseViews, RemovesSmallComponents) {
   EXPECT_LT(farthest(2000), 31.0F);
 }
 
-TEST(FuseViews, NotesTheVoxelItChose) {
+TEST(FuseViews, ReportsTheVoxelSizeItDerived) {
   const ViewStore views =
       snapshots(testing::sphere(50.0), small_camera_model(), all_around(4, kDistance));
   std::vector<std::string> notes;

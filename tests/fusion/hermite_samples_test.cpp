@@ -7,12 +7,12 @@
 namespace frangia {
 namespace {
 
-TEST(MakeHermiteSamples, PutsThePointWhereTheViewsSayTheSurfaceLies) {
+TEST(MakeHermiteSamples, PutsThePointOntoTheObservedSurface) {
   EdgeCrossings crossings;
   crossings.points_mm = {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}};
   HermiteAccumulators hermite(2);
   HermiteAccumulator::PlaneSum& face = hermite[0].first;
-  face.weight = 4.0F;  // two views of weight 2, which see it 0.1 mm in front of the surface
+  face.weight = 4.0F;  // two views of weight 2, which observe the surface 0.1 mm behind
   face.weight_squared = 8.0F;
   face.offset = 0.4F;
   face.noise_squared = 4.0F * 2.0F * 0.01F;
@@ -28,7 +28,7 @@ TEST(MakeHermiteSamples, PutsThePointWhereTheViewsSayTheSurfaceLies) {
   EXPECT_NEAR(samples[0].noise_mm, 0.1 / std::sqrt(2.0), 1e-6);  // 0.1 mm each
   EXPECT_NEAR(samples[0].spacing_mm, 0.2F, 1e-6F);
   EXPECT_EQ(samples[0].views, 2);
-  EXPECT_FALSE(samples[1].supported) << "no view spoke for it";
+  EXPECT_FALSE(samples[1].supported) << "no view observed it";
 }
 
 TEST(MakeHermiteSamples, KeepsTheLesserPlaneNearAnEdge) {

@@ -7,7 +7,7 @@
 namespace frangia {
 namespace {
 
-TEST(MeasureSampling, FindsTheSpacingOfPixelsOnTheObject) {
+TEST(MeasureSampling, MeasuresTheSpacingOfPixelsOnTheObject) {
   const CameraRays camera(testing::small_camera_model());
   const ViewStore views = testing::snapshots(testing::floor_at(0.0),
                                              camera.model,

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kSide = 5;
 
 /// A level grid of vertices one apart.
-Mesh level() {
+Mesh level_grid() {
   Mesh mesh;
   for (std::uint32_t y = 0; y < kSide; ++y) {
     for (std::uint32_t x = 0; x < kSide; ++x)
@@ -39,26 +39,26 @@ int folded(const Mesh& mesh) {
 }
 
 TEST(RemoveFoldovers, RelaxesAVertexBeyondItsNeighbors) {
-  Mesh mesh = level();
+  Mesh mesh = level_grid();
   mesh.vertices_mm[12] = {3.3F, 2.2F, 0.1F};
   ASSERT_GT(folded(mesh), 0);
   remove_foldovers(mesh, {});
   EXPECT_EQ(folded(mesh), 0);
-  EXPECT_EQ(mesh.triangles.size(), level().triangles.size());
-  EXPECT_EQ(mesh.vertices_mm[12].z(), 0.1F);  // along the surface alone
+  EXPECT_EQ(mesh.triangles.size(), level_grid().triangles.size());
+  EXPECT_EQ(mesh.vertices_mm[12].z(), 0.1F);  // it moves along the surface only
 }
 
 TEST(RemoveFoldovers, RemovesFoldoversAtTheBoundary) {
-  Mesh mesh = level();
+  Mesh mesh = level_grid();
   mesh.vertices_mm[2] = {2.0F, 1.5F, 0.0F};
   ASSERT_GT(folded(mesh), 0);
   remove_foldovers(mesh, {});
   EXPECT_EQ(folded(mesh), 0);
-  EXPECT_LT(mesh.triangles.size(), level().triangles.size());
+  EXPECT_LT(mesh.triangles.size(), level_grid().triangles.size());
 }
 
 TEST(RemoveFoldovers, NeverLeavesAFoldoverWhereNothingMayMove) {
-  Mesh mesh = level();
+  Mesh mesh = level_grid();
   mesh.vertices_mm[12] = {3.3F, 2.2F, 0.0F};
   const std::vector<std::uint8_t> sharp(mesh.vertices_mm.size(), 1);
   remove_foldovers(mesh, sharp);
@@ -66,11 +66,11 @@ TEST(RemoveFoldovers, NeverLeavesAFoldoverWhereNothingMayMove) {
   EXPECT_EQ(mesh.vertices_mm[12].x(), 3.3F);
 }
 
-TEST(RemoveFoldovers, LeavesASoundMeshAsItIs) {
-  Mesh mesh = level();
+TEST(RemoveFoldovers, LeavesAValidMeshUnchanged) {
+  Mesh mesh = level_grid();
   remove_foldovers(mesh, {});
-  EXPECT_EQ(mesh.triangles, level().triangles);
-  EXPECT_EQ(mesh.vertices_mm, level().vertices_mm);
+  EXPECT_EQ(mesh.triangles, level_grid().triangles);
+  EXPECT_EQ(mesh.vertices_mm, level_grid().vertices_mm);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace frangia {
 namespace {
 
-/// A grid of squares, each cut in two, whose inner vertices were pushed about.
+/// A grid of squares, each cut in two, with displaced inner vertices.
 Mesh rough_sheet() {
   constexpr std::uint32_t kGridSide = 20;
   Mesh mesh;

@@ -10,14 +10,14 @@
 namespace frangia {
 namespace {
 
-/// A point of a profile across an edge, and the way it faces.
+/// A point of a profile across an edge, and its normal.
 struct Step {
   Eigen::Vector2f point;
   Eigen::Vector2f out;
 };
 
-/// Face z = 0 for x < 0, and face x = 0 for z < 0: what lies on them from 1 to 9 off the edge, and
-/// `between` in the middle.
+/// Face z = 0 for x < 0, and face x = 0 for z < 0: points at 1 to 9 from the edge, and `between` in
+/// the middle.
 std::vector<Step> profile(const std::vector<Step>& between) {
   std::vector<Step> steps;
   for (int i = 9; i > 0; --i)
@@ -28,14 +28,14 @@ std::vector<Step> profile(const std::vector<Step>& between) {
   return steps;
 }
 
-/// The edge cut off at 0.3.
+/// The edge with a chamfer at 0.3.
 std::vector<Step> chamfer() {
   const float half = std::sqrt(0.5F);
   return profile({{{-0.3F, 0.0F}, {half, half}}, {{0.0F, -0.3F}, {half, half}}});
 }
 
-/// A profile drawn out along y, its vertices one apart.
-Mesh drawn_out(const std::vector<Step>& steps, int rows) {
+/// A profile extruded along y, with vertices one apart.
+Mesh extruded(const std::vector<Step>& steps, int rows) {
   Mesh mesh;
   for (int row = 0; row < rows; ++row) {
     for (const Step& step : steps) {
@@ -56,7 +56,7 @@ Mesh drawn_out(const std::vector<Step>& steps, int rows) {
   return mesh;
 }
 
-/// How far the middles of triangles of the middle rows lie from the two faces, at most.
+/// The largest distance of the centres of triangles in the middle rows from the nearer face.
 float farthest_off(const Mesh& mesh, float rows) {
   float farthest = 0.0F;
   for (const auto& t : mesh.triangles) {
@@ -69,7 +69,7 @@ float farthest_off(const Mesh& mesh, float rows) {
 }
 
 TEST(SharpenEdges, ExtrapolatesFacesToWhereTheyIntersect) {
-  Mesh mesh = drawn_out(chamfer(), 30);
+  Mesh mesh = extruded(chamfer(), 30);
   ASSERT_GT(farthest_off(mesh, 30.0F), 0.09F);
   const auto sharp = sharpen_edges(mesh, 1.0F);
   EXPECT_LT(farthest_off(mesh, 30.0F), 1e-3F);
@@ -82,7 +82,7 @@ TEST(SharpenEdges, ExtrapolatesFacesToWhereTheyIntersect) {
 }
 
 TEST(SharpenEdges, StaysManifold) {
-  Mesh mesh = drawn_out(chamfer(), 30);
+  Mesh mesh = extruded(chamfer(), 30);
   sharpen_edges(mesh, 1.0F);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (const auto& t : mesh.triangles) {
@@ -106,14 +106,14 @@ TEST(SharpenEdges, LeavesARoundEdgeRound) {
   for (auto& step : steps)
     step.point += step.out.x() == 0.0F ? Eigen::Vector2f(0.0F, 2.5F) : Eigen::Vector2f(2.5F, 0.0F);
   steps.insert(steps.begin() + 9, round.begin(), round.end());
-  Mesh mesh = drawn_out(steps, 30);
+  Mesh mesh = extruded(steps, 30);
   const auto before = mesh.vertices_mm;
   sharpen_edges(mesh, 1.0F);
   EXPECT_EQ(mesh.vertices_mm, before);
 }
 
 TEST(SharpenEdges, LeavesAFoldTooShortToBeAnEdge) {
-  Mesh mesh = drawn_out(chamfer(), 7);
+  Mesh mesh = extruded(chamfer(), 7);
   const auto before = mesh.triangles;
   sharpen_edges(mesh, 1.0F);
   EXPECT_EQ(mesh.triangles, before);

@@ -7,7 +7,7 @@ namespace {
 
 using Which = std::vector<std::uint32_t>;
 
-/// A triangle that is fine, one with a short edge, and one whose corners lie nearly in a row.
+/// A regular triangle, one with a short edge, and one of low height.
 Mesh three() {
   Mesh mesh;
   mesh.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.01F, 1, 0}, {0.5F, -0.01F, 0}};
@@ -15,7 +15,7 @@ Mesh three() {
   return mesh;
 }
 
-TEST(SliverCandidates, HoldShortEdgesAndLowOnes) {
+TEST(SliverCandidates, HoldShortEdgesAndLowTriangles) {
   EXPECT_EQ(SliverCandidates(three(), 0.02F, 0.001F).triangles(), Which{1});
   EXPECT_EQ(SliverCandidates(three(), 0.001F, 0.02F).triangles(), (Which{1, 2}));
 }

@@ -6,7 +6,7 @@
 namespace frangia {
 namespace {
 
-/// A triangle in the plane with points in the middle of its split edges.
+/// A triangle with points in the middle of its split edges.
 SplitTriangle with_points(unsigned split) {
   SplitTriangle t;
   t.points[0] = {0.0F, 0.0F, 0.0F};

@@ -54,11 +54,11 @@ TEST(CleanMesh, LeavesAVertexWithOneFanAlone) {
   EXPECT_EQ(mesh.vertices_mm.size(), 4U);
 }
 
-TEST(CleanMesh, DoesAllAtOnce) {
+TEST(CleanMesh, RemovesComponentsAndSplitsVerticesInOneCall) {
   Mesh mesh = testing::box(Eigen::Vector3f::Zero(), Eigen::Vector3f::Ones());
   for (const float x : {5.0F, 6.0F, 7.0F, 4.0F, 3.0F, 8.0F, 9.0F, 8.0F})
     mesh.vertices_mm.emplace_back(x, x * x, 0.0F);
-  mesh.triangles.push_back({13, 14, 15});  // a part of one triangle
+  mesh.triangles.push_back({13, 14, 15});  // a component of one triangle
   mesh.triangles.push_back({8, 9, 10});    // two fans that meet in a vertex
   mesh.triangles.push_back({8, 11, 12});
   clean_mesh(mesh, 2);

@@ -7,7 +7,7 @@
 namespace frangia {
 namespace {
 
-TEST(CornerNormals, StandUprightOnASphere) {
+TEST(CornerNormals, AreRadialOnASphere) {
   const Mesh mesh = testing::sphere({0, 0, 0}, 20.0, 60);
   const auto normals = corner_normals(mesh);
   for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -29,7 +29,7 @@ TEST(CornerNormals, KeepTheEdgesOfABoxSharp) {
   }
 }
 
-TEST(CornerNormals, RoundThemWhenTheCreaseIsWide) {
+TEST(CornerNormals, AreSmoothedAcrossEdgesBelowTheCreaseAngle) {
   const auto normals = corner_normals(testing::box({-1, -1, -1}, {1, 1, 1}), rad_from_deg(100.0));
   for (const auto& corners : normals) {
     for (const auto& normal : corners)

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Points of a cap around +z, as one view of a ball gives them.
+/// Points of a cap around +z, as in one view of a ball.
 std::vector<Vector3d> cap(const Vector3d& center, double radius, double min_cos, double sigma) {
   std::vector<Vector3d> points;
   for (std::uint64_t i = 0; i < 4000; ++i) {

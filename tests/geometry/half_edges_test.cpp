@@ -82,9 +82,9 @@ TEST(HalfEdges, OfAFanHaveTwinsAtItsSpokesAndABoundaryAroundIt) {
 
 TEST(HalfEdges, HaveNoTwinWhereThreeTrianglesShareAnEdge) {
   for (const std::uint32_t others : {0U, 100U}) {  // of low and of high valence
-    Mesh mesh = fan(others + 2);
+    Mesh mesh = fan(others + 3);
     mesh.vertices_mm.emplace_back(0.0F, 0.0F, 2.0F);
-    mesh.triangles.push_back({0, 2, others + 4});  // at the spoke from 0 to 2
+    mesh.triangles.push_back({0, 2, others + 5});  // at the spoke from 0 to 2
     const HalfEdges edges(mesh);
     EXPECT_FALSE(edges.has_twin(2));  // of the first triangle, from 2 to 0
     EXPECT_FALSE(edges.is_boundary(2));

@@ -7,9 +7,9 @@
 namespace frangia {
 namespace {
 
-TEST(SampleSurface, GivesEveryFaceItsShareOfTheArea) {
+TEST(SampleSurface, SamplesEveryFaceInProportionToItsArea) {
   const Mesh mesh = testing::box({0, 0, 0}, {10, 20, 30});
-  constexpr std::size_t kCount = 22000;  // ten to a square millimetre
+  constexpr std::size_t kCount = 22000;  // ten per square millimetre
   std::array<int, 3> on_axis{};
   for (const SurfaceSample& sample : sample_surface(mesh, kCount)) {
     Eigen::Index axis = 0;

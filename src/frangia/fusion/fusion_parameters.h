@@ -66,7 +66,8 @@ struct HermiteParameters {
   double boundary_incidence_rad = rad_from_deg(72.5);
   /// The same where the plane was fitted to 3 x 3 pixels, whose slope is less certain.
   double small_window_incidence_rad = rad_from_deg(60.0);
-  /// Variance that bilinear interpolation leaves of a smoothed pixel's, as a share.
+  /// Variance of a bilinearly interpolated value over that of a smoothed pixel. Measured, see
+  /// docs/parameters.md.
   double interpolated_variance = 0.73;
   /// Error of lens model and pixel response within the image, px.
   double lateral_px = 0.02;
@@ -88,7 +89,8 @@ struct VertexParameters {
   /// Distance that a vertex may leave its cell by, voxels: an edge of the object can run where the
   /// grid has no crossing.
   double max_excursion_voxels = 0.5;
-  /// Half the width over which the error of smoothed pixels is correlated, px.
+  /// Half the width over which the error of smoothed pixels is correlated, px. Measured, see
+  /// docs/parameters.md.
   double correlation_px = 1.6;
 };
 
