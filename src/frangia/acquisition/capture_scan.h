@@ -15,7 +15,7 @@ namespace frangia {
 /// `rejected` of their view. A failing view is retried, then skipped with a warning. scan.toml is
 /// written last and holds the complete views. Lights and motion are off when the function returns
 /// or throws.
-/// errors   Error(Input) when the folder holds another scan, or the devices cannot capture the
+/// @errors   Error(Input) when the folder holds another scan, or the devices cannot capture the
 ///          plan; Error(Device) when a device is lost or no view could be captured; Error(File)
 ///          when a file cannot be written
 [[nodiscard]] CaptureReport capture_scan(const Scan& plan,

@@ -25,8 +25,8 @@ struct PiezoSweep {
 ///
 /// The shifter's current curve is the initial guess. Its error from one step to the next must stay
 /// below a few tenths of a fringe.
-/// source   advanced iterative algorithm (AIA), Wang and Han 2004
-/// errors   Error(Input) when the rig has no phase shifter, or for fewer than 6 steps;
+/// @source   advanced iterative algorithm (AIA), Wang and Han 2004
+/// @errors   Error(Input) when the rig has no phase shifter, or for fewer than 6 steps;
 ///          Error(Numeric) when no phase steps fit the frames; Error(Device)
 [[nodiscard]] PiezoSweep sweep_piezo(RigDevices& devices,
                                      const Rig& rig,

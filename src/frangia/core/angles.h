@@ -19,7 +19,7 @@ inline constexpr auto kTwoPiF = static_cast<float>(kTwoPi);  ///< for single-pre
 
 /// Returns the equivalent angle in (-pi, pi].
 ///
-/// units    rad
+/// @units    rad
 [[nodiscard]] inline double wrap_rad(double angle_rad) {
   return angle_rad - kTwoPi * std::ceil((angle_rad - kPi) / kTwoPi);
 }

@@ -17,7 +17,7 @@ enum class Durability {
 /// Bytes go to a temporary file in the same folder. `commit` flushes, checks and renames it. The
 /// destructor removes a temporary file that was not committed.
 ///
-/// errors   Error(File) when the folder cannot be written or the disk is full
+/// @errors   Error(File) when the folder cannot be written or the disk is full
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path, Durability durability = Durability::Buffered);

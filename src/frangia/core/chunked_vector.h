@@ -12,7 +12,7 @@ namespace frangia {
 /// elements. The pixel allocator reuses released chunks, because touching new memory for the first
 /// time costs as much as computing its content.
 ///
-/// missing  new elements are uninitialized
+/// @missing  new elements are uninitialized
 template <typename T>
 class ChunkedVector {
  public:

@@ -11,7 +11,7 @@ namespace frangia {
 
 /// Union-find over the integers below a count. The smallest member represents each set.
 ///
-/// source   Tarjan 1975, Efficiency of a Good But Not Linear Set Union Algorithm (path halving)
+/// @source   Tarjan 1975, Efficiency of a Good But Not Linear Set Union Algorithm (path halving)
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) {

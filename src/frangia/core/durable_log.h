@@ -8,7 +8,7 @@ namespace frangia {
 /// A text file that grows by whole lines. A line is on the disk when `append` returns. Opening the
 /// file removes an incomplete last line that an interrupted `append` left.
 ///
-/// errors   Error(File) that names the file, for example when the disk is full
+/// @errors   Error(File) that names the file, for example when the disk is full
 class DurableLog {
  public:
   explicit DurableLog(std::filesystem::path path);

@@ -10,7 +10,7 @@ namespace frangia {
 /// Returns the median of `values` and reorders them. For an even count it is the upper one of the
 /// two middle values: always a value that occurs, never a mean of two. Of no values it is 0.
 ///
-/// missing  not allowed: remove NaN values first
+/// @missing  not allowed: remove NaN values first
 template <typename T>
 [[nodiscard]] T median_in_place(std::span<T> values) {
   if (values.empty()) return T{};

@@ -11,7 +11,7 @@ namespace frangia {
 /// has them, and `free_pixels` keeps up to 768 MB of them for reuse: touching 20 million pixels for
 /// the first time costs more than computing them.
 ///
-/// errors   std::bad_alloc
+/// @errors   std::bad_alloc
 [[nodiscard]] void* allocate_pixels(std::size_t bytes);
 /// Frees memory that `allocate_pixels(bytes)` returned. `bytes` must be the same.
 void free_pixels(void* memory, std::size_t bytes) noexcept;

@@ -13,8 +13,8 @@ struct SymmetricEigen {
 
 /// Computes the eigendecomposition of a symmetric matrix.
 ///
-/// shape    n x n; only the lower triangle is read
-/// source   tridiagonal QR of Eigen, compiled once because its templates compile slowly
+/// @shape    n x n; only the lower triangle is read
+/// @source   tridiagonal QR of Eigen, compiled once because its templates compile slowly
 [[nodiscard]] SymmetricEigen<3> symmetric_eigen(const Eigen::Matrix3d& matrix);
 [[nodiscard]] SymmetricEigen<Eigen::Dynamic> symmetric_eigen(const Eigen::MatrixXd& matrix);
 

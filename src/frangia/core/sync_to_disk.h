@@ -6,7 +6,7 @@ namespace frangia {
 
 /// Waits until a file, or the entries of a folder, are on the disk (fsync).
 ///
-/// errors   Error(File) that names the path, for example when the disk is full or failing
+/// @errors   Error(File) that names the path, for example when the disk is full or failing
 void sync_to_disk(const std::filesystem::path& path);
 
 /// Returns the folder of a file, or "." for a bare name.

@@ -98,10 +98,11 @@ void require_complete(const std::filesystem::path& folder) {
                                ? "simulate"
                                : nullptr;
   if (verb == nullptr) return;
-  throw Error(ErrorKind::Input,
-              fmt::format("{}: the scan is not complete: run `frangia {}` again with the same options",
-                          folder.string(),
-                          verb));
+  throw Error(
+      ErrorKind::Input,
+      fmt::format("{}: the scan is not complete: run `frangia {}` again with the same options",
+                  folder.string(),
+                  verb));
 }
 
 void require_distinct_names(const TomlReader& reader, const std::vector<Pattern>& patterns) {

@@ -38,7 +38,7 @@ struct Scan {
 /// Reads scan.toml and rig.toml of a scan folder, see docs/scan-format.md. Unknown keys are warned
 /// of by name and ignored.
 ///
-/// errors   Error(Input) that names the file and the key: a missing or wrong value, a key of
+/// @errors   Error(Input) that names the file and the key: a missing or wrong value, a key of
 ///          version 1 that was renamed, a newer version, a view's folder outside of the scan;
 ///          or the folder, when its capture or simulation is not complete
 [[nodiscard]] Scan read_scan(const std::filesystem::path& folder, const Run& run = {});

@@ -11,12 +11,12 @@ namespace frangia {
 
 /// Writes scan.toml and rig.toml into `scan.folder`. Each file appears complete or not at all.
 ///
-/// errors   Error(File) when a file cannot be written
+/// @errors   Error(File) when a file cannot be written
 void write_scan(const Scan& scan);
 
 /// Writes part poses alone, as `[[setup]]` tables that can be appended to scan.toml.
 ///
-/// errors   Error(File) when the file cannot be written
+/// @errors   Error(File) when the file cannot be written
 void write_part_poses(const std::filesystem::path& path,
                       const std::map<int, Eigen::Isometry3d>& part_poses);
 

@@ -53,19 +53,19 @@ class CameraDevice : public Device {
   /// Sets the exposure of the following frames and returns the settings in effect, which the camera
   /// may round.
   ///
-  /// errors   Error(Device) when a value is out of the camera's range
+  /// @errors   Error(Device) when a value is out of the camera's range
   virtual CameraSettings configure(const CameraSettings& settings, const Deadline& deadline) = 0;
 
   /// Triggers one exposure and waits for its frame. The exposure starts after the call; a frame
   /// that was already being exposed is discarded.
   ///
-  /// missing  an incomplete frame is returned and marked as such; the caller captures it again
-  /// errors   Error(Device) when no frame arrives by the deadline, or the camera is disconnected
+  /// @missing  an incomplete frame is returned and marked as such; the caller captures it again
+  /// @errors   Error(Device) when no frame arrives by the deadline, or the camera is disconnected
   [[nodiscard]] virtual CapturedFrame capture(const FrameLabel& label,
                                               const Deadline& deadline) = 0;
 
  protected:
-  /// errors   Error(Device) when the exposure is out of the camera's range
+  /// @errors   Error(Device) when the exposure is out of the camera's range
   void check_exposure(double exposure_ms) const;
 };
 

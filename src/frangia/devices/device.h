@@ -27,7 +27,7 @@ class Device {
 
   /// Checks that the device works, without motion or light, and returns a description of it.
   ///
-  /// errors   Error(Device) when it does not answer or reports a fault
+  /// @errors   Error(Device) when it does not answer or reports a fault
   [[nodiscard]] virtual std::string test(const Deadline& deadline) = 0;
 
   /// Switches light off and stops and disables motion as fast as possible. Called on any fault, on

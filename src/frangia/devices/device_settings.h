@@ -19,8 +19,8 @@ using SettingValue =
 
 /// One `[devices.NAME]` table of rig.toml.
 ///
-/// missing  getters with `_or` return a default for a missing key
-/// errors   each getter throws Error(Input) that names the file and the key
+/// @missing  getters with `_or` return a default for a missing key
+/// @errors   each getter throws Error(Input) that names the file and the key
 class DeviceSettings {
  public:
   DeviceSettings(std::filesystem::path file,
@@ -70,7 +70,8 @@ class DeviceSettings {
 
 /// Reads the `[devices.*]` tables of a rig.toml, sorted by name; empty without any.
 ///
-/// errors   Error(Input) that names the file and the key: not a table, an unsupported type of value
+/// @errors   Error(Input) that names the file and the key: not a table, an unsupported type of
+/// value
 [[nodiscard]] std::vector<DeviceSettings> read_device_settings(const std::filesystem::path& rig);
 
 }  // namespace frangia

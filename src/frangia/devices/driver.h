@@ -38,7 +38,7 @@ struct Driver {
   /// Opens the device that the settings describe, disabled and dark, as an instance of the class
   /// for `kind`.
   ///
-  /// errors   Error(Input) that names the file and the key; Error(Device) when the device does not
+  /// @errors   Error(Input) that names the file and the key; Error(Device) when the device does not
   ///          answer
   std::function<std::unique_ptr<Device>(DeviceSettings& settings, const Rig& rig, const Deadline&)>
       open;
@@ -48,7 +48,7 @@ struct Driver {
 
 /// The driver that `settings` name, for the kind of their table.
 ///
-/// errors   Error(Input) that names the file and the key and lists the available drivers
+/// @errors   Error(Input) that names the file and the key and lists the available drivers
 [[nodiscard]] const Driver& driver_for(DeviceSettings& settings,
                                        const std::vector<Driver>& drivers);
 

@@ -18,10 +18,10 @@ class PatternDisplay : public Device {
 
   /// Shows an image and returns when it is on the screen and the delay of the display has passed.
   ///
-  /// shape    of the size of the display
-  /// units    desired light, linear: 0 dark, 1 maximum; the driver compensates the response of the
+  /// @shape    of the size of the display
+  /// @units    desired light, linear: 0 dark, 1 maximum; the driver compensates the response of the
   ///          display
-  /// errors   Error(Device) when the image is not shown by the deadline
+  /// @errors   Error(Device) when the image is not shown by the deadline
   virtual void show(const Image<float>& light, const Deadline& deadline) = 0;
 
   /// Sets all pixels to dark.

@@ -15,8 +15,8 @@ class PhaseShiftController {
 
   /// Drives to a shift from the phase at rest; from rest when the shift is below the previous one.
   ///
-  /// units    rad
-  /// errors   Error(Device) as the shifter; Error(Input) when its curve does not contain the shift
+  /// @units    rad
+  /// @errors   Error(Device) as the shifter; Error(Input) when its curve does not contain the shift
   void shift_to(double shift_rad, const Deadline& deadline);
 
   /// Sets the factor on all requested shifts; initially 1.

@@ -26,17 +26,17 @@ class PhaseShifter : public Device {
 
   /// Sets the command and returns when it has settled.
   ///
-  /// errors   Error(Device) when it is out of range or has not settled by the deadline
+  /// @errors   Error(Device) when it is out of range or has not settled by the deadline
   virtual void drive(double command, const Deadline& deadline) = 0;
 
   /// Sets the pitch of the fringes on interferometers with a variable pitch; others accept only
   /// their own.
   ///
-  /// errors   Error(Device) when it differs from `info().fringes_per_degree`
+  /// @errors   Error(Device) when it differs from `info().fringes_per_degree`
   virtual void set_fringe_frequency(double fringes_per_degree, const Deadline& deadline);
 
  protected:
-  /// errors   Error(Device) when the command is out of range
+  /// @errors   Error(Device) when the command is out of range
   void check_command(double command) const;
 };
 

@@ -38,7 +38,7 @@ struct RigDevices {
 
 /// Opens the devices in the `[devices.*]` tables of a rig.toml.
 ///
-/// errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or
+/// @errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or
 ///          setting, a camera or display whose size differs from the rig; Error(Device) when a
 ///          device does not answer by the deadline
 [[nodiscard]] RigDevices open_devices(const std::filesystem::path& rig_file,

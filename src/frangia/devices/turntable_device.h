@@ -27,7 +27,7 @@ class TurntableDevice : public Device {
 
   /// Finds angle 0 with the home switch; without one, the present position becomes angle 0.
   ///
-  /// errors   Error(Device) when it is disabled or the switch is not reached
+  /// @errors   Error(Device) when it is disabled or the switch is not reached
   virtual void home(const Deadline& deadline) = 0;
 
   /// The present angle; empty when it is unknown.
@@ -35,7 +35,8 @@ class TurntableDevice : public Device {
 
   /// Turns to an angle and returns at standstill.
   ///
-  /// errors   Error(Device) when the angle is out of the limits (before any motion), when the table
+  /// @errors   Error(Device) when the angle is out of the limits (before any motion), when the
+  /// table
   ///          is disabled or its angle unknown, or when it is not at standstill by the deadline,
   ///          which stops the motion
   virtual void move_to(double angle_rad, const Deadline& deadline) = 0;

@@ -18,7 +18,7 @@ class EditHistory {
 
   /// Applies a step and drops the steps that were undone. A step that fails changes nothing.
   ///
-  /// errors   as apply_step
+  /// @errors   as apply_step
   void apply(const EditStep& step, const Run& run = {});
 
   /// Return false when no step is left to undo or to redo.

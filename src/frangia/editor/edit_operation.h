@@ -44,17 +44,17 @@ struct EditOperation {
 
 /// Finds an operation by its name.
 ///
-/// errors   Error(Input) when there is no such operation
+/// @errors   Error(Input) when there is no such operation
 [[nodiscard]] const EditOperation& edit_operation(const std::string& name);
 
 /// Checks the operation and the value of a step without applying it.
 ///
-/// errors   Error(Input) that names the operation and the value and says how to write one
+/// @errors   Error(Input) that names the operation and the value and says how to write one
 void check_step(const EditStep& step);
 
 /// Applies a step. Drops the selection when the triangles change.
 ///
-/// errors   Error(Input) as check_step and as the operation, and when the step leaves no triangle
+/// @errors   Error(Input) as check_step and as the operation, and when the step leaves no triangle
 ///          of a mesh that had some; Error(Cancelled) when `run` is stopped
 void apply_step(EditState& state, const EditStep& step, const Run& run = {});
 

@@ -22,8 +22,8 @@ struct EditPreview {
 /// The comparison is between surfaces: a triangle that lies on the other surface within its sigma
 /// and faces the same way counts as present, whatever the triangulation.
 ///
-/// shape    one flag per triangle of the mesh before and after
-/// errors   Error(Input) when a triangle refers to a vertex that does not exist
+/// @shape    one flag per triangle of the mesh before and after
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist
 [[nodiscard]] EditPreview edit_preview(const Mesh& before, const Mesh& after, const Run& run = {});
 
 }  // namespace frangia

@@ -16,14 +16,14 @@ struct EditScript {
 /// Reads a script. Its JSON is {"format": "frangia-edits", "version": 1, "done": 1, "steps":
 /// [{"operation": "fill-holes", "value": "10mm"}]}; without "done" all steps are done.
 ///
-/// errors   Error(Input) that names the file when it is missing, is not such JSON, has a newer
+/// @errors   Error(Input) that names the file when it is missing, is not such JSON, has a newer
 ///          version, holds an unknown operation or a wrong value, or has more steps done than it
 ///          has steps
 [[nodiscard]] EditScript read_edit_script(const std::filesystem::path& path);
 
 /// Writes a script.
 ///
-/// errors   Error(File) when the file cannot be written
+/// @errors   Error(File) when the file cannot be written
 void write_edit_script(const std::filesystem::path& path, const EditScript& script);
 
 }  // namespace frangia

@@ -21,26 +21,26 @@ struct DxfOptions {
 /// Measured triangles are on layer SCAN, displaced ones on SCAN_DISPLACED, synthesized ones on
 /// SCAN_SYNTHESIZED.
 ///
-/// shape    a polyface mesh indexes its vertices with 16 bits, so a larger mesh is split spatially
+/// @shape    a polyface mesh indexes its vertices with 16 bits, so a larger mesh is split spatially
 ///          into several
-/// units    mm, rounded to 0.0001; $INSUNITS and $MEASUREMENT state it, which release 12 does not
+/// @units    mm, rounded to 0.0001; $INSUNITS and $MEASUREMENT state it, which release 12 does not
 ///          define but its readers accept
-/// missing  normals, sigma and views are not stored; a triangle with two corners that round to the
+/// @missing  normals, sigma and views are not stored; a triangle with two corners that round to the
 ///          same coordinates is omitted
-/// errors   Error(Input) when check_mesh fails, when every triangle is degenerate after rounding,
+/// @errors   Error(Input) when check_mesh fails, when every triangle is degenerate after rounding,
 ///          or when a coordinate exceeds 1 000 km; Error(File) when the file cannot be written
-/// source   Autodesk, AutoCAD Release 12 Customization Manual, chapter 11; DXF Reference 2000
+/// @source   Autodesk, AutoCAD Release 12 Customization Manual, chapter 11; DXF Reference 2000
 void write_dxf(const std::filesystem::path& path, const Mesh& mesh, const DxfOptions& options = {});
 
 /// Reads the meshes of a text DXF: 3DFACE, POLYLINE as a polyface or M x N mesh, and MESH without
 /// subdivision.
 ///
-/// shape    corners with identical coordinates become one vertex; quadrilaterals become two
+/// @shape    corners with identical coordinates become one vertex; quadrilaterals become two
 ///          triangles; triangles on the layers that write_dxf names get their marks back
-/// units    converted to mm from the unit that $INSUNITS states; without it, mm
-/// missing  other entities and the contents of blocks are skipped; a warning through `run` lists
+/// @units    converted to mm from the unit that $INSUNITS states; without it, mm
+/// @missing  other entities and the contents of blocks are skipped; a warning through `run` lists
 ///          them with their counts
-/// errors   Error(Input) that names the file and the line: no mesh, an invalid group, a vertex
+/// @errors   Error(Input) that names the file and the line: no mesh, an invalid group, a vertex
 ///          index out of range, a coordinate that is not finite, a binary DXF
 [[nodiscard]] Mesh read_dxf(const std::filesystem::path& path, const Run& run = {});
 

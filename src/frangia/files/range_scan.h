@@ -20,18 +20,18 @@ struct RangeScan {
 /// Reads a PLY with faces, with Stanford's `range_grid` (`obj_info num_cols` and `num_rows`), or
 /// with points alone. Neighbours in the grid are connected by triangles that face +z.
 ///
-/// units    as in the file, assumed to be mm
-/// missing  empty cells of the grid; no triangle has an edge longer than six times the median
+/// @units    as in the file, assumed to be mm
+/// @missing  empty cells of the grid; no triangle has an edge longer than six times the median
 ///          spacing of neighbours
-/// errors   Error(Input) as read_ply, and when the grid does not match its stated size
-/// source   Stanford 3D Scanning Repository; Curless & Levoy 1996
+/// @errors   Error(Input) as read_ply, and when the grid does not match its stated size
+/// @source   Stanford 3D Scanning Repository; Curless & Levoy 1996
 [[nodiscard]] RangeScan read_range_scan(const std::filesystem::path& path);
 
 /// Reads the scans that a Stanford `.conf` file lists, with their poses: each line is `bmesh FILE
 /// tx ty tz qx qy qz qw`, whose quaternion is the conjugate of the scan's rotation.
 ///
-/// units    translations as in the scans, assumed to be mm
-/// errors   Error(Input) that names the file and the line
+/// @units    translations as in the scans, assumed to be mm
+/// @errors   Error(Input) that names the file and the line
 [[nodiscard]] std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path);
 
 }  // namespace frangia

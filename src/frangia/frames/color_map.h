@@ -13,8 +13,8 @@ enum class ColorMap {
 /// Returns the colour of a value between 0 and 1. Values outside this range get the colour of the
 /// nearer end.
 ///
-/// units    red, green, blue from 0 to 1
-/// missing  NaN is grey
+/// @units    red, green, blue from 0 to 1
+/// @missing  NaN is grey
 [[nodiscard]] Eigen::Vector3f color_of(ColorMap map, float value);
 
 }  // namespace frangia

@@ -16,12 +16,12 @@ struct ValueRange {
 
 /// Returns the 1st and 99th percentiles, so that a few outliers do not determine the scale.
 ///
-/// missing  NaN values are ignored
+/// @missing  NaN values are ignored
 [[nodiscard]] ValueRange percentile_range(const Image<float>& values);
 
 /// Renders a map of values as a picture.
 ///
-/// missing  NaN becomes a dark blue-grey that occurs in no color map
+/// @missing  NaN becomes a dark blue-grey that occurs in no color map
 [[nodiscard]] Image<Rgb> map_picture(const Image<float>& values, ValueRange range, ColorMap map);
 
 }  // namespace frangia

@@ -9,8 +9,8 @@ namespace frangia {
 /// var = floor + slope * counts, where floor = (read noise / gain)^2 + 1/12 (quantization) and
 /// slope = 1 / gain (shot noise). The gain is in electrons per count.
 ///
-/// units    counts squared
-/// source   EMVA 1288, photon transfer
+/// @units    counts squared
+/// @source   EMVA 1288, photon transfer
 struct NoiseModel {
   double floor_counts2 = 1.0 / 12.0;
   double slope_counts = 0.0;

@@ -35,12 +35,12 @@ struct ScaleTick {
 
 /// Round values between the ends of a scale, at steps of 1, 2 or 5 times a power of ten.
 ///
-/// shape    ascending; three to eleven ticks; one for a range of a single value
+/// @shape    ascending; three to eleven ticks; one for a range of a single value
 [[nodiscard]] std::vector<ScaleTick> scale_ticks(const ColorScale& scale);
 
 /// The picture with a legend to its right: each scale as a bar with numbers, then the entries.
 ///
-/// shape    as high as the picture; an empty legend leaves the picture as it is
+/// @shape    as high as the picture; an empty legend leaves the picture as it is
 [[nodiscard]] Image<Rgb> add_legend(const Image<Rgb>& picture, const PictureLegend& legend);
 
 }  // namespace frangia

@@ -12,7 +12,7 @@ namespace frangia {
 
 /// Reads a grey PNG. Depths up to 8 bits give an 8-bit frame, 16 bits a 16-bit frame.
 ///
-/// errors   Error(Input) that names the file when it is missing, not a PNG, truncated, in colour,
+/// @errors   Error(Input) that names the file when it is missing, not a PNG, truncated, in colour,
 ///          or larger than 65 535 pixels a side
 [[nodiscard]] Frame read_png(const std::filesystem::path& path);
 
@@ -20,12 +20,12 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 /// Encodes a frame as the bytes of a grey PNG.
 ///
-/// errors   Error(File) when it cannot be encoded
+/// @errors   Error(File) when it cannot be encoded
 [[nodiscard]] std::vector<char> encode_png(const Frame& frame);
 
 /// Writes a PNG atomically.
 ///
-/// errors   Error(File) when it cannot be written
+/// @errors   Error(File) when it cannot be written
 void write_png(const std::filesystem::path& path, const Frame& frame);
 void write_png(const std::filesystem::path& path, const Image<Rgb>& picture);
 

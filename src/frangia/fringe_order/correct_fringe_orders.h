@@ -31,7 +31,8 @@ struct FringeOrderCorrectionOptions {
 /// its edge. Other views can: they confirm no point of the patch at its present order and most of
 /// them at another one. The points are recomputed from the phase that the range grid keeps.
 ///
-/// missing  views without phase are left unchanged; mixed pixels at the border of a corrected patch
+/// @missing  views without phase are left unchanged; mixed pixels at the border of a corrected
+/// patch
 ///          are removed, as are refined patches that violate free space and all edge pixels of a
 ///          corrected view
 [[nodiscard]] std::size_t correct_fringe_orders(ViewStore& views,

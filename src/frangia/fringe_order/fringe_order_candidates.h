@@ -46,7 +46,7 @@ struct FringeComparison : FringeOptics {
 /// Lists every fringe order that keeps more than half of the set in the projector's field, with the
 /// points at that order.
 ///
-/// units    mm, object frame
+/// @units    mm, object frame
 [[nodiscard]] std::vector<FringeOrderCandidate> fringe_order_candidates(
     const FringePixels& pixels,
     const Eigen::Isometry3d& rig_from_object,

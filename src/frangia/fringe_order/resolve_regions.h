@@ -29,10 +29,10 @@ struct ResolvedPhase {
 
 /// Determines the fringe order of each region from the object's laser profile.
 ///
-/// units    rad
-/// missing  a region without enough laser points, or whose points disagree, remains unresolved;
+/// @units    rad
+/// @missing  a region without enough laser points, or whose points disagree, remains unresolved;
 ///          pixels at the border of two regions are NaN and marked MixedPixel
-/// source   the paper, section 2: one profile with a single laser sheet for each view
+/// @source   the paper, section 2: one profile with a single laser sheet for each view
 [[nodiscard]] ResolvedPhase resolve_by_laser_sheet(const RelativePhase& phase,
                                                    const std::vector<ProfilePoint>& profile,
                                                    const Projector& projector,
@@ -42,8 +42,8 @@ struct ResolvedPhase {
 /// the axes of camera and projector cross. The orders are relative to the fringe through the
 /// projection axis.
 ///
-/// units    mm, rad
-/// missing  a region outside of the projector's field remains unresolved
+/// @units    mm, rad
+/// @missing  a region outside of the projector's field remains unresolved
 [[nodiscard]] ResolvedPhase resolve_by_distance(const RelativePhase& phase,
                                                 const Rig& rig,
                                                 const Image<Eigen::Vector2f>& rays,

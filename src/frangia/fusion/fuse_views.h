@@ -24,11 +24,12 @@ struct FusionOptions {
 /// that observed the surface there contribute its position and normal, views that observed free
 /// space there vote against it. Dual contouring places the vertices and preserves sharp edges.
 /// Memory holds one view, the range of the next one, and the surface.
-/// units    mm, object frame
-/// missing  the mesh stays open where no view observed the surface
-/// errors   Error(Input) when no view holds a point, and when the voxels need more memory than
+/// @units    mm, object frame
+/// @missing  the mesh stays open where no view observed the surface
+/// @errors   Error(Input) when no view holds a point, and when the voxels need more memory than
 ///          allowed; the message then names a voxel size that fits
-/// source   signed distance in a hashed grid: Curless & Levoy 1996, Niessner et al. 2013; vertices:
+/// @source   signed distance in a hashed grid: Curless & Levoy 1996, Niessner et al. 2013;
+/// vertices:
 ///          Ju et al. 2002
 [[nodiscard]] Mesh fuse_views(const ViewStore& views,
                               const CameraModel& camera,

@@ -13,9 +13,9 @@ namespace frangia {
 
 /// A tree of the bounding boxes of a mesh's triangles, in Morton order. It finds overlapping boxes.
 ///
-/// units    mm
-/// errors   Error(Input) when a triangle refers to a vertex that does not exist
-/// source   Lauterbach et al. 2009, Fast BVH Construction on GPUs
+/// @units    mm
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist
+/// @source   Lauterbach et al. 2009, Fast BVH Construction on GPUs
 class AabbTree {
  public:
   explicit AabbTree(const Mesh& mesh);

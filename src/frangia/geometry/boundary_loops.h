@@ -19,7 +19,7 @@ struct BoundaryLoop {
 
 /// Finds all boundary loops, in the order of their first half-edges.
 ///
-/// missing  a loop through a non-manifold edge is left out; call `make_manifold` first
+/// @missing  a loop through a non-manifold edge is left out; call `make_manifold` first
 [[nodiscard]] std::vector<BoundaryLoop> boundary_loops(const Mesh& mesh, const HalfEdges& edges);
 [[nodiscard]] std::vector<BoundaryLoop> boundary_loops(const Mesh& mesh);
 

@@ -7,12 +7,12 @@ namespace frangia {
 
 /// Adds the triangles that share a vertex with a selected one, `rings` times.
 ///
-/// errors   Error(Input) when the selection has not one flag for each triangle
+/// @errors   Error(Input) when the selection has not one flag for each triangle
 [[nodiscard]] Selection grow_selection(const Mesh& mesh, Selection selection, int rings = 1);
 
 /// Removes the triangles that share a vertex with an unselected one, `rings` times.
 ///
-/// errors   as grow_selection
+/// @errors   as grow_selection
 [[nodiscard]] Selection shrink_selection(const Mesh& mesh, Selection selection, int rings = 1);
 
 /// Inverts every flag.
@@ -20,7 +20,7 @@ namespace frangia {
 
 /// Returns the mesh without the selected triangles and the vertices that only they used.
 ///
-/// errors   Error(Input) when the selection has not one flag for each triangle
+/// @errors   Error(Input) when the selection has not one flag for each triangle
 [[nodiscard]] Mesh delete_selected(Mesh mesh, const Selection& selection);
 
 }  // namespace frangia

@@ -22,17 +22,17 @@ struct ConnectedComponents {
 
 /// Finds the connected components of a mesh.
 ///
-/// units    mm, mm^2
+/// @units    mm, mm^2
 [[nodiscard]] ConnectedComponents connected_components(const Mesh& mesh);
 
 /// Selects the component that a triangle belongs to.
 ///
-/// errors   Error(Input) when the triangle does not exist
+/// @errors   Error(Input) when the triangle does not exist
 [[nodiscard]] Selection select_component(const Mesh& mesh, std::size_t triangle);
 
 /// Keeps the `count` components of the largest area.
 ///
-/// errors   Error(Input) when `count` is 0
+/// @errors   Error(Input) when `count` is 0
 [[nodiscard]] Mesh keep_largest_components(Mesh mesh, std::size_t count = 1);
 
 /// Removes the components whose bounding box has at most this diagonal. The component of the

@@ -15,9 +15,9 @@ struct Sphere {
 
 /// Fits the sphere with the smallest sum of squared distances to the points.
 ///
-/// units    mm
-/// errors   Error(Input) for fewer than four points; Error(Numeric) when they lie in a plane
-/// source   algebraic start, then Gauss-Newton on the geometric distance
+/// @units    mm
+/// @errors   Error(Input) for fewer than four points; Error(Numeric) when they lie in a plane
+/// @source   algebraic start, then Gauss-Newton on the geometric distance
 [[nodiscard]] Sphere fit_sphere(std::span<const Eigen::Vector3d> points_mm);
 
 }  // namespace frangia

@@ -14,7 +14,7 @@ namespace frangia {
 /// A half-edge has a twin when exactly one other runs in the opposite direction and no other in the
 /// same direction. Elsewhere the mesh has a boundary or is not manifold. The time to build them is
 /// linear in the number of triangles, times the logarithm of the valence at vertices of many.
-/// errors   Error(Input) when a triangle refers to a vertex that does not exist
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist
 class HalfEdges {
  public:
   static constexpr std::uint32_t kBoundary = 0xFFFFFFFF;  ///< no triangle on the other side

@@ -10,8 +10,8 @@ namespace frangia {
 /// surface from the other one. It samples the vertices, the centres of edges and triangles, and
 /// points inside large triangles no farther apart than `spacing_mm`.
 ///
-/// units    mm
-/// errors   Error(Input) when a mesh has no triangle or the spacing is not positive
+/// @units    mm
+/// @errors   Error(Input) when a mesh has no triangle or the spacing is not positive
 [[nodiscard]] double hausdorff_distance_mm(const RayScene& a,
                                            const RayScene& b,
                                            double spacing_mm,

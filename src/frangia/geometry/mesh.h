@@ -34,7 +34,7 @@ struct Mesh {
 
 /// Computes vertex normals as angle-weighted means of the adjacent triangles.
 ///
-/// missing  the normal of a vertex without a triangle of positive area is zero
+/// @missing  the normal of a vertex without a triangle of positive area is zero
 [[nodiscard]] std::vector<Eigen::Vector3f> vertex_normals(const Mesh& mesh);
 
 }  // namespace frangia

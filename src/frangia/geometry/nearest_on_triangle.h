@@ -6,7 +6,7 @@ namespace frangia {
 
 /// Returns the point of triangle a, b, c nearest to p.
 ///
-/// source   Ericson, Real-Time Collision Detection, 5.1.5
+/// @source   Ericson, Real-Time Collision Detection, 5.1.5
 [[nodiscard]] inline Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& a,
                                                          const Eigen::Vector3d& b,
                                                          const Eigen::Vector3d& c,

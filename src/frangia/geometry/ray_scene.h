@@ -30,10 +30,10 @@ struct NearestPoint {
 /// A mesh with fast ray and nearest-point queries, which may come from several threads.
 ///
 /// Embree finds the triangle in single precision; the result is then computed in double precision.
-/// units    mm
-/// missing  triangles without area, or with a corner that is not finite, are ignored
-/// errors   Error(Input) when a triangle refers to a vertex that does not exist
-/// source   Embree: Wald et al. 2014
+/// @units    mm
+/// @missing  triangles without area, or with a corner that is not finite, are ignored
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist
+/// @source   Embree: Wald et al. 2014
 class RayScene {
  public:
   explicit RayScene(Mesh mesh);

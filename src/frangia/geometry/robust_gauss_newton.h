@@ -10,8 +10,8 @@ namespace frangia {
 
 /// Tukey's biweight, which is 1 for a residual of 0 and falls to 0 at the gate.
 ///
-/// units    `residual` and `gate` in the same unit
-/// source   Beaton & Tukey 1974
+/// @units    `residual` and `gate` in the same unit
+/// @source   Beaton & Tukey 1974
 [[nodiscard]] inline double tukey_weight(double residual, double gate) {
   const double ratio = residual / gate;
   const double complement = 1.0 - ratio * ratio;
@@ -20,7 +20,7 @@ namespace frangia {
 
 /// A nonlinear least-squares problem, linearized at its current state.
 ///
-/// shape    n unknowns: `hessian` n x n, `gradient` n
+/// @shape    n unknowns: `hessian` n x n, `gradient` n
 struct Linearization {
   Eigen::MatrixXd hessian;       ///< sum of w J^T J, and the information of a prior if there is one
   Eigen::VectorXd gradient;      ///< sum of w J^T r, and the gradient of a prior if there is one
@@ -45,7 +45,7 @@ struct GaussNewtonOptions {
   double damping = 1e-9;    ///< added to each diagonal element, as a share of it: directions that
                             ///< the residuals do not determine keep their values
 
-  /// errors   Error(Input) that names the value which is out of its range
+  /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
 };
 
@@ -64,8 +64,8 @@ struct GaussNewtonResult {
 /// The equations are scaled to a unit diagonal before they are solved, so that the result does not
 /// depend on the units of the unknowns.
 ///
-/// errors   Error(Input) as `GaussNewtonOptions::check`; Error(Cancelled) when `run` is cancelled
-/// source   Holland & Welsch 1977
+/// @errors   Error(Input) as `GaussNewtonOptions::check`; Error(Cancelled) when `run` is cancelled
+/// @source   Holland & Welsch 1977
 GaussNewtonResult minimize_robustly(const RobustProblem& problem,
                                     const GaussNewtonOptions& options,
                                     const Run& run = {});

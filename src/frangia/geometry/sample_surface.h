@@ -19,8 +19,8 @@ struct SurfaceSample {
 
 /// Samples points uniformly over the area of a mesh. Equal seeds give equal points.
 ///
-/// shape    `count` samples; none for a mesh without area
-/// source   stratified by area: one sample in each of `count` equal parts; Turk 1990 in a triangle
+/// @shape    `count` samples; none for a mesh without area
+/// @source   stratified by area: one sample in each of `count` equal parts; Turk 1990 in a triangle
 [[nodiscard]] std::vector<SurfaceSample> sample_surface(const Mesh& mesh,
                                                         std::size_t count,
                                                         std::uint64_t seed = 1);

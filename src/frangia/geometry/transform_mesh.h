@@ -9,7 +9,7 @@ namespace frangia {
 
 /// Applies a rigid transform to a mesh. Marks do not change, since only the frame does.
 ///
-/// units    mm
+/// @units    mm
 [[nodiscard]] Mesh transform_mesh(Mesh mesh, const Eigen::Isometry3d& target_from_mesh);
 
 /// Reflects a mesh in a plane. Triangles stay oriented outwards.
@@ -18,13 +18,13 @@ namespace frangia {
 /// Fits a plane to the selected triangles by area-weighted least squares. Its normal points
 /// outwards.
 ///
-/// errors   Error(Input) when the selection has not one flag for each triangle, or no area
+/// @errors   Error(Input) when the selection has not one flag for each triangle, or no area
 [[nodiscard]] Eigen::Hyperplane<double, 3> fit_plane(const Mesh& mesh, const Selection& selection);
 
 /// Selects the flat face around a point: the triangles connected to the nearest one whose normals
 /// differ from its normal by no more than `within_rad`.
 ///
-/// errors   Error(Input) when the mesh is empty
+/// @errors   Error(Input) when the mesh is empty
 [[nodiscard]] Selection select_face(const Mesh& mesh,
                                     const Eigen::Vector3d& picked_mm,
                                     double within_rad = 0.17);
@@ -33,8 +33,8 @@ namespace frangia {
 /// normal of the first one is -z. The second one's is -x, apart from its deviation from a right
 /// angle to the first. The third one's is close to -y or +y.
 ///
-/// shape    outward normals, which need not be perpendicular
-/// errors   Error(Input) when two faces are parallel, or the third one is parallel to the
+/// @shape    outward normals, which need not be perpendicular
+/// @errors   Error(Input) when two faces are parallel, or the third one is parallel to the
 ///          intersection of the others
 [[nodiscard]] Eigen::Isometry3d align_faces(const Eigen::Hyperplane<double, 3>& first,
                                             const Eigen::Hyperplane<double, 3>& second,

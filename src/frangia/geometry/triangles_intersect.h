@@ -26,8 +26,8 @@ template <typename PositionOf>
 /// Whether two triangles have a point in common other than the vertex or edge that they share. The
 /// result is exact. A triangle without area intersects nothing.
 ///
-/// errors   Error(Input) in a build without CGAL
-/// source   CGAL, 2D and 3D Linear Geometry Kernel: exact predicates
+/// @errors   Error(Input) in a build without CGAL
+/// @source   CGAL, 2D and 3D Linear Geometry Kernel: exact predicates
 [[nodiscard]] bool triangles_intersect(const IndexedTriangle& a, const IndexedTriangle& b);
 
 }  // namespace frangia

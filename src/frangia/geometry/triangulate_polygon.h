@@ -18,7 +18,7 @@ using Polygon = std::vector<Eigen::Vector2d>;
 /// of indices into `outer` followed by all holes errors   Error(Input) for fewer than three points;
 /// Error(Numeric) when polygons intersect or have
 ///          the wrong orientation
-/// source   Eberly, Triangulation by Ear Clipping
+/// @source   Eberly, Triangulation by Ear Clipping
 [[nodiscard]] std::vector<std::array<std::size_t, 3>> triangulate_polygon(
     const Polygon& outer, const std::vector<Polygon>& holes = {});
 

@@ -24,8 +24,8 @@ std::uint32_t add_interpolated_vertex(Mesh& mesh, std::uint32_t a, std::uint32_t
 /// Appends a synthesized vertex, with zero views and the largest sigma of `around`, and returns its
 /// number.
 ///
-/// units    mm
-/// missing  its sigma is NaN when `around` is empty, its normal is zero
+/// @units    mm
+/// @missing  its sigma is NaN when `around` is empty, its normal is zero
 std::uint32_t add_synthesized_vertex(Mesh& mesh,
                                      const Eigen::Vector3f& position_mm,
                                      std::span<const std::uint32_t> around);
@@ -35,15 +35,15 @@ void add_triangle(Mesh& mesh, const Mesh::Triangle& triangle, Mark mark);
 
 /// Keeps the triangles whose flag is not 0, and the vertices that they use, in their order.
 ///
-/// errors   Error(Input) when there is not one flag for each triangle
+/// @errors   Error(Input) when there is not one flag for each triangle
 void keep_triangles(Mesh& mesh, std::span<const std::uint8_t> keep);
 
 /// Appends another mesh.
 ///
-/// missing  attributes that only one of the meshes has are zero normals, NaN sigma or zero views
+/// @missing  attributes that only one of the meshes has are zero normals, NaN sigma or zero views
 /// for
 ///          the vertices of the other
-/// errors   Error(Input) for more than 4 billion vertices
+/// @errors   Error(Input) for more than 4 billion vertices
 void append_mesh(Mesh& mesh, const Mesh& other);
 
 /// Marks the measured vertices as displaced that lie farther than their sigma from `before_mm`. A

@@ -11,8 +11,8 @@ namespace frangia {
 /// moves in violet; on the right the mesh after it, with marks in their colors and the selection in
 /// violet. Both are seen from the direction that shows most of the changed or selected area.
 ///
-/// missing  an empty mesh after the edit is not drawn
-/// errors   Error(Input) as render_mesh for the mesh before
+/// @missing  an empty mesh after the edit is not drawn
+/// @errors   Error(Input) as render_mesh for the mesh before
 [[nodiscard]] Image<Rgb> edit_picture(const Mesh& before,
                                       const EditState& after,
                                       const EditPreview& preview,

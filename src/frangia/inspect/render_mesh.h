@@ -46,9 +46,9 @@ struct RenderOptions {
 /// Smooth shading with a key, a fill and a back light and ambient light from the sky. The inside of
 /// the surface is magenta, a color that is on no scale.
 ///
-/// shape    height_px high; the legend adds to width_px
-/// missing  vertices whose value is NaN are grey
-/// errors   Error(Input) for a mesh without triangles, a wrong number of values or highlights, or
+/// @shape    height_px high; the legend adds to width_px
+/// @missing  vertices whose value is NaN are grey
+/// @errors   Error(Input) for a mesh without triangles, a wrong number of values or highlights, or
 ///          an empty picture
 [[nodiscard]] Image<Rgb> render_mesh(const Mesh& mesh,
                                      const RenderOptions& options = {},

@@ -29,8 +29,8 @@ struct SurfaceCompleteness {
 
 /// Share of the reference's area with mesh within `within_mm`.
 ///
-/// units    mm
-/// errors   Error(Input) when the reference has no triangles
+/// @units    mm
+/// @errors   Error(Input) when the reference has no triangles
 [[nodiscard]] SurfaceCompleteness surface_completeness(const RayScene& reference,
                                                        const RayScene& mesh,
                                                        const CompletenessOptions& options = {},

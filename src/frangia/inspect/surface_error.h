@@ -35,9 +35,9 @@ struct SurfaceError {
 
 /// Measures the distances from a mesh to the nearest points of a reference, without trimming.
 ///
-/// units    mm
-/// missing  vertices without a triangle do not count
-/// errors   Error(Input) when either mesh has no triangles
+/// @units    mm
+/// @missing  vertices without a triangle do not count
+/// @errors   Error(Input) when either mesh has no triangles
 [[nodiscard]] SurfaceError surface_error(const Mesh& mesh,
                                          const RayScene& reference,
                                          const SurfaceErrorOptions& options = {},
@@ -45,8 +45,8 @@ struct SurfaceError {
 
 /// The signed distance of each vertex from a reference, positive outside.
 ///
-/// units    mm
-/// errors   Error(Input) when the reference has no triangles
+/// @units    mm
+/// @errors   Error(Input) when the reference has no triangles
 [[nodiscard]] std::vector<float> vertex_errors_mm(const Mesh& mesh,
                                                   const RayScene& reference,
                                                   const Run& run = {});

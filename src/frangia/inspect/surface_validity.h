@@ -20,7 +20,7 @@ struct SurfaceValidity {
 
 /// Compares a mesh with a reference whose triangles face outward.
 ///
-/// missing  `sigma_ratio` is NaN for a mesh without sigma
+/// @missing  `sigma_ratio` is NaN for a mesh without sigma
 [[nodiscard]] SurfaceValidity surface_validity(const Mesh& mesh,
                                                const RayScene& reference,
                                                const Run& run = {});

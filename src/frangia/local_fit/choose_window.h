@@ -70,9 +70,9 @@ struct WindowChoiceOptions {
 /// noise; a quadratic fit over the same pixels if its residuals are noise; 3 x 3 pixels around the
 /// pixel; the best window of full size, and then of 3 x 3 pixels, that holds the pixel.
 ///
-/// shape    `at` is a measured pixel in one of the rows of `fits`
-/// missing  kind None and NaN where the pixel lies off even the best plane
-/// source   the choice among shifted windows: Kuwahara et al. 1976
+/// @shape    `at` is a measured pixel in one of the rows of `fits`
+/// @missing  kind None and NaN where the pixel lies off even the best plane
+/// @source   the choice among shifted windows: Kuwahara et al. 1976
 [[nodiscard]] ChosenWindow choose_window(const Image<float>& image,
                                          const WindowRows& fits,
                                          const Eigen::Vector2i& at,

@@ -29,9 +29,9 @@ struct CameraRays {
 /// A point at depth z lies `(1 - z q) / |(a, b, c)|` in front of the plane at its pixel: the
 /// distance along the ray times the cosine of incidence.
 ///
-/// shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
-/// units    mm, rig frame
-/// missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Extrapolated
+/// @shape    pixels w x h; quads (w-1) x (h-1), quad (x, y) between pixels (x, y) and (x+1, y+1)
+/// @units    mm, rig frame
+/// @missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Extrapolated
 ///          where a neighbouring plane was extrapolated to it, else Unseen
 struct LocalPlanes {
   struct Plane {
@@ -184,10 +184,10 @@ struct LocalPlanesOptions {
 /// on one surface unless the line that joins them is within 8 degrees of the viewing ray by more
 /// than their noise. `reuse` lends its memory to the result.
 ///
-/// shape    w x h of the camera
-/// units    mm, rig frame
-/// errors   Error(Input) when the grid and the camera differ in size
-/// source   the choice among windows: Kuwahara et al. 1976
+/// @shape    w x h of the camera
+/// @units    mm, rig frame
+/// @errors   Error(Input) when the grid and the camera differ in size
+/// @source   the choice among windows: Kuwahara et al. 1976
 [[nodiscard]] LocalPlanes local_planes(const View& view,
                                        const CameraRays& camera,
                                        const LocalPlanesOptions& options = {},

@@ -12,8 +12,8 @@ namespace frangia {
 
 /// Builds the surfel map of every view. Each view is loaded once.
 ///
-/// shape    one map for each view, each of at most about `pixels` surfels
-/// errors   Error(Input) when a view and the camera differ in size
+/// @shape    one map for each view, each of at most about `pixels` surfels
+/// @errors   Error(Input) when a view and the camera differ in size
 [[nodiscard]] std::vector<SurfelMap> make_surfel_maps(const ViewStore& views,
                                                       const CameraModel& camera,
                                                       std::size_t pixels = 250000,

@@ -13,8 +13,8 @@ namespace frangia {
 /// A subsampled view: oriented points (surfels) at every `stride`-th pixel where the surface is
 /// smooth. The maps of all views fit into memory together.
 ///
-/// units    mm, rig frame
-/// missing  sigma 0
+/// @units    mm, rig frame
+/// @missing  sigma 0
 struct SurfelMap {
   struct Surfel {
     /// The pixel's own point: the mean of its window is biased where the surface is curved.
@@ -29,8 +29,8 @@ struct SurfelMap {
 
 /// Builds a surfel map of at most about `pixels` surfels.
 ///
-/// units    mm, rig frame
-/// missing  a pixel at a crease or a depth step, or without a centered window, has no surfel
+/// @units    mm, rig frame
+/// @missing  a pixel at a crease or a depth step, or without a centered window, has no surfel
 [[nodiscard]] SurfelMap make_surfel_map(const LocalPlanes& view,
                                         const CameraRays& camera,
                                         std::size_t pixels);

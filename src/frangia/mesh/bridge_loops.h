@@ -13,8 +13,8 @@ namespace frangia {
 /// gives the shorter edge. Loops of two components join the components; two loops of one component
 /// make a handle.
 ///
-/// shape    `first` and `second` are indices into boundary_loops
-/// errors   Error(Input) when a loop does not exist or both are the same; Error(Cancelled)
+/// @shape    `first` and `second` are indices into boundary_loops
+/// @errors   Error(Input) when a loop does not exist or both are the same; Error(Cancelled)
 [[nodiscard]] Mesh bridge_loops(Mesh mesh,
                                 std::size_t first,
                                 std::size_t second,

@@ -16,8 +16,8 @@ struct CutOptions {
 /// A vertex on a cut edge interpolates the position and the data of the ends of the edge. An
 /// outline of the cut that intersects itself stays open; `run` warns of it.
 ///
-/// units    mm; the normal of the plane has unit length
-/// errors   Error(Cancelled)
+/// @units    mm; the normal of the plane has unit length
+/// @errors   Error(Cancelled)
 [[nodiscard]] Mesh cut_by_plane(Mesh mesh,
                                 const Eigen::Hyperplane<double, 3>& plane,
                                 const CutOptions& options = {},

@@ -24,10 +24,10 @@ struct DecimateOptions {
 /// vertices, midpoints of edges and centroids of triangles, and on large triangles at points half
 /// the mean edge length of the original mesh apart.
 ///
-/// units    mm
-/// errors   Error(Input) for a tolerance that is not positive, or with neither a number of
+/// @units    mm
+/// @errors   Error(Input) for a tolerance that is not positive, or with neither a number of
 ///          triangles nor a tolerance; Error(Cancelled)
-/// source   Garland & Heckbert 1997, Surface Simplification Using Quadric Error Metrics
+/// @source   Garland & Heckbert 1997, Surface Simplification Using Quadric Error Metrics
 [[nodiscard]] Mesh decimate(Mesh mesh, const DecimateOptions& options, const Run& run = {});
 
 }  // namespace frangia

@@ -29,9 +29,9 @@ struct FillHolesOptions {
 /// that would make the mesh non-manifold is replaced by a triangle fan around the centroid of the
 /// boundary. `run` receives a note for each replacement and a warning when intersections remain.
 ///
-/// units    mm
-/// errors   Error(Input) when a loop does not exist; Error(Cancelled)
-/// source   Liepa 2003, Filling Holes in Meshes; fair_patch.h
+/// @units    mm
+/// @errors   Error(Input) when a loop does not exist; Error(Cancelled)
+/// @source   Liepa 2003, Filling Holes in Meshes; fair_patch.h
 [[nodiscard]] Mesh fill_holes(Mesh mesh, const FillHolesOptions& options = {}, const Run& run = {});
 
 }  // namespace frangia

@@ -13,7 +13,7 @@ namespace frangia {
 /// vertex that does not exist or is not finite. Pairs the triangles at a non-manifold edge by the
 /// smallest dihedral angle and gives each pair copies of the vertices. No vertex moves.
 ///
-/// errors   Error(Cancelled)
+/// @errors   Error(Cancelled)
 [[nodiscard]] Mesh make_manifold(Mesh mesh, const Run& run = {});
 
 /// Counts the edges with more than two triangles or with two of inconsistent orientation.

@@ -33,7 +33,7 @@ struct MeshFindings {
 
 /// Analyses a mesh.
 ///
-/// errors   Error(Input) when a triangle refers to a vertex that does not exist; Error(Cancelled)
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist; Error(Cancelled)
 [[nodiscard]] MeshFindings mesh_findings(const Mesh& mesh, const Run& run = {});
 
 }  // namespace frangia

@@ -11,8 +11,8 @@ namespace frangia {
 /// Where the radius of curvature is smaller than the distance the result intersects itself; use
 /// remove_self_intersections. Vertices that move beyond their sigma are marked as displaced.
 ///
-/// units    mm
-/// errors   Error(Input) when nothing is left, because every vertex comes nearer to the surface
+/// @units    mm
+/// @errors   Error(Input) when nothing is left, because every vertex comes nearer to the surface
 ///          than the distance; Error(Cancelled)
 [[nodiscard]] Mesh offset_mesh(Mesh mesh, double distance_mm, const Run& run = {});
 

@@ -10,7 +10,7 @@ namespace frangia {
 /// An open component keeps the orientation of the larger part of its area. A non-orientable
 /// component (a Moebius strip) stays inconsistent along some edges.
 ///
-/// errors   Error(Cancelled)
+/// @errors   Error(Cancelled)
 [[nodiscard]] Mesh orient(Mesh mesh, const Run& run = {});
 
 /// Reverses the orientation of all triangles and normals.

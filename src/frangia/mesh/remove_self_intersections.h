@@ -12,7 +12,7 @@ namespace frangia {
 /// their component, and the new holes are filled and marked as synthesized. This repeats with one
 /// more ring of triangles each time until no intersection is left. Existing boundaries stay open.
 ///
-/// errors   Error(Input) as self_intersections; Error(Cancelled)
+/// @errors   Error(Input) as self_intersections; Error(Cancelled)
 [[nodiscard]] Mesh remove_self_intersections(Mesh mesh, const Run& run = {});
 
 }  // namespace frangia

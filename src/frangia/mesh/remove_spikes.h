@@ -19,7 +19,7 @@ struct RemoveSpikesOptions {
 /// `below_rad` and its edges are longer than twice the mean edge. The triangles of a needle are
 /// removed.
 ///
-/// errors   Error(Cancelled)
+/// @errors   Error(Cancelled)
 [[nodiscard]] Mesh remove_spikes(Mesh mesh,
                                  const RemoveSpikesOptions& options = {},
                                  const Run& run = {});

@@ -13,10 +13,10 @@ namespace frangia {
 /// Finds the pairs of triangles that intersect or overlap beyond a vertex or an edge that they
 /// share. Triangles without area are ignored.
 ///
-/// shape    pairs of triangle indices, the smaller one first, in ascending order
-/// errors   Error(Input) when a triangle refers to a vertex that does not exist, or in a build
+/// @shape    pairs of triangle indices, the smaller one first, in ascending order
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist, or in a build
 ///          without CGAL; Error(Cancelled)
-/// source   CGAL, Intersecting Sequences of dD Iso-oriented Boxes; exact predicates
+/// @source   CGAL, Intersecting Sequences of dD Iso-oriented Boxes; exact predicates
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const Run& run = {});
 

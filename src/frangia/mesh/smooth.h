@@ -20,10 +20,10 @@ struct SmoothOptions {
 ///
 /// Boundary vertices do not move. Vertices that move beyond their sigma are marked as displaced.
 ///
-/// missing  a mesh without sigma has no limit; a vertex whose sigma is NaN does not move
-/// errors   Error(Input) for a negative option, or when `only` is not one flag per triangle;
+/// @missing  a mesh without sigma has no limit; a vertex whose sigma is NaN does not move
+/// @errors   Error(Input) for a negative option, or when `only` is not one flag per triangle;
 ///          Error(Cancelled)
-/// source   Taubin 1995, A Signal Processing Approach to Fair Surface Design
+/// @source   Taubin 1995, A Signal Processing Approach to Fair Surface Design
 [[nodiscard]] Mesh smooth_taubin(Mesh mesh, const SmoothOptions& options = {}, const Run& run = {});
 
 struct KeepEdgesOptions {
@@ -35,8 +35,9 @@ struct KeepEdgesOptions {
 /// Smooths a mesh and keeps sharp edges: a bilateral filter smooths the triangle normals, then the
 /// vertices move to fit them.
 ///
-/// errors   as smooth_taubin
-/// source   Zheng, Fu, Au & Tai 2011, Bilateral Normal Filtering for Mesh Denoising (local scheme);
+/// @errors   as smooth_taubin
+/// @source   Zheng, Fu, Au & Tai 2011, Bilateral Normal Filtering for Mesh Denoising (local
+/// scheme);
 ///          vertices by Sun, Rosin, Martin & Langbein 2007
 [[nodiscard]] Mesh smooth_keeping_edges(Mesh mesh,
                                         const KeepEdgesOptions& options = {},

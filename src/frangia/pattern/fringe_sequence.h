@@ -12,7 +12,7 @@ namespace frangia {
 /// negative-exponential   N, N - 1, N - 2, N - 4 ... down to half of N (Huntley and Saldner 1997)
 /// heterodyne             three counts, whose beats have one fringe and about sqrt(N) fringes
 ///                        (Reich, Ritter and Thesing 1997)
-/// errors   Error(Input) for an unknown name, or a count that is not from 1 to 1e6
+/// @errors   Error(Input) for an unknown name, or a count that is not from 1 to 1e6
 [[nodiscard]] std::vector<double> fringe_sequence(const std::string& name, double fringes);
 
 /// Returns the probability that a phase with standard deviation `sigma_rad` is wrong by more than
@@ -21,7 +21,7 @@ namespace frangia {
 
 /// Returns the standard deviation for which `wrong_order_probability` is `probability`.
 ///
-/// units    rad
+/// @units    rad
 [[nodiscard]] double sigma_for_wrong_order_probability(double probability);
 
 struct SequencePlan {
@@ -32,7 +32,8 @@ struct SequencePlan {
 /// Plans the shortest geometric sequence from one fringe to `fringes` whose probability of a wrong
 /// order is below `max_wrong_order` when each map has noise `sigma_rad`.
 ///
-/// errors   Error(Input) when the noise requires a ratio below 1.1, or for a count that is not from
+/// @errors   Error(Input) when the noise requires a ratio below 1.1, or for a count that is not
+/// from
 ///          1 to 1e6
 [[nodiscard]] SequencePlan plan_sequence(double fringes,
                                          double sigma_rad,

@@ -9,7 +9,7 @@ namespace frangia {
 /// The reflected binary code. Neighbouring numbers differ in one bit, so a pixel on the edge
 /// between two stripes reads one of the two numbers.
 ///
-/// source   Gray 1953, US patent 2 632 058
+/// @source   Gray 1953, US patent 2 632 058
 [[nodiscard]] constexpr std::uint32_t binary_to_gray(std::uint32_t number) {
   return number ^ (number >> 1U);
 }
@@ -26,7 +26,7 @@ namespace frangia {
 /// Returns a Gray code over `columns` projector pixels with stripes half a fringe wide. A stripe
 /// misread as its neighbour then still gives the correct fringe order.
 ///
-/// errors   Error(Input) unless half a fringe is finite and at least one pixel wide
+/// @errors   Error(Input) unless half a fringe is finite and at least one pixel wide
 [[nodiscard]] Pattern gray_code_for_fringes(const Pattern& fringes, double columns, bool inverted);
 
 }  // namespace frangia

@@ -28,7 +28,7 @@ struct AlgorithmErrors {
 /// Returns the peak-to-valley phase error over a fringe when every shift is too long by the
 /// fraction `error`.
 ///
-/// units    rad
+/// @units    rad
 [[nodiscard]] double ripple(const PhaseAlgorithm& algorithm,
                             const std::vector<double>& shifts_rad,
                             double error);

@@ -43,7 +43,7 @@ struct AssessmentOptions {
 
 /// Assesses the frames of a pattern from its fitted algorithm and wrapped phase.
 ///
-/// shape    `stack` and `map` have the same size
+/// @shape    `stack` and `map` have the same size
 [[nodiscard]] FrameAssessment assess_frames(const FrameStack& stack,
                                             const FittedAlgorithm& fitted,
                                             const WrappedPhase& map,

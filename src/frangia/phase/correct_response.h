@@ -17,15 +17,15 @@ struct ResponseTable {
 
 /// Computes the correction for fringes of full contrast that are shown without a look-up table.
 ///
-/// errors   Error(Input) when the response is so nonlinear that two phases measure alike
-/// source   Zhang and Yau 2007
+/// @errors   Error(Input) when the response is so nonlinear that two phases measure alike
+/// @source   Zhang and Yau 2007
 [[nodiscard]] ResponseTable response_table(const ResponseCurve& response,
                                            const PhaseAlgorithm& algorithm,
                                            const std::vector<double>& shifts_rad);
 
 /// Corrects a wrapped phase and scales its sigma by the slope of the correction.
 ///
-/// missing  NaN stays NaN
+/// @missing  NaN stays NaN
 void correct_response(const ResponseTable& table, WrappedPhase& phase);
 
 }  // namespace frangia

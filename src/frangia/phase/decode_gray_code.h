@@ -17,11 +17,11 @@ namespace frangia {
 /// wrong order sums, over the bits that would change the order, the probability that the bit is
 /// misread, and adds the probability that the phase is wrong by the remaining margin.
 ///
-/// shape    `gray` has one stack per exposure; all frames w x h as `fringes`
-/// missing  a pixel missing in `fringes`, or whose probability of a wrong order exceeds
+/// @shape    `gray` has one stack per exposure; all frames w x h as `fringes`
+/// @missing  a pixel missing in `fringes`, or whose probability of a wrong order exceeds
 ///          `options.max_wrong_order`, is NaN; its status states the reason
-/// errors   Error(Input) when stripes are wider than a fringe, or when size or direction differ
-/// source   Sansoni, Carocci and Rodella 1999 for the stripes of half a fringe
+/// @errors   Error(Input) when stripes are wider than a fringe, or when size or direction differ
+/// @source   Sansoni, Carocci and Rodella 1999 for the stripes of half a fringe
 [[nodiscard]] AbsolutePhase decode_gray_code(std::span<const FrameStack> gray,
                                              const WrappedPhase& fringes,
                                              const NoiseModel& noise,

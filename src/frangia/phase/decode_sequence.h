@@ -28,9 +28,9 @@ struct SequenceOptions {
 ///
 /// `recycled` is a phase that is no longer needed; its memory is reused if the size matches.
 ///
-/// shape    coarse to fine, all frames w x h
-/// missing  as `wrap_phase` and `unwrap_sequence`
-/// errors   Error(Input) as `wrap_phase` and `unwrap_sequence`
+/// @shape    coarse to fine, all frames w x h
+/// @missing  as `wrap_phase` and `unwrap_sequence`
+/// @errors   Error(Input) as `wrap_phase` and `unwrap_sequence`
 [[nodiscard]] AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
                                             const NoiseModel& noise,
                                             const Projector& projector,

@@ -17,9 +17,9 @@ namespace frangia {
 /// robust variance suppresses the texture of the object. A straight line fitted to the variance
 /// over the brightness gives the floor and the slope.
 ///
-/// units    counts
-/// missing  saturated pixels are ignored; with too few pixels the model is quantization noise
-/// source   Immerkaer 1996 for the differences; EMVA 1288, photon transfer curve, for the line
+/// @units    counts
+/// @missing  saturated pixels are ignored; with too few pixels the model is quantization noise
+/// @source   Immerkaer 1996 for the differences; EMVA 1288, photon transfer curve, for the line
 class NoiseSamples {
  public:
   static constexpr int kBins = 24;  ///< bins of brightness

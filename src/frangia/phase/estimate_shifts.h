@@ -22,8 +22,8 @@ struct ShiftEstimate {
 /// matter. Only differences of shifts are observable; the common offset is chosen such that the
 /// scaled nominal shifts fit best, which is exact for a phase shifter with a gain error.
 ///
-/// errors   Error(Input) for fewer than six frames
-/// source   AIA, Wang and Han 2004; a Levenberg-Marquardt iteration replaces the alternation
+/// @errors   Error(Input) for fewer than six frames
+/// @source   AIA, Wang and Han 2004; a Levenberg-Marquardt iteration replaces the alternation
 [[nodiscard]] ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise);
 
 }  // namespace frangia

@@ -28,9 +28,9 @@ struct StepEstimate {
 /// to I2 - I3 by an angle of their own size, which a wrong common step does not. This jitter lets
 /// `pooled_gain_error` decide how much of the step error is the gain of the shifter.
 ///
-/// missing  saturated pixels are ignored; `found` is false for fewer than four frames, unequal
+/// @missing  saturated pixels are ignored; `found` is false for fewer than four frames, unequal
 ///          nominal steps, or too weak fringes
-/// source   Carré 1966; the step by total least squares over the image
+/// @source   Carré 1966; the step by total least squares over the image
 [[nodiscard]] StepEstimate estimate_step(const FrameStack& stack);
 
 }  // namespace frangia

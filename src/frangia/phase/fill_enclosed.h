@@ -17,8 +17,8 @@ struct FillOptions {
 /// Filled pixels get the status Filled, and their sigma includes the deviation of the surrounding
 /// pixels from a plane. Returns the number of filled pixels.
 ///
-/// units    px, rad
-/// source   the paper, section 2; Laplace's equation over the hole
+/// @units    px, rad
+/// @source   the paper, section 2; Laplace's equation over the hole
 std::size_t fill_enclosed(AbsolutePhase& phase, const FillOptions& options = {});
 
 }  // namespace frangia

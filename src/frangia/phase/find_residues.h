@@ -16,7 +16,7 @@ struct Residue {
 /// Finds the residues of a wrapped phase, in raster order. A loop with a missing pixel is not a
 /// residue.
 ///
-/// source   the paper's reference [34], Huntley 1989
+/// @source   the paper's reference [34], Huntley 1989
 [[nodiscard]] std::vector<Residue> find_residues(const Image<float>& phase_rad);
 
 }  // namespace frangia

@@ -28,7 +28,8 @@ struct FittedAlgorithm {
 /// frames alone determine it. The shifts of a digital projector are exact and are estimated only
 /// for "global-carre", "carre" and "aia".
 ///
-/// errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept; the
+/// @errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept;
+/// the
 ///          message names algorithms that do
 [[nodiscard]] FittedAlgorithm fit_algorithm(const std::string& name,
                                             const FrameStack& stack,

@@ -11,8 +11,8 @@ namespace frangia {
 /// Samples about `wanted` pixels of a stack on a regular grid, for fits over the whole image.
 /// Pixels that are saturated in any frame are omitted.
 ///
-/// shape    one row per pixel, one column per frame
-/// units    counts
+/// @shape    one row per pixel, one column per frame
+/// @units    counts
 [[nodiscard]] Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted);
 
 /// Samples evenly spaced rows that hold about `wanted` pixels, for estimates that do not need all

@@ -15,8 +15,8 @@ struct JoinOptions {
 /// Joins regions across borders that are safe, shifting one of them by whole fringes, and numbers
 /// the regions from the largest. Regions whose border is partly a step stay separate.
 ///
-/// shape    `phase` and `regions` w x h
-/// units    rad
+/// @shape    `phase` and `regions` w x h
+/// @units    rad
 void join_regions(RelativePhase& phase, const Regions& regions, const JoinOptions& options = {});
 
 }  // namespace frangia

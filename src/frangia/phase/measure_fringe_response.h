@@ -15,8 +15,8 @@ inline constexpr std::size_t kMinResponseFrames = 6;
 /// the pixel was shown, which follows from its phase. Well-modulated unsaturated pixels of all
 /// stacks contribute.
 ///
-/// shape    stacks of at least kMinResponseFrames frames with equal steps over a whole turn
-/// errors   Error(Input) when there is no such stack, or when too few pixels are illuminated
+/// @shape    stacks of at least kMinResponseFrames frames with equal steps over a whole turn
+/// @errors   Error(Input) when there is no such stack, or when too few pixels are illuminated
 [[nodiscard]] ResponseCurve measure_fringe_response(std::span<const FrameStack> stacks);
 
 /// Returns whether a pattern has enough shifts, evenly spaced over a turn.

@@ -14,11 +14,11 @@ namespace frangia {
 /// samples, weighted by their inverse variance. Short exposures measure highlights, long exposures
 /// dark parts; phases are never averaged.
 ///
-/// shape    one stack per exposure, of one pattern; `shifts_rad` are the actual shifts
-/// units    modulation and mean in counts of the first exposure
-/// missing  Saturated where the remaining samples do not determine the phase; otherwise as
+/// @shape    one stack per exposure, of one pattern; `shifts_rad` are the actual shifts
+/// @units    modulation and mean in counts of the first exposure
+/// @missing  Saturated where the remaining samples do not determine the phase; otherwise as
 ///          `wrap_phase`
-/// errors   Error(Input) when empty, or when the stacks differ in size or number of frames
+/// @errors   Error(Input) when empty, or when the stacks differ in size or number of frames
 [[nodiscard]] WrappedPhase merge_exposures(std::span<const FrameStack> exposures,
                                            const std::vector<double>& shifts_rad,
                                            const NoiseModel& noise,

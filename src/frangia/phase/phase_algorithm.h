@@ -29,15 +29,15 @@ struct PhaseAlgorithm {
 
 /// Returns the phase that an algorithm measures in one pixel's frames, in (-pi, pi].
 ///
-/// shape    one count per frame
-/// units    counts in, rad out
+/// @shape    one count per frame
+/// @units    counts in, rad out
 [[nodiscard]] double phase_of(const PhaseAlgorithm& algorithm, std::span<const double> counts);
 
 /// Returns the least-squares algorithm for arbitrary shifts.
 ///
-/// units    rad
-/// errors   Error(Input) when fewer than three shifts differ, so that the phase is undetermined
-/// source   Greivenkamp 1984
+/// @units    rad
+/// @errors   Error(Input) when fewer than three shifts differ, so that the phase is undetermined
+/// @source   Greivenkamp 1984
 [[nodiscard]] PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad);
 
 /// Returns a published algorithm for these nominal shifts.
@@ -46,8 +46,9 @@ struct PhaseAlgorithm {
 /// mean shift of its frames, which a gain error moves by `gain_error` times the mean shift; this
 /// constant is subtracted.
 ///
-/// units    rad
-/// errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept; the
+/// @units    rad
+/// @errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept;
+/// the
 ///          message names algorithms that do
 [[nodiscard]] PhaseAlgorithm make_algorithm(const std::string& name,
                                             const std::vector<double>& shifts_rad,

@@ -14,8 +14,8 @@ namespace frangia {
 /// between views therefore determine by how much the mean is shrunk towards 0: pure jitter gives
 /// almost 0, a true gain error is kept.
 ///
-/// shape    one estimate per view, of one pattern; estimates that are not `found` are ignored
-/// source   James and Stein 1961, positive part, with a factor similar to Student's for few views
+/// @shape    one estimate per view, of one pattern; estimates that are not `found` are ignored
+/// @source   James and Stein 1961, positive part, with a factor similar to Student's for few views
 [[nodiscard]] double pooled_gain_error(std::span<const StepEstimate> views);
 
 }  // namespace frangia

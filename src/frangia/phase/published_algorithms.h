@@ -40,7 +40,7 @@ struct PublishedAlgorithm {
 
 /// Returns the common step of equally spaced shifts, in (-pi, pi].
 ///
-/// missing  NaN when the shifts are not equally spaced
+/// @missing  NaN when the shifts are not equally spaced
 [[nodiscard]] double common_step(const std::vector<double>& shifts_rad);
 
 /// Returns the name of the preferred algorithm for a pattern. For an angular projector (an

@@ -13,7 +13,7 @@ namespace frangia {
 ///
 /// The noise of a recovered count is that of three frames; sigma of such a pixel is up to twice the
 /// reported value.
-/// errors   Error(Input) unless there are four shifts 90 degrees apart
+/// @errors   Error(Input) unless there are four shifts 90 degrees apart
 std::size_t recover_saturated(FrameStack& stack);
 
 }  // namespace frangia

@@ -18,14 +18,14 @@ struct JumpOptions {
 /// Marks with 1 the pixels whose wrapped phase difference to the right-hand neighbour is smooth:
 /// small, and hardly outside the range of the two adjacent differences along the row.
 ///
-/// shape    w x h; 0 in the last column
-/// missing  0 where one of the two pixels is NaN
+/// @shape    w x h; 0 in the last column
+/// @missing  0 where one of the two pixels is NaN
 [[nodiscard]] Image<std::uint8_t> smooth_right(const Image<float>& phase_rad,
                                                const JumpOptions& options = {});
 /// Marks with 1 the pixels whose wrapped phase difference to the neighbour below is smooth.
 ///
-/// shape    w x h; 0 in the last row
-/// missing  0 where one of the two pixels is NaN
+/// @shape    w x h; 0 in the last row
+/// @missing  0 where one of the two pixels is NaN
 [[nodiscard]] Image<std::uint8_t> smooth_below(const Image<float>& phase_rad,
                                                const JumpOptions& options = {});
 

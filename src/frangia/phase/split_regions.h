@@ -29,8 +29,8 @@ struct Regions {
 /// Cuts the phase wherever it may hide a step of more than half a fringe, within the limits that
 /// `SplitOptions` states. `join_regions` rejoins regions where that is safe.
 ///
-/// shape    w x h in and out
-/// missing  NaN pixels get the label -1
+/// @shape    w x h in and out
+/// @missing  NaN pixels get the label -1
 [[nodiscard]] Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options = {});
 
 }  // namespace frangia

@@ -20,8 +20,8 @@ struct UnwrapLevel {
 /// is safe for noise `sigma_rad` in every map; empty when the maps do not determine an absolute
 /// phase.
 ///
-/// shape    patterns coarse to fine
-/// units    rad
+/// @shape    patterns coarse to fine
+/// @units    rad
 [[nodiscard]] std::vector<UnwrapLevel> find_unwrap_levels(std::span<const Pattern> patterns,
                                                           const Projector& projector,
                                                           double sigma_rad = 0.05);

@@ -26,9 +26,9 @@ struct SpatialUnwrapOptions {
 /// Computes a phase that is continuous within each region: discards residues, splits regions where
 /// a step may hide, unwraps each region, and joins regions where that is safe.
 ///
-/// shape    w x h in and out
-/// units    rad
-/// missing  missing pixels and residues are NaN
+/// @shape    w x h in and out
+/// @units    rad
+/// @missing  missing pixels and residues are NaN
 [[nodiscard]] RelativePhase unwrap_spatially(WrappedPhase phase,
                                              const SpatialUnwrapOptions& options = {});
 

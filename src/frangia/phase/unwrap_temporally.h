@@ -21,22 +21,22 @@ struct TemporalUnwrapOptions {
 /// Computes the absolute phase of the finest fringes; each level is unwrapped by the next coarser
 /// one.
 ///
-/// shape    coarse to fine, all w x h; the first has at most one fringe over the field
-/// units    rad
-/// missing  a pixel missing at any level, or with an uncertain fringe order, is NaN; its status
+/// @shape    coarse to fine, all w x h; the first has at most one fringe over the field
+/// @units    rad
+/// @missing  a pixel missing at any level, or with an uncertain fringe order, is NaN; its status
 ///          states the reason
-/// errors   Error(Input) when empty, not coarse to fine, or of different size
-/// source   the paper's reference [36], Müller 1995
+/// @errors   Error(Input) when empty, not coarse to fine, or of different size
+/// @source   the paper's reference [36], Müller 1995
 [[nodiscard]] AbsolutePhase unwrap_temporally(std::span<const WrappedPhase> coarse_to_fine,
                                               const Projector& projector,
                                               const TemporalUnwrapOptions& options = {});
 
 /// Unwraps finer levels by an existing absolute phase, for example one that the laser sheet fixed.
 ///
-/// shape    `absolute` and every level w x h, coarse to fine
-/// units    rad
-/// missing  as `unwrap_temporally`
-/// errors   Error(Input) when not coarse to fine, or of different size
+/// @shape    `absolute` and every level w x h, coarse to fine
+/// @units    rad
+/// @missing  as `unwrap_temporally`
+/// @errors   Error(Input) when not coarse to fine, or of different size
 [[nodiscard]] AbsolutePhase unwrap_finer_levels(AbsolutePhase absolute,
                                                 std::span<const WrappedPhase> finer,
                                                 const TemporalUnwrapOptions& options = {});

@@ -18,12 +18,12 @@ struct WrapOptions {
 /// `recycled` is a map that is no longer needed; its memory is reused if the size matches, because
 /// touching new memory for the first time takes longer than the computation.
 ///
-/// shape    N frames of w x h in, w x h out
-/// units    counts in; rad and counts out
-/// missing  a pixel that is saturated in any frame, or unmodulated, is NaN; its status states the
+/// @shape    N frames of w x h in, w x h out
+/// @units    counts in; rad and counts out
+/// @missing  a pixel that is saturated in any frame, or unmodulated, is NaN; its status states the
 ///          reason
-/// errors   Error(Input) when number or size of the frames differ from the pattern
-/// source   the paper's equation (1) and the source of the algorithm
+/// @errors   Error(Input) when number or size of the frames differ from the pattern
+/// @source   the paper's equation (1) and the source of the algorithm
 [[nodiscard]] WrappedPhase wrap_phase(const FrameStack& stack,
                                       const PhaseAlgorithm& algorithm,
                                       const NoiseModel& noise,

@@ -61,10 +61,10 @@ struct DecodedView {
 /// Otherwise the phase is unwrapped spatially and its order comes from the laser sheet, or, without
 /// one, from the distance at which the axes of camera and projector cross.
 ///
-/// shape    `stacks` as read_frames returns them; `rays` as rays_of(rig.camera.model)
-/// units    rad, counts
-/// missing  NaN in a phase; `status` gives the reason
-/// errors   Error(Input) when no pattern holds fringes
+/// @shape    `stacks` as read_frames returns them; `rays` as rays_of(rig.camera.model)
+/// @units    rad, counts
+/// @missing  NaN in a phase; `status` gives the reason
+/// @errors   Error(Input) when no pattern holds fringes
 [[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
                                       const Rig& rig,
                                       const Image<Eigen::Vector2f>& rays,

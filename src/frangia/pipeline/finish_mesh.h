@@ -14,14 +14,14 @@ struct FinishOptions {
 
 /// Applies the optional last steps to a fused mesh. `run` receives a note of each.
 ///
-/// units    mm
-/// errors   as fill_holes and decimate; Error(Cancelled)
+/// @units    mm
+/// @errors   as fill_holes and decimate; Error(Cancelled)
 [[nodiscard]] Mesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run = {});
 
 /// Decimates a mesh to at most `max_triangles`, for file formats that few programs read when they
 /// hold more. `run` receives a note of the distance between the two meshes. 0 keeps all triangles.
 ///
-/// errors   Error(Cancelled)
+/// @errors   Error(Cancelled)
 [[nodiscard]] Mesh limit_triangles(const Mesh& mesh,
                                    std::size_t max_triangles,
                                    const Run& run = {});

@@ -43,9 +43,10 @@ struct MergedScans {
 ///
 /// Each scan is resampled by a virtual camera that looks against its mean normal, with a pixel
 /// pitch equal to the spacing of its points. Its noise is estimated from the scatter of neighbours.
-/// units    mm, in the frame of the given poses, or of the first scan when poses are found by shape
-/// missing  a scan whose pose cannot be found is left out with a warning that names it
-/// errors   Error(Input) when a scan has no surface or no pose can be found, and those of
+/// @units    mm, in the frame of the given poses, or of the first scan when poses are found by
+/// shape
+/// @missing  a scan whose pose cannot be found is left out with a warning that names it
+/// @errors   Error(Input) when a scan has no surface or no pose can be found, and those of
 ///          fuse_views
 [[nodiscard]] MergedScans merge_scans(const std::vector<RangeScan>& scans,
                                       const MergeScansOptions& options = {},

@@ -52,9 +52,9 @@ struct Reconstruction {
 
 /// Reconstructs a surface from a scan: frames, phase, range, registered views, fused mesh.
 ///
-/// units    mm, object frame
-/// missing  a view without a lit pixel is left out with a warning
-/// errors   Error(Input) when no view has a lit pixel, and the errors of all stages
+/// @units    mm, object frame
+/// @missing  a view without a lit pixel is left out with a warning
+/// @errors   Error(Input) when no view has a lit pixel, and the errors of all stages
 [[nodiscard]] Reconstruction reconstruct(const Scan& scan,
                                          const ReconstructOptions& options = {},
                                          const Run& run = {});

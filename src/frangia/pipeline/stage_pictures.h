@@ -29,17 +29,17 @@ struct StatusLegend {
 
 /// Draws the order of region growing from dark blue (seeds) to yellow (last pixel).
 ///
-/// missing  below 0
+/// @missing  below 0
 [[nodiscard]] Image<Rgb> growth_picture(const Image<std::int32_t>& order);
 
 /// Draws labels, such as regions or fringe orders; consecutive labels get contrasting colours.
 ///
-/// missing  below 0
+/// @missing  below 0
 [[nodiscard]] Image<Rgb> label_picture(const Image<std::int32_t>& number);
 
 /// Returns the fringe order of each pixel, counted from the lowest order in the view.
 ///
-/// missing  -1
+/// @missing  -1
 [[nodiscard]] Image<std::int32_t> fringe_orders(const Image<float>& wrapped_rad,
                                                 const Image<float>& absolute_rad);
 

@@ -20,8 +20,8 @@ struct ScanSurvey {
 /// Estimates the camera's noise, unless rig.toml gives it, and the gain error of a phase shifter,
 /// from the fringe frames of several views, evenly over the scan.
 ///
-/// missing  both are empty for a scan of one view, whose decoding estimates them itself
-/// errors   as read_frames
+/// @missing  both are empty for a scan of one view, whose decoding estimates them itself
+/// @errors   as read_frames
 [[nodiscard]] ScanSurvey survey_scan(const Scan& scan, const Run& run = {});
 
 }  // namespace frangia

@@ -22,7 +22,7 @@ struct StageFile {
 /// each pattern                 NAME-wrapped, NAME-residues, NAME-modulation, NAME-sigma
 /// spatially unwrapped phase    relative, regions, and growth if the growth order was kept
 /// every view                   mask, fringes, absolute, depth, sigma
-/// errors   Error(File) when the folder cannot be created or written
+/// @errors   Error(File) when the folder cannot be created or written
 std::vector<StageFile> write_stages(const DecodedView& decoded,
                                     const RangeGrid& range,
                                     const std::filesystem::path& folder,

@@ -34,11 +34,11 @@ struct LaserProfileOptions {
 /// then resemble lines. The part of the frame that is proportional to the mean of the fringe frames
 /// is estimated over the image and subtracted first.
 ///
-/// shape    `fringe_counts`: the mean of the fringe frames, w x h
-/// units    px and mm, rig frame
-/// missing  a row without a peak gives no point, nor does a peak with too many saturated pixels
-/// errors   Error(Input) when the rig has no laser sheet or the images differ in size
-/// source   center of gravity above the background, Fisher & Naidu 1996
+/// @shape    `fringe_counts`: the mean of the fringe frames, w x h
+/// @units    px and mm, rig frame
+/// @missing  a row without a peak gives no point, nor does a peak with too many saturated pixels
+/// @errors   Error(Input) when the rig has no laser sheet or the images differ in size
+/// @source   center of gravity above the background, Fisher & Naidu 1996
 [[nodiscard]] std::vector<ProfilePoint> laser_profile(const FrameStack& line,
                                                       const Image<float>& fringe_counts,
                                                       const Rig& rig,

@@ -17,9 +17,10 @@ struct RangePixel {
 /// The surface as one camera sees it: a point for each pixel. The point of pixel (x, y) is
 /// `depth_mm * (ray.x, ray.y, 1)`, with `ray` from `rays_of(model)`.
 ///
-/// shape    all images w x h; `phase_rad` may be empty
-/// units    mm, rig frame; rad
-/// missing  a pixel without a point is NaN in all images; a point that was not measured by fringes,
+/// @shape    all images w x h; `phase_rad` may be empty
+/// @units    mm, rig frame; rad
+/// @missing  a pixel without a point is NaN in all images; a point that was not measured by
+/// fringes,
 ///          such as one of another scanner, is NaN in `phase_rad`. An empty `phase_rad` stands for
 ///          an image of NaN
 struct RangeGrid {

@@ -26,8 +26,8 @@ struct EdgePixelOptions {
 /// across a depth step that is not steeper than a slope may be, fusion would connect them: the
 /// pixel behind the step is then left out.
 ///
-/// shape    `reliable` and `rays` w x h; the result is in the order of `removed`
-/// errors   Error(Input) when grid and rays differ in size
+/// @shape    `reliable` and `rays` w x h; the result is in the order of `removed`
+/// @errors   Error(Input) when grid and rays differ in size
 [[nodiscard]] std::vector<RangePixel> recover_edge_pixels(const RangeGrid& reliable,
                                                           const Image<Eigen::Vector2f>& rays,
                                                           const std::vector<RangePixel>& removed,

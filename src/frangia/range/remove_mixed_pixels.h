@@ -25,10 +25,10 @@ struct MixedPixelOptions {
 /// a silhouette receives light from only a part of its area, so its point does not lie on the ray
 /// through its centre. Patches too small to be a surface are removed last.
 ///
-/// shape    w x h; the result holds the removed pixels row by row, with their former values: some
+/// @shape    w x h; the result holds the removed pixels row by row, with their former values: some
 ///          see a single surface, see `recover_edge_pixels`
-/// missing  a removed pixel is NaN in `range` and MixedPixel in `status`
-/// errors   Error(Input) when range, rays and status differ in size
+/// @missing  a removed pixel is NaN in `range` and MixedPixel in `status`
+/// @errors   Error(Input) when range, rays and status differ in size
 std::vector<RangePixel> remove_mixed_pixels(RangeGrid& range,
                                             const Image<Eigen::Vector2f>& rays,
                                             Image<PixelStatus>& status,

@@ -10,7 +10,7 @@ namespace frangia {
 
 /// Fit of one group to another in one pose.
 ///
-/// shape    motions: three shifts (mm), then three rotations about `center_mm`, each as the arc
+/// @shape    motions: three shifts (mm), then three rotations about `center_mm`, each as the arc
 /// (mm)
 ///          at a distance of `arm_mm`
 struct GroupFit {

@@ -30,13 +30,13 @@ struct TurntableTopOptions {
   double relative_clearance = 0.001;  ///< points nearer to the top than this are mixed with it
   double min_gap = 0.2;  ///< between a rim and everything else, as a share of the rim's radius
 
-  /// errors   Error(Input) that names the value which is out of its range
+  /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
 };
 
 /// The top of the turntable in the views.
 ///
-/// units    mm, object frame as far as the poses of the views are known
+/// @units    mm, object frame as far as the poses of the views are known
 struct TurntableTop {
   Eigen::Hyperplane<double, 3> plane;  ///< its normal points up
   double clearance_mm = 0.0;           ///< remove points up to this distance above the plane, too
@@ -54,8 +54,8 @@ struct TurntableTop {
 /// lie above the origin. A flange at that height on a table too dark to be measured is still
 /// mistaken for a top: the caller reports what it removes.
 ///
-/// missing  none when no disc or rim meets all criteria
-/// errors   Error(Input) as `TurntableTopOptions::check`
+/// @missing  none when no disc or rim meets all criteria
+/// @errors   Error(Input) as `TurntableTopOptions::check`
 [[nodiscard]] std::optional<TurntableTop> find_turntable_top(
     const ViewStore& views,
     const CameraModel& camera,

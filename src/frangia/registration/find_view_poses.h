@@ -27,9 +27,9 @@ struct FoundPoses {
 /// Finds the relative poses of views from their shape alone, and sets the poses of `views`. They
 /// are starting values for `register_poses`.
 ///
-/// shape    `maps`, `names`: one a view; the maps of views that are left out are emptied, too
-/// missing  a view that fits no other, or in more than one pose, is named in a warning and emptied
-/// errors   Error(Input) when no two views fit together
+/// @shape    `maps`, `names`: one a view; the maps of views that are left out are emptied, too
+/// @missing  a view that fits no other, or in more than one pose, is named in a warning and emptied
+/// @errors   Error(Input) when no two views fit together
 [[nodiscard]] FoundPoses find_view_poses(ViewStore& views,
                                          std::vector<SurfelMap>& maps,
                                          const CameraModel& camera,

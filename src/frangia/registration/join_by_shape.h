@@ -30,7 +30,7 @@ struct JoinByShapeOptions {
   /// the part was not moved, or it looks alike from two sides and the two cannot be told apart.
   bool leave_out_duplicates = false;
 
-  /// errors   Error(Input) that names the value which is out of its range
+  /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
 };
 
@@ -55,8 +55,8 @@ struct JoinedGroups {
 /// them against free space. The best pose is joined first; joined groups are compared as one from
 /// then on. The result does not depend on the number of threads.
 ///
-/// shape    results: one a group
-/// errors   Error(Input) as `JoinByShapeOptions::check`
+/// @shape    results: one a group
+/// @errors   Error(Input) as `JoinByShapeOptions::check`
 [[nodiscard]] JoinedGroups join_by_shape(std::span<const ViewGroup> groups,
                                          const GroupViews& views,
                                          const JoinByShapeOptions& options,

@@ -19,7 +19,7 @@ struct RegisterPosesOptions {
   double tolerance = 0.1;     ///< of the last step, in standard deviations of the poses
   double min_overlap = 0.05;  ///< share of the points that match another view; fewer are chance
 
-  /// errors   Error(Input) that names the value which is out of its range
+  /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
 };
 
@@ -34,17 +34,17 @@ struct PosesReport {
 
 /// 3 % of the size of a view's surface, the median over all views: 3 mm for views of 100 mm.
 ///
-/// missing  0 when no view has a surface
+/// @missing  0 when no view has a surface
 [[nodiscard]] double default_reach_mm(std::span<const SurfelMap> maps);
 
 /// Refines the rigid poses of all views at once; that of the first is held. Sets the poses of
 /// `views`.
 ///
-/// shape    `maps`: one a view, as make_surfel_maps makes them
-/// missing  views that do not overlap keep their poses, with a warning
-/// errors   Error(Input) when the numbers of maps and views differ, and as
+/// @shape    `maps`: one a view, as make_surfel_maps makes them
+/// @missing  views that do not overlap keep their poses, with a warning
+/// @errors   Error(Input) when the numbers of maps and views differ, and as
 ///          `RegisterPosesOptions::check`
-/// source   projective association: Blais & Levine 1995; symmetric point-to-plane distance:
+/// @source   projective association: Blais & Levine 1995; symmetric point-to-plane distance:
 ///          Rusinkiewicz 2019; solved by `minimize_robustly`
 [[nodiscard]] PosesReport register_poses(ViewStore& views,
                                          std::vector<SurfelMap> maps,

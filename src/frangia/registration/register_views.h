@@ -40,7 +40,7 @@ struct RegisterOptions {
   /// Starting values: the part pose of each further setup, as `RegistrationReport` has them.
   std::vector<Eigen::Isometry3d> part_poses{};
 
-  /// errors   Error(Input) that names the value which is out of its range
+  /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
 };
 
@@ -66,10 +66,12 @@ struct TurntableStations {
 /// emptied. When views contradict each other and no single view explains it, the report is marked
 /// as not trustworthy.
 ///
-/// missing  one view alone, or views that do not overlap, keep the poses of the rig, with a warning
-/// errors   Error(Input) when the numbers of stations and views differ, when a further setup has no
+/// @missing  one view alone, or views that do not overlap, keep the poses of the rig, with a
+/// warning
+/// @errors   Error(Input) when the numbers of stations and views differ, when a further setup has
+/// no
 ///          part pose, and as `RegisterOptions::check`
-/// source   bundle adjustment of projective point-to-plane distances by `minimize_robustly`
+/// @source   bundle adjustment of projective point-to-plane distances by `minimize_robustly`
 [[nodiscard]] RegistrationReport register_views(ViewStore& views,
                                                 const CameraModel& camera,
                                                 const TurntableStations& given,

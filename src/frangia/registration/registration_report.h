@@ -13,7 +13,7 @@ namespace frangia {
 
 /// Result of the registration of a turntable's views.
 ///
-/// units    mm, rad
+/// @units    mm, rad
 struct RegistrationReport {
   Turntable table;  ///< refined; its point is the point of the axis nearest to the given one
   Turntable given;

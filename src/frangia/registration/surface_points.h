@@ -8,7 +8,7 @@ namespace frangia {
 
 /// Points of a surface with their normals.
 ///
-/// units    mm; normals are unit
+/// @units    mm; normals are unit
 struct SurfacePoints {
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<Eigen::Vector3f> normals;
@@ -25,7 +25,7 @@ struct SurfacePoints {
 /// Keeps one point for each occupied cube of `spacing_mm` and each of the six directions that its
 /// normal may be nearest to: the point nearest to their mean, with their mean normal.
 ///
-/// shape    ordered by cube, independent of the order of the points
+/// @shape    ordered by cube, independent of the order of the points
 [[nodiscard]] SurfacePoints voxel_downsample(const SurfacePoints& points, double spacing_mm);
 
 }  // namespace frangia

@@ -36,7 +36,7 @@ struct GroupViews {
 /// Spacing for the points of groups: a fiftieth of the bounding box diagonal of a group, the median
 /// over all groups.
 ///
-/// missing  1 when no group has a point
+/// @missing  1 when no group has a point
 [[nodiscard]] double spacing_for(std::span<const std::vector<ViewGroup::Member>> groups,
                                  std::span<const SurfelMap> maps);
 

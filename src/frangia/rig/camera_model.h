@@ -23,21 +23,21 @@ struct CameraModel {
   [[nodiscard]] Eigen::Matrix2d distort_jacobian(const Eigen::Vector2d& normalized) const;
   /// Inverts `distort` by Newton's method.
   ///
-  /// missing  NaN where the model folds back and has no inverse
+  /// @missing  NaN where the model folds back and has no inverse
   [[nodiscard]] Eigen::Vector2d undistort(const Eigen::Vector2d& distorted) const;
 
   /// Projects a point of the camera frame, with z > 0, to a pixel.
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& point) const;
   /// Returns the normalized point (x/z, y/z) on the ray of a pixel.
   ///
-  /// missing  NaN as `undistort`
+  /// @missing  NaN as `undistort`
   [[nodiscard]] Eigen::Vector2d ray(const Eigen::Vector2d& pixel) const;
 };
 
 /// Returns `model.ray` of every pixel, computed a row at a time.
 ///
-/// shape    height_px x width_px
-/// missing  NaN as `CameraModel::undistort`
+/// @shape    height_px x width_px
+/// @missing  NaN as `CameraModel::undistort`
 [[nodiscard]] Image<Eigen::Vector2f> rays_of(const CameraModel& model);
 
 }  // namespace frangia

@@ -23,8 +23,8 @@ struct PaperGeometry {
 /// Converts the paper's geometry to a rig without a turntable. The laser sheet is the fringe
 /// through O.
 ///
-/// errors   Error(Input) when a length or theta0 is not above 0
-/// source   the paper's equations (2), (3) and (5)
+/// @errors   Error(Input) when a length or theta0 is not above 0
+/// @source   the paper's equations (2), (3) and (5)
 [[nodiscard]] Rig make_paper_rig(const PaperGeometry& geometry);
 
 }  // namespace frangia

@@ -18,9 +18,9 @@ struct ResponseCurve {
 
 /// Fits a monotone response curve to the light measured at some levels.
 ///
-/// shape    one light value per level; the levels rise from 0 to 1
-/// errors   Error(Input) when the levels do not, or when the last light is not above the first
-/// source   pool adjacent violators, Ayer et al. 1955; Fritsch and Carlson 1980 between the levels
+/// @shape    one light value per level; the levels rise from 0 to 1
+/// @errors   Error(Input) when the levels do not, or when the last light is not above the first
+/// @source   pool adjacent violators, Ayer et al. 1955; Fritsch and Carlson 1980 between the levels
 [[nodiscard]] ResponseCurve make_response_curve(const std::vector<double>& levels,
                                                 std::vector<double> light);
 

@@ -143,7 +143,7 @@ class TomlReader {
 /// Parses a file whose `format` key must equal `format` and whose version must be from 1 to
 /// `newest_version`.
 ///
-/// errors   Error(Input) that names the file and the line or key
+/// @errors   Error(Input) that names the file and the line or key
 [[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
                                             const std::string& format,
                                             int newest_version = 1) {

@@ -27,7 +27,7 @@ struct PatternPlan {
 /// angular projector, no laser sheet   doubled from at most one fringe over the field to the finest
 /// pinhole projector                   the periods, coarse to fine
 ///
-/// errors   Error(Input) for fewer than 3 shifts, a period below 2 pixels, a pitch that is not
+/// @errors   Error(Input) for fewer than 3 shifts, a period below 2 pixels, a pitch that is not
 /// above
 ///          0 or gives more than 1e6 fringes, or an option that the projector cannot show
 [[nodiscard]] std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan = {});

@@ -21,8 +21,8 @@ namespace frangia {
 /// plate     80 x 60 x 6, standing upright on the axis
 /// bracket   an angle with a rib, bores and an overhang
 ///
-/// units    mm, object frame; round faces have chord errors below 0.002 mm
-/// errors   Error(Input) that lists the names for an unknown name
+/// @units    mm, object frame; round faces have chord errors below 0.002 mm
+/// @errors   Error(Input) that lists the names for an unknown name
 [[nodiscard]] Mesh make_part(std::string_view name);
 
 [[nodiscard]] Mesh make_shaft();

@@ -18,7 +18,7 @@ namespace frangia {
 /// carducci   set-up for the bust in the 1997 paper: 12.5 mm lens, CCD of 512 x 512, camera at
 ///            490 mm and projector at 1000 mm from the axis, 20 degrees between them
 ///
-/// errors   Error(Input) that lists the names for an unknown name
+/// @errors   Error(Input) that lists the names for an unknown name
 [[nodiscard]] Rig rig_preset(std::string_view name);
 
 }  // namespace frangia

@@ -14,8 +14,8 @@ namespace frangia {
 /// an interrupted simulation. `plan.part_poses` are the true part poses of the setups; they are
 /// written to truth-setups.toml, not to scan.toml.
 ///
-/// units    mm, object frame
-/// errors   Error(Input) when the folder holds anything but an interrupted simulation, when the
+/// @units    mm, object frame
+/// @errors   Error(Input) when the folder holds anything but an interrupted simulation, when the
 /// plan
 ///          has no pattern or view, when an option is out of range, or when the rig cannot show a
 ///          pattern; Error(File) when a file cannot be written
@@ -27,7 +27,7 @@ namespace frangia {
 /// Returns the pose of a part that is tilted about the x axis, turned about the z axis, and put
 /// down centred on the turntable.
 ///
-/// units    mm, object frame: pose * (point of `part`) = posed point
+/// @units    mm, object frame: pose * (point of `part`) = posed point
 [[nodiscard]] Eigen::Isometry3d pose_on_table(const Mesh& part, double tilt_rad, double turn_rad);
 
 }  // namespace frangia

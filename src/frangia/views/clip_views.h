@@ -22,9 +22,9 @@ struct Clip {
 /// Removes the points outside of the clip from all views, before they can affect the registration
 /// or the mesh. Returns the number of removed points.
 ///
-/// units    mm, object frame
-/// missing  a removed point is NaN
-/// errors   Error(Input) when no point is left, or a view and the camera differ in size
+/// @units    mm, object frame
+/// @missing  a removed point is NaN
+/// @errors   Error(Input) when no point is left, or a view and the camera differ in size
 std::size_t clip_views(ViewStore& views,
                        const CameraModel& camera,
                        const Clip& clip,

@@ -12,7 +12,7 @@ namespace frangia {
 
 /// Measured points of all views, neither smoothed nor averaged.
 ///
-/// units    mm, object frame
+/// @units    mm, object frame
 struct PointCloud {
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<float> sigma_mm;  ///< standard deviation of each point along its viewing ray
@@ -20,9 +20,9 @@ struct PointCloud {
 
 /// Collects the points of all views, view by view and row by row, without edge pixels.
 ///
-/// units    mm, object frame
-/// missing  missing pixels are skipped
-/// errors   Error(Input) when a view and the camera differ in size
+/// @units    mm, object frame
+/// @missing  missing pixels are skipped
+/// @errors   Error(Input) when a view and the camera differ in size
 [[nodiscard]] PointCloud collect_points(const ViewStore& views,
                                         const CameraModel& camera,
                                         const Run& run = {});

@@ -7,13 +7,13 @@ namespace frangia {
 
 /// The camera of every `step`-th pixel along both axes, starting with pixel (0, 0).
 ///
-/// errors   Error(Input) when the step is less than one pixel
+/// @errors   Error(Input) when the step is less than one pixel
 [[nodiscard]] CameraModel subsample(const CameraModel& camera, int step);
 
 /// The view of the subsampled camera, without edge pixels.
 ///
-/// shape    that of `subsample(camera, step)`
-/// errors   Error(Input) when the step is less than one pixel
+/// @shape    that of `subsample(camera, step)`
+/// @errors   Error(Input) when the step is less than one pixel
 [[nodiscard]] View subsample(const View& view, int step);
 
 }  // namespace frangia

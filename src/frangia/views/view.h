@@ -13,7 +13,7 @@ namespace frangia {
 /// Pixels recovered at edges are accurate enough for fusion but not for registration. They are
 /// stored apart, see `recover_edge_pixels`, until `add_edge_pixels` adds them to the grid.
 ///
-/// units    mm, rig frame
+/// @units    mm, rig frame
 struct View {
   RangeGrid range;
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();

@@ -11,7 +11,7 @@ namespace frangia {
 
 /// Stores views in an unnamed temporary file, so that memory holds one view at a time.
 ///
-/// errors   Error(File) when the temporary folder cannot hold the views
+/// @errors   Error(File) when the temporary folder cannot hold the views
 class ViewStore {
  public:
   ViewStore();
@@ -25,7 +25,7 @@ class ViewStore {
   void add(const View& view);
   /// Replaces view `index`.
   ///
-  /// errors   Error(Input) unless the grid keeps its size and has a phase image when it had one
+  /// @errors   Error(Input) unless the grid keeps its size and has a phase image when it had one
   ///          before, and the number of edge pixels does not grow
   void replace(std::size_t index, const View& view);
   /// Removes all points of view `index`; the view itself remains.

@@ -22,7 +22,7 @@ struct SetAssessment {
 ///
 /// `camera` is the camera's noise model. Without it `moved` is false, because noise estimated from
 /// the frames includes motion.
-/// errors   as fit_algorithm and wrap_phase
+/// @errors   as fit_algorithm and wrap_phase
 [[nodiscard]] SetAssessment assess_set(std::span<const FrameStack> exposures,
                                        const std::optional<NoiseModel>& camera,
                                        bool shifter);

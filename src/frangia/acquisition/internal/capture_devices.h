@@ -21,7 +21,7 @@ struct CompleteFrame {
 /// homes the table when needed, and sums the time of all device calls.
 class CaptureDevices {
  public:
-  /// errors   Error(Input) when the devices cannot show the patterns or reach the angles
+  /// @errors   Error(Input) when the devices cannot show the patterns or reach the angles
   CaptureDevices(RigDevices& devices,
                  const Rig& rig,
                  const CaptureOptions& options,
@@ -38,13 +38,13 @@ class CaptureDevices {
   void light_fringes() { switch_to(Light::Fringes); }
   void expose_for(double exposure_ms);
   /// Captures a frame and repeats the exposure while it arrives incomplete.
-  /// errors   Error(Device), also when all `frame_attempts` frames are incomplete
+  /// @errors   Error(Device), also when all `frame_attempts` frames are incomplete
   [[nodiscard]] CompleteFrame capture(const FrameLabel& label);
 
   /// Switches all lights and motion off after a fault.
   void make_safe() noexcept;
   /// Checks that all devices answer and that the table can find its angle again.
-  /// errors   Error(Device) that names the device
+  /// @errors   Error(Device) that names the device
   void check_health();
 
   [[nodiscard]] bool has_phase_shifter() const { return devices_.shifter != nullptr; }
@@ -82,7 +82,7 @@ class SafeStateGuard {
 
 /// Checks that the devices can show the patterns and reach the angles.
 ///
-/// errors   Error(Input) that names the table that rig.toml lacks, or the angle
+/// @errors   Error(Input) that names the table that rig.toml lacks, or the angle
 void check_devices(const RigDevices& devices,
                    const Rig& rig,
                    std::span<const Pattern> patterns,

@@ -10,7 +10,7 @@ namespace frangia {
 /// Removes the temporary files of a killed session. Returns whether a plan was stored before.
 ///
 /// `options_text` describes the capture options, which must be the same in every session.
-/// errors   Error(Input) when the folder holds anything else; Error(File)
+/// @errors   Error(Input) when the folder holds anything else; Error(File)
 bool claim_folder(const Scan& plan, const std::string& options_text);
 
 /// Writes scan.toml and rig.toml of the scan and syncs them to the disk.

@@ -34,7 +34,7 @@ struct ManifestSet {
 ///     exposures 2.5 10
 ///
 /// A frame counts as stored once its line is on the disk.
-/// errors   Error(File) when it cannot be written, Error(Input) that names the line
+/// @errors   Error(File) when it cannot be written, Error(Input) that names the line
 class CaptureManifest {
  public:
   /// Reads capture/manifest.txt in `folder`, the scan folder.

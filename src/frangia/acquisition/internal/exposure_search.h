@@ -19,9 +19,9 @@ struct ExposureRange {
 
 /// Finds the longest exposure, within 5 %, that saturates at most 0.5 % of the lit pixels.
 ///
-/// units    ms
+/// @units    ms
 ///
-/// errors   those of the probe
+/// @errors   those of the probe
 [[nodiscard]] double longest_exposure(const ExposureProbe& probe, const ExposureRange& range);
 
 /// Chooses a set of exposures by the pixels that each one measures in a few views.
@@ -35,8 +35,8 @@ class ExposureBracket {
 
   /// Selects greedily the exposure that adds most pixels, while it adds at least 0.5 %.
   ///
-  /// units    ms
-  /// missing  the initial exposure alone when no pixel was measured
+  /// @units    ms
+  /// @missing  the initial exposure alone when no pixel was measured
   [[nodiscard]] std::vector<double> selected() const;
 
  private:

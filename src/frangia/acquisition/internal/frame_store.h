@@ -27,12 +27,12 @@ class FrameStore {
   ~FrameStore();
 
   /// Queues a frame; waits while three items are queued.
-  /// errors   the error of an earlier frame
+  /// @errors   the error of an earlier frame
   void put(std::string file, std::shared_ptr<const Frame> frame, const ManifestFrame& about);
   /// Queues the outcome of a set, after all its frames.
   void put(const std::string& set, const ManifestSet& outcome);
   /// Waits until all items are on the disk.
-  /// errors   as `put`
+  /// @errors   as `put`
   void drain();
 
   /// Time that `put` and `drain` waited for the disk.

@@ -11,8 +11,8 @@ namespace frangia {
 /// Chooses exposures from up to four views, evenly over the plan: one exposure, or a bracket in the
 /// order of the pixels that each adds.
 ///
-/// units    ms
-/// errors   Error(Input) without a pattern of fringes, and those of the devices
+/// @units    ms
+/// @errors   Error(Input) without a pattern of fringes, and those of the devices
 [[nodiscard]] std::vector<double> survey_exposures(const Scan& plan,
                                                    CaptureDevices& devices,
                                                    const CaptureOptions& options,

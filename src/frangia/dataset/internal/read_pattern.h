@@ -9,7 +9,7 @@ namespace frangia {
 
 /// One `[[pattern]]` table of scan.toml. Unknown keys are warned of.
 ///
-/// errors   Error(Input) that names the key: missing, out of range, or not possible with `rig`
+/// @errors   Error(Input) that names the key: missing, out of range, or not possible with `rig`
 [[nodiscard]] Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run);
 
 }  // namespace frangia

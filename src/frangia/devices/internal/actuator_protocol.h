@@ -21,17 +21,17 @@ struct ActuatorProtocol {
 
 /// A function generator or power supply with SCPI; `set` sets its offset or another quantity.
 ///
-/// source   IEEE 488.2 (*OPC?), SCPI-99 (SYSTem:ERRor?, OUTPut)
+/// @source   IEEE 488.2 (*OPC?), SCPI-99 (SYSTem:ERRor?, OUTPut)
 [[nodiscard]] ActuatorProtocol scpi_protocol();
 
 /// A controller of Physik Instrumente in closed loop.
 ///
-/// source   PI GCS 2.0 Commands Manual: SVO, MOV, ONT?, ERR?
+/// @source   PI GCS 2.0 Commands Manual: SVO, MOV, ONT?, ERR?
 [[nodiscard]] ActuatorProtocol gcs2_protocol(const std::string& axis = "1");
 
 /// The command for a value.
 ///
-/// errors   Error(Input) when `set` has no {value} or an invalid format
+/// @errors   Error(Input) when `set` has no {value} or an invalid format
 [[nodiscard]] std::string fill_command(const std::string& set, double value);
 
 }  // namespace frangia

@@ -8,7 +8,8 @@ namespace frangia {
 /// `views/FOLDER/PATTERN-FRAME.png` or `PATTERN-FRAME@EXPOSURE.png`, with the view folders in
 /// alphabetical order. Its setting is `folder`.
 ///
-/// errors   Error(Input) that names the file and the key when there is no frame; Error(Device) that
+/// @errors   Error(Input) that names the file and the key when there is no frame; Error(Device)
+/// that
 ///          names a missing frame
 [[nodiscard]] Driver folder_camera_driver();
 

@@ -20,7 +20,7 @@ struct GlfwSettings {
 /// Opens a borderless full-screen window on a monitor of this machine, pixel by pixel. Only defined
 /// in builds with GLFW; use it from the main thread only.
 ///
-/// errors   Error(Device) when the monitor does not exist, when there is no screen, or when the
+/// @errors   Error(Device) when the monitor does not exist, when there is no screen, or when the
 ///          desktop scales images
 [[nodiscard]] std::unique_ptr<PatternDisplay> open_glfw_display(const GlfwSettings& settings);
 

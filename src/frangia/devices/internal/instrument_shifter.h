@@ -11,7 +11,7 @@ namespace frangia {
 /// A piezo driven by an instrument with one value. Never sends a value outside the range of `info`.
 class InstrumentShifter final : public PhaseShifter {
  public:
-  /// errors   Error(Device) when the instrument rejects the commands in `start`
+  /// @errors   Error(Device) when the instrument rejects the commands in `start`
   InstrumentShifter(std::unique_ptr<Transport> transport,
                     ActuatorProtocol protocol,
                     ShifterInfo info,

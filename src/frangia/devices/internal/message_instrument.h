@@ -21,7 +21,7 @@ class MessageInstrument {
   MessageInstrument(std::unique_ptr<Transport> transport, Language language);
 
   [[nodiscard]] const std::string& name() const { return transport_->name(); }
-  /// errors   Error(Device) when it does not answer or reports an error
+  /// @errors   Error(Device) when it does not answer or reports an error
   void send(const std::string& command, const Deadline& deadline);
   [[nodiscard]] std::string ask(const std::string& question, const Deadline& deadline);
   [[nodiscard]] std::string identify(const Deadline& deadline);

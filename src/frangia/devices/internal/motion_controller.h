@@ -53,20 +53,20 @@ struct MotionControllerSettings {
 
 /// GRBL 1.1 and derived firmware.
 ///
-/// source   github.com/gnea/grbl/wiki, Grbl v1.1 Interface
+/// @source   github.com/gnea/grbl/wiki, Grbl v1.1 Interface
 [[nodiscard]] std::unique_ptr<MotionController> make_grbl(
     std::unique_ptr<Transport> transport, const MotionControllerSettings& settings = {});
 
 /// Marlin, with line numbers and checksums; lines are sent again on request.
 ///
-/// source   marlinfw.org/docs/gcode, RepRap wiki "G-code"
+/// @source   marlinfw.org/docs/gcode, RepRap wiki "G-code"
 [[nodiscard]] std::unique_ptr<MotionController> make_marlin(
     std::unique_ptr<Transport> transport, const MotionControllerSettings& settings = {});
 
 /// Horus 0.2, the firmware of the ZUM board of the Ciclop scanner; units are degrees, X is the only
 /// axis, and there is no home switch.
 ///
-/// source   github.com/bqlabs/horus-fw
+/// @source   github.com/bqlabs/horus-fw
 [[nodiscard]] std::unique_ptr<MotionController> make_horus(
     std::unique_ptr<Transport> transport, const MotionControllerSettings& settings = {});
 

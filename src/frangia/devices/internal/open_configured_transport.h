@@ -10,7 +10,7 @@ namespace frangia {
 /// Opens the line in the settings of a device: `port` with `baud`, `parity`, `stop_bits`, or `host`
 /// with `tcp_port`; with `gpib_address` through a Prologix adapter on that line.
 ///
-/// errors   Error(Input) that names the file and the key; Error(Device) when it cannot be opened
+/// @errors   Error(Input) that names the file and the key; Error(Device) when it cannot be opened
 [[nodiscard]] std::unique_ptr<Transport> open_configured_transport(DeviceSettings& settings,
                                                                    const Deadline& deadline,
                                                                    int default_baud = 115200);

@@ -18,13 +18,13 @@ struct SerialSettings {
 
 /// Opens a serial port.
 ///
-/// errors   Error(Device) when the port does not exist, may not be opened, is in use, or does not
+/// @errors   Error(Device) when the port does not exist, may not be opened, is in use, or does not
 ///          support the baud rate
 [[nodiscard]] std::unique_ptr<Transport> open_serial(const SerialSettings& settings);
 
 /// Opens a TCP connection.
 ///
-/// errors   Error(Device) when host:port does not answer before the deadline
+/// @errors   Error(Device) when host:port does not answer before the deadline
 [[nodiscard]] std::unique_ptr<Transport> open_tcp(const std::string& host,
                                                   int port,
                                                   const Deadline& deadline);

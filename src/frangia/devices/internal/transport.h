@@ -10,7 +10,7 @@ namespace frangia {
 
 /// A byte stream to and from a device: a serial port, a network socket, a GPIB adapter.
 ///
-/// errors   Error(Device) that names the line: closed, unplugged, no answer before the deadline, a
+/// @errors   Error(Device) that names the line: closed, unplugged, no answer before the deadline, a
 ///          line without end; Error(Cancelled) when a stop was requested
 class Transport {
  public:

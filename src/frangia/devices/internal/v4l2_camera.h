@@ -20,7 +20,7 @@ struct V4l2Settings {
 /// Opens a webcam with Video4Linux2 in a grey or YUYV format, of which the luminance is used.
 /// Webcams have no trigger: frames exposed before the request are discarded by their time stamps.
 ///
-/// errors   Error(Device) when the camera does not exist, is in use, or does not support the size
+/// @errors   Error(Device) when the camera does not exist, is in use, or does not support the size
 ///          or a format
 [[nodiscard]] std::unique_ptr<CameraDevice> open_v4l2_camera(const V4l2Settings& settings,
                                                              std::shared_ptr<V4l2System> system);

@@ -17,17 +17,17 @@ namespace frangia {
 /// COMPONENT and HOLE are whole numbers of at least 0, K and PER_MM are numbers of at least 0. Any
 /// other word is a plain number.
 ///
-/// units    lengths in mm, angles in degrees
-/// errors   Error(Input) that shows the value and the pattern
+/// @units    lengths in mm, angles in degrees
+/// @errors   Error(Input) that shows the value and the pattern
 [[nodiscard]] std::vector<double> edit_numbers(std::string_view pattern, const std::string& value);
 
 /// The plane of the pattern X,Y,Z,MM: the points p with n.p = mm, where n is the unit normal along
 /// X,Y,Z.
 ///
-/// errors   Error(Input) for a normal of length 0
+/// @errors   Error(Input) for a normal of length 0
 [[nodiscard]] Eigen::Hyperplane<double, 3> edit_plane(const std::vector<double>& numbers);
 
-/// errors   Error(Input) unless the value is measured, displaced or synthesized
+/// @errors   Error(Input) unless the value is measured, displaced or synthesized
 [[nodiscard]] Mark edit_mark(const std::string& value);
 
 }  // namespace frangia

@@ -9,7 +9,7 @@ namespace frangia {
 
 /// Selects the triangles whose centroid lies on the positive side of a plane.
 ///
-/// units    mm; the normal of the plane has unit length
+/// @units    mm; the normal of the plane has unit length
 [[nodiscard]] Selection select_by_plane(const Mesh& mesh,
                                         const Eigen::Hyperplane<double, 3>& plane);
 
@@ -23,8 +23,8 @@ namespace frangia {
 
 /// Selects the triangles whose normal is within an angle of a direction.
 ///
-/// missing  a triangle without area is not selected
-/// errors   Error(Input) for a direction of length 0
+/// @missing  a triangle without area is not selected
+/// @errors   Error(Input) for a direction of length 0
 [[nodiscard]] Selection select_by_normal(const Mesh& mesh,
                                          const Eigen::Vector3d& direction,
                                          double within_rad);

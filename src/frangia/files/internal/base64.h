@@ -8,7 +8,7 @@ namespace frangia {
 
 /// Encodes bytes as base64.
 ///
-/// source   RFC 4648
+/// @source   RFC 4648
 [[nodiscard]] std::string encode_base64(std::string_view bytes);
 
 /// Decodes base64; nothing when a character is not base64.

@@ -34,7 +34,7 @@ struct DxfDrawing {
   }
 };
 
-/// errors   Error(Input) as write_dxf
+/// @errors   Error(Input) as write_dxf
 [[nodiscard]] DxfDrawing make_dxf_drawing(const Mesh& mesh, const std::filesystem::path& path);
 
 /// Writes a point with group codes 10, 20, 30 for corner 0 of an entity, 11, 21, 31 for corner 1,

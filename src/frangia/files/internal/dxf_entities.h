@@ -12,7 +12,7 @@ namespace frangia {
 /// Reads the entities of a DXF that hold triangles: 3DFACE, POLYLINE as a polyface or M x N mesh,
 /// and MESH. Counts the entities that it skips.
 ///
-/// errors   Error(Input) that names the file and the line
+/// @errors   Error(Input) that names the file and the line
 class DxfEntities {
  public:
   explicit DxfEntities(DxfGroups& groups) : groups_(groups), triangles_(groups) {}

@@ -10,7 +10,7 @@ namespace frangia {
 /// Iterates over the groups of a DXF: a code on one line, its value on the next. Holds a view of
 /// the text, which must outlive it.
 ///
-/// errors   Error(Input) that names the file and the line
+/// @errors   Error(Input) that names the file and the line
 class DxfGroups {
  public:
   DxfGroups(std::filesystem::path path, std::string_view text);

@@ -22,7 +22,7 @@ struct DxfPolyline {
 
 /// Collects the triangles of the entities of a DXF. Degenerate triangles are omitted.
 ///
-/// errors   Error(Input) that names the file and the line: a vertex index out of range, a
+/// @errors   Error(Input) that names the file and the line: a vertex index out of range, a
 ///          coordinate that is not finite
 class DxfTriangles {
  public:

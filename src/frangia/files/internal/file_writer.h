@@ -14,7 +14,7 @@ namespace frangia {
 
 /// Buffers small pieces of text or binary data for an AtomicFile.
 ///
-/// errors   as AtomicFile
+/// @errors   as AtomicFile
 class FileWriter {
  public:
   explicit FileWriter(const std::filesystem::path& path);

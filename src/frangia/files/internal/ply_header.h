@@ -33,7 +33,7 @@ struct PlyHeader {
 
 /// Parses the header of a PLY file.
 ///
-/// errors   Error(Input) that names the file and the line
+/// @errors   Error(Input) that names the file and the line
 [[nodiscard]] PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view bytes);
 
 /// Size of a number, bytes.

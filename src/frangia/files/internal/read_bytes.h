@@ -7,7 +7,7 @@ namespace frangia {
 
 /// Reads a whole file.
 ///
-/// errors   Error(Input) that names the file: it does not exist, is a folder, or cannot be read
+/// @errors   Error(Input) that names the file: it does not exist, is a folder, or cannot be read
 [[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
 
 }  // namespace frangia

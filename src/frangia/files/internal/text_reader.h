@@ -16,7 +16,7 @@ namespace frangia {
 
 /// Iterates over the words of a text. Holds a view of the text, which must outlive it.
 ///
-/// errors   Error(Input) that names the file and the line
+/// @errors   Error(Input) that names the file and the line
 class TextReader {
  public:
   TextReader(std::filesystem::path path, std::string_view text)

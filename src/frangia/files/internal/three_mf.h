@@ -9,14 +9,14 @@ namespace frangia {
 
 /// Reads the meshes that the build items of a 3MF package refer to, with their transforms.
 ///
-/// shape    triangles with base materials named "displaced" and "synthesized" get those marks
-/// units    converted to mm from the unit of the model
-/// missing  objects of every type are read as surfaces; textures, beams and slices are skipped, as
+/// @shape    triangles with base materials named "displaced" and "synthesized" get those marks
+/// @units    converted to mm from the unit of the model
+/// @missing  objects of every type are read as surfaces; textures, beams and slices are skipped, as
 ///          are models in further files of the package, with a warning through `run`
-/// errors   Error(Input) that names the file and the fault: not a zip archive, damaged, invalid
+/// @errors   Error(Input) that names the file and the fault: not a zip archive, damaged, invalid
 ///          XML, XML with entities, an invalid number, an index out of range, an object that does
 ///          not exist or contains itself, an entry that expands to far more than a mesh
-/// source   3MF Consortium, 3D Manufacturing Format, Core Specification 1.3
+/// @source   3MF Consortium, 3D Manufacturing Format, Core Specification 1.3
 [[nodiscard]] Mesh read_3mf(const std::filesystem::path& path, const Run& run = {});
 
 /// Writes one object of type "model" and one build item; triangles of each mark have a base
@@ -26,10 +26,10 @@ namespace frangia {
 /// refuses a build item of type "surface" ("invalid object id") but loads and repairs an open
 /// "model". So an open mesh is written as "model", with a warning through `run`.
 ///
-/// shape    triangles with two identical corners, which the format forbids, are omitted
-/// units    mm
-/// missing  normals, sigma and views are not stored
-/// errors   Error(Input) when check_mesh fails or the mesh has no triangle; Error(File) when the
+/// @shape    triangles with two identical corners, which the format forbids, are omitted
+/// @units    mm
+/// @missing  normals, sigma and views are not stored
+/// @errors   Error(Input) when check_mesh fails or the mesh has no triangle; Error(File) when the
 ///          file cannot be written
 void write_3mf(const std::filesystem::path& path, const Mesh& mesh, const Run& run = {});
 

@@ -16,7 +16,7 @@ namespace frangia {
 
 /// Collects the objects and build items of a 3MF model from its XML elements.
 ///
-/// errors   Error(Input) without the name of the file
+/// @errors   Error(Input) without the name of the file
 class ThreeMfModel {
  public:
   /// Handles the start of an element; `name` is "namespace|name".

@@ -23,7 +23,7 @@ class XmlAttributes {
 /// Parses XML that arrives in pieces and calls a handler for each element. Names are
 /// "namespace|name".
 ///
-/// errors   Error(Input) with the line: not well-formed, or a document type declaration, whose
+/// @errors   Error(Input) with the line: not well-formed, or a document type declaration, whose
 ///          entities could expand without bound. An exception of a handler leaves `feed`.
 class XmlParser {
  public:

@@ -11,7 +11,7 @@ namespace frangia {
 
 /// Reads a zip archive entry by entry.
 ///
-/// errors   Error(Input) that names the file: it does not exist, is not a zip archive or is
+/// @errors   Error(Input) that names the file: it does not exist, is not a zip archive or is
 ///          damaged; an entry expands to more than 8 GB, or to more than 64 MB and 200 times its
 ///          size
 class ZipReader {
@@ -34,7 +34,7 @@ class ZipReader {
 
 /// Writes a zip archive that appears under its name when it is complete.
 ///
-/// errors   Error(File) as AtomicFile
+/// @errors   Error(File) as AtomicFile
 class ZipWriter {
  public:
   explicit ZipWriter(const std::filesystem::path& path);

@@ -9,7 +9,7 @@ namespace frangia {
 
 /// Width of a text from the left edge of its first letter to the right edge of its last.
 ///
-/// units    pixels, for capitals `cap_height` pixels high
+/// @units    pixels, for capitals `cap_height` pixels high
 [[nodiscard]] double text_width(std::string_view text, double cap_height);
 
 /// Where a text stands in a picture.
@@ -22,7 +22,7 @@ struct TextPlacement {
 /// Draws one line of ASCII text with antialiased strokes. All digits have the same width. Parts
 /// outside the picture are clipped.
 ///
-/// missing  other characters are drawn as an empty box
+/// @missing  other characters are drawn as an empty box
 void draw_text(Image<Rgb>& picture,
                std::string_view text,
                const TextPlacement& placement,

@@ -38,7 +38,7 @@ std::vector<Edge> short_edges(const Mesh& mesh,
 /// Whether the mesh stays manifold when a and b collapse: they share as many neighbours as
 /// triangles, and an inner edge does not connect two boundary vertices.
 ///
-/// source   the link condition, Dey et al. 1999
+/// @source   the link condition, Dey et al. 1999
 bool satisfies_link_condition(std::vector<Vertex> of_a, std::vector<Vertex> of_b, Vertex b) {
   const auto triangles = std::count(of_a.begin(), of_a.end(), b);
   const auto on_boundary = [](const std::vector<Vertex>& sorted) {

@@ -15,7 +15,7 @@ namespace frangia {
 /// other; two of the same kind meet in the middle. No collapse folds a triangle over or makes the
 /// mesh non-manifold. Removed triangles stay in the list with three times vertex 0.
 ///
-/// shape    `sharp`: 1 for a vertex on an edge of the object, 2 on a corner, else 0; it may be
+/// @shape    `sharp`: 1 for a vertex on an edge of the object, 2 on a corner, else 0; it may be
 ///          shorter than the list of vertices. `candidates`: the triangles to examine; those around
 ///          collapsed edges are added
 bool collapse_slivers(Mesh& mesh,

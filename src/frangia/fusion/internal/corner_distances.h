@@ -12,9 +12,9 @@ namespace frangia {
 /// Mean distances at the corners of a block's cells, which reach one voxel into the neighbouring
 /// blocks.
 ///
-/// shape    9^3
-/// units    mm
-/// missing  NaN at a voxel without weight
+/// @shape    9^3
+/// @units    mm
+/// @missing  NaN at a voxel without weight
 struct CornerDistances {
   static constexpr int kSide = DistanceField::kEdge + 1;
   std::array<float, std::size_t{kSide} * kSide * kSide> distance_mm{};

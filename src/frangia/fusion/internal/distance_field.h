@@ -50,7 +50,7 @@ struct DistanceField {
 ///
 /// A voxel takes the distance from the plane of the quad that it projects into, never across a
 /// depth step, weighted by cos^2/sigma^2. Behind the surface the weight decreases with depth.
-/// source   Curless & Levoy 1996; Niessner et al. 2013
+/// @source   Curless & Levoy 1996; Niessner et al. 2013
 void integrate_view(DistanceField& field,
                     const LocalPlanes& view,
                     const CameraRays& camera,

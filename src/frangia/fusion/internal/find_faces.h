@@ -38,7 +38,7 @@ struct Faces {
 /// Fits faces to vertices: the largest set of vertices with similar normals in one plane, then the
 /// next one among the rest.
 ///
-/// missing  a set of fewer than `min_face_vertices`, or one that is not flat, is no face
+/// @missing  a set of fewer than `min_face_vertices`, or one that is not flat, is no face
 [[nodiscard]] Faces find_faces(const Mesh& mesh,
                                std::span<const std::uint32_t> vertices,
                                const Eigen::Vector3f& near,

@@ -13,7 +13,7 @@ namespace frangia {
 
 /// Sums over the views of the position and slope of the surface at one crossing.
 ///
-/// units    mm, object frame; weights 1/mm^2
+/// @units    mm, object frame; weights 1/mm^2
 struct HermiteAccumulator {
   /// One face near the crossing: the sums over the views whose normals agree.
   struct PlaneSum {
@@ -89,7 +89,7 @@ class HermiteAccumulators {
 /// noise, estimated over the crossing's block: a systematic error of a view over a region does not
 /// average out within it. The variance from lateral pixel error is the lower bound.
 ///
-/// source   random effects, DerSimonian & Laird 1986
+/// @source   random effects, DerSimonian & Laird 1986
 void add_between_view_variance(HermiteAccumulators& hermite, const EdgeCrossings& crossings);
 
 }  // namespace frangia

@@ -12,7 +12,7 @@ namespace frangia {
 
 /// Position and normal of the surface at one crossing, from the face with the largest weight.
 ///
-/// units    mm, object frame
+/// @units    mm, object frame
 struct HermiteSample {
   Eigen::Vector3f point;   ///< on the surface, nearest to the crossing
   Eigen::Vector3f normal;  ///< unit

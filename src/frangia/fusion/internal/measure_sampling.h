@@ -17,8 +17,8 @@ struct Sampling {
 
 /// Measures the sampling on every 16th row of each view.
 ///
-/// missing  all members are 0 when no view holds a point
-/// errors   Error(Input) when the size of a view differs from the camera's
+/// @missing  all members are 0 when no view holds a point
+/// @errors   Error(Input) when the size of a view differs from the camera's
 [[nodiscard]] Sampling measure_sampling(const ViewStore& views,
                                         const CameraRays& camera,
                                         const Run& run = {});

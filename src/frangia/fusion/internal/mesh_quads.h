@@ -15,7 +15,7 @@ namespace frangia {
 /// diagonal that follows the surface. The mesh is manifold: where one sheet of the surface crosses
 /// the face between two cells twice, an additional vertex on the face separates the two edges.
 /// Vertices that fold a triangle over return to their cells, where no triangle can fold.
-/// missing  no quad where a cell has a corner without a distance, nor at an unsupported crossing
+/// @missing  no quad where a cell has a corner without a distance, nor at an unsupported crossing
 [[nodiscard]] Mesh mesh_quads(PlacedVertices vertices,
                               const EdgeCrossings& crossings,
                               const HermiteAccumulators& hermite,

@@ -14,7 +14,7 @@ namespace frangia {
 /// Where noise is as large as the triangles, a vertex may lie beyond its neighbours. It is relaxed
 /// towards their mean along the surface, not across it. At the boundary the triangle is removed
 /// instead. Triangles that still face inward after that are removed, too.
-/// shape    `sharp`: not 0 for a vertex on an edge or a corner of the object, which does not move;
+/// @shape    `sharp`: not 0 for a vertex on an edge or a corner of the object, which does not move;
 ///          it may be shorter than the list of vertices
 void remove_foldovers(Mesh& mesh,
                       std::span<const std::uint8_t> sharp,

@@ -17,8 +17,8 @@ namespace frangia {
 /// folds too short to be an edge, and vertices that would fold a triangle over do not change.
 ///
 /// Returns for each vertex 1 on an edge of the object, 2 on a corner, else 0.
-/// shape    a mesh with normals, sigma and views; `voxel_mm` is the spacing of its vertices
-/// source   Attene, Falcidieno, Rossignac & Spagnuolo 2005 (Sharpen & Bend)
+/// @shape    a mesh with normals, sigma and views; `voxel_mm` is the spacing of its vertices
+/// @source   Attene, Falcidieno, Rossignac & Spagnuolo 2005 (Sharpen & Bend)
 std::vector<std::uint8_t> sharpen_edges(Mesh& mesh,
                                         float voxel_mm,
                                         const EdgeParameters& parameters = {});

@@ -54,7 +54,7 @@ struct LoopSamples {
 /// With second faces the minimum over all planes comes first. Parallel planes are averaged.
 /// Otherwise directions with an eigenvalue below `min_eigenvalue` of the largest, and then further
 /// ones, are left at the mean point until the minimum lies in the cell.
-/// source   Ju et al. 2002; truncated eigenvalues: Kobbelt et al. 2001
+/// @source   Ju et al. 2002; truncated eigenvalues: Kobbelt et al. 2001
 [[nodiscard]] Eigen::Vector3f solve_position(const LoopSamples& loop,
                                              bool flat,
                                              float min_eigenvalue,

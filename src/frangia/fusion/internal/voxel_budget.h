@@ -11,18 +11,18 @@ struct VoxelBudget {
   double voxel_mm = 0.0;
   std::size_t max_blocks = 0;
 
-  /// errors   Error(Input) when `blocks` exceeds the budget; the message names a voxel size that
+  /// @errors   Error(Input) when `blocks` exceeds the budget; the message names a voxel size that
   /// fits
   void check(double blocks) const;
   /// Checks a lower bound before any block is allocated: the blocks of one average view.
   ///
-  /// errors   as above
+  /// @errors   as above
   void check(const Sampling& sampling, std::size_t views) const;
 };
 
 /// Returns the budget for a voxel size.
 ///
-/// shape    `max_memory_mb` 0 stands for half of the machine's memory
+/// @shape    `max_memory_mb` 0 stands for half of the machine's memory
 [[nodiscard]] VoxelBudget voxel_budget(double voxel_mm, std::size_t max_memory_mb);
 
 }  // namespace frangia

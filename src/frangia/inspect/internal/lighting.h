@@ -28,7 +28,7 @@ struct Light {
 
 /// Low-discrepancy points of the unit square with a random offset for each pixel.
 ///
-/// source   the R2 sequence, Roberts 2018
+/// @source   the R2 sequence, Roberts 2018
 struct SampleSequence {
   std::uint64_t pixel;
   std::size_t sample;  ///< of the pixel

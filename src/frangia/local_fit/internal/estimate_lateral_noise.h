@@ -11,9 +11,9 @@ namespace frangia {
 /// an inclined surface this causes depth noise that the phase noise does not include. The estimate
 /// is the scatter about a smooth surface in excess of the phase noise, divided by the slope.
 ///
-/// shape    both w x h: a value that is linear over planes, and its standard deviation
-/// units    px
-/// missing  0 when too few windows are usable
+/// @shape    both w x h: a value that is linear over planes, and its standard deviation
+/// @units    px
+/// @missing  0 when too few windows are usable
 [[nodiscard]] float estimate_lateral_noise(const Image<float>& image, const Image<float>& noise);
 
 }  // namespace frangia

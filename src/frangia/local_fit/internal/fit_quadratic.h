@@ -18,7 +18,7 @@ struct QuadraticFit {
 
 /// Fits a quadratic by least squares over the measured pixels.
 ///
-/// missing  NaN where too few pixels, or pixels on too few sides, determine the fit
+/// @missing  NaN where too few pixels, or pixels on too few sides, determine the fit
 [[nodiscard]] QuadraticFit fit_quadratic(const Image<float>& image, const Eigen::Vector2i& at);
 
 /// Autocorrelation of a fit's residuals at neighbouring pixels: negative for noise, positive for an

@@ -10,8 +10,8 @@ namespace frangia {
 
 /// Inverse depths of a view, and which neighbouring pixels lie on one surface.
 ///
-/// units    1/mm
-/// missing  q is NaN where nothing was measured
+/// @units    1/mm
+/// @missing  q is NaN where nothing was measured
 struct LinkedPixels {
   enum Link : std::uint8_t { Right = 1, Down = 2 };
 

@@ -23,7 +23,7 @@ class PlaneRow {
   /// noise, which is nearly everywhere, else the result of `choose_window`. Where the residuals of
   /// the wider window are noise, the pixel gets the value of the wider quadratic.
   ///
-  /// shape    `windows` of 5 x 5 pixels; `wider` of 7 x 7, or null
+  /// @shape    `windows` of 5 x 5 pixels; `wider` of 7 x 7, or null
   void choose(const LinkedPixels& grid,
               const WindowRows& windows,
               const WindowRows* wider,

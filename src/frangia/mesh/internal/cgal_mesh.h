@@ -13,7 +13,7 @@ namespace frangia {
 /// Converts a mesh to CGAL's, with vertices and faces in the same order; nullopt for a mesh that is
 /// not manifold. Only for sources behind FRANGIA_WITH_CGAL.
 ///
-/// errors   Error(Cancelled)
+/// @errors   Error(Cancelled)
 template <typename Surface>
 [[nodiscard]] std::optional<Surface> to_cgal(const Mesh& mesh, const Run& run = {}) {
   Surface surface;
@@ -33,7 +33,7 @@ template <typename Surface>
 
 /// Converts CGAL's mesh back, without the elements that were removed from it.
 ///
-/// errors   Error(Cancelled)
+/// @errors   Error(Cancelled)
 template <typename Surface>
 [[nodiscard]] Mesh from_cgal(const Surface& surface, const Run& run = {}) {
   Mesh mesh;

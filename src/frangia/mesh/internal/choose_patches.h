@@ -14,8 +14,8 @@ using VertexLoop = std::vector<std::uint32_t>;
 
 /// Computes a smooth patch for each hole, or the best replacement as fill_holes describes.
 ///
-/// shape    one patch per loop; a loop visits no vertex twice
-/// errors   Error(Cancelled)
+/// @shape    one patch per loop; a loop visits no vertex twice
+/// @errors   Error(Cancelled)
 [[nodiscard]] std::vector<HolePatch> choose_smooth_patches(const Mesh& mesh,
                                                            const HalfEdges& edges,
                                                            const std::vector<VertexLoop>& loops,
@@ -23,8 +23,8 @@ using VertexLoop = std::vector<std::uint32_t>;
 
 /// Computes a flat patch for each hole, or a fan.
 ///
-/// shape    one patch per loop; a loop visits no vertex twice
-/// errors   Error(Cancelled)
+/// @shape    one patch per loop; a loop visits no vertex twice
+/// @errors   Error(Cancelled)
 [[nodiscard]] std::vector<HolePatch> choose_flat_patches(const Mesh& mesh,
                                                          const HalfEdges& edges,
                                                          const std::vector<VertexLoop>& loops,

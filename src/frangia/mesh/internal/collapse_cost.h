@@ -23,7 +23,7 @@ struct CollapseTarget {
 /// Triangles are weighted by area and by 1/sigma^2. Planes perpendicular to the surface constrain
 /// boundaries.
 ///
-/// source   Garland & Heckbert 1997, Surface Simplification Using Quadric Error Metrics
+/// @source   Garland & Heckbert 1997, Surface Simplification Using Quadric Error Metrics
 class CollapseCost {
  public:
   /// `mesh` must outlive it; its vertices may move.

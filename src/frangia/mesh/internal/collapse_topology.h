@@ -32,7 +32,7 @@ class CollapseTopology {
 
   /// The link condition: whether the mesh stays manifold when b collapses into a.
   ///
-  /// source   Dey, Edelsbrunner, Guha & Nekhayev 1999, Topology Preserving Edge Contraction
+  /// @source   Dey, Edelsbrunner, Guha & Nekhayev 1999, Topology Preserving Edge Contraction
   [[nodiscard]] bool can_collapse(std::uint32_t a, std::uint32_t b);
 
   /// Collapses b into a and removes the triangles of the edge.

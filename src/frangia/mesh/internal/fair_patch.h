@@ -25,8 +25,8 @@ struct PatchSurroundings {
 /// A `curvature` below 1 blends the result with the minimal surface; 0 is the minimal surface.
 /// Returns false when no such surface exists; the positions are then undefined.
 ///
-/// errors   Error(Cancelled)
-/// source   Botsch & Kobbelt 2004, An Intuitive Framework for Real-Time Freeform Modeling;
+/// @errors   Error(Cancelled)
+/// @source   Botsch & Kobbelt 2004, An Intuitive Framework for Real-Time Freeform Modeling;
 ///          Schneider & Kobbelt 2001, Geometric Fairing of Irregular Meshes
 [[nodiscard]] bool fair_patch(PatchMesh& patch,
                               const PatchSurroundings& around,

@@ -36,8 +36,8 @@ struct SmoothPatchOptions {
 /// The shape is faired on a coarse triangulation whose triangles grow inwards. Its edges are then
 /// split along curves until they are as short as those outside.
 ///
-/// missing  an empty patch when the boundary allows none
-/// errors   Error(Cancelled)
+/// @missing  an empty patch when the boundary allows none
+/// @errors   Error(Cancelled)
 [[nodiscard]] HolePatch smooth_patch(const Mesh& mesh,
                                      const HalfEdges& edges,
                                      const std::vector<std::uint32_t>& boundary,

@@ -23,9 +23,9 @@ struct MinimumAreaOptions {
 ///
 /// A polygon that is longer than 250 vertices after cutting ears is divided into shorter ones.
 ///
-/// shape    triples of vertex indices, oriented like the polygon; empty below three vertices
-/// errors   Error(Cancelled)
-/// source   Barequet & Sharir 1995, Filling Gaps in the Boundary of a Polyhedron
+/// @shape    triples of vertex indices, oriented like the polygon; empty below three vertices
+/// @errors   Error(Cancelled)
+/// @source   Barequet & Sharir 1995, Filling Gaps in the Boundary of a Polyhedron
 [[nodiscard]] std::vector<std::array<std::size_t, 3>> minimum_area_triangulation(
     const std::vector<Eigen::Vector3d>& corners_mm,
     const MinimumAreaOptions& options = {},

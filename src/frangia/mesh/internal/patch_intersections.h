@@ -18,8 +18,8 @@ struct PatchIntersections {
 
 /// Counts the intersections of each patch with itself, with the other patches and with the mesh.
 ///
-/// shape    one element per patch
-/// errors   Error(Input) in a build without CGAL: see can_test_intersections; Error(Cancelled)
+/// @shape    one element per patch
+/// @errors   Error(Input) in a build without CGAL: see can_test_intersections; Error(Cancelled)
 [[nodiscard]] std::vector<PatchIntersections> patch_intersections(
     const Mesh& mesh, const std::vector<HolePatch>& patches, const Run& run = {});
 

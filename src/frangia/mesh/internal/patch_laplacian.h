@@ -50,7 +50,7 @@ constexpr double kMinPositiveCotangent = 1e-3;
 
 /// The cotangent Laplacian of the vertices of a patch: weights / area.
 ///
-/// source   Pinkall & Polthier 1993, Computing Discrete Minimal Surfaces and Their Conjugates
+/// @source   Pinkall & Polthier 1993, Computing Discrete Minimal Surfaces and Their Conjugates
 struct PatchLaplacian {
   Eigen::SparseMatrix<double> weights;  ///< vertices of the patch x all vertices
   Eigen::VectorXd areas;                ///< a third of the area of the triangles at each vertex

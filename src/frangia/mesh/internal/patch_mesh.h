@@ -16,7 +16,7 @@ namespace frangia {
 /// Inner edges are kept Delaunay: the two angles opposite to an edge add up to at most 180 degrees,
 /// unless the flip would fold the patch or duplicate an edge of the mesh.
 ///
-/// source   Liepa 2003, Filling Holes in Meshes; Lawson 1977 for edge flips
+/// @source   Liepa 2003, Filling Holes in Meshes; Lawson 1977 for edge flips
 class PatchMesh {
  public:
   static constexpr std::uint32_t kBoundary = 0xFFFFFFFF;  ///< twin of a boundary half-edge

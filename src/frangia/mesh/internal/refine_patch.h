@@ -25,15 +25,15 @@ class PatchRefinement {
   /// Splits triangles that are larger than the target at their corners, which grows with the
   /// distance from the boundary. Returns false when the refinement does not end.
   ///
-  /// errors   Error(Cancelled)
-  /// source   Liepa 2003, Filling Holes in Meshes
+  /// @errors   Error(Cancelled)
+  /// @source   Liepa 2003, Filling Holes in Meshes
   [[nodiscard]] bool refine_coarsely(const Run& run = {});
 
   /// Splits edges that are longer than those around the boundary. New vertices lie on a curve
   /// between the ends; `curvature` is the share of its height. Returns false when the refinement
   /// does not end, because the patch is crumpled.
   ///
-  /// errors   Error(Cancelled)
+  /// @errors   Error(Cancelled)
   [[nodiscard]] bool refine_finely(const PatchSurroundings& around,
                                    double curvature = 1.0,
                                    const Run& run = {});

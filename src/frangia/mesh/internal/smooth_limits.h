@@ -11,7 +11,7 @@ namespace frangia {
 /// The vertices that smoothing may move, and their largest displacement.
 class SmoothLimits {
  public:
-  /// errors   Error(Input) as smooth_taubin
+  /// @errors   Error(Input) as smooth_taubin
   SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const SmoothOptions& options);
 
   [[nodiscard]] bool may_move(std::size_t vertex) const { return movable_[vertex] != 0; }

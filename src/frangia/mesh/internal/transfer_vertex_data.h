@@ -11,7 +11,7 @@ namespace frangia {
 /// triangle the mark of the triangle nearest to its centroid. Recomputes normals if the scene's
 /// mesh has any.
 ///
-/// errors   Error(Cancelled)
+/// @errors   Error(Cancelled)
 void transfer_vertex_data(Mesh& mesh, const RayScene& scene, const Run& run = {});
 
 }  // namespace frangia

@@ -13,9 +13,9 @@ namespace frangia {
 /// Vertices that remain keep their position and data; new vertices on the intersection curves take
 /// the data of the nearest point.
 ///
-/// missing  nullopt when a body is not closed or intersects itself, or in a build without CGAL
-/// errors   Error(Cancelled)
-/// source   CGAL, Polygon Mesh Processing: corefinement and Boolean operations
+/// @missing  nullopt when a body is not closed or intersects itself, or in a build without CGAL
+/// @errors   Error(Cancelled)
+/// @source   CGAL, Polygon Mesh Processing: corefinement and Boolean operations
 [[nodiscard]] std::optional<Mesh> unite_bodies(const Mesh& a, const Mesh& b, const Run& run = {});
 
 }  // namespace frangia

@@ -15,8 +15,8 @@ struct SmoothSteps {
 /// Marks with 1 the pixels within a square of this radius around a cut: a phase difference between
 /// two measured pixels that is not smooth.
 ///
-/// shape    w x h
-/// units    rad
+/// @shape    w x h
+/// @units    rad
 [[nodiscard]] Image<std::uint8_t> mark_near_cuts(const Image<float>& phase_rad,
                                                  const SmoothSteps& smooth,
                                                  int radius_px);

@@ -8,7 +8,7 @@ namespace frangia {
 
 /// Discards the four pixels of each residue and returns the number of discarded pixels.
 ///
-/// source   the paper's reference [34], Huntley 1989
+/// @source   the paper's reference [34], Huntley 1989
 std::size_t discard_residues(WrappedPhase& phase);
 
 }  // namespace frangia

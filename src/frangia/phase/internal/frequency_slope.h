@@ -16,7 +16,7 @@ struct FrequencyMaps {
 /// Fits the weighted least-squares slope of phase over frequency through all maps. `at` is the
 /// absolute phase of the finest map; the slope gives a more precise one and its sigma.
 ///
-/// source   Huntley and Saldner 1997
+/// @source   Huntley and Saldner 1997
 void fit_frequency_slope(const FrequencyMaps& maps,
                          const float* at,
                          std::size_t n,

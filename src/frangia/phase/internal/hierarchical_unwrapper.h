@@ -15,7 +15,7 @@ namespace frangia {
 /// pixels at once.
 class HierarchicalUnwrapper {
  public:
-  /// errors   Error(Input) when empty, not coarse to fine, or when the maps do not determine an
+  /// @errors   Error(Input) when empty, not coarse to fine, or when the maps do not determine an
   ///          absolute phase
   HierarchicalUnwrapper(std::span<const Pattern> coarse_to_fine,
                         const Projector& projector,

@@ -9,7 +9,7 @@ namespace frangia {
 /// modulations. The best pixel has fringe order 0. With `keep_growth_order` the order of growth is
 /// recorded.
 ///
-/// source   the paper's reference [35], Takeda & Abe 1996
+/// @source   the paper's reference [35], Takeda & Abe 1996
 [[nodiscard]] RelativePhase unwrap_quality_guided(const WrappedPhase& phase,
                                                   const Regions& regions,
                                                   bool keep_growth_order = false);

@@ -13,7 +13,7 @@ namespace frangia {
 /// residues every path gives the same phase, so pixels need no sorting. The best pixel of a region
 /// has fringe order 0. Moves the maps out of `phase` and the labels out of `regions`.
 ///
-/// source   after Herráez 2002, with runs in place of pixels
+/// @source   after Herráez 2002, with runs in place of pixels
 [[nodiscard]] RelativePhase unwrap_run_merging(WrappedPhase&& phase, Regions& regions);
 
 /// The index of the pixel with the largest modulation in each region.

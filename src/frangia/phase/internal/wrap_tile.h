@@ -25,7 +25,8 @@ struct WrapTile {
                          kTilePixels> status;  ///< a PixelStatus; narrower types do not vectorize
 };
 
-/// errors   Error(Input) unless the frames match the algorithm in number and each other in size and
+/// @errors   Error(Input) unless the frames match the algorithm in number and each other in size
+/// and
 ///          depth
 void check_frames(const FrameStack& stack, const PhaseAlgorithm& algorithm);
 

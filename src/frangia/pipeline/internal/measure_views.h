@@ -31,8 +31,8 @@ struct MeasuredViews {
 /// Reads, decodes and triangulates all views of a scan. The next view is read and decoded while one
 /// is triangulated, within the memory of two views.
 ///
-/// missing  a view without a lit pixel is left out with a warning
-/// errors   as read_frames and decode_view
+/// @missing  a view without a lit pixel is left out with a warning
+/// @errors   as read_frames and decode_view
 [[nodiscard]] MeasuredViews measure_views(const Scan& scan,
                                           const Image<Eigen::Vector2f>& rays,
                                           const DecodeOptions& decode,

@@ -23,7 +23,7 @@ struct MeasuredSetup {
 /// Splits the views of a scan by their setups, ordered by number. Properties of the whole scan are
 /// copied to each setup.
 ///
-/// shape    `numbers`: one a view
+/// @shape    `numbers`: one a view
 [[nodiscard]] std::vector<MeasuredSetup> split_setups(MeasuredViews all,
                                                       const std::vector<int>& numbers);
 
@@ -37,8 +37,8 @@ struct RegisterSetupsOptions {
 /// Joins the setups by the shape of their surfaces, or by approximate part poses, and refines all
 /// of them at once. A setup that cannot be joined is named in a warning and left out.
 ///
-/// units    mm, the frame of the first setup, or of the first of the setups that fit together
-/// missing  `registration` of the result when it is not refined
+/// @units    mm, the frame of the first setup, or of the first of the setups that fit together
+/// @missing  `registration` of the result when it is not refined
 [[nodiscard]] MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
                                             const Rig& rig,
                                             const RegisterSetupsOptions& options,

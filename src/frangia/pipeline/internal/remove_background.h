@@ -24,8 +24,8 @@ void clip_on_registered_turntable(MeasuredSetup& setup,
 
 /// Finds the turntable top and removes it together with all points less than 0.5 mm above it.
 ///
-/// units    mm, the height of the removed plane on the turntable's axis
-/// missing  NaN when no turntable top is found
+/// @units    mm, the height of the removed plane on the turntable's axis
+/// @missing  NaN when no turntable top is found
 [[nodiscard]] double remove_turntable_top(ViewStore& views,
                                           const CameraModel& camera,
                                           const TurntableTopOptions& options,

@@ -37,7 +37,7 @@ class ViewDecoder {
 
   /// The next view, from the first one on; to be called once per view. Starts the view after it.
   ///
-  /// errors   as read_frames and decode_view for this view
+  /// @errors   as read_frames and decode_view for this view
   [[nodiscard]] DecodedView next();
 
  private:

@@ -21,7 +21,7 @@ struct ReliablePixels {
 /// surface. A pixel only partly covered by the surface, at a silhouette or a shadow, is darker.
 /// Phase noise falls with the square root of the light, so sigma stands in for brightness.
 ///
-/// missing  false where too few reliable pixels determine the fits
+/// @missing  false where too few reliable pixels determine the fits
 [[nodiscard]] bool continues_surface(const ReliablePixels& reliable, const RangePixel& pixel);
 
 }  // namespace frangia

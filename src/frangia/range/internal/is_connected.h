@@ -12,7 +12,7 @@ namespace frangia {
 /// Whether two neighbouring pixels can lie on one continuous surface: their depths differ by at
 /// most `max_slope` times their lateral distance plus 4 sigmas of noise.
 ///
-/// missing  false where either pixel is missing
+/// @missing  false where either pixel is missing
 [[nodiscard]] inline bool is_connected(const RangeGrid& range,
                                        const Image<Eigen::Vector2f>& rays,
                                        const Eigen::Vector2i& one,

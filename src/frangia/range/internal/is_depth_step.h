@@ -16,7 +16,7 @@ struct DepthChange {
 /// change of each side. The second condition excludes slopes, where all three changes are equal,
 /// and creases, where the jump equals the change of one side.
 ///
-/// missing  false where a change is missing
+/// @missing  false where a change is missing
 [[nodiscard]] inline bool is_depth_step(const DepthChange& change, float least_mm) {
   const auto& [jump, before, after] = change;
   const float excess = std::abs(jump - 0.5F * (before + after));

@@ -9,7 +9,7 @@ namespace frangia {
 /// information in units of the prior's. Sets `weakest`, `condition`, `axis_sigma_mm` and
 /// `undetermined`.
 ///
-/// units    `part_radius_mm`: how far the part reaches; a tilt of the axis moves it by that arm
+/// @units    `part_radius_mm`: how far the part reaches; a tilt of the axis moves it by that arm
 void assess_observability(RegistrationReport& report,
                           const Bundle& bundle,
                           const BundleSums& sums,

@@ -120,7 +120,7 @@ std::vector<std::size_t> consensus_of(std::size_t seed, const CompatibilityGraph
 /// Least-squares motion of matched points and normals. A normal counts as a point at a distance of
 /// `arm_mm` from the centroid.
 ///
-/// source   Kabsch 1976
+/// @source   Kabsch 1976
 Eigen::Isometry3d fit_motion(const Pairs& pairs,
                              const std::vector<std::size_t>& which,
                              float arm_mm) {

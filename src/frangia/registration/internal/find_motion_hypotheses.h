@@ -28,7 +28,7 @@ struct MotionHypothesisOptions {
 /// Two matches are compatible when the distance of their points and the angles of their normals are
 /// equal in both sets. The score of a match counts the pairs of matches that are compatible with it
 /// and with each other. The search is deterministic.
-/// source   second-order compatibility: Chen et al. 2022 (SC2-PCR)
+/// @source   second-order compatibility: Chen et al. 2022 (SC2-PCR)
 [[nodiscard]] std::vector<MotionHypothesis> find_motion_hypotheses(
     const SurfacePoints& from,
     const SurfacePoints& to,

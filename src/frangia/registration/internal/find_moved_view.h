@@ -13,7 +13,7 @@ namespace frangia {
 /// lies in front of the surface that the other view measured along the same ray. About 0.002 when
 /// nothing moved.
 ///
-/// missing  0 for a view that shares no surface with another
+/// @missing  0 for a view that shares no surface with another
 [[nodiscard]] double free_space_violation(const BundleSums& sums, std::size_t view);
 
 /// The same share over the comparisons of all views.
@@ -42,7 +42,7 @@ struct MovedViewOptions {
 /// again: a moved view distorts the whole bundle, so that it need not have the most violations
 /// itself.
 ///
-/// missing  none when no view is suspicious, or the others fit no better without any one of them
+/// @missing  none when no view is suspicious, or the others fit no better without any one of them
 [[nodiscard]] std::optional<MovedView> find_moved_view(Bundle& bundle,
                                                        const SurfelLists& surfels,
                                                        const MovedViewOptions& options,

@@ -16,7 +16,7 @@ struct TurntableRim {
 /// Finds a cylinder about the axis that lies below everything else, apart from it, and not above
 /// the origin of the object frame.
 ///
-/// missing  none when no cylinder meets all criteria
+/// @missing  none when no cylinder meets all criteria
 [[nodiscard]] std::optional<TurntableRim> find_turntable_rim(const TableCloud& cloud,
                                                              const TurntableTopOptions& options);
 

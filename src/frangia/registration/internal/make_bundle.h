@@ -8,7 +8,7 @@ namespace frangia {
 
 /// The state that rig, stations and options give to start from.
 ///
-/// errors   Error(Input) when a further setup has no part pose
+/// @errors   Error(Input) when a further setup has no part pose
 [[nodiscard]] TableState given_state(const TurntableStations& given,
                                      const RegisterOptions& options);
 

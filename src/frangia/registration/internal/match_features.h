@@ -24,7 +24,7 @@ struct MatchOptions {
 /// Matches each distinctive point of either set with the point of the other set whose feature is
 /// nearest. Points whose features are near the mean, such as those of flat faces, are not matched.
 ///
-/// shape    features as `surface_features` makes them; a column of zeros is matched with nothing
+/// @shape    features as `surface_features` makes them; a column of zeros is matched with nothing
 [[nodiscard]] std::vector<FeatureMatch> match_features(const Eigen::MatrixXf& from,
                                                        const Eigen::MatrixXf& to,
                                                        const MatchOptions& options = {});

@@ -16,10 +16,10 @@ inline constexpr double kMinNormalCosine = 0.7;
 
 /// The surfel of a view that a point projects onto.
 ///
-/// units    mm, rig frame of the view
-/// missing  null when the point lies outside the image or behind the camera, or no surface was
+/// @units    mm, rig frame of the view
+/// @missing  null when the point lies outside the image or behind the camera, or no surface was
 ///          measured there
-/// source   projective association: Blais & Levine 1995
+/// @source   projective association: Blais & Levine 1995
 [[nodiscard]] inline const SurfelMap::Surfel* surfel_at(const SurfelMap& map,
                                                         const FastCameraModel& model,
                                                         const Eigen::Vector3d& point_mm) {
@@ -41,7 +41,7 @@ inline constexpr double kMinNormalCosine = 0.7;
 
 /// A point of one view and the surfel of another view that it projects onto.
 ///
-/// units    mm, rig frame of the other view
+/// @units    mm, rig frame of the other view
 struct SurfelPair {
   Eigen::Vector3d offset;         ///< from the target to the point
   Eigen::Vector3d target_normal;  ///< unit
@@ -61,7 +61,7 @@ struct SurfelPair {
   /// Signed distance along the mean normal. On a curved surface the errors of both tangent planes
   /// cancel to second order.
   ///
-  /// source   symmetric point-to-plane distance: Rusinkiewicz 2019
+  /// @source   symmetric point-to-plane distance: Rusinkiewicz 2019
   [[nodiscard]] double distance_mm() const { return normal.dot(offset); }
 
   /// Whether the point lies in front of the target by more than `margin_mm`, both along the normal

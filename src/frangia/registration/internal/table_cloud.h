@@ -12,7 +12,7 @@ namespace frangia {
 
 /// Points of all views.
 ///
-/// units    mm, object frame
+/// @units    mm, object frame
 struct TableCloud {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> normals;  ///< unit, one a point

@@ -21,8 +21,8 @@ struct PairTally {
 
 /// Normal equations of all point-to-plane distances between views, in one state.
 ///
-/// shape    unknowns: as `TableState` orders them
-/// units    rad, mm
+/// @shape    unknowns: as `TableState` orders them
+/// @units    rad, mm
 struct BundleSums {
   Eigen::MatrixXd hessian;            ///< sum of w J^T J
   Eigen::VectorXd gradient;           ///< sum of w J^T r
@@ -47,8 +47,8 @@ struct BundleOptions {
 
 /// Compares the surfels of each view with the surfels of every other view that they project onto.
 ///
-/// shape    `surfels` and `maps`: one a view
-/// source   projective association: Blais & Levine 1995; symmetric point-to-plane distance:
+/// @shape    `surfels` and `maps`: one a view
+/// @source   projective association: Blais & Levine 1995; symmetric point-to-plane distance:
 ///          Rusinkiewicz 2019; weights: Tukey's biweight over the variance of the pair
 [[nodiscard]] BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
                                     std::span<const SurfelMap> maps,

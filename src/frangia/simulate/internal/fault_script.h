@@ -38,7 +38,7 @@ class FaultScript {
 
 /// The key `faults` of a simulated device.
 ///
-/// errors   Error(Input) that names file and key when a line begins with none of `known`
+/// @errors   Error(Input) that names file and key when a line begins with none of `known`
 [[nodiscard]] FaultScript read_faults(DeviceSettings& settings,
                                       const std::vector<std::string>& known);
 

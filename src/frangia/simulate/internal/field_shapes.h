@@ -9,7 +9,7 @@ namespace frangia {
 
 /// Signed distances of simple solids, negative inside, and ways to blend them. Lengths in mm.
 ///
-/// source   Inigo Quilez, "distance functions" and "smooth minimum"
+/// @source   Inigo Quilez, "distance functions" and "smooth minimum"
 using Position = Eigen::Vector3d;
 
 [[nodiscard]] inline double ball(const Position& p, const Position& center, double radius) {

@@ -20,7 +20,7 @@ struct LightSample {
 
 /// Traces one ray of the camera.
 ///
-/// missing  all values are 0 where the ray hits nothing; only the albedo is set in shadow and
+/// @missing  all values are 0 where the ray hits nothing; only the albedo is set in shadow and
 /// outside
 ///          of the projector's field
 [[nodiscard]] LightSample sample_light(const SimulatedScene& scene,

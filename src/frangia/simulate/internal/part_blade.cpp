@@ -79,7 +79,7 @@ std::vector<Eigen::Vector2d> root_outline() {
 
 /// The aerofoil for a chord of 1 along x, counter-clockwise: suction side (+y) from the trailing to
 /// the leading edge, back along the pressure side, round the trailing edge.
-/// source  NACA four-digit thickness on a circular camber line, trailing edge opened and rounded
+/// @source  NACA four-digit thickness on a circular camber line, trailing edge opened and rounded
 std::vector<Eigen::Vector2d> aerofoil(double thickness, double camber) {
   constexpr double kEdge = 0.016;  // half the thickness of the trailing edge
   const auto side = [&](int i, double sign) {

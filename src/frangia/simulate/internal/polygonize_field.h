@@ -14,9 +14,9 @@ using Field = std::function<double(const Eigen::Vector3d&)>;
 /// The closed surface where a field is zero, in triangles about as large as a cell.
 ///
 /// Every cell that the surface passes gets one vertex, moved onto the zero by Newton's method.
-/// units    mm
-/// errors   Error(Input) when the solid reaches the border of the box
-/// source   surface nets, Gibson 1998
+/// @units    mm
+/// @errors   Error(Input) when the solid reaches the border of the box
+/// @source   surface nets, Gibson 1998
 [[nodiscard]] Mesh polygonize_field(const Field& field,
                                     const Eigen::AlignedBox3d& box_mm,
                                     double cell_mm);

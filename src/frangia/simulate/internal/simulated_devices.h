@@ -16,7 +16,7 @@ using BenchPtr = std::shared_ptr<SimulatedBench>;
 
 /// A ray-traced camera; places the part that the settings name on the bench.
 ///
-/// errors   Error(Input) that names file and key, or as make_simulated_scene
+/// @errors   Error(Input) that names file and key, or as make_simulated_scene
 [[nodiscard]] std::unique_ptr<CameraDevice> open_simulated_camera(DeviceSettings& settings,
                                                                   const Rig& rig,
                                                                   BenchPtr bench);

@@ -34,7 +34,7 @@ struct SimulatedView {
 
 /// Places a part on a rig and sets the exposure by the brightest pixel of all views.
 ///
-/// errors   Error(Input) when the part has no triangles, the rig has no turntable, or an option is
+/// @errors   Error(Input) when the part has no triangles, the rig has no turntable, or an option is
 /// out
 ///          of range
 [[nodiscard]] SimulatedScene make_simulated_scene(const Mesh& part,

@@ -21,7 +21,7 @@ using Loop = std::vector<Eigen::Vector3d>;
 class SolidBuilder {
  public:
   /// A plane face with holes in it; the holes run clockwise.
-  /// errors   Error(Numeric) when the loops cross each other or are no polygon
+  /// @errors   Error(Numeric) when the loops cross each other or are no polygon
   void add_face(const Loop& outer, const std::vector<Loop>& holes = {});
 
   /// The band between two closed lines of equally many points, joined one by one. Both run

@@ -21,7 +21,7 @@ struct SpeckleOptions {
 
 /// Speckle of a view: two correlated laser beams on a rough surface, mixed with incoherent light.
 ///
-/// source   circular complex Gaussian fields, Goodman, Speckle Phenomena in Optics
+/// @source   circular complex Gaussian fields, Goodman, Speckle Phenomena in Optics
 [[nodiscard]] Image<Speckle> speckle_of(int width,
                                         int height,
                                         std::uint64_t stream,
