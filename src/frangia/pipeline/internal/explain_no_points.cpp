@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/dataset/read_frames.h"
+
 namespace frangia {
 
 std::string explain_no_points(const Scan& scan,
