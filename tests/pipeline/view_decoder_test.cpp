@@ -32,7 +32,7 @@ class DecodesAhead : public ::testing::Test {
 TEST_F(DecodesAhead, GivesTheViewsInTheirOrderAsDecodedOneByOne) {
   const auto rays_of_camera = rays();
   const DecodeOptions options;
-  const Run run;
+  const frangia::Run run;
   ViewDecoder decoder(scan_, rays_of_camera, options, run);
   for (std::size_t view = 0; view < scan_.views.size(); ++view) {
     const DecodedView expected =
@@ -51,7 +51,7 @@ TEST_F(DecodesAhead, ThrowsTheErrorOfAViewInItsTurn) {
   std::filesystem::remove(frame(2));
   const auto rays_of_camera = rays();
   const DecodeOptions options;
-  const Run run;
+  const frangia::Run run;
   ViewDecoder decoder(scan_, rays_of_camera, options, run);
   EXPECT_NO_THROW(static_cast<void>(decoder.next()));
   try {
@@ -64,7 +64,7 @@ TEST_F(DecodesAhead, ThrowsTheErrorOfAViewInItsTurn) {
 
 TEST_F(DecodesAhead, StopsAViewThatIsBeingDecodedWhenTheUserAsks) {
   std::stop_source source;
-  Run run;
+  frangia::Run run;
   run.stop = source.get_token();
   const auto rays_of_camera = rays();
   const DecodeOptions options;
@@ -84,7 +84,7 @@ TEST_F(DecodesAhead, StopsAViewThatIsBeingDecodedWhenTheUserAsks) {
 TEST_F(DecodesAhead, CallsTheCallbacksOnTheCallersThreadInTheOrderOfViews) {
   std::vector<std::string> messages;
   std::vector<std::thread::id> threads;
-  Run run;
+  frangia::Run run;
   run.on_note = [&](const std::string& sentence) {
     messages.push_back(sentence);
     threads.push_back(std::this_thread::get_id());
