@@ -157,11 +157,14 @@ struct LocalPlanes {
   }
 };
 
-/// Thresholds of the smoothing over 7 x 7 pixels. Half or double of the ratio changes the RMS
-/// deviation of the demo's shaft by less than 1 %, see `WindowChoiceOptions`.
+/// Thresholds of the smoothing over 7 x 7 pixels. Half or double of one changes the RMS deviation
+/// of the demo's shaft by less than 1 %, see `WindowChoiceOptions`.
 struct WideningOptions {
   /// Maximum residual variance of the wide quadratic, per pixel variance: pixels differ in noise.
   float max_residual_ratio = 2.5F;
+  /// Maximum change of the pixel's value, per standard deviation of its noise: about 2.5 standard
+  /// deviations of the difference between both fits.
+  float max_change = 0.7F;
   float max_autocorrelation = 0.05F;  ///< of the residuals; that of noise is negative
 };
 

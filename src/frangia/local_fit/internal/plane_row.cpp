@@ -116,8 +116,10 @@ void PlaneRow::widen(const LinkedPixels& grid,
   for (std::size_t i = begin_; i < end_; ++i) {
     const float square = slope_x_[i] * slope_x_[i] + slope_y_[i] * slope_y_[i];
     const float expected = noise[i] * noise[i] + lateral_noise_px * lateral_noise_px * square;
+    const float off = wide_value[i] - value_[i];
     const bool is_noise = autocorrelation[i] < options.max_autocorrelation &&
-                          residual_variance[i] < options.max_residual_ratio * expected;
+                          residual_variance[i] < options.max_residual_ratio * expected &&
+                          off * off < options.max_change * options.max_change * expected;
     wide_[i] = is_noise ? 1 : 0;
     if (wide_[i] == 0) continue;
     if (kind_[i] == WindowKind::None) mean_[i] = value_[i];
