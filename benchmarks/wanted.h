@@ -8,10 +8,10 @@
 
 namespace frangia {
 
-/// Says beside a benchmark what was wanted of it and whether it is met.
+/// Labels a benchmark with its performance target and whether the target is met.
 class PerformanceTarget {
  public:
-  /// A figure that should be at most so much.
+  /// A figure that should not exceed `most`.
   void at_most(const std::string& what, double figure, double most, const std::string& unit) {
     if (!text_.empty()) text_ += "; ";
     text_ += fmt::format(
@@ -23,7 +23,7 @@ class PerformanceTarget {
   std::string text_;
 };
 
-/// Seconds since it was made.
+/// Seconds since construction.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {

@@ -29,7 +29,7 @@ Json list_drivers(const std::vector<Driver>& drivers) {
   return all;
 }
 
-/// The devices that are connected. A driver whose search fails is reported; the others go on.
+/// The devices that are connected. A driver whose search fails is reported; the others continue.
 Json find_devices(const std::vector<Driver>& drivers, const Run& run) {
   Json all = Json::array();
   for (const Driver& driver : drivers) {

@@ -10,7 +10,7 @@
 
 namespace frangia {
 
-// Steps beside edit_operations(): they act on the history.
+// Steps in addition to edit_operations(): they act on the history.
 constexpr const char* kScriptStep = "script";  ///< its value is the path of a script
 constexpr const char* kUndoStep = "undo";      ///< its value is the number of steps
 constexpr const char* kRedoStep = "redo";      ///< its value is the number of steps

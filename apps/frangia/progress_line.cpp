@@ -15,7 +15,7 @@ void ProgressLine::begin_stage(const std::string& name, Clock::time_point now) {
 
 void ProgressLine::report(double done, Clock::time_point now) {
   Stage& stage = stages_[name_];
-  // Stages that take turns view by view go on rising; a smaller share is a new start.
+  // A stage that alternates with others view by view continues; a smaller share is a restart.
   if (stage.done < 0.0 || (stage.just_begun && done < stage.done)) {
     stage = {.done = done, .first_done = done, .first_report = now};
   }
@@ -26,7 +26,7 @@ void ProgressLine::report(double done, Clock::time_point now) {
 
 std::string ProgressLine::time_left(const Stage& stage, Clock::time_point now) {
   constexpr double kMinSpent_s = 3.0;
-  constexpr double kMinAdvance = 0.1;  // less says little about the speed of the rest
+  constexpr double kMinAdvance = 0.1;  // less does not predict the remaining time
   const double spent_s = std::chrono::duration<double>(now - stage.first_report).count();
   const double advance = stage.done - stage.first_done;
   if (spent_s < kMinSpent_s || advance < kMinAdvance || stage.done >= 1.0) return {};

@@ -27,7 +27,8 @@ class Terminal {
   /// A Run that reports here and is stopped by Ctrl-C or SIGTERM. The Terminal must outlive it.
   [[nodiscard]] Run run();
 
-  /// Keeps warnings and notes back until `release`, so that a verdict can be the first line.
+  /// Keeps warnings and notes back until `release`, so that the reason why a result is not
+  /// trustworthy can be the first line.
   void hold() { holding_ = !verbose; }
   /// Prints what was kept back.
   void release();

@@ -125,7 +125,7 @@ std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error
   std::string what = error.what();
   const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   const bool lacks_verb = required && !verbs_of(*path.back()).empty();
-  // What is missing may be there under a misspelt name: that name is the fault to tell.
+  // A required option may be present under a misspelt name; the message names that option.
   const bool misspelt = required && has_unknown_option(path);
   if (lacks_verb || misspelt || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     what = unexpected_argument(path);

@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// One sentence that says what is wrong with the command line and which help to read.
+/// One sentence that states the fault of the command line and which help to read.
 [[nodiscard]] std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error);
 
 }  // namespace frangia

@@ -131,7 +131,7 @@ TEST_F(CaptureScan, IncompleteFramesAreTakenAgainAndCounted) {
   const CaptureReport report = capture();
   EXPECT_EQ(report.frame_retries, 2U);
   EXPECT_TRUE(report.skipped.empty());
-  EXPECT_EQ(capture().frame_retries, 2U) << "also told by a session that had nothing to do";
+  EXPECT_EQ(capture().frame_retries, 2U) << "also reported by a session that had nothing to do";
 }
 
 TEST_F(CaptureScan, LostFrameHasItsViewTakenAgain) {

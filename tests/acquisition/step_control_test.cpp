@@ -1,4 +1,4 @@
-// A piezo that is off: what is found of it, and what is left in the phase once that is corrected.
+// A piezo with errors: the estimated errors, and the phase error that remains after correction.
 #include <array>
 #include <cmath>
 #include <complex>

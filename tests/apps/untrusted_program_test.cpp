@@ -1,4 +1,4 @@
-// The verdict on a result that is not trustworthy: first line, exit code and JSON.
+// A result that is not trustworthy: first line, exit code and JSON.
 #include <cmath>
 #include <filesystem>
 #include <string>

@@ -79,9 +79,9 @@ std::vector<RangeScan> scans_of(const RayScene& part, bool joined) {
 
 TEST(MergeScans, MakesOneSurfaceOfScansThatFit) {
   const RayScene part(make_part("bust"));
-  const MergedScans pasted = merge_scans(scans_of(part, true), {.register_poses = false});
-  ASSERT_FALSE(pasted.mesh.empty());
-  EXPECT_LT(surface_error(pasted.mesh, part).rms_mm, 0.06);
+  const MergedScans merged = merge_scans(scans_of(part, true), {.register_poses = false});
+  ASSERT_FALSE(merged.mesh.empty());
+  EXPECT_LT(surface_error(merged.mesh, part).rms_mm, 0.06);
 }
 
 TEST(MergeScans, PutsPosesRightThatAreOff) {
@@ -96,14 +96,14 @@ TEST(MergeScans, PutsPosesRightThatAreOff) {
   }
   const double off_mm =
       surface_error(merge_scans(scans, {.register_poses = false}).mesh, part).rms_mm;
-  const MergedScans pasted = merge_scans(scans);
+  const MergedScans merged = merge_scans(scans);
   EXPECT_GT(off_mm, 0.2);
-  EXPECT_LT(surface_error(pasted.mesh, part).rms_mm, 0.07);
-  ASSERT_TRUE(pasted.registration.has_value());
-  EXPECT_LT(pasted.registration->rms_after_mm, 0.3 * pasted.registration->rms_before_mm);
+  EXPECT_LT(surface_error(merged.mesh, part).rms_mm, 0.07);
+  ASSERT_TRUE(merged.registration.has_value());
+  EXPECT_LT(merged.registration->rms_after_mm, 0.3 * merged.registration->rms_before_mm);
 }
 
-/// Scans from all sides and a little above, each in a frame of its own that nobody knows.
+/// Scans from all sides and a little above, each in its own unknown frame.
 std::vector<RangeScan> lost_scans(const RayScene& part, unsigned count) {
   std::vector<RangeScan> scans;
   for (unsigned i = 0; i < count; ++i) {
@@ -120,15 +120,15 @@ std::vector<RangeScan> lost_scans(const RayScene& part, unsigned count) {
 
 TEST(MergeScans, FindsUnknownPoses) {
   const RayScene part(make_part("bust"));
-  const MergedScans pasted = merge_scans(lost_scans(part, 6));
-  ASSERT_TRUE(pasted.found_poses.has_value());
-  EXPECT_TRUE(pasted.found_poses->left_out.empty());
+  const MergedScans merged = merge_scans(lost_scans(part, 6));
+  ASSERT_TRUE(merged.found_poses.has_value());
+  EXPECT_TRUE(merged.found_poses->left_out.empty());
   // The mesh is in the frame of the first scan: bring it back into the part's.
-  ASSERT_EQ(pasted.found_poses->reference, 0U);
+  ASSERT_EQ(merged.found_poses->reference, 0U);
   const Eigen::Isometry3d anyhow = turned(1.0, {1.0, 0.0, -0.5}, {0.0, 30.0, -5.0});
   const Eigen::Isometry3d part_from_mesh =
       scan_of(part, 0.0, 1, true, 0.6).world_from_scan * anyhow.inverse();
-  Mesh mesh = pasted.mesh;
+  Mesh mesh = merged.mesh;
   for (Eigen::Vector3f& point : mesh.vertices_mm)
     point = (part_from_mesh * point.cast<double>()).cast<float>();
   EXPECT_LT(surface_error(mesh, part).rms_mm, 0.07);
@@ -136,9 +136,9 @@ TEST(MergeScans, FindsUnknownPoses) {
 
 TEST(MergeScans, TakesPointsWithoutTriangles) {
   const RayScene part(make_part("bust"));
-  const MergedScans pasted = merge_scans(scans_of(part, false), {.register_poses = false});
-  ASSERT_FALSE(pasted.mesh.empty());
-  EXPECT_LT(surface_error(pasted.mesh, part).p95_mm, 0.4);
+  const MergedScans merged = merge_scans(scans_of(part, false), {.register_poses = false});
+  ASSERT_FALSE(merged.mesh.empty());
+  EXPECT_LT(surface_error(merged.mesh, part).p95_mm, 0.4);
 }
 
 TEST(MergeScans, RefusesAScanWithoutASurface) {

@@ -160,7 +160,7 @@ TEST(Reconstruct, RefusesAScanWithoutALitPixel) {
 TEST(Reconstruct, IsRelativeWithAWarningWhenNothingFixesTheFringeOrder) {
   const TemporaryFolder folder;
   Scan scan = small_scan(folder.path(), "bust", "angular", 1);
-  scan.patterns.pop_back();  // the plane of light
+  scan.patterns.pop_back();  // the laser sheet
   std::vector<std::string> warnings;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };

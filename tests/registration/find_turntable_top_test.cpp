@@ -70,7 +70,7 @@ TEST(FindTurntableTop, FindsAHighOneThatIsMuchWiderThanThePart) {
       find_turntable_top(look_at(testing::both(disc(45.0, 8.0), ball)), small_camera_model()));
 }
 
-/// A camera that looks horizontally: of the turntable it sees the rim alone.
+/// A camera that looks horizontally: of the turntable it sees only the rim.
 ViewStore look_horizontally_at(const Shape& scene) {
   return testing::snapshots(
       scene, small_camera_model(), testing::around_table(6, 0.0, kDistance), {.steepest_rad = 1.4});

@@ -14,7 +14,7 @@ MODELS = {  # k1 k2 p1 p2 k3
 }
 POINTS = [(0.0, 0.0, 250.0), (30.0, -20.0, 400.0), (-85.0, 60.0, 400.0), (120.0, 95.0, 500.0), (-140.0, -110.0, 450.0)]
 PIXELS = [(0.0, 0.0), (326.8, 251.4), (639.0, 511.0), (17.25, 480.5), (600.0, 30.0)]
-# undistortPoints stops after five iterations unless told otherwise.
+# undistortPoints stops after five iterations by default.
 CRITERIA = (cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_COUNT, 1000, 1e-15)
 
 

@@ -19,7 +19,7 @@ inline double number_after(const std::string& line, char letter) {
 /// Marlin: numbered lines with checksums, "busy" while it moves, Resend for what came broken.
 class EmulatedMarlin : public EmulatedLineDevice {
  public:
-  int lines_to_break = 0;  ///< so many of the next lines arrive broken
+  int lines_to_break = 0;  ///< number of the next lines that arrive damaged
   bool kill_in_next_move = false;
   double position = 0.0;
   std::vector<std::string> commands;
@@ -163,7 +163,7 @@ class EmulatedGcs2 : public EmulatedLineDevice {
   int polls_ = 0;
 };
 
-/// A Prologix adapter with one instrument at an address: it talks only when told to.
+/// A Prologix adapter with one instrument at an address: it sends only when commanded to.
 class EmulatedPrologix : public EmulatedDevice {
  public:
   EmulatedPrologix(std::unique_ptr<EmulatedDevice> instrument, int address)

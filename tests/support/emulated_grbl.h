@@ -24,7 +24,7 @@ class EmulatedGrbl : public EmulatedDevice {
   bool reset_in_next_move = false;  ///< a brown-out
   bool garbage = false;             ///< another baud rate
   bool starts_locked = false;       ///< $22=1: locked until homed
-  double speed_factor = 50.0;       ///< moves are this much faster than told
+  double speed_factor = 50.0;       ///< moves are faster than commanded by this factor
   double travel = 1000.0;           ///< soft limits at ± this
   std::map<int, double> settings = {{20, 1}, {22, 1}, {100, 250}};
   std::vector<double> targets;  ///< of all moves, machine coordinates

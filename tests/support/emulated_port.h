@@ -32,7 +32,7 @@ class EmulatedDevice {
   /// What it says when somebody connects.
   virtual std::string greet() { return {}; }
   virtual std::string receive(std::string_view bytes) = 0;
-  /// Called every millisecond: what it says by itself, when a move has ended.
+  /// Called every millisecond: unrequested output, such as the end of a move.
   virtual std::string tick() { return {}; }
 };
 
@@ -147,7 +147,7 @@ class EmulatedPort {
   std::unique_ptr<EmulatedDevice> device_;
   std::mutex mutex_;
   int fd_ = -1;
-  int other_end_ = -1;  ///< kept open, so that the terminal outlives whoever opens it
+  int other_end_ = -1;  ///< kept open, so that the terminal outlives the program that opens it
   int listener_ = -1;
   int tcp_port_ = 0;
   std::string path_;

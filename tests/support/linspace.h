@@ -4,7 +4,7 @@
 
 namespace frangia::testing {
 
-/// So many numbers as far apart as each other, the first and the last as given.
+/// Evenly spaced numbers between two given ends, which are included.
 [[nodiscard]] inline std::vector<double> linspace(int count, double first, double last) {
   std::vector<double> numbers;
   numbers.reserve(static_cast<std::vector<double>::size_type>(count));

@@ -34,7 +34,7 @@ struct VertexErrors {
   }
 };
 
-/// How often directed edges are used: in a manifold once, and once the other way unless at a rim.
+/// How often directed edges are used: in a manifold once, and once in reverse except at a boundary.
 struct Edges {
   std::size_t repeated = 0;
   std::size_t open = 0;

@@ -8,7 +8,7 @@
 
 namespace frangia::testing {
 
-/// An empty folder that goes with the test.
+/// An empty folder that is deleted at the end of the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -204,7 +204,7 @@ class Session {
           stacks_of(pattern, frames), plan_.rig.camera.noise, devices_.has_phase_shifter());
       outcome.moved = assessment.moved && attempt + 1 < options_.set_attempts;
       if (options_.control_steps && assessment.step_found && !assessment.moved) {
-        // The trial set corrected the gain error; each further set has the jitter of its own steps.
+        // The trial set corrected the gain error; each further set has its own phase-shift jitter.
         constexpr double kShare = 0.5;
         outcome.scale /= 1.0 + kShare * assessment.gain_error;
       }

@@ -107,7 +107,7 @@ void* allocate_pixels(std::size_t bytes) {
   void* memory = std::aligned_alloc(is_large(bytes) ? kHugePage : kCacheLine, whole);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-  // Advice only: the memory works without huge pages, too.
+  // Advice only: the memory also works without huge pages.
   if (is_large(bytes)) static_cast<void>(::madvise(memory, whole, MADV_HUGEPAGE));
 #endif
   return memory;

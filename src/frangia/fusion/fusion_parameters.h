@@ -56,9 +56,9 @@ struct HermiteParameters {
   /// Distance that the surface at that radius must lie behind the point, as a share of that at the
   /// pixel.
   double clear_sight_share = 0.5;
-  /// Weight of free space over the weight of the surface observed behind it. The points that speak
-  /// for a surface may be smoothed over 7 x 7 pixels, which raises their weight by this factor:
-  /// 147 / 11, the inverse of `value_variance(3)`. The points behind may not be smoothed at all.
+  /// Weight of free space over the weight of the surface observed behind it. The points that
+  /// support a surface may be smoothed over 7 x 7 pixels, which raises their weight by this factor:
+  /// 147 / 11, the inverse of `value_variance(3)`. The points behind may not be smoothed.
   double free_space_factor = 147.0 / 11.0;
   /// Weight of a point half a pixel beyond the boundary of the data, as a share of the pixel's.
   double boundary_share = 0.1;

@@ -40,13 +40,13 @@ struct TurntableTopOptions {
 struct TurntableTop {
   Eigen::Hyperplane<double, 3> plane;  ///< its normal points up
   double clearance_mm = 0.0;           ///< remove points up to this distance above the plane, too
-  bool rim_only = false;  ///< the top is too grazing to be measured: its rim alone is in the views
+  bool rim_only = false;  ///< the top is too grazing to be measured: only its rim is in the views
 
   [[nodiscard]] double height_mm() const { return -plane.offset() / plane.normal().z(); }
 };
 
 /// Finds the top of the turntable: a horizontal disc centred on the axis with no points below it
-/// but its own rim. When the camera sees the top edge-on, finds the rim alone: a cylinder about the
+/// but its own rim. When the camera sees the top edge-on, finds only the rim: a cylinder about the
 /// axis, below everything else and apart from it.
 ///
 /// A round base or flange of the part has the same shape. A turntable top therefore must also lie

@@ -21,7 +21,7 @@ struct JoinByShapeOptions {
   double max_runner_up = 0.85;     ///< score of the second-best pose, as a share of the best one's
   double runner_up_slack = 3.0;    ///< limits are this much wider for a second-best pose
   double min_eigenvalue = 0.0002;  ///< below, one group slides or turns on the other
-  double well_constrained = 0.02;  ///< eigenvalue below which poses beside the best one are tried
+  double well_constrained = 0.02;  ///< eigenvalue below which poses near the best one are tried
   double max_residual = 3.0;       ///< as a multiple of the residual of the best fits
   double feature_radius = 5.0;     ///< neighbourhood of a feature, in spacings
   std::size_t max_candidates = 6;  ///< poses for every two groups

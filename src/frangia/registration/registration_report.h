@@ -32,7 +32,7 @@ struct RegistrationReport {
   double axis_sigma_mm = 0.0;  ///< standard deviation of the axis in its weakest direction
   std::vector<std::string> undetermined;  ///< unknowns that the part's shape does not determine
   std::vector<std::size_t> outliers;      ///< views that fit no other; they are emptied
-  /// Of each further setup: takes the part from its place in the first setup, both at angle 0,
+  /// Of each further setup: the part's pose relative to the first setup, both at angle 0, in the
   /// frame of the refined table.
   std::vector<Eigen::Isometry3d> part_poses;
   /// Largest share of a view's points that lie in front of the surface that another view measured

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kGrading = 0.2;       // growth of the coarse edge length per distance inwards
 constexpr double kMaxTriangles = 2e6;  // of one patch; larger ones get coarser inwards
-constexpr double kMaxExcess = 8.0;     // triangles, as a multiple of what the area asks for
+constexpr double kMaxExcess = 8.0;     // triangles, as a multiple of what the area requires
 constexpr double kEquilateral = 0.4330127018922193;  // sqrt(3) / 4: area over squared edge length
 constexpr int kMaxRounds = 40;  // edges halve each round: 40 is more than any patch needs
 

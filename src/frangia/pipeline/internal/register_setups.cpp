@@ -54,7 +54,7 @@ std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& s
                                              const GroupViews& views,
                                              const RegisterSetupsOptions& options,
                                              double spacing_mm) {
-  constexpr double kStart = 4.0;         // spacings: the error of poses measured by hand
+  constexpr double kStart = 4.0;         // spacings: the error of manually measured poses
   constexpr double kGate = 0.3;          // spacings, as in the pose search
   constexpr double kMaxViolation = 3.0;  // times that of poses found by shape: these are given
   SetupPoses setup_poses{0, {Eigen::Isometry3d::Identity()}};

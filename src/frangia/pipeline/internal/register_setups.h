@@ -28,8 +28,8 @@ struct MeasuredSetup {
                                                       const std::vector<int>& numbers);
 
 struct RegisterSetupsOptions {
-  std::map<int, Eigen::Isometry3d> part_poses;  ///< approximate, of setups where it is known: takes
-                                                ///< the part from its place in setup 0
+  std::map<int, Eigen::Isometry3d> part_poses;  ///< approximate, of setups where it is known;
+                                                ///< relative to the pose in setup 0
   bool refine = true;                           ///< all setups at once, after they are joined
   RegisterOptions registration;
 };

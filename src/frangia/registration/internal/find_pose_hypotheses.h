@@ -54,7 +54,7 @@ struct DescribedGroup {
     const GroupViews& views,
     const PoseSearchScale& scale);
 
-/// Poses beside a hypothesis, moved in the two directions that are determined worst. A group that
+/// Poses near a hypothesis, displaced in the two directions that are determined worst. A group that
 /// slides on a face converges to several of them.
 [[nodiscard]] std::vector<Eigen::Isometry3d> neighboring_poses(const PoseHypothesis& hypothesis,
                                                                const PoseSearchScale& scale);

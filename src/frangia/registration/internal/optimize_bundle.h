@@ -35,7 +35,7 @@ using SurfelLists = std::vector<std::vector<SurfelMap::Surfel>>;
 /// Compares all views in the state of the bundle, within its gate.
 [[nodiscard]] BundleSums sum(const Bundle& bundle, const SurfelLists& surfels);
 
-/// Weight of the pairs beside the prior, at most 1. The pairs of two views share an error of
+/// Weight of the pairs relative to the prior, at most 1. The pairs of two views share an error of
 /// `systematic_mm`, so that they count as (scatter / systematic_mm)^2 independent ones at most.
 [[nodiscard]] double effective_weight(const Bundle& bundle, const BundleSums& sums);
 

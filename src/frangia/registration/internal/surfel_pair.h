@@ -9,9 +9,9 @@
 
 namespace frangia {
 
-/// Smallest cosine between the normals of two surfels of one surface. At 45 degrees a surface is
-/// still told from the other side of a thin wall and from the next face of a box, and normals that
-/// are wrong by the noise of grazing views still match.
+/// Smallest cosine between the normals of two surfels of one surface. Up to 45 degrees, a
+/// surface is still distinct from the other side of a thin wall and from the next face of a box,
+/// and normals with the noise of grazing views still match.
 inline constexpr double kMinNormalCosine = 0.7;
 
 /// The surfel of a view that a point projects onto.

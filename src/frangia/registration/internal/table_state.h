@@ -20,7 +20,7 @@ struct TableState {
   Turntable table;
   std::vector<double> angles_rad;
   std::vector<std::size_t> setups;  ///< of each view; empty: all in the first
-  /// Of each further setup: takes the part from its place in the first setup, both at angle 0, rig
+  /// Of each further setup: the part's pose relative to the first setup, both at angle 0, rig
   /// frame.
   std::vector<Eigen::Isometry3d> part_poses{};
 

@@ -39,7 +39,7 @@ struct Rod {
          (rod.from_radius + t * (rod.to_radius - rod.from_radius));
 }
 
-/// A disc on the z axis with rounded rims.
+/// A disc on the z axis with rounded edges.
 struct Disc {
   double low, high, radius, rounding;
 };

@@ -37,7 +37,7 @@ constexpr double kKeyHigh = 68.0;
 constexpr int kKeyColumns = 64;
 constexpr int kAroundAxis = 512;
 
-/// Where the keyway's rim is, column by column across its width.
+/// The keyway's edge, column by column across its width.
 struct KeyColumn {
   double y, half_height;
 };
@@ -68,7 +68,7 @@ Loop ring_of(const Ring& ring, const std::vector<double>& angles) {
   return loop;
 }
 
-/// The seat's cylinder with the keyway cut into it, between its lower and its upper rim.
+/// The seat's cylinder with the keyway cut into it, between its lower and its upper edge loop.
 void add_seat(SolidBuilder& solid, const Loop& low, const Loop& high) {
   constexpr auto kLast = static_cast<std::size_t>(kKeyColumns);
   Loop rim_low;
