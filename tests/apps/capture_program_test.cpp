@@ -57,7 +57,7 @@ TEST_F(CaptureProgram, AnUnknownDriverIsNamedWithTheKnownOnes) {
       "scan " + rig("driver = \"simulated-piezo\"", "driver = \"crystal\"") + " -o " + scan());
   EXPECT_EQ(answer.exit_code, 3);
   EXPECT_TRUE(
-      holds(answer, "devices.fringes.driver is \"crystal\"; for [devices.fringes] there are"))
+      holds(answer, "devices.fringes.driver is \"crystal\"; the drivers for [devices.fringes] are"))
       << answer.output;
 }
 

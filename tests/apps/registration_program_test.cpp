@@ -88,8 +88,9 @@ double dome(double x, double y) {
 
 TEST_F(RegistrationProgram, OneScanAloneIsMergedAsItIs) {
   write_relief("one.ply", dome);
-  expect_told(
-      run_program("merge " + path("one.ply") + " -o " + path("a.ply")), 0, "one scan alone");
+  expect_told(run_program("merge " + path("one.ply") + " -o " + path("a.ply")),
+              0,
+              "a single scan is not registered");
 }
 
 TEST_F(RegistrationProgram, ScansWithoutAUniquePoseAreRefusedInOneSentence) {

@@ -174,8 +174,9 @@ TEST_P(UnfinishedScan, IsSaidToBeNotComplete) {
 
 INSTANTIATE_TEST_SUITE_P(All,
                          UnfinishedScan,
-                         ::testing::Values(std::pair{"capture", "`scan`"},
-                                           std::pair{"simulation-not-finished", "`simulate`"}));
+                         ::testing::Values(std::pair{"capture", "`frangia scan`"},
+                                           std::pair{"simulation-not-finished",
+                                                     "`frangia simulate`"}));
 
 TEST(ReadScanFault, ALinePatternNeedsAPlaneInTheRig) {
   const SmallFolder folder;

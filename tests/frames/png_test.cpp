@@ -71,7 +71,7 @@ TEST(Png, RefusesMissingEmptyAndForeignFiles) {
   std::ofstream(folder.path() / "text.png") << "not a picture";
   std::ofstream(folder.path() / "empty.png") << "";
   EXPECT_NE(error_message(folder.path() / "text.png"), "accepted");
-  EXPECT_NE(error_message(folder.path() / "empty.png").find("is empty"), std::string::npos);
+  EXPECT_NE(error_message(folder.path() / "empty.png").find("is an empty file"), std::string::npos);
   EXPECT_NE(error_message(folder.path() / "none.png").find("does not exist"), std::string::npos);
 }
 

@@ -18,8 +18,9 @@ RenderOptions square() {
   return testing::small_picture(80, 80);
 }
 
+/// More blue than red, unlike the magenta of the inside.
 bool is_violet(const Rgb& color) {
-  return color[2] > 1.4 * color[1] && color[0] > 1.2 * color[1];
+  return color[2] > 1.4 * color[1] && color[0] > 1.2 * color[1] && color[2] > color[0];
 }
 bool is_blue(const Rgb& color) {
   return color[2] > 1.3 * color[0];
