@@ -15,9 +15,10 @@ enum class ExposureChoice {
   Bracketed   ///< several exposures, for glossy parts
 };
 
+/// How a scan is captured: exposure, repeated attempts and time limits.
 struct CaptureOptions {
   CameraSettings camera;  ///< `exposure_ms` is the initial guess of Automatic and Bracketed
-  ExposureChoice exposure = ExposureChoice::Given;
+  ExposureChoice exposure = ExposureChoice::Given;  ///< how the exposure time is chosen
   bool control_steps =
       true;  ///< corrects the shifter's commands by the steps measured in earlier sets
   int frame_attempts = 50;        ///< exposures until a frame arrives complete
@@ -28,6 +29,7 @@ struct CaptureOptions {
   double move_timeout_s = 120.0;  ///< per table move
 };
 
+/// Frames, retries and times of a capture session.
 struct CaptureReport {
   std::size_t captured = 0;       ///< frames stored in this session
   std::size_t resumed = 0;        ///< frames stored by earlier sessions

@@ -7,6 +7,7 @@
 
 namespace frangia {
 
+/// Steps, fringe pitch and capture settings of a sweep over a phase shifter's commands.
 struct SweepOptions {
   int steps = 25;                   ///< commands, evenly over the shifter's range
   double fringes_per_degree = 1.0;  ///< for an interferometer with adjustable pitch

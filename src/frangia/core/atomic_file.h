@@ -20,6 +20,7 @@ enum class Durability {
 /// @errors   Error(File) when the folder cannot be written or the disk is full
 class AtomicFile {
  public:
+  /// Opens the temporary file beside `path`; with Durability::Synced, `commit` waits for the disk.
   explicit AtomicFile(std::filesystem::path path, Durability durability = Durability::Buffered);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -27,9 +28,11 @@ class AtomicFile {
   AtomicFile& operator=(AtomicFile&&) = delete;
   ~AtomicFile();
 
-  [[nodiscard]] std::ostream& stream() { return stream_; }
+  [[nodiscard]] std::ostream& stream() { return stream_; }  ///< stream to write the content to
   /// Path of the temporary file, for libraries that open files by name.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  /// Closes the temporary file, checks that all bytes were written and renames it to the final
+  /// path.
   void commit();
 
  private:

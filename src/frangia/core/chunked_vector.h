@@ -17,6 +17,7 @@ template <typename T>
 class ChunkedVector {
  public:
   ChunkedVector() = default;
+  /// Creates `count` uninitialized elements.
   explicit ChunkedVector(std::size_t count) {
     chunks_.reserve((count + kChunkSize - 1) / kChunkSize);
     while (chunks_.size() * kChunkSize < count)
@@ -24,12 +25,15 @@ class ChunkedVector {
     size_ = count;
   }
 
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }  ///< number of elements
+  [[nodiscard]] bool empty() const { return size_ == 0; }   ///< whether it has no elements
+  /// Element `i`, unchecked.
   [[nodiscard]] T& operator[](std::size_t i) { return chunks_[i / kChunkSize][i % kChunkSize]; }
+  /// Returns element `i`, unchecked.
   [[nodiscard]] const T& operator[](std::size_t i) const {
     return chunks_[i / kChunkSize][i % kChunkSize];
   }
+  /// Appends one element and leaves its value uninitialized.
   void append_uninitialized() {
     if (size_ == chunks_.size() * kChunkSize) chunks_.emplace_back(kChunkCapacity);
     ++size_;

@@ -11,6 +11,7 @@ namespace frangia {
 /// @errors   Error(File) that names the file, for example when the disk is full
 class DurableLog {
  public:
+  /// Opens the file, creates it if it is missing, and reads its complete lines.
   explicit DurableLog(std::filesystem::path path);
   DurableLog(const DurableLog&) = delete;
   DurableLog& operator=(const DurableLog&) = delete;
@@ -20,6 +21,7 @@ class DurableLog {
 
   /// The lines that the file held when it was opened.
   [[nodiscard]] const std::string& text() const { return text_; }
+  /// Writes `line` and a newline, and returns when they are on the disk.
   void append(const std::string& line);
 
  private:

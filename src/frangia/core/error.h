@@ -3,17 +3,25 @@
 #include <stdexcept>
 #include <string>
 
+/// The public types and functions of all libraries.
 namespace frangia {
 
 /// The cause of an error, which decides the exit code of the program.
-enum class ErrorKind { Input, File, Device, Numeric, Cancelled };
+enum class ErrorKind {
+  Input,     ///< a file, value or option that the user gave is wrong
+  File,      ///< a file cannot be read or written
+  Device,    ///< a device fails or does not answer in time
+  Numeric,   ///< a computation has no trustworthy result
+  Cancelled  ///< the user stopped the task
+};
 
 /// The only exception type of the library. `what()` is one sentence that names the file, key or
 /// value and states what to do.
 class Error : public std::runtime_error {
  public:
+  /// `message` is returned by `what()`.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
+  [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }  ///< cause of the error
 
  private:
   ErrorKind kind_;

@@ -17,6 +17,7 @@ namespace frangia {
 /// Version 2 calls a clamping of the part a setup: `setup` and `[[setup]]`.
 inline constexpr int kScanVersion = 2;
 
+/// One view of a scan: table angle, image folder and setup.
 struct ScanView {
   double angle_rad = 0.0;        ///< commanded turntable angle
   std::filesystem::path folder;  ///< relative to the scan folder, inside it
@@ -25,11 +26,11 @@ struct ScanView {
 
 /// The content of scan.toml and rig.toml: everything but the images.
 struct Scan {
-  std::filesystem::path folder;
-  std::string name;
-  Rig rig;
+  std::filesystem::path folder;   ///< folder that contains scan.toml
+  std::string name;               ///< name of the scan, as in scan.toml
+  Rig rig;                        ///< calibrated rig, from rig.toml
   std::vector<Pattern> patterns;  ///< in the order of capture
-  std::vector<ScanView> views;
+  std::vector<ScanView> views;    ///< in the order of capture
   /// Approximate part poses of setups, where known: part pose · (point of setup 0) = point of this
   /// setup, both in the object frame.
   std::map<int, Eigen::Isometry3d> part_poses{};

@@ -10,29 +10,29 @@ namespace frangia {
 
 /// Exposure settings of a camera.
 struct CameraSettings {
-  double exposure_ms = 10.0;
-  double gain_db = 0.0;
+  double exposure_ms = 10.0;        ///< exposure time of a frame
+  double gain_db = 0.0;             ///< analogue or digital gain; 0 is the lowest noise
   double black_level_counts = 0.0;  ///< offset that keeps noise from being clipped at 0
 };
 
 /// Properties of a camera; constant while it is open.
 struct CameraInfo {
-  int width_px = 0;
-  int height_px = 0;
-  int white_level = 255;  ///< largest pixel value: 255, 1023, 4095, 65535
-  double min_exposure_ms = 0.01;
-  double max_exposure_ms = 10'000.0;
-  double max_gain_db = 0.0;  ///< 0 when the gain cannot be set
+  int width_px = 0;                   ///< width of the frames
+  int height_px = 0;                  ///< height of the frames
+  int white_level = 255;              ///< largest pixel value: 255, 1023, 4095, 65535
+  double min_exposure_ms = 0.01;      ///< shortest exposure time
+  double max_exposure_ms = 10'000.0;  ///< longest exposure time
+  double max_gain_db = 0.0;           ///< 0 when the gain cannot be set
 };
 
 /// Identifies a frame within a scan. Real cameras ignore it; a replay uses it to find the file, and
 /// the simulated camera to seed its noise, so that a repeated capture gives the same frame.
 struct FrameLabel {
-  int view = 0;
-  std::string pattern;
-  int frame = 0;
-  int exposure = 0;  ///< index into the pattern's exposures
-  int attempt = 0;   ///< 0 for the first capture of the set, then 1, 2, ...
+  int view = 0;         ///< index of the view in the scan
+  std::string pattern;  ///< name of the pattern
+  int frame = 0;        ///< index of the frame within its pattern
+  int exposure = 0;     ///< index into the pattern's exposures
+  int attempt = 0;      ///< 0 for the first capture of the set, then 1, 2, ...
 };
 
 /// One frame with its metadata.
@@ -48,7 +48,7 @@ struct CapturedFrame {
 /// A camera that captures single frames on request.
 class CameraDevice : public Device {
  public:
-  [[nodiscard]] virtual const CameraInfo& info() const = 0;
+  [[nodiscard]] virtual const CameraInfo& info() const = 0;  ///< properties of the open camera
 
   /// Sets the exposure of the following frames and returns the settings in effect, which the camera
   /// may round.

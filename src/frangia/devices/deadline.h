@@ -13,12 +13,14 @@ namespace frangia {
 /// Time limit and stop request of a call to a device. Every such call has one, so none blocks
 /// forever.
 struct Deadline {
+  /// Monotonic clock, unaffected by changes of the system time.
   using Clock = std::chrono::steady_clock;
 
-  Clock::time_point time;
+  Clock::time_point time;  ///< end of the time limit
   double timeout_s = 0.0;  ///< the initial time limit, for messages
-  std::stop_token stop;
+  std::stop_token stop;    ///< requests that the call stop early
 
+  /// Returns a deadline that passes `seconds` from now.
   [[nodiscard]] static Deadline in(double seconds, std::stop_token stop = {}) {
     const auto span = std::chrono::duration<double>(seconds);
     return {
@@ -29,6 +31,7 @@ struct Deadline {
     Deadline sooner = in(seconds, stop);
     return sooner.time < time ? sooner : *this;
   }
+  /// Whether the time limit has passed.
   [[nodiscard]] bool passed() const { return Clock::now() >= time; }
   /// Throws Error(Cancelled) when a stop was requested.
   void check() const {

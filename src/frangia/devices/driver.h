@@ -26,14 +26,14 @@ enum class DeviceKind {
 
 /// A device that a driver found on this machine.
 struct FoundDevice {
-  std::string name;
+  std::string name;      ///< for the user: model and address
   std::string settings;  ///< lines for its table in rig.toml, `driver = "..."` first
 };
 
 /// Opens and finds devices of one kind. Drivers are values; a program passes a list of them.
 struct Driver {
-  std::string name;  ///< value of `driver`; unique for each kind
-  DeviceKind kind = DeviceKind::Camera;
+  std::string name;                      ///< value of `driver`; unique for each kind
+  DeviceKind kind = DeviceKind::Camera;  ///< kind of the devices that it opens
   std::string description;  ///< one line: "GigE Vision and USB3 Vision cameras, by Aravis"
   /// Opens the device that the settings describe, disabled and dark, as an instance of the class
   /// for `kind`.

@@ -5,16 +5,17 @@
 
 namespace frangia {
 
+/// Size and timing of a digital projector; constant while it is open.
 struct DisplayInfo {
-  int width_px = 0;
-  int height_px = 0;
+  int width_px = 0;                ///< width of the images in projector pixels
+  int height_px = 0;               ///< height of the images in projector pixels
   double refresh_period_ms = 0.0;  ///< exposures are integer multiples of it; 0: not applicable
 };
 
 /// A digital projector that shows an image pixel by pixel.
 class PatternDisplay : public Device {
  public:
-  [[nodiscard]] virtual const DisplayInfo& info() const = 0;
+  [[nodiscard]] virtual const DisplayInfo& info() const = 0;  ///< properties of the open display
 
   /// Shows an image and returns when it is on the screen and the delay of the display has passed.
   ///

@@ -8,6 +8,7 @@ namespace frangia {
 /// measured shifts. Approaches every command from below to avoid hysteresis.
 class PhaseShiftController {
  public:
+  /// `shifter` must outlive the controller.
   explicit PhaseShiftController(PhaseShifter& shifter) : shifter_(shifter) {}
 
   /// Drives to the lowest command, where every set of frames starts.
@@ -21,7 +22,7 @@ class PhaseShiftController {
 
   /// Sets the factor on all requested shifts; initially 1.
   [[nodiscard]] double scale() const { return scale_; }
-  void set_scale(double scale) { scale_ = scale; }
+  void set_scale(double scale) { scale_ = scale; }  ///< see `scale`
 
  private:
   PhaseShifter& shifter_;

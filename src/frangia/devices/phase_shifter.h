@@ -9,9 +9,9 @@ namespace frangia {
 
 /// Properties of a phase shifter; constant while it is open.
 struct ShifterInfo {
-  std::string unit = "V";  ///< of its command
-  double min_command = 0.0;
-  double max_command = 0.0;
+  std::string unit = "V";           ///< of its command
+  double min_command = 0.0;         ///< smallest command, in `unit`
+  double max_command = 0.0;         ///< largest command, in `unit`
   PhaseCurve curve;                 ///< phase as a function of the command, from rig.toml
   double fringes_per_degree = 0.0;  ///< pitch of the fringes; 0: as the pattern states
 };
@@ -22,7 +22,7 @@ struct ShifterInfo {
 /// approaches them from below and corrects the steps.
 class PhaseShifter : public Device {
  public:
-  [[nodiscard]] virtual const ShifterInfo& info() const = 0;
+  [[nodiscard]] virtual const ShifterInfo& info() const = 0;  ///< properties of the open shifter
 
   /// Sets the command and returns when it has settled.
   ///

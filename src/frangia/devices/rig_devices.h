@@ -20,23 +20,25 @@ struct RigDevices {
   RigDevices() = default;
   RigDevices(const RigDevices&) = delete;
   RigDevices& operator=(const RigDevices&) = delete;
+  /// Takes over the devices of another RigDevices, which is left with none.
   RigDevices(RigDevices&&) = default;
   RigDevices& operator=(RigDevices&&) = delete;
   ~RigDevices() { make_safe(); }
 
-  std::unique_ptr<CameraDevice> camera;
-  std::unique_ptr<PhaseShifter> shifter;    ///< the fringes of an interferometer ...
-  std::unique_ptr<PatternDisplay> display;  ///< ... or those of a digital projector
-  std::unique_ptr<LaserSheetSource> laser_sheet;
-  std::unique_ptr<SwitchDevice> light;
-  std::unique_ptr<TurntableDevice> turntable;
+  std::unique_ptr<CameraDevice> camera;           ///< required for any capture
+  std::unique_ptr<PhaseShifter> shifter;          ///< the fringes of an interferometer ...
+  std::unique_ptr<PatternDisplay> display;        ///< ... or those of a digital projector
+  std::unique_ptr<LaserSheetSource> laser_sheet;  ///< source of the laser sheet, `line`
+  std::unique_ptr<SwitchDevice> light;            ///< laser or lamp of the fringes
+  std::unique_ptr<TurntableDevice> turntable;     ///< null: the object stays where it is
 
   /// All devices of the rig, light first.
   [[nodiscard]] std::vector<Device*> all() const;
+  /// Switches off all light, then stops all motion; see `Device::make_safe`.
   void make_safe() noexcept;
 };
 
-/// Opens the devices in the `[devices.*]` tables of a rig.toml.
+/// Opens the devices in the `[devices.NAME]` tables of a rig.toml.
 ///
 /// @errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or
 ///          setting, a camera or display whose size differs from the rig; Error(Device) when a

@@ -10,7 +10,7 @@ class SwitchDevice : public Device {
  public:
   /// Switches and returns when the light has changed.
   virtual void set(bool on, const Deadline& deadline) = 0;
-  [[nodiscard]] virtual bool is_on() const = 0;
+  [[nodiscard]] virtual bool is_on() const = 0;  ///< whether the light is on
 };
 
 /// The source of the laser sheet.

@@ -7,10 +7,11 @@
 
 namespace frangia {
 
+/// Homing and travel limits of a turntable; constant while it is open.
 struct TurntableInfo {
   bool can_home = false;  ///< false: the angle at which it is enabled is 0
   double min_rad = -std::numeric_limits<double>::infinity();  ///< soft limits
-  double max_rad = std::numeric_limits<double>::infinity();
+  double max_rad = std::numeric_limits<double>::infinity();   ///< infinite: no limit
 };
 
 /// A turntable. Angles accumulate over whole turns and are right-handed about its axis, whatever
@@ -20,6 +21,7 @@ struct TurntableInfo {
 /// unknown until `home`; motion never resumes silently.
 class TurntableDevice : public Device {
  public:
+  /// Properties of the open turntable.
   [[nodiscard]] virtual const TurntableInfo& info() const = 0;
 
   /// Enables or disables the motor.

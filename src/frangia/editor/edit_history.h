@@ -14,6 +14,7 @@ namespace frangia {
 /// from the same mesh: edit_script.h reads and writes it.
 class EditHistory {
  public:
+  /// Starts a history without steps.
   explicit EditHistory(Mesh mesh) { state_.mesh = std::move(mesh); }
 
   /// Applies a step and drops the steps that were undone. A step that fails changes nothing.
@@ -23,13 +24,14 @@ class EditHistory {
 
   /// Return false when no step is left to undo or to redo.
   bool undo();
-  bool redo();
+  bool redo();  ///< applies the last undone step again
 
+  /// Mesh, selection and settings after the applied steps.
   [[nodiscard]] const EditState& state() const { return state_; }
-  [[nodiscard]] const Mesh& mesh() const { return state_.mesh; }
+  [[nodiscard]] const Mesh& mesh() const { return state_.mesh; }  ///< mesh after the applied steps
   /// All steps; those after the first `done()` were undone.
   [[nodiscard]] const std::vector<EditStep>& steps() const { return steps_; }
-  [[nodiscard]] std::size_t done() const { return done_; }
+  [[nodiscard]] std::size_t done() const { return done_; }  ///< number of applied steps
   /// The memory of the stored changes.
   [[nodiscard]] std::size_t bytes() const;
 

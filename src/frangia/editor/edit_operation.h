@@ -11,31 +11,37 @@
 namespace frangia {
 
 /// How the next selection combines with the present one.
-enum class Combine { Replace, Add, Within };
+enum class Combine {
+  Replace,  ///< the next selection replaces the present one
+  Add,      ///< selects what is in either
+  Within    ///< selects what is in both
+};
 
 /// The state that operations change.
 struct EditState {
-  Mesh mesh;
-  Selection selection;  ///< empty: no selection was made
-  Combine combine = Combine::Replace;
-  double max_sigmas = 3.0;  ///< limit of smoothing in sigma of each vertex; 0: no limit
+  Mesh mesh;                           ///< mesh under edit
+  Selection selection;                 ///< empty: no selection was made
+  Combine combine = Combine::Replace;  ///< how the next selection combines with it
+  double max_sigmas = 3.0;             ///< limit of smoothing in sigma of each vertex; 0: no limit
 
-  bool operator==(const EditState& other) const;
+  bool operator==(const EditState& other) const;  ///< compares all members, to the bit
 };
 
 /// An operation and its value as scripts write them: "fill-holes", "10mm".
 struct EditStep {
-  std::string operation;
-  std::string value;
+  std::string operation;  ///< name of an EditOperation
+  std::string value;      ///< value of the operation, with its unit; empty when it takes none
 
-  bool operator==(const EditStep&) const = default;
+  bool operator==(const EditStep&) const = default;  ///< compares both strings
 };
 
+/// An operation of the editor: its name, its help text and its function.
 struct EditOperation {
-  const char* name;
+  const char* name;   ///< as scripts and the command line write it: "fill-holes"
   const char* group;  ///< heading in a list of operations: "Selection", ...
   const char* value;  ///< pattern of its value: "SIZE", "X,Y,Z,MM"; empty when it takes none
-  const char* help;
+  const char* help;   ///< one line for a list of operations
+  /// Changes a state by a value.
   std::function<void(EditState&, const std::string&, const Run&)> apply;
 };
 

@@ -9,8 +9,8 @@ namespace frangia {
 
 /// The steps of an edit as a file stores them.
 struct EditScript {
-  std::vector<EditStep> steps;
-  std::size_t done = 0;  ///< number of steps to apply; the steps after them were undone
+  std::vector<EditStep> steps;  ///< applied steps, then undone ones
+  std::size_t done = 0;         ///< number of steps to apply; the steps after them were undone
 };
 
 /// Reads a script. Its JSON is {"format": "frangia-edits", "version": 1, "done": 1, "steps":

@@ -12,13 +12,14 @@ namespace frangia {
 /// bit. Unchanged data is not stored.
 class MeshDelta {
  public:
+  /// Stores what differs between the two states.
   MeshDelta(const EditState& before, const EditState& after);
 
   /// Turn the state after the step into the one before it, and back.
   void undo(EditState& state) const;
-  void redo(EditState& state) const;
+  void redo(EditState& state) const;  ///< turns the state before the step into the one after it
 
-  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t bytes() const;  ///< memory of the stored difference
 
  private:
   /// A range of an array's bytes that differs.

@@ -7,14 +7,16 @@
 
 namespace frangia {
 
+/// Entities that store the triangles of a DXF file.
 enum class DxfVariant {
   Faces,     ///< one 3DFACE entity per triangle; nearly every program reads it
   Polyface,  ///< POLYLINE polyface meshes with shared vertices; smaller files
   Mesh       ///< MESH entities of release 2000; the smallest files, read by few programs
 };
 
+/// Options of `write_dxf`.
 struct DxfOptions {
-  DxfVariant variant = DxfVariant::Faces;
+  DxfVariant variant = DxfVariant::Faces;  ///< entities that store the triangles
 };
 
 /// Writes a text DXF of release 12 (AC1009), or of release 2000 (AC1015) for DxfVariant::Mesh.

@@ -11,8 +11,9 @@ namespace frangia {
 
 /// Reader and writer of one file format.
 struct MeshFormat {
-  std::string extension;  ///< lower case, with its dot
-  Mesh (*read)(const std::filesystem::path&, const Run&);
+  std::string extension;                                   ///< lower case, with its dot
+  Mesh (*read)(const std::filesystem::path&, const Run&);  ///< reads a file of this format
+  /// Writes a file of this format.
   void (*write)(const std::filesystem::path&, const Mesh&, const WriteOptions&, const Run&);
 };
 

@@ -11,8 +11,9 @@ namespace frangia {
 
 /// One range scan from another program.
 struct RangeScan {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< file that the scan was read from
   Mesh mesh;  ///< in the scan's own frame; without triangles when the file holds loose points
+  /// Pose of the scan; the identity when no .conf file gave one.
   Eigen::Isometry3d world_from_scan = Eigen::Isometry3d::Identity();
   bool posed = false;  ///< whether a .conf file gave the pose
 };

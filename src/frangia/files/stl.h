@@ -9,12 +9,15 @@ namespace frangia {
 /// Reads an STL file. Its size decides whether it is binary or ascii.
 ///
 /// @shape    corners with identical coordinates become one vertex; the normals in the file are
-///          ignored units as in the file, assumed to be mm missing a triangle with two identical
-///          corners is omitted errors Error(Input) that names the file and the fault: truncated, a
-///          count that does not match the size, a coordinate that is not finite
+///          ignored
+/// @units    as in the file, assumed to be mm
+/// @missing  a triangle with two identical corners is omitted
+/// @errors   Error(Input) that names the file and the fault: truncated, a count that does not match
+///          the size, a coordinate that is not finite
 /// @source   3D Systems, Stereolithography Interface Specification, 1989
 [[nodiscard]] Mesh read_stl(const std::filesystem::path& path);
 
+/// Options of `write_stl`.
 struct StlOptions {
   bool ascii = false;  ///< text instead of binary; about five times as large
 };

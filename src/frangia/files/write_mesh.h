@@ -9,9 +9,10 @@
 
 namespace frangia {
 
+/// Options of the formats that have some; each format uses only its own.
 struct WriteOptions {
-  DxfOptions dxf;
-  StlOptions stl;
+  DxfOptions dxf;  ///< for .dxf
+  StlOptions stl;  ///< for .stl
 };
 
 /// Writes a mesh; the extension selects the format (mesh_formats.h). The file appears under its

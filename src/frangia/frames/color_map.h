@@ -4,6 +4,7 @@
 
 namespace frangia {
 
+/// Colors for the values of a map.
 enum class ColorMap {
   Gray,      ///< black to white, for wrapped phase
   Viridis,   ///< dark blue to yellow, for magnitudes

@@ -11,9 +11,11 @@ namespace frangia {
 /// limits the speed of decoding.
 using Frame = std::variant<Image<std::uint8_t>, Image<std::uint16_t>>;
 
+/// Returns the number of columns.
 [[nodiscard]] inline int width_of(const Frame& frame) {
   return std::visit([](const auto& image) { return image.width(); }, frame);
 }
+/// Returns the number of rows.
 [[nodiscard]] inline int height_of(const Frame& frame) {
   return std::visit([](const auto& image) { return image.height(); }, frame);
 }

@@ -10,7 +10,7 @@ namespace frangia {
 /// The frames of one pattern, in the order of its shifts. A pattern taken at several exposures has
 /// one stack per exposure.
 struct FrameStack {
-  Pattern pattern;
+  Pattern pattern;            ///< pattern that the frames show
   std::vector<Frame> frames;  ///< pattern.frame_count() images of one size and depth
   int white_level = 255;      ///< a pixel at or above this level is saturated
   int exposure = 0;           ///< index into pattern.exposures_ms

@@ -9,9 +9,10 @@ namespace frangia {
 /// Returns `color_of` as an 8-bit pixel.
 [[nodiscard]] Rgb pixel_of(ColorMap map, float value);
 
+/// The values at the two ends of a color map.
 struct ValueRange {
-  float low = 0.0F;
-  float high = 1.0F;
+  float low = 0.0F;   ///< value of the first color; lower values have it, too
+  float high = 1.0F;  ///< value of the last color; higher values have it, too
 };
 
 /// Returns the 1st and 99th percentiles, so that a few outliers do not determine the scale.

@@ -10,26 +10,27 @@ namespace frangia {
 
 /// A color map with the values at its two ends.
 struct ColorScale {
-  ColorMap map = ColorMap::Viridis;
-  ValueRange range;
-  std::string label;           ///< the quantity and its unit: "deviation, mm"
-  bool whole_numbers = false;  ///< no fractions at the ticks, as for counts
+  ColorMap map = ColorMap::Viridis;  ///< colors from `range.low` to `range.high`
+  ValueRange range;                  ///< values at the two ends
+  std::string label;                 ///< the quantity and its unit: "deviation, mm"
+  bool whole_numbers = false;        ///< no fractions at the ticks, as for counts
 };
 
 /// A color with a fixed meaning.
 struct LegendEntry {
-  Rgb color{};
-  std::string meaning;
+  Rgb color{};          ///< color in the picture
+  std::string meaning;  ///< what the color marks
 };
 
+/// The color scales and the colors with a fixed meaning that a legend explains.
 struct PictureLegend {
-  std::vector<ColorScale> scales;
-  std::vector<LegendEntry> entries;
+  std::vector<ColorScale> scales;    ///< drawn as bars with numbers
+  std::vector<LegendEntry> entries;  ///< drawn below the scales
 };
 
 /// A labelled value of a color scale.
 struct ScaleTick {
-  double value = 0.0;
+  double value = 0.0;  ///< position of the tick, in the unit of the scale
   std::string text;  ///< with as many decimals as the other ticks, and signed when any is negative
 };
 

@@ -16,7 +16,7 @@ namespace frangia {
 ///          or larger than 65 535 pixels a side
 [[nodiscard]] Frame read_png(const std::filesystem::path& path);
 
-using Rgb = std::array<std::uint8_t, 3>;
+using Rgb = std::array<std::uint8_t, 3>;  ///< red, green and blue, 0 to 255
 
 /// Encodes a frame as the bytes of a grey PNG.
 ///
@@ -27,6 +27,9 @@ using Rgb = std::array<std::uint8_t, 3>;
 ///
 /// @errors   Error(File) when it cannot be written
 void write_png(const std::filesystem::path& path, const Frame& frame);
+/// Writes a color PNG atomically.
+///
+/// @errors   Error(File) when it cannot be written
 void write_png(const std::filesystem::path& path, const Image<Rgb>& picture);
 
 }  // namespace frangia

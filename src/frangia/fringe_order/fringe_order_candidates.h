@@ -14,12 +14,12 @@ namespace frangia {
 /// Pixels that share one unknown fringe order, and their phase at order 0.
 struct FringePixels {
   std::vector<std::uint32_t> pixel;  ///< y * width + x
-  std::vector<float> phase_rad;
+  std::vector<float> phase_rad;      ///< phase at fringe order 0, one for each pixel
 };
 
 /// The points of a pixel set at one candidate order, and how other views agree with them.
 struct FringeOrderCandidate {
-  int order = 0;
+  int order = 0;                           ///< 2 pi times it is added to the phase
   std::vector<Eigen::Vector3f> points_mm;  ///< object frame
   double spacing_mm = 0.0;                 ///< depth between this order and the next
   int agree = 0;       ///< comparisons in which another view measured the surface at the point
@@ -32,8 +32,8 @@ struct FringeOrderCandidate {
 
 /// The inputs that convert a scan's phase into points.
 struct FringeOptics {
-  const Pattern& pattern;
-  const Rig& rig;
+  const Pattern& pattern;              ///< pattern of the phase
+  const Rig& rig;                      ///< calibration of camera and projector
   const Image<Eigen::Vector2f>& rays;  ///< of the camera's pixels
 };
 

@@ -12,10 +12,11 @@ namespace frangia {
 
 /// An unresolved region and the view that it belongs to.
 struct UnresolvedViewRegion {
-  std::size_t view = 0;
-  UnresolvedRegion region;
+  std::size_t view = 0;     ///< index of the view
+  UnresolvedRegion region;  ///< region in that view
 };
 
+/// Criteria for the fringe order that other views confirm.
 struct ResolveByViewsOptions {
   std::size_t min_region_px = 30;  ///< smaller regions are removed without a comparison
   int max_samples = 400;           ///< maximum number of compared points of a region
@@ -24,9 +25,10 @@ struct ResolveByViewsOptions {
   double max_runner_up = 0.5;      ///< maximum score of the second best order, per best score
 };
 
+/// Numbers of points whose fringe order other views decided.
 struct ResolveByViewsResult {
-  std::size_t resolved_points = 0;
-  std::size_t removed_points = 0;
+  std::size_t resolved_points = 0;  ///< points that received a fringe order and joined their view
+  std::size_t removed_points = 0;   ///< points whose fringe order stays unknown
 };
 
 /// Determines the fringe orders of unresolved regions from the surface that other views measured.

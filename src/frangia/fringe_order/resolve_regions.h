@@ -12,16 +12,18 @@ namespace frangia {
 /// A region of unknown fringe order: its pixels and their relative phases.
 struct UnresolvedRegion {
   std::vector<std::uint32_t> pixel;  ///< y * width + x
-  std::vector<float> phase_rad;
-  std::vector<float> sigma_rad;
+  std::vector<float> phase_rad;      ///< relative phase, one for each pixel
+  std::vector<float> sigma_rad;      ///< standard deviation of `phase_rad`
 };
 
+/// Criteria for the fringe order that the laser sheet gives a region.
 struct FringeOrderOptions {
   int min_crossings = 3;        ///< minimum number of laser line points on a region
   double min_agreement = 0.7;   ///< minimum share of these points that vote for the same order
   double max_departure = 0.25;  ///< maximum median distance from that order, in fringes
 };
 
+/// The absolute phase and the regions whose fringe order remains unknown.
 struct ResolvedPhase {
   AbsolutePhase phase;  ///< pixels of unresolved regions are NaN and marked Unresolved
   std::vector<UnresolvedRegion> unresolved;  ///< from the largest

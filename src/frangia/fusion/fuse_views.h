@@ -10,6 +10,7 @@
 
 namespace frangia {
 
+/// Resolution, memory and thresholds of the fusion of views into one surface.
 struct FusionOptions {
   double voxel_mm = 0.0;          ///< edge of a voxel; 0 derives it from the sampling of the views
   std::size_t max_memory_mb = 0;  ///< of the surface during fusion; 0 is half of the machine's

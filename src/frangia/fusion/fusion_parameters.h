@@ -156,11 +156,11 @@ struct CleanupParameters {
 
 /// Heuristic thresholds of the fusion, by stage.
 struct FusionParameters {
-  FieldParameters field;
-  HermiteParameters hermite;
-  VertexParameters vertices;
-  EdgeParameters edges;
-  CleanupParameters cleanup;
+  FieldParameters field;      ///< signed distance field
+  HermiteParameters hermite;  ///< Hermite samples on the edges of voxels
+  VertexParameters vertices;  ///< positions of the mesh's vertices
+  EdgeParameters edges;       ///< sharp edges
+  CleanupParameters cleanup;  ///< removal of defective triangles
 };
 
 }  // namespace frangia

@@ -18,6 +18,7 @@ namespace frangia {
 /// @source   Lauterbach et al. 2009, Fast BVH Construction on GPUs
 class AabbTree {
  public:
+  /// Builds the tree; `mesh` is not needed afterwards.
   explicit AabbTree(const Mesh& mesh);
 
   /// Returns the number of leaves. Each holds up to four triangles that are near each other.

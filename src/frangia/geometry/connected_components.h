@@ -8,10 +8,11 @@
 
 namespace frangia {
 
+/// Size of one connected component of a mesh.
 struct MeshComponent {
-  std::size_t triangles = 0;
-  double area_mm2 = 0.0;
-  double size_mm = 0.0;  ///< diagonal of the bounding box
+  std::size_t triangles = 0;  ///< number of triangles
+  double area_mm2 = 0.0;      ///< total area of the triangles
+  double size_mm = 0.0;       ///< diagonal of the bounding box
 };
 
 /// The sets of triangles that are connected by shared vertices.

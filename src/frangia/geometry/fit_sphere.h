@@ -8,8 +8,8 @@ namespace frangia {
 
 /// A sphere fitted to points.
 struct Sphere {
-  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
-  double radius_mm = 0.0;
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();  ///< center, in the frame of the points
+  double radius_mm = 0.0;                               ///< radius of the best fit
   double rms_mm = 0.0;  ///< RMS distance of the points from the sphere
 };
 

@@ -21,11 +21,16 @@ class HalfEdges {
   static constexpr std::uint32_t kNonManifold =
       0xFFFFFFFE;  ///< several triangles, or one of opposite orientation
 
+  /// Builds the half-edges; `mesh` is not needed afterwards.
   explicit HalfEdges(const Mesh& mesh);
 
+  /// The opposite half-edge, `kBoundary` or `kNonManifold`.
   [[nodiscard]] std::uint32_t twin(std::uint32_t edge) const { return twins_[edge]; }
+  /// Whether exactly one triangle of the same orientation is on the other side.
   [[nodiscard]] bool has_twin(std::uint32_t edge) const { return twins_[edge] < kNonManifold; }
+  /// Whether no triangle is on the other side.
   [[nodiscard]] bool is_boundary(std::uint32_t edge) const { return twins_[edge] == kBoundary; }
+  /// The number of half-edges: three per triangle.
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(twins_.size()); }
 
   /// Returns the half-edges that start at a vertex, one for each of its triangles, in ascending
@@ -34,9 +39,11 @@ class HalfEdges {
     return std::span(edges_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
   }
 
+  /// Returns the next half-edge of the same triangle.
   [[nodiscard]] static std::uint32_t next(std::uint32_t edge) {
     return edge % 3 == 2 ? edge - 2 : edge + 1;
   }
+  /// Returns the previous half-edge of the same triangle.
   [[nodiscard]] static std::uint32_t previous(std::uint32_t edge) {
     return edge % 3 == 0 ? edge + 2 : edge - 1;
   }
@@ -47,12 +54,15 @@ class HalfEdges {
   std::vector<std::uint32_t> edges_;
 };
 
+/// Returns the vertex at which a half-edge starts.
 [[nodiscard]] inline std::uint32_t source_vertex(const Mesh& mesh, std::uint32_t edge) {
   return mesh.triangles[edge / 3][edge % 3];
 }
+/// Returns the vertex at which a half-edge ends.
 [[nodiscard]] inline std::uint32_t target_vertex(const Mesh& mesh, std::uint32_t edge) {
   return source_vertex(mesh, HalfEdges::next(edge));
 }
+/// Returns the vertex of a half-edge's triangle that is not on the half-edge.
 [[nodiscard]] inline std::uint32_t opposite_vertex(const Mesh& mesh, std::uint32_t edge) {
   return source_vertex(mesh, HalfEdges::previous(edge));
 }

@@ -18,18 +18,18 @@ enum class Mark : std::uint8_t {
 
 /// A triangle mesh in the object frame. Triangles are counter-clockwise seen from outside.
 struct Mesh {
-  using Triangle = std::array<std::uint32_t, 3>;
+  using Triangle = std::array<std::uint32_t, 3>;  ///< indices of the three corners in `vertices_mm`
 
-  std::vector<Eigen::Vector3f> vertices_mm;
-  std::vector<Triangle> triangles;
-  std::vector<Eigen::Vector3f> normals;  ///< unit, one for each vertex, or empty
+  std::vector<Eigen::Vector3f> vertices_mm;  ///< positions, object frame
+  std::vector<Triangle> triangles;           ///< counter-clockwise seen from outside
+  std::vector<Eigen::Vector3f> normals;      ///< unit, one for each vertex, or empty
   std::vector<float>
       sigma_mm;  ///< standard deviation along the normal, one for each vertex, or empty
   std::vector<std::uint16_t> views;  ///< number that observed it, one for each vertex, or empty
   std::vector<Mark> vertex_marks;    ///< one for each vertex; empty: all measured
   std::vector<Mark> triangle_marks;  ///< one for each triangle; empty: all measured
 
-  [[nodiscard]] bool empty() const { return triangles.empty(); }
+  [[nodiscard]] bool empty() const { return triangles.empty(); }  ///< whether it has no triangles
 };
 
 /// Computes vertex normals as angle-weighted means of the adjacent triangles.

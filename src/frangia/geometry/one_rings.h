@@ -9,6 +9,7 @@
 
 namespace frangia {
 
+/// Whether `vertex` is a corner of the triangle.
 [[nodiscard]] inline bool has_vertex(const Mesh::Triangle& t, std::uint32_t vertex) {
   return t[0] == vertex || t[1] == vertex || t[2] == vertex;
 }

@@ -21,10 +21,10 @@ struct RayHit {
 
 /// The point of the surface nearest to a query point.
 struct NearestPoint {
-  Eigen::Vector3d point_mm;
+  Eigen::Vector3d point_mm;         ///< nearest point, on the surface
   double distance_mm = 0.0;         ///< never negative
   double signed_distance_mm = 0.0;  ///< positive on the side of the triangle's normal
-  std::uint32_t triangle = 0;
+  std::uint32_t triangle = 0;       ///< index into the mesh
 };
 
 /// A mesh with fast ray and nearest-point queries, which may come from several threads.
@@ -36,13 +36,17 @@ struct NearestPoint {
 /// @source   Embree: Wald et al. 2014
 class RayScene {
  public:
+  /// Builds the search structure and keeps the mesh.
   explicit RayScene(Mesh mesh);
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
+  /// Takes over the mesh and the search structure.
   RayScene(RayScene&& other) noexcept;
+  /// Takes over the mesh and the search structure.
   RayScene& operator=(RayScene&& other) noexcept;
   ~RayScene();
 
+  /// Mesh that was passed to the constructor.
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 
   /// Returns the first hit of origin + t * direction with t in [0, max_distance], from either side.

@@ -37,6 +37,7 @@ struct RobustProblem {
   std::function<void(const Eigen::VectorXd& step)> update;
 };
 
+/// Gate, stopping rule and damping of `minimize_robustly`.
 struct GaussNewtonOptions {
   double gate = 0.0;        ///< of the first iteration, in the unit of the residuals; required
   double min_gate = 0.0;    ///< the gate never closes further
@@ -49,8 +50,9 @@ struct GaussNewtonOptions {
   void check() const;
 };
 
+/// How `minimize_robustly` ended.
 struct GaussNewtonResult {
-  int iterations = 0;
+  int iterations = 0;      ///< number of linearizations
   double gate = 0.0;       ///< of the last iteration
   bool converged = false;  ///< by the stopping rule, before `max_iterations`
 };

@@ -12,9 +12,9 @@ namespace frangia {
 
 /// A point on the surface of a mesh.
 struct SurfaceSample {
-  Eigen::Vector3d point_mm;
-  Eigen::Vector3d normal;  ///< of the triangle, unit, outward
-  std::uint32_t triangle = 0;
+  Eigen::Vector3d point_mm;    ///< position on the triangle
+  Eigen::Vector3d normal;      ///< of the triangle, unit, outward
+  std::uint32_t triangle = 0;  ///< index into the mesh
 };
 
 /// Samples points uniformly over the area of a mesh. Equal seeds give equal points.

@@ -9,8 +9,9 @@ namespace frangia {
 
 /// The vertices of a triangle and their positions.
 struct IndexedTriangle {
+  /// Indices of its vertices in the mesh; a shared vertex is no intersection.
   std::array<std::uint32_t, 3> vertices;
-  std::array<Eigen::Vector3d, 3> corners_mm;
+  std::array<Eigen::Vector3d, 3> corners_mm;  ///< their positions
 };
 
 /// Makes an IndexedTriangle of vertices whose positions are `position_of(vertex)`.

@@ -13,9 +13,10 @@
 
 namespace frangia {
 
+/// Size, viewpoint, colors and legend of a rendered mesh.
 struct RenderOptions {
-  int width_px = 1200;
-  int height_px = 900;
+  int width_px = 1200;                        ///< width of the picture without its legend
+  int height_px = 900;                        ///< height of the picture
   int samples_across = 4;                     ///< a pixel has the square of this many rays
   double azimuth_rad = rad_from_deg(35.0);    ///< of the viewer about z, from x towards y
   double elevation_rad = rad_from_deg(20.0);  ///< of the viewer above the ground
@@ -31,10 +32,10 @@ struct RenderOptions {
   /// Points that the picture must contain, to give two meshes the same view; empty: the mesh.
   std::vector<Eigen::Vector3f> fit_to_mm;
 
-  std::vector<float> values;  ///< one per vertex, shown as colors; empty: plain
-  float value_min = 0.0F;     ///< values at the ends of the color map
-  float value_max = 1.0F;
-  ColorMap color_map = ColorMap::Viridis;
+  std::vector<float> values;               ///< one per vertex, shown as colors; empty: plain
+  float value_min = 0.0F;                  ///< values at the ends of the color map
+  float value_max = 1.0F;                  ///< values above it have the last color
+  ColorMap color_map = ColorMap::Viridis;  ///< colors of `values`
   std::string value_label;    ///< quantity and unit of the values for the scale: "deviation, mm"
   bool whole_values = false;  ///< the values are counts
   bool legend = true;         ///< add the color scale and the meaning of other colors at the right

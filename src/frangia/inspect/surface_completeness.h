@@ -13,10 +13,11 @@
 
 namespace frangia {
 
+/// Sampling and distance limit of a measurement of completeness.
 struct CompletenessOptions {
   double within_mm = 0.2;        ///< a reference point with mesh within this distance is covered
   std::size_t samples = 100000;  ///< distributed evenly over the area of the reference
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;        ///< of the samples' random positions
   double max_angle_rad =
       rad_from_deg(75.0);  ///< between the normal and the direction to the projector or the camera
 };
@@ -38,8 +39,8 @@ struct SurfaceCompleteness {
 
 /// The views of a scan: the rig and the pose of the object in each view.
 struct MeasurementViews {
-  const Rig& rig;
-  std::span<const Eigen::Isometry3d> rig_from_object;
+  const Rig& rig;                                      ///< calibration of camera and projector
+  std::span<const Eigen::Isometry3d> rig_from_object;  ///< pose of the object in each view
 };
 
 /// Completeness of the part of the reference that at least one view can measure: inside the fields

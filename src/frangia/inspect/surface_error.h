@@ -11,6 +11,7 @@
 
 namespace frangia {
 
+/// Sampling and distance limit of a comparison with a reference.
 struct SurfaceErrorOptions {
   std::size_t samples = 0;  ///< points distributed evenly over the area; 0: the vertices
   std::uint64_t seed = 1;   ///< of the samples
@@ -22,13 +23,13 @@ struct SurfaceErrorOptions {
 /// Statistics of the distances of a mesh from a reference. All but `bias_mm` are of absolute
 /// distances.
 struct SurfaceError {
-  std::size_t count = 0;
-  double rms_mm = 0.0;
-  double mean_mm = 0.0;
-  double bias_mm = 0.0;  ///< mean of the signed distances, positive outside the reference
-  double p95_mm = 0.0;
-  double p99_mm = 0.0;
-  double max_mm = 0.0;
+  std::size_t count = 0;       ///< number of compared points
+  double rms_mm = 0.0;         ///< root mean square distance
+  double mean_mm = 0.0;        ///< mean distance
+  double bias_mm = 0.0;        ///< mean of the signed distances, positive outside the reference
+  double p95_mm = 0.0;         ///< 95th percentile of the distances
+  double p99_mm = 0.0;         ///< 99th percentile of the distances
+  double max_mm = 0.0;         ///< largest distance
   double rms_within_mm = 0.0;  ///< of the points within max_distance_mm
   double share_beyond = 0.0;   ///< of the points farther than max_distance_mm, 0 to 1
 };

@@ -10,6 +10,7 @@ namespace frangia {
 
 /// The window fits of some rows of an image, with `radius` more rows on both sides.
 struct WindowRows {
+  /// Fits windows of radius `radius_px` for `rows` rows from `first_row`, with their margins.
   WindowRows(const Image<float>& image, int radius_px, int first_row, int rows)
       : radius(radius_px),
         first(first_row - radius_px),
@@ -19,9 +20,9 @@ struct WindowRows {
     return x < 0 || x >= fits.width() ? kNoFit : fits.at(x, y - first);
   }
 
-  int radius;
-  int first;
-  WindowFits fits;
+  int radius;       ///< radius of the windows in pixels
+  int first;        ///< first fitted row of the image, `radius` above the first of the rows
+  WindowFits fits;  ///< row 0 is row `first` of the image
 };
 
 /// The position of a window relative to its pixel: none, around the pixel, a full window that holds
@@ -34,6 +35,7 @@ struct PixelNoise {
   float value = 0.0F;             ///< standard deviation of the value
   float lateral_noise_px = 0.0F;  ///< standard deviation of the pixel's position along each axis
 
+  /// Returns the variance of the value, with that of the pixel's position on the slope of `fit`.
   [[nodiscard]] float variance(const WindowFit& fit) const {
     const float square = fit.slope_x * fit.slope_x + fit.slope_y * fit.slope_y;
     return value * value + lateral_noise_px * lateral_noise_px * square;
@@ -42,10 +44,10 @@ struct PixelNoise {
 
 /// The window of a pixel and the pixel's smoothed value.
 struct ChosenWindow {
-  WindowFit fit;
-  WindowKind kind = WindowKind::None;
-  float value = kMissing;     ///< the smoothed value at the pixel
-  float variance = kMissing;  ///< variance of `value`
+  WindowFit fit;                       ///< NaN where `kind` is None
+  WindowKind kind = WindowKind::None;  ///< position of the window relative to the pixel
+  float value = kMissing;              ///< the smoothed value at the pixel
+  float variance = kMissing;           ///< variance of `value`
 };
 
 /// Thresholds of `choose_window`. Ratios compare a residual variance with that of the pixel's

@@ -15,10 +15,11 @@ namespace frangia {
 
 /// A camera model and the ray of each pixel.
 struct CameraRays {
+  /// Computes the rays of all pixels of `camera`.
   explicit CameraRays(const CameraModel& camera) : model(camera), rays(rays_of(camera)) {}
 
-  CameraModel model;
-  Image<Eigen::Vector2f> rays;
+  CameraModel model;            ///< camera that the rays belong to
+  Image<Eigen::Vector2f> rays;  ///< `rays_of(model)`: normalized points (x/z, y/z)
 };
 
 /// The local planes of a view, from which the signed distance of a point to the measured surface
@@ -34,6 +35,7 @@ struct CameraRays {
 /// @missing  inverse depth NaN; a quad that lacks a corner or crosses a depth step is Extrapolated
 ///          where a neighbouring plane was extrapolated to it, else Unseen
 struct LocalPlanes {
+  /// The plane fitted around a pixel, in the rig frame.
   struct Plane {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
     float distance_mm = 0.0F;                          ///< from the camera's center
@@ -42,21 +44,31 @@ struct LocalPlanes {
     float weight = 0.0F;  ///< cos(incidence)^2 / sigma^2, in 1/mm^2; 0 when extrapolated
     WindowKind window = WindowKind::None;  ///< window that the plane was fitted over
 
+    /// Returns the distance of a point in front of the plane; negative behind it.
     [[nodiscard]] float in_front_mm(const Eigen::Vector3f& point) const {
       return normal.dot(point) + distance_mm;
     }
   };
-  /// 32 bits wide like the other members of `Quad`, so that loops over quads vectorize.
-  enum class Kind : std::int32_t { Unseen, Extrapolated, Smooth, Ridge, Valley };
+  /// What is known about the surface of a quad. 32 bits wide like the other members of `Quad`, so
+  /// that loops over quads vectorize.
+  enum class Kind : std::int32_t {
+    Unseen,        ///< a corner is missing, or a depth step crosses the quad
+    Extrapolated,  ///< not measured; a neighbouring plane was extrapolated to it
+    Smooth,        ///< the planes of the corners belong to one face
+    Ridge,         ///< the planes of the corners meet in a convex edge
+    Valley         ///< the planes of the corners meet in a concave edge
+  };
+  /// The surface between four neighbouring pixels.
   struct Quad {
     float distance_mm = 0.0F;  ///< distance of its plane from the camera's center
     float weight = 0.0F;       ///< mean weight of the corners
-    Kind kind = Kind::Unseen;
+    Kind kind = Kind::Unseen;  ///< what is known about the surface
   };
 
   Image<float> inverse_depth;  ///< q, 1/mm
-  Image<Plane> planes;
-  Image<Quad> quads;
+  Image<Plane> planes;         ///< one for each pixel; `distance_mm` 0 where no plane was fitted
+  Image<Quad> quads;           ///< one between each four neighbouring pixels
+  /// Pose of the object when it was measured.
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
 
   /// Whether (x, y) is a pixel with a plane.
@@ -168,13 +180,14 @@ struct WideningOptions {
   float max_autocorrelation = 0.05F;  ///< of the residuals; that of noise is negative
 };
 
+/// Window radius, crease angle and smoothing of the local planes.
 struct LocalPlanesOptions {
-  int radius = 2;           ///< radius of the windows, px
-  double crease_rad = 0.3;  ///< neighbouring planes at a larger angle belong to different faces
-  int extrapolate_px = 0;   ///< distance that planes are extrapolated beyond measured pixels
-  bool widen = false;       ///< smooth over 7 x 7 pixels where the residuals are noise
-  WideningOptions widening;
-  WindowChoiceOptions windows;
+  int radius = 2;               ///< radius of the windows, px
+  double crease_rad = 0.3;      ///< neighbouring planes at a larger angle belong to different faces
+  int extrapolate_px = 0;       ///< distance that planes are extrapolated beyond measured pixels
+  bool widen = false;           ///< smooth over 7 x 7 pixels where the residuals are noise
+  WideningOptions widening;     ///< criteria for `widen`
+  WindowChoiceOptions windows;  ///< choice of the window around a pixel
   /// Variance of a pixel next to an edge, per variance that its fit predicts: neither slope nor
   /// position are as accurate there as in the middle of a face.
   float off_center_variance_factor = 9.0F;

@@ -16,6 +16,7 @@ namespace frangia {
 /// @units    mm, rig frame
 /// @missing  sigma 0
 struct SurfelMap {
+  /// An oriented point of the surface; `sigma_mm` 0 marks a missing one.
   struct Surfel {
     /// The pixel's own point: the mean of its window is biased where the surface is curved.
     Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();
@@ -23,7 +24,7 @@ struct SurfelMap {
     float sigma_mm = 0.0F;                             ///< standard deviation along the normal
   };
 
-  int stride = 1;
+  int stride = 1;         ///< distance of neighbouring surfels in pixels
   Image<Surfel> surfels;  ///< surfel (x, y) is pixel (x stride, y stride)
 };
 

@@ -10,11 +10,11 @@ namespace frangia {
 /// Least-squares fits of an image over a square window: the plane
 /// `mean + slope_x * dx + slope_y * dy`, and the quadratic with the same slopes.
 struct WindowFit {
-  float mean = 0.0F;
-  float slope_x = 0.0F;  ///< per pixel
-  float slope_y = 0.0F;
-  float variance = 0.0F;           ///< residual variance of the plane
-  float value = 0.0F;              ///< value of the quadratic at the window's centre
+  float mean = 0.0F;      ///< mean of the pixels; value of the plane at the window's centre
+  float slope_x = 0.0F;   ///< per pixel
+  float slope_y = 0.0F;   ///< per pixel
+  float variance = 0.0F;  ///< residual variance of the plane
+  float value = 0.0F;     ///< value of the quadratic at the window's centre
   float residual_variance = 0.0F;  ///< residual variance of the quadratic
   float curvature_xx = 0.0F;       ///< coefficient of dx^2, per pixel^2
   float curvature_yy = 0.0F;       ///< coefficient of dy^2
@@ -41,6 +41,7 @@ inline constexpr WindowFit kNoFit{
 /// loops over them vectorize.
 class WindowFits {
  public:
+  /// The quantities of a fit, in the order of the members of WindowFit.
   enum Quantity : int {
     Mean,
     SlopeX,
@@ -54,16 +55,19 @@ class WindowFits {
     QuantityCount
   };
 
+  /// Allocates uninitialized fits of `rows` rows with `width` pixels each.
   WindowFits(int width, int rows);
 
-  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int width() const { return width_; }  ///< number of pixels in a row
+  /// Returns one quantity of the fits around a row's pixels: `width()` values.
   [[nodiscard]] float* row(Quantity quantity, int row) {
     return values_.get() + offset(quantity, row);
   }
+  /// Returns one quantity of the fits around a row's pixels, read-only.
   [[nodiscard]] const float* row(Quantity quantity, int row) const {
     return values_.get() + offset(quantity, row);
   }
-  [[nodiscard]] WindowFit at(int x, int row) const;
+  [[nodiscard]] WindowFit at(int x, int row) const;  ///< fit around pixel `x` of a row
   /// Sets all quantities of a row to NaN except for the windows [begin, end).
   void set_missing_outside(int begin, int end, int row);
 

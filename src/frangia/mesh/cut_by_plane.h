@@ -7,6 +7,7 @@
 
 namespace frangia {
 
+/// Options of `cut_by_plane`.
 struct CutOptions {
   bool capped = false;  ///< close the cut with flat triangles marked as synthesized
 };

@@ -8,6 +8,7 @@
 
 namespace frangia {
 
+/// When decimation stops: at a number of triangles, at a tolerance, or at the first of both.
 struct DecimateOptions {
   std::size_t triangles = 0;  ///< number of triangles to stop at
   /// Limit of the distance between the two surfaces, in both directions.

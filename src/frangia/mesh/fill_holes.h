@@ -9,14 +9,16 @@
 
 namespace frangia {
 
+/// Shape of the surface that fills a hole.
 enum class HoleFill {
   Flat,   ///< triangles between the boundary vertices only
   Smooth  ///< as dense as the surrounding surface, continuing its curvature
 };
 
+/// Which holes are filled, and how.
 struct FillHolesOptions {
   double up_to_mm = std::numeric_limits<double>::infinity();  ///< limit of BoundaryLoop::size_mm
-  HoleFill kind = HoleFill::Smooth;
+  HoleFill kind = HoleFill::Smooth;                           ///< shape of the fill
   std::vector<std::size_t> only;  ///< indices into boundary_loops; empty: all loops up to the size
 };
 

@@ -18,6 +18,7 @@ namespace frangia {
 
 /// Counts the edges with more than two triangles or with two of inconsistent orientation.
 [[nodiscard]] std::size_t count_non_manifold_edges(const Mesh& mesh);
+/// The same with the half-edges of the mesh, if they are known.
 [[nodiscard]] std::size_t count_non_manifold_edges(const Mesh& mesh, const HalfEdges& edges);
 
 }  // namespace frangia

@@ -16,19 +16,20 @@ namespace frangia {
 
 /// The extent, components, holes and faults of a mesh.
 struct MeshFindings {
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  std::vector<MeshComponent> components;
-  std::vector<BoundaryLoop> holes;
+  std::size_t vertices = 0;               ///< number of vertices
+  std::size_t triangles = 0;              ///< number of triangles
+  std::vector<MeshComponent> components;  ///< connected components
+  std::vector<BoundaryLoop> holes;        ///< boundary loops
+  /// Edges with more than two triangles, or with two triangles of opposite orientation.
   std::size_t non_manifold_edges = 0;
   std::size_t degenerate_triangles = 0;  ///< triangles with two equal or three collinear corners
   /// Pairs of intersecting triangles; nullopt in a build without CGAL.
   std::optional<std::size_t> self_intersections;
   std::array<std::size_t, 3> marks{};  ///< triangles by Mark: measured, displaced, synthesized
-  double area_mm2 = 0.0;
-  double volume_mm3 = 0.0;  ///< signed volume; has a meaning for a closed mesh only
-  Eigen::AlignedBox3d box_mm;
-  bool closed = false;  ///< neither boundary nor non-manifold edges
+  double area_mm2 = 0.0;               ///< total area of the triangles
+  double volume_mm3 = 0.0;             ///< signed volume; has a meaning for a closed mesh only
+  Eigen::AlignedBox3d box_mm;          ///< bounding box of the vertices
+  bool closed = false;                 ///< neither boundary nor non-manifold edges
 };
 
 /// Analyses a mesh.

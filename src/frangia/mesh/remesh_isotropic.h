@@ -8,6 +8,7 @@
 
 namespace frangia {
 
+/// Edge length, iterations and crease angle of isotropic remeshing.
 struct RemeshOptions {
   double edge_mm = 1.0;                    ///< target length of all edges
   int iterations = 3;                      ///< of splitting, collapsing, flipping and relaxing

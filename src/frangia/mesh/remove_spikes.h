@@ -6,6 +6,7 @@
 
 namespace frangia {
 
+/// What counts as a spike.
 struct RemoveSpikesOptions {
   /// A vertex is a spike when the angles of its triangles at it add up to less than this. The sum
   /// is 360 degrees on a plane, 270 at a corner of a cube and 180 at the tip of a 60 degree cone.

@@ -6,8 +6,9 @@
 
 namespace frangia {
 
+/// Strength and limits of smoothing.
 struct SmoothOptions {
-  int iterations = 10;
+  int iterations = 10;  ///< number of smoothing passes; more passes smooth more
   /// Limit of the movement of a vertex in units of its sigma; 0: no limit. Vertices at sharp edges
   /// move by at most 0.15 of it, their neighbours by at most 0.4.
   double max_sigmas = 3.0;
@@ -26,7 +27,9 @@ struct SmoothOptions {
 /// @source   Taubin 1995, A Signal Processing Approach to Fair Surface Design
 [[nodiscard]] Mesh smooth_taubin(Mesh mesh, const SmoothOptions& options = {}, const Run& run = {});
 
+/// Options of smoothing that keeps sharp edges.
 struct KeepEdgesOptions {
+  /// Iterations, limit of movement and selection.
   SmoothOptions smooth{.iterations = 8, .max_sigmas = 3.0, .only = {}};
   /// Width of the Gaussian weight over the angle between two normals: a larger angle is an edge.
   double crease_rad = 0.35;

@@ -24,6 +24,7 @@ namespace frangia {
 /// @units    rad
 [[nodiscard]] double sigma_for_wrong_order_probability(double probability);
 
+/// The fringe counts of a multi-frequency sequence and its reliability.
 struct SequencePlan {
   std::vector<double> fringes;  ///< fringe counts over the field, coarse to fine
   double wrong_order = 0.0;     ///< probability of a wrong order, summed over all steps

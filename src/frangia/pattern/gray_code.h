@@ -13,6 +13,7 @@ namespace frangia {
 [[nodiscard]] constexpr std::uint32_t binary_to_gray(std::uint32_t number) {
   return number ^ (number >> 1U);
 }
+/// Inverts `binary_to_gray`.
 [[nodiscard]] constexpr std::uint32_t gray_to_binary(std::uint32_t gray) {
   for (std::uint32_t shift = 1; shift < 32; shift *= 2)
     gray ^= gray >> shift;

@@ -5,6 +5,7 @@
 
 namespace frangia {
 
+/// What the frames of a pattern show.
 enum class PatternKind {
   Fringe,  ///< sinusoidal fringes, one frame per shift
   Line,    ///< the laser sheet, one frame
@@ -12,13 +13,17 @@ enum class PatternKind {
   Ramp     ///< a uniformly lit field, one frame per level
 };
 
-/// Orientation of the fringes. The phase of vertical fringes varies along the projector's columns.
-enum class FringeDirection { Vertical, Horizontal };
+/// Orientation of the fringes.
+enum class FringeDirection {
+  Vertical,   ///< the phase varies with the projector's column
+  Horizontal  ///< the phase varies with the projector's row
+};
 
 /// A pattern that the projector shows in one or more frames; a [[pattern]] table of scan.toml.
 struct Pattern {
-  std::string name;  ///< also the prefix of its file names
-  PatternKind kind = PatternKind::Fringe;
+  std::string name;                        ///< also the prefix of its file names
+  PatternKind kind = PatternKind::Fringe;  ///< what the frames show
+  /// Of fringes and of the stripes of a Gray code.
   FringeDirection direction = FringeDirection::Vertical;
   double fringes_per_degree = 0.0;   ///< for an angular projector; 0 for a pinhole one
   double period_px = 0.0;            ///< for a pinhole projector; 0 for an angular one
@@ -47,6 +52,7 @@ struct Pattern {
     }
     return static_cast<int>(shifts_rad.size());
   }
+  /// Returns the number of exposures of each frame: 1 unless `exposures_ms` lists several.
   [[nodiscard]] int exposure_count() const {
     return exposures_ms.empty() ? 1 : static_cast<int>(exposures_ms.size());
   }

@@ -12,7 +12,7 @@ struct AlgorithmErrors {
       0.0;  ///< peak-to-valley error over a fringe, mean of a step 5 % too long and 5 % too short
   double noise_gain = 0.0;       ///< c in sigma_phi = c sigma_I / B, rms over phi
   double second_harmonic = 0.0;  ///< largest phase error per unit harmonic amplitude relative to B
-  double third_harmonic = 0.0;
+  double third_harmonic = 0.0;   ///< the same for the third harmonic
 };
 
 /// Measures the sensitivity of `algorithm` at these shifts. With `step_known` the algorithm uses

@@ -12,11 +12,11 @@ namespace frangia {
 
 /// Quality measures of the frames of one pattern.
 struct FrameAssessment {
-  std::string pattern;
-  std::string algorithm;
-  double nominal_deg = 0.0;  ///< nominal step; 0 if the step was not estimated
-  double step_deg = 0.0;     ///< estimated step
-  double step_sigma_deg = 0.0;
+  std::string pattern;              ///< name of the pattern
+  std::string algorithm;            ///< name of the algorithm that decoded it
+  double nominal_deg = 0.0;         ///< nominal step; 0 if the step was not estimated
+  double step_deg = 0.0;            ///< estimated step
+  double step_sigma_deg = 0.0;      ///< standard deviation of `step_deg`
   double jitter_deg = 0.0;          ///< rms error of single steps; 0 if none is detected
   double contrast = 0.0;            ///< median of modulation over mean, of the measured pixels
   double measured_fraction = 0.0;   ///< of all pixels
@@ -30,6 +30,7 @@ struct FrameAssessment {
   bool vibration_suspected = false;
 };
 
+/// Limits and sampling of the assessment of frames.
 struct AssessmentOptions {
   /// Residual ratio above which motion or flicker is suspected. The residuals of good frames give 1
   /// with a noise model that is accurate to about 10 %, as an estimated one is.

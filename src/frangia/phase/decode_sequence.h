@@ -14,13 +14,14 @@ namespace frangia {
 
 /// The frames of one map of a sequence and the algorithm that decodes them.
 struct SequenceFrames {
-  const FrameStack* stack = nullptr;
-  PhaseAlgorithm algorithm;
+  const FrameStack* stack = nullptr;  ///< frames of the pattern; must not be null
+  PhaseAlgorithm algorithm;           ///< algorithm for the shifts of these frames
 };
 
+/// Options of the decoding of a multi-frequency sequence.
 struct SequenceOptions {
-  WrapOptions wrap;
-  TemporalUnwrapOptions temporal;
+  WrapOptions wrap;                ///< limit of the phase noise of each level
+  TemporalUnwrapOptions temporal;  ///< limit of wrong fringe orders, and smoothing of coarse levels
 };
 
 /// Performs `wrap_phase` on every map and `unwrap_sequence` on the result in one pass over the

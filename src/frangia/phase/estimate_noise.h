@@ -25,7 +25,7 @@ class NoiseSamples {
   static constexpr int kBins = 24;  ///< bins of brightness
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
-  [[nodiscard]] NoiseModel model() const;
+  [[nodiscard]] NoiseModel model() const;  ///< noise model fitted to all samples
 
  private:
   std::array<std::vector<float>, kBins> bins_;

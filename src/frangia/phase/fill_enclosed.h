@@ -6,6 +6,7 @@
 
 namespace frangia {
 
+/// Which holes of the phase are filled.
 struct FillOptions {
   std::size_t max_px = 100;  ///< largest hole that is filled
   double max_plane_deviation_rad =

@@ -8,8 +8,8 @@ namespace frangia {
 
 /// A 2 x 2 loop around which the wrapped phase differences do not sum to zero.
 struct Residue {
-  int x = 0;  ///< top left pixel of the loop
-  int y = 0;
+  int x = 0;      ///< top left pixel of the loop
+  int y = 0;      ///< row of that pixel
   int turns = 0;  ///< charge: whole turns gained clockwise, 1 or -1
 };
 

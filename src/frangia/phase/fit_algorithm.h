@@ -14,8 +14,8 @@ namespace frangia {
 
 /// The algorithm for the given frames and the step that they show.
 struct FittedAlgorithm {
-  PhaseAlgorithm algorithm;
-  StepEstimate step;
+  PhaseAlgorithm algorithm;        ///< its coefficients include the estimated shifts
+  StepEstimate step;               ///< step that the frames show
   double gain_error = 0.0;         ///< gain error of the phase shifter that `algorithm` assumes
   std::vector<double> shifts_rad;  ///< actual shifts of the frames
 };

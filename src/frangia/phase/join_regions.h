@@ -5,6 +5,7 @@
 
 namespace frangia {
 
+/// When two regions of the phase are joined.
 struct JoinOptions {
   /// Two regions are joined when at least this fraction of their common border is smooth and
   /// implies the same whole number of fringes. 0.75 is a clear majority: a wrong join moves a

@@ -12,10 +12,10 @@ namespace frangia {
 /// Every algorithm returns the phase at shift zero, so algorithms can be exchanged without a
 /// constant offset.
 struct PhaseAlgorithm {
-  std::string name;
-  std::vector<double> sine;
-  std::vector<double> cosine;
-  std::vector<double> mean;
+  std::string name;            ///< "4-step", "schwider", ...; see `published_algorithms`
+  std::vector<double> sine;    ///< weights of the frames for B sin(phi)
+  std::vector<double> cosine;  ///< weights of the frames for B cos(phi)
+  std::vector<double> mean;    ///< weights of the frames for A
   /// For Carré's nonlinear algorithm only: with u from `sine` and v from `outer`, B sin(phi +
   /// phase_offset) = sgn(u) sqrt((3u - v)(u + v)). Empty for all other algorithms.
   std::vector<double> outer;
@@ -24,7 +24,7 @@ struct PhaseAlgorithm {
   /// c in sigma_phi = c sigma_I / B, root mean square over phi.
   double noise_gain = 0.0;
 
-  [[nodiscard]] std::size_t frames() const { return sine.size(); }
+  [[nodiscard]] std::size_t frames() const { return sine.size(); }  ///< number of frames
 };
 
 /// Returns the phase that an algorithm measures in one pixel's frames, in (-pi, pi].

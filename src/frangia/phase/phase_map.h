@@ -22,23 +22,23 @@ enum class PixelStatus : std::uint8_t {
 
 /// The phase modulo 2 pi of all pixels.
 struct WrappedPhase {
-  Pattern pattern;
+  Pattern pattern;                 ///< pattern that was decoded
   Image<float> phase_rad;          ///< (-pi, pi]; NaN where not measured
   Image<float> sigma_rad;          ///< standard deviation of `phase_rad`; NaN where not measured
   Image<float> modulation_counts;  ///< I0 gamma0 of the paper's equation (1), at every pixel
   Image<float> mean_counts;        ///< I0 plus ambient light, at every pixel
-  Image<PixelStatus> status;
+  Image<PixelStatus> status;       ///< why a pixel is missing
 };
 
 /// A phase that is continuous within each region and known up to a whole number of fringes per
 /// region.
 struct RelativePhase {
-  Pattern pattern;
-  Image<float> phase_rad;  ///< NaN where not measured
-  Image<float> sigma_rad;
+  Pattern pattern;             ///< pattern that was decoded
+  Image<float> phase_rad;      ///< NaN where not measured
+  Image<float> sigma_rad;      ///< standard deviation of `phase_rad`; NaN where not measured
   Image<std::int32_t> region;  ///< 0, 1, ... from the largest; -1 where not measured
-  int region_count = 0;
-  Image<PixelStatus> status;
+  int region_count = 0;        ///< number of regions
+  Image<PixelStatus> status;   ///< why a pixel is missing
   /// Order in which quality-guided growth reached the pixels of a region, from 0; -1 where not
   /// measured. Empty unless requested.
   Image<std::int32_t> growth_order;
@@ -47,10 +47,10 @@ struct RelativePhase {
 /// The phase relative to the projection axis or the projector's first column. It is a separate type
 /// so that a wrapped or a relative phase cannot be triangulated.
 struct AbsolutePhase {
-  Pattern pattern;
-  Image<float> phase_rad;  ///< NaN where not measured
-  Image<float> sigma_rad;
-  Image<PixelStatus> status;
+  Pattern pattern;            ///< pattern that was decoded
+  Image<float> phase_rad;     ///< NaN where not measured
+  Image<float> sigma_rad;     ///< standard deviation of `phase_rad`; NaN where not measured
+  Image<PixelStatus> status;  ///< why a pixel is missing
 };
 
 }  // namespace frangia

@@ -19,11 +19,11 @@ enum class ShiftRule {
 
 /// Properties of an algorithm that do not depend on frames.
 struct PublishedAlgorithm {
-  std::string name;
-  ShiftRule rule = ShiftRule::Listed;
-  int frames = 0;         ///< for the rule Listed
-  double step_deg = 0.0;  ///< for the rule Listed; 0 for any step
-  std::string source;
+  std::string name;                    ///< name that options accept: "4-step"
+  ShiftRule rule = ShiftRule::Listed;  ///< shifts that the algorithm accepts
+  int frames = 0;                      ///< for the rule Listed
+  double step_deg = 0.0;               ///< for the rule Listed; 0 for any step
+  std::string source;                  ///< author and year of the publication
 };
 
 /// Returns all algorithms, in the order of the table in docs/phase.md.

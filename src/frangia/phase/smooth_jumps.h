@@ -6,6 +6,7 @@
 
 namespace frangia {
 
+/// Limits of a phase difference between neighbours that counts as smooth.
 struct JumpOptions {
   /// Largest deviation of a phase difference from the adjacent differences, in addition to five
   /// sigmas of their noise. A crease changes the difference by less, a depth step by any amount.

@@ -7,8 +7,9 @@
 
 namespace frangia {
 
+/// Where the phase is cut into regions.
 struct SplitOptions {
-  JumpOptions jumps;
+  JumpOptions jumps;  ///< limits of smooth phase differences
   /// A connection narrower than twice this radius beside a cut does not join two regions, px. A
   /// depth step of varying height looks smooth where it crosses a whole number of fringes; the
   /// faster its height varies, the shorter that part. At 0.03 rad of noise 6 px are enough where
@@ -20,8 +21,8 @@ struct SplitOptions {
 
 /// Regions within which the phase is smooth and unwrapping is unambiguous.
 struct Regions {
-  Image<std::int32_t> label;  ///< 0, 1, ...; -1 where not measured
-  int count = 0;
+  Image<std::int32_t> label;         ///< 0, 1, ...; -1 where not measured
+  int count = 0;                     ///< number of regions
   Image<std::uint8_t> smooth_right;  ///< as `smooth_right` of smooth_jumps.h
   Image<std::uint8_t> smooth_below;  ///< as `smooth_below` of smooth_jumps.h
 };

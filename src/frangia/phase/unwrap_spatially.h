@@ -14,10 +14,11 @@ enum class SpatialMethod {
   ReliabilitySorted  ///< edges sorted by reliability, see `unwrap_reliability_sorted`
 };
 
+/// Method and limits of spatial unwrapping.
 struct SpatialUnwrapOptions {
-  SpatialMethod method = SpatialMethod::RunMerging;
-  SplitOptions split;
-  JoinOptions join;
+  SpatialMethod method = SpatialMethod::RunMerging;  ///< algorithm that unwraps within regions
+  SplitOptions split;                                ///< where the phase is cut
+  JoinOptions join;                                  ///< when regions are joined again
   /// Record the order in which quality-guided growth reaches the pixels, also when another method
   /// unwraps.
   bool keep_growth_order = false;

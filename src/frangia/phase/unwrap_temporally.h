@@ -8,6 +8,7 @@
 
 namespace frangia {
 
+/// Reliability limit and smoothing of temporal unwrapping.
 struct TemporalUnwrapOptions {
   /// Largest probability that one of a pixel's fringe orders is wrong; a pixel above it is
   /// discarded.

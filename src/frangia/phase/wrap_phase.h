@@ -7,6 +7,7 @@
 
 namespace frangia {
 
+/// Limit of the phase noise.
 struct WrapOptions {
   /// Largest standard deviation of a phase, rad. At 0.1 rad the modulation is about ten times its
   /// noise; pixels above it are background or shadow.

@@ -23,6 +23,7 @@
 
 namespace frangia {
 
+/// Options of the stages from frames to absolute phase.
 struct DecodeOptions {
   std::string algorithm = "auto";  ///< name, see `fit_algorithm`
   /// Recovers the one saturated frame of four instead of discarding the pixel as the 1997 paper
@@ -34,19 +35,19 @@ struct DecodeOptions {
   /// Keeps the wrapped maps. Otherwise a sequence is decoded in one pass over its frames if all its
   /// unwrapping levels are safe for every pixel that `wrap` keeps.
   bool keep_maps = true;
-  ScanSurvey survey;  ///< noise and gain error pooled over several views
-  WrapOptions wrap;
-  TemporalUnwrapOptions temporal;
-  SpatialUnwrapOptions spatial;
-  LaserProfileOptions line;
-  FringeOrderOptions fringe_order;
-  FillOptions fill;
+  ScanSurvey survey;                ///< noise and gain error pooled over several views
+  WrapOptions wrap;                 ///< limit of the phase noise
+  TemporalUnwrapOptions temporal;   ///< temporal unwrapping
+  SpatialUnwrapOptions spatial;     ///< spatial unwrapping, for scans without a sequence
+  LaserProfileOptions line;         ///< detection of the laser line
+  FringeOrderOptions fringe_order;  ///< fringe orders from the laser line
+  FillOptions fill;                 ///< interpolation of enclosed pixels
 };
 
 /// The phase of one view and the intermediate results.
 struct DecodedView {
-  NoiseModel noise;
-  Pattern coarsest;                          ///< the coarsest fringe pattern
+  NoiseModel noise;  ///< noise of the camera: from rig.toml, the survey or the frames
+  Pattern coarsest;  ///< the coarsest fringe pattern
   std::vector<WrappedPhase> wrapped;         ///< coarse to fine; empty unless `keep_maps`
   std::vector<FrameAssessment> assessments;  ///< one per fringe pattern, coarse to fine
   std::optional<RelativePhase> relative;     ///< of a spatially unwrapped scan

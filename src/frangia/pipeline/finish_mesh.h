@@ -7,6 +7,7 @@
 
 namespace frangia {
 
+/// Hole filling and decimation of a fused mesh.
 struct FinishOptions {
   bool watertight = false;    ///< fill all holes; new triangles are marked as synthesized
   double tolerance_mm = 0.0;  ///< decimate within this distance; 0: keep all triangles

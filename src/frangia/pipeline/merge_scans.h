@@ -22,19 +22,21 @@ enum class ScanPoses {
   Shape   ///< pose search by shape alone
 };
 
+/// Options of the registration and fusion of range scans.
 struct MergeScansOptions {
-  ScanPoses poses = ScanPoses::Auto;
-  bool register_poses = true;  ///< refine the poses
-  RegisterPosesOptions registration;
-  FusionOptions fusion;
-  FinishOptions finish;
+  ScanPoses poses = ScanPoses::Auto;  ///< source of the initial poses
+  bool register_poses = true;         ///< refine the poses
+  RegisterPosesOptions registration;  ///< refinement of the poses
+  FusionOptions fusion;               ///< fusion into one surface
+  FinishOptions finish;               ///< hole filling and decimation
 };
 
+/// The fused surface of several range scans and how they were registered.
 struct MergedScans {
-  Mesh mesh;
-  std::size_t points = 0;                 ///< of all resampled scans
-  std::optional<FoundPoses> found_poses;  ///< set when poses were found by shape
-  std::optional<PosesReport> registration;
+  Mesh mesh;                                ///< fused surface
+  std::size_t points = 0;                   ///< of all resampled scans
+  std::optional<FoundPoses> found_poses;    ///< set when poses were found by shape
+  std::optional<PosesReport> registration;  ///< empty when the poses were not refined
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };

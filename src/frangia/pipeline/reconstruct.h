@@ -20,26 +20,29 @@
 
 namespace frangia {
 
+/// Options of all stages from frames to mesh.
 struct ReconstructOptions {
-  DecodeOptions decode;
-  MixedPixelOptions mixed_pixels;
-  ResolveByViewsOptions resolve_by_views;
+  DecodeOptions decode;                    ///< frames to absolute phase
+  MixedPixelOptions mixed_pixels;          ///< removal of pixels that see two surfaces
+  ResolveByViewsOptions resolve_by_views;  ///< fringe orders that other views confirm
+  /// Recheck of fringe orders after registration.
   FringeOrderCorrectionOptions fringe_order_correction;
-  bool register_views = true;  ///< refine the turntable's axis and angles by the overlap of views
-  RegisterOptions registration;
-  bool keep_turntable_top = false;  ///< otherwise it is found and removed
-  TurntableTopOptions turntable_top;
+  bool register_views = true;    ///< refine the turntable's axis and angles by the overlap of views
+  RegisterOptions registration;  ///< refinement of axis and angles
+  bool keep_turntable_top = false;    ///< otherwise it is found and removed
+  TurntableTopOptions turntable_top;  ///< criteria of the turntable top that is removed
   double clip_below_mm =
       -std::numeric_limits<double>::infinity();  ///< removes points below this height, object frame
   double clip_radius_mm =
       std::numeric_limits<double>::infinity();  ///< removes points farther from the axis
-  FusionOptions fusion;
-  FinishOptions finish;
-  bool keep_raw = false;  ///< returns the registered points, too
+  FusionOptions fusion;                         ///< fusion of the views
+  FinishOptions finish;                         ///< hole filling and decimation
+  bool keep_raw = false;                        ///< returns the registered points, too
 };
 
+/// The reconstructed surface and what the stages report.
 struct Reconstruction {
-  Mesh mesh;
+  Mesh mesh;                                       ///< fused surface, object frame
   PointCloud raw;                                  ///< empty unless `keep_raw`
   std::size_t points = 0;                          ///< in all views
   std::size_t views = 0;                           ///< that hold points

@@ -12,10 +12,10 @@ namespace frangia {
 
 /// Colour and caption of a pixel status.
 struct StatusLegend {
-  PixelStatus status;
-  Rgb color;
-  std::string color_name;
-  std::string meaning;
+  PixelStatus status;      ///< status that the entry explains
+  Rgb color;               ///< color in `status_picture`
+  std::string color_name;  ///< name of `color` for captions: "red"
+  std::string meaning;     ///< short description of the status
 };
 /// One row per status, in the order of the enumeration.
 [[nodiscard]] const std::vector<StatusLegend>& status_legend();

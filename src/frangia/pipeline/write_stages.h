@@ -12,8 +12,8 @@ namespace frangia {
 
 /// A written file and its caption.
 struct StageFile {
-  std::string name;
-  std::string caption;
+  std::string name;     ///< file name within the folder
+  std::string caption;  ///< what the file shows
 };
 
 /// Writes the stages of one view into `folder`: pictures (.png), values (.tiff, 32-bit float), and

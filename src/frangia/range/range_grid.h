@@ -7,11 +7,11 @@ namespace frangia {
 
 /// One pixel of a range grid; see `RangeGrid` for the meaning of the values.
 struct RangePixel {
-  int x = 0;
-  int y = 0;
-  float depth_mm = 0.0F;
-  float sigma_mm = 0.0F;
-  float phase_rad = kMissing;
+  int x = 0;                   ///< column
+  int y = 0;                   ///< row
+  float depth_mm = 0.0F;       ///< NaN: no point
+  float sigma_mm = 0.0F;       ///< NaN: no point
+  float phase_rad = kMissing;  ///< NaN: not measured by fringes
 };
 
 /// The surface as one camera sees it: a point for each pixel. The point of pixel (x, y) is
@@ -30,14 +30,17 @@ struct RangeGrid {
   /// 2 pi times the fringe order.
   Image<float> phase_rad = {};
 
+  /// Returns the values of pixel (x, y).
   [[nodiscard]] RangePixel pixel(int x, int y) const {
     return {x, y, depth_mm(x, y), sigma_mm(x, y), phase_rad.empty() ? kMissing : phase_rad(x, y)};
   }
+  /// Stores the values of a pixel; ignores its phase when the grid has no phase image.
   void set(const RangePixel& pixel) {
     depth_mm(pixel.x, pixel.y) = pixel.depth_mm;
     sigma_mm(pixel.x, pixel.y) = pixel.sigma_mm;
     if (!phase_rad.empty()) phase_rad(pixel.x, pixel.y) = pixel.phase_rad;
   }
+  /// Sets all values of pixel (x, y) to NaN.
   void remove(int x, int y) { set({x, y, kMissing, kMissing, kMissing}); }
 };
 

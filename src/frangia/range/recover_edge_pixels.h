@@ -9,6 +9,7 @@
 
 namespace frangia {
 
+/// Which removed pixels at edges are recovered.
 struct EdgePixelOptions {
   int depth_px = 3;  ///< passes; each recovers pixels next to those of the one before
   double max_incidence_deg = 82.0;  ///< a surface at a larger angle of incidence is a depth step

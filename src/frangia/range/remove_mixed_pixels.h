@@ -10,6 +10,7 @@
 
 namespace frangia {
 
+/// Criteria of pixels that see two surfaces.
 struct MixedPixelOptions {
   double max_incidence_deg = 82.0;  ///< a surface at a larger angle of incidence is a depth step
   int min_patch_px = 12;            ///< connected patches of fewer points are removed

@@ -22,7 +22,9 @@ struct GroupFit {
                                      ///< weight; 0 when one group slides or turns on the other
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();  ///< of `from`, in the frame of `to`
   double arm_mm = 1.0;  ///< root mean square distance of the points of `from` from their center
+  /// Sum of w J^T J over the points that agree, w by Tukey's biweight.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Sum of w J^T r over the same points, mm.
   Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 2> weakest_directions =
       Eigen::Matrix<double, 6, 2>::Zero();  ///< the two motions that are determined worst
@@ -46,9 +48,10 @@ struct GroupFit {
                                       const GroupViews& views,
                                       double gate_mm);
 
+/// The first and the smallest gate of a robust fit.
 struct GateRange {
-  double widest_mm = 0.0;
-  double least_mm = 0.0;
+  double widest_mm = 0.0;  ///< gate of the first iteration
+  double least_mm = 0.0;   ///< the gate never closes further
 };
 
 /// The pose near `to_from` in which the groups fit best, by `minimize_robustly` with a gate that

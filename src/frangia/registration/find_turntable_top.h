@@ -42,6 +42,7 @@ struct TurntableTop {
   double clearance_mm = 0.0;           ///< remove points up to this distance above the plane, too
   bool rim_only = false;  ///< the top is too grazing to be measured: only its rim is in the views
 
+  /// Height of the top on the z axis of the object frame.
   [[nodiscard]] double height_mm() const { return -plane.offset() / plane.normal().z(); }
 };
 

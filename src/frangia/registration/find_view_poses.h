@@ -17,11 +17,11 @@ struct FoundPoses {
   std::size_t reference = 0;          ///< the view whose pose is held
   std::vector<std::size_t> left_out;  ///< views that fit no other, or in more than one pose;
                                       ///< they are emptied
-  std::size_t found = 0;
-  double least_overlap = 0.0;  ///< of all joins, as a share of the smaller side
-  double accuracy_mm = 0.0;    ///< bound on the error of the poses
+  std::size_t found = 0;              ///< number of views with a pose, including the reference
+  double least_overlap = 0.0;         ///< of all joins, as a share of the smaller side
+  double accuracy_mm = 0.0;           ///< bound on the error of the poses
 
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string text() const;  ///< the result as a sentence
 };
 
 /// Finds the relative poses of views from their shape alone, and sets the poses of `views`. They

@@ -36,17 +36,18 @@ struct JoinByShapeOptions {
 
 /// Two clusters of groups that were joined.
 struct GroupJoin {
-  std::size_t from = 0;
-  std::size_t to = 0;
-  GroupFit fit;
+  std::size_t from = 0;  ///< index of the cluster that moved; it becomes part of `to`
+  std::size_t to = 0;    ///< index of the cluster that stayed
+  GroupFit fit;          ///< fit in the pose of the join
 };
 
+/// The common frame of groups that were joined, and the groups that were not.
 struct JoinedGroups {
   std::size_t reference = 0;  ///< the first group of the largest cluster, whose frame all poses use
   std::vector<std::optional<Eigen::Isometry3d>> reference_from_group;  ///< none: not joined
   std::vector<bool> ambiguous;                           ///< fits in more than one pose
   std::vector<std::optional<std::size_t>> duplicate_of;  ///< the duplicate view, if left out
-  std::vector<GroupJoin> joins;
+  std::vector<GroupJoin> joins;                          ///< in the order in which they were made
 };
 
 /// Finds how groups of views fit together from their shape alone.

@@ -12,6 +12,7 @@
 
 namespace frangia {
 
+/// Start, stopping rule and overlap limit of the refinement of poses.
 struct RegisterPosesOptions {
   double reach_mm = 0.0;      ///< largest distance of corresponding surfaces at the start; 0 takes
                               ///< `default_reach_mm`
@@ -23,13 +24,14 @@ struct RegisterPosesOptions {
   void check() const;
 };
 
+/// Result of the refinement of poses.
 struct PosesReport {
   double rms_before_mm = 0.0;  ///< distance between surfaces of different views, along the normal
   double rms_after_mm = 0.0;   ///< the same with the final poses
   double overlap = 0.0;        ///< share of the points that lie on a surface of another view
   int iterations = 0;          ///< 0: the given poses are kept
 
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string text() const;  ///< the result as a sentence
 };
 
 /// 3 % of the size of a view's surface, the median over all views: 3 mm for views of 100 mm.

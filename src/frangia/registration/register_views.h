@@ -36,7 +36,7 @@ struct RegisterOptions {
                                       ///< than the refined ones by this factor
   double max_axis_sigma_px = 0.1;     ///< of the axis, in distances of neighbouring pixels' points,
                                       ///< beyond which a warning is given
-  int max_iterations = 30;
+  int max_iterations = 30;            ///< each linearizes once
   /// Starting values: the part pose of each further setup, as `RegistrationReport` has them.
   std::vector<Eigen::Isometry3d> part_poses{};
 
@@ -53,8 +53,8 @@ struct Station {
 
 /// The turntable as the rig gives it, and its stations, one a view.
 struct TurntableStations {
-  const Turntable& table;
-  std::span<const Station> stations;
+  const Turntable& table;             ///< axis as the rig gives it
+  std::span<const Station> stations;  ///< one for each view
 };
 
 /// Refines the turntable's axis, the angle of each view and the part pose of each setup but the

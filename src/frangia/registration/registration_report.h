@@ -16,15 +16,15 @@ namespace frangia {
 /// @units    mm, rad
 struct RegistrationReport {
   Turntable table;  ///< refined; its point is the point of the axis nearest to the given one
-  Turntable given;
-  std::vector<double> angles_rad;  ///< refined; the first is held
-  std::vector<double> given_angles_rad;
+  Turntable given;  ///< axis as the rig gives it
+  std::vector<double> angles_rad;        ///< refined; the first is held
+  std::vector<double> given_angles_rad;  ///< commanded angles
   double rms_before_mm = 0.0;  ///< distance between surfaces of different views, along the normal
   double rms_after_mm = 0.0;   ///< the same after registration
   /// Rotation of the last view that would align it with the first one: the accumulated error of the
   /// angle steps. NaN when these views do not overlap.
   double closure_before_rad = kMissing;
-  double closure_after_rad = kMissing;
+  double closure_after_rad = kMissing;  ///< the same after registration
   double overlap = 0.0;        ///< share of the points that lie on a surface of another view
   double condition = 0.0;      ///< condition number of the equations, with the prior
   double weakest = 0.0;        ///< factor by which the views improve on the prior in the direction
@@ -39,11 +39,12 @@ struct RegistrationReport {
   /// there. About 0.002 for a part that did not move.
   double contradiction = 0.0;
   bool trustworthy = true;  ///< false when `contradiction` exceeds the limit of the options
-  int iterations = 0;
-  bool kept_rig = false;  ///< the given axis and angles fit as well and are kept
+  int iterations = 0;       ///< of the refinement; each linearizes once
+  bool kept_rig = false;    ///< the given axis and angles fit as well and are kept
 
+  /// Distance from `given.point_mm` to `table.point_mm`.
   [[nodiscard]] double axis_moved_mm() const;
-  [[nodiscard]] double axis_turned_rad() const;
+  [[nodiscard]] double axis_turned_rad() const;   ///< angle between the given and the refined axis
   [[nodiscard]] double largest_turn_rad() const;  ///< largest correction of an angle
   /// The findings in words: one sentence, or clauses separated by semicolons.
   [[nodiscard]] std::string text() const;

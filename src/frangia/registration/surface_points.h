@@ -10,10 +10,11 @@ namespace frangia {
 ///
 /// @units    mm; normals are unit
 struct SurfacePoints {
-  std::vector<Eigen::Vector3f> points_mm;
-  std::vector<Eigen::Vector3f> normals;
+  std::vector<Eigen::Vector3f> points_mm;  ///< positions
+  std::vector<Eigen::Vector3f> normals;    ///< one for each point
 
-  [[nodiscard]] std::size_t size() const { return points_mm.size(); }
+  [[nodiscard]] std::size_t size() const { return points_mm.size(); }  ///< number of points
+  /// Appends a point and its unit normal.
   void add(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
     points_mm.push_back(point);
     normals.push_back(normal);

@@ -14,18 +14,20 @@ namespace frangia {
 
 /// Views with known relative poses, and the surface that they measured, in a frame of their own.
 struct ViewGroup {
+  /// One view of the group and its pose.
   struct Member {
-    std::size_t view = 0;
+    std::size_t view = 0;  ///< index into `GroupViews::maps`
+    /// Pose of the view in the frame of the group.
     Eigen::Isometry3d rig_from_group = Eigen::Isometry3d::Identity();
   };
-  std::vector<Member> members;
-  SurfacePoints points;  ///< downsampled
+  std::vector<Member> members;  ///< views whose relative poses are fixed
+  SurfacePoints points;         ///< downsampled
 };
 
 /// Surfel maps and camera that the members of all groups refer to.
 struct GroupViews {
-  std::span<const SurfelMap> maps;
-  const FastCameraModel& model;
+  std::span<const SurfelMap> maps;  ///< one for each view
+  const FastCameraModel& model;     ///< camera of all views
 };
 
 /// A group of views with its points, about one for each cube of `spacing_mm`.

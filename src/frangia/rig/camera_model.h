@@ -11,11 +11,11 @@ namespace frangia {
 /// A pinhole camera with Brown-Conrady distortion, as in OpenCV. A digital projector is an inverse
 /// camera and uses the same model. Pixel (0, 0) has its centre at (0, 0).
 struct CameraModel {
-  int width_px = 0;
-  int height_px = 0;
-  Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();
-  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3
+  int width_px = 0;                                              ///< width of the image
+  int height_px = 0;                                             ///< height of the image
+  Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();            ///< focal lengths along x and y
+  Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();  ///< pixel on the optical axis
+  std::array<double, 5> distortion{};                            ///< k1 k2 p1 p2 k3
 
   /// Applies the distortion to the normalized point (x/z, y/z).
   [[nodiscard]] Eigen::Vector2d distort(const Eigen::Vector2d& normalized) const;

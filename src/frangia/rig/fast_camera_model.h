@@ -6,6 +6,7 @@ namespace frangia {
 
 /// Single-precision `CameraModel::project`, written so that the compiler vectorizes it.
 struct FastCameraModel {
+  /// Rounds the parameters of `model` to single precision.
   explicit FastCameraModel(const CameraModel& model)
       : fx(static_cast<float>(model.focal_px.x())),
         fy(static_cast<float>(model.focal_px.y())),
@@ -30,8 +31,12 @@ struct FastCameraModel {
 
   /// Derivatives of the pixel (u, v) with respect to the normalized point (x, y) = (X/Z, Y/Z).
   struct Jacobian {
-    float ux, uy, vx, vy;  ///< du/dx, du/dy, dv/dx, dv/dy
+    float ux,  ///< du/dx
+        uy,    ///< du/dy
+        vx,    ///< dv/dx
+        vy;    ///< dv/dy
   };
+  /// Returns the derivatives at the normalized point (x, y).
   [[nodiscard]] Jacobian jacobian(float x, float y) const {
     const float r2 = x * x + y * y;
     const float radial = 1.0F + r2 * (k1 + r2 * (k2 + r2 * k3));
@@ -43,7 +48,15 @@ struct FastCameraModel {
             fy * (radial + slope * y * y + 6.0F * p1 * y + 2.0F * p2 * x)};
   }
 
-  float fx, fy, cx, cy, k1, k2, p1, p2, k3;
+  float fx,  ///< focal length along x, px
+      fy,    ///< focal length along y, px
+      cx,    ///< principal point, column
+      cy,    ///< principal point, row
+      k1,    ///< radial distortion, factor of r^2
+      k2,    ///< radial distortion, factor of r^4
+      p1,    ///< tangential distortion, first coefficient
+      p2,    ///< tangential distortion, second coefficient
+      k3;    ///< radial distortion, factor of r^6
 };
 
 }  // namespace frangia

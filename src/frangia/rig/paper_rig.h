@@ -10,7 +10,7 @@ struct PaperGeometry {
   double focal_mm = 12.5;    ///< f
   double pixel_mm = 0.0125;  ///< y_pxl
   int columns = 512;         ///< ncol
-  int rows = 512;
+  int rows = 512;            ///< nrow
   double x0_mm = 490.0;      ///< distance from the camera to O
   double xp_mm = -449.6926;  ///< projector position along x; the default lies 1000 mm from O
   double theta0_rad = 0.3490658503988659;  ///< 20 degrees

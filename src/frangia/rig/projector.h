@@ -12,15 +12,16 @@ namespace frangia {
 
 /// An interferometric projector. Its fringes are evenly spaced in the angle psi = atan2(p.x, p.z).
 struct AngularModel {
-  double field_min_rad = 0.0;  ///< illuminated range of psi
-  double field_max_rad = 0.0;
+  double field_min_rad = 0.0;  ///< start of the illuminated range of psi
+  double field_max_rad = 0.0;  ///< end of the illuminated range of psi
 };
 
 /// A digital projector. Its fringes are evenly spaced in projector pixels.
 using PinholeModel = CameraModel;
 
+/// The calibrated projector of a rig: interferometer or digital projector, and its pose.
 struct Projector {
-  std::variant<AngularModel, PinholeModel> model;
+  std::variant<AngularModel, PinholeModel> model;          ///< fringe geometry
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();   ///< in the rig frame
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< projector_from_rig
 
@@ -28,6 +29,7 @@ struct Projector {
   /// uncorrected.
   std::optional<ResponseCurve> response = std::nullopt;
 
+  /// Whether it is an interferometer, not a digital projector.
   [[nodiscard]] bool is_angular() const { return std::holds_alternative<AngularModel>(model); }
   /// Transforms a point from the rig frame to the projector frame.
   [[nodiscard]] Eigen::Vector3d from_rig(const Eigen::Vector3d& point_mm) const {

@@ -10,8 +10,9 @@
 
 namespace frangia {
 
+/// The calibrated camera of a rig.
 struct Camera {
-  CameraModel model;
+  CameraModel model;                ///< projection and distortion
   int white_level = 255;            ///< a pixel at or above this level is saturated
   std::optional<NoiseModel> noise;  ///< estimated from the frames if absent
 };
@@ -19,12 +20,12 @@ struct Camera {
 /// The laser sheet: the plane normal . X = offset_mm in the rig frame.
 struct LaserSheet {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit
-  double offset_mm = 0.0;
+  double offset_mm = 0.0;  ///< signed distance of the plane from the camera's center
 };
 
 /// The axis of rotation in the rig frame.
 struct Turntable {
-  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< point on the axis of rotation
   Eigen::Vector3d axis =
       -Eigen::Vector3d::UnitY();  ///< unit vector that points up from the turntable top
 
@@ -34,10 +35,10 @@ struct Turntable {
 
 /// The calibrated scanner. The rig frame is the camera frame: x right, y down, z forward, in mm.
 struct Rig {
-  Camera camera;
-  Projector projector;
-  std::optional<LaserSheet> laser_sheet;
-  std::optional<Turntable> turntable;
+  Camera camera;                          ///< at the origin of the rig frame
+  Projector projector;                    ///< interferometer or digital projector
+  std::optional<LaserSheet> laser_sheet;  ///< gives fringe orders; none: the rig has no such source
+  std::optional<Turntable> turntable;     ///< none: the object stays where it is
 
   /// Returns `Turntable::rig_from_object`, or the identity for a rig without a turntable.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;

@@ -20,23 +20,30 @@ namespace frangia {
 /// only, because it includes toml++.
 class TomlReader {
  public:
+  /// `table_name` is the prefix of keys in messages; `table` must outlive the reader.
   TomlReader(std::filesystem::path file, std::string table_name, const toml::table& table)
       : file_(std::move(file)), table_name_(std::move(table_name)), table_(&table) {}
 
+  /// Throws Error(Input) that names the file and the key and says `what` is wrong.
   [[noreturn]] void fail(std::string_view key, std::string_view what) const {
     throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), name(key), what));
   }
+  /// Whether the table contains the key.
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
 
+  /// Finite number; the key is required.
   [[nodiscard]] double number(std::string_view key) { return finite(key, node(key)); }
+  /// Returns a finite number, or `fallback` if the key is missing.
   [[nodiscard]] double number_or(std::string_view key, double fallback) {
     return has(key) ? number(key) : fallback;
   }
+  /// Returns a number above 0; the key is required.
   [[nodiscard]] double positive(std::string_view key) {
     const double value = number(key);
     if (value <= 0.0) fail(key, fmt::format("is {}; it must be above 0", value));
     return value;
   }
+  /// Returns a whole number from `minimum` to `maximum`; the key is required.
   [[nodiscard]] int integer(std::string_view key, int minimum, int maximum) {
     const auto value = node(key).value_exact<std::int64_t>();
     if (!value) fail(key, "must be a whole number");
@@ -45,11 +52,13 @@ class TomlReader {
     }
     return static_cast<int>(*value);
   }
+  /// Returns a boolean; the key is required.
   [[nodiscard]] bool boolean(std::string_view key) {
     const auto value = node(key).value_exact<bool>();
     if (!value) fail(key, "must be true or false");
     return *value;
   }
+  /// Returns a string; the key is required.
   [[nodiscard]] std::string text(std::string_view key) {
     const auto value = node(key).value_exact<std::string>();
     if (!value) fail(key, "must be a string in quotes");
@@ -85,6 +94,7 @@ class TomlReader {
     }
     return values;
   }
+  /// Returns the reader of a required inner table.
   [[nodiscard]] TomlReader table(std::string_view key) {
     const toml::table* inner = node(key).as_table();
     if (inner == nullptr) fail(key, fmt::format("must be a table, [{}]", key));

@@ -8,6 +8,7 @@
 
 namespace frangia {
 
+/// The patterns that `default_patterns` creates for a rig.
 struct PatternPlan {
   double fringes_per_degree = 1.0;  ///< angular projector: pitch of the finest pattern
   std::vector<double> periods_px;   ///< pinhole projector; empty: width, width / 8, width / 64

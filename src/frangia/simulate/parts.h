@@ -25,11 +25,11 @@ namespace frangia {
 /// @errors   Error(Input) that lists the names for an unknown name
 [[nodiscard]] Mesh make_part(std::string_view name);
 
-[[nodiscard]] Mesh make_shaft();
-[[nodiscard]] Mesh make_blade();
-[[nodiscard]] Mesh make_bust();
-[[nodiscard]] Mesh make_ball_bar();
-[[nodiscard]] Mesh make_plate();
-[[nodiscard]] Mesh make_bracket();
+[[nodiscard]] Mesh make_shaft();     ///< the part "shaft" of `make_part`
+[[nodiscard]] Mesh make_blade();     ///< the part "blade" of `make_part`
+[[nodiscard]] Mesh make_bust();      ///< the part "bust" of `make_part`
+[[nodiscard]] Mesh make_ball_bar();  ///< the part "ball-bar" of `make_part`
+[[nodiscard]] Mesh make_plate();     ///< the part "plate" of `make_part`
+[[nodiscard]] Mesh make_bracket();   ///< the part "bracket" of `make_part`
 
 }  // namespace frangia

@@ -10,8 +10,8 @@ struct SimulateOptions {
   int samples_per_px = 1;  ///< rays per pixel on a regular grid; rounded up to a square
 
   // The camera.
-  int bits = 8;  ///< 8, or 10, 12 or 16 in a 16-bit PNG
-  bool noise = true;
+  int bits = 8;                  ///< 8, or 10, 12 or 16 in a 16-bit PNG
+  bool noise = true;             ///< shot noise and read noise of the camera
   double full_well_e = 20000.0;  ///< electrons of a white pixel
   double read_e = 8.0;           ///< read noise
   double exposure = 1.0;         ///< relative; 1 puts the brightest diffuse pixel at 80 % of white

@@ -14,7 +14,7 @@ namespace frangia {
 ///
 /// @units    mm, object frame
 struct PointCloud {
-  std::vector<Eigen::Vector3f> points_mm;
+  std::vector<Eigen::Vector3f> points_mm;  ///< positions
   std::vector<float> sigma_mm;  ///< standard deviation of each point along its viewing ray
 };
 

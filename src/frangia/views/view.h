@@ -15,7 +15,8 @@ namespace frangia {
 ///
 /// @units    mm, rig frame
 struct View {
-  RangeGrid range;
+  RangeGrid range;  ///< measured points
+  /// Pose of the object in the rig frame.
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
   std::vector<RangePixel> edge_pixels;  ///< missing in `range`
 };

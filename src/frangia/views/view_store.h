@@ -14,15 +14,17 @@ namespace frangia {
 /// @errors   Error(File) when the temporary folder cannot hold the views
 class ViewStore {
  public:
-  ViewStore();
+  ViewStore();  ///< opens the temporary file
   ViewStore(const ViewStore&) = delete;
   ViewStore& operator=(const ViewStore&) = delete;
+  /// Takes over the temporary file.
   ViewStore(ViewStore&& other) noexcept;
+  /// Takes over the temporary file.
   ViewStore& operator=(ViewStore&& other) noexcept;
   ~ViewStore();
 
-  [[nodiscard]] std::size_t size() const { return entries_.size(); }
-  void add(const View& view);
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }  ///< number of views
+  void add(const View& view);                                         ///< appends a view
   /// Replaces view `index`.
   ///
   /// @errors   Error(Input) unless the grid keeps its size and has a phase image when it had one
@@ -30,7 +32,7 @@ class ViewStore {
   void replace(std::size_t index, const View& view);
   /// Removes all points of view `index`; the view itself remains.
   void clear(std::size_t index);
-  [[nodiscard]] View load(std::size_t index) const;
+  [[nodiscard]] View load(std::size_t index) const;  ///< reads a view from the file
   /// Loads a view without its phase image, for stages that use points only.
   [[nodiscard]] View load_points(std::size_t index) const;
   /// Loads the depth image alone.
@@ -39,6 +41,7 @@ class ViewStore {
   [[nodiscard]] const Eigen::Isometry3d& rig_from_object(std::size_t index) const {
     return entries_[index].rig_from_object;
   }
+  /// Changes the pose of a view without writing its grid.
   void set_rig_from_object(std::size_t index, const Eigen::Isometry3d& pose) {
     entries_[index].rig_from_object = pose;
   }
