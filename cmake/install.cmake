@@ -14,6 +14,6 @@ configure_package_config_file(cmake/frangiaConfig.cmake.in ${PROJECT_BINARY_DIR}
 # Before 1.0 a minor version may break the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/frangiaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/frangiaConfig.cmake ${PROJECT_BINARY_DIR}/frangiaConfigVersion.cmake
-  DESTINATION ${package_dir} COMPONENT development)
+  cmake/FindOpenCVModules.cmake DESTINATION ${package_dir} COMPONENT development)
 install(EXPORT frangiaTargets NAMESPACE frangia:: DESTINATION ${package_dir} COMPONENT development)
 install(FILES LICENSE NOTICE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

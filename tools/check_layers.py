@@ -4,7 +4,7 @@ import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
-statements = re.findall(r"^frangia_module\((.*?)\)", (root / "CMakeLists.txt").read_text(), re.M | re.S)
+statements = re.findall(r"^\s*frangia_module\((.*?)\)", (root / "CMakeLists.txt").read_text(), re.M | re.S)
 uses = {}  # module -> the modules that it may include, in the order of CMakeLists.txt
 errors = []
 for statement in statements:

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace frangia {
+
+/// Where camera and projector see one point of the board.
+struct BoardPoint {
+  int index = 0;                                        ///< of `board_points_mm`
+  Eigen::Vector2d camera_px = Eigen::Vector2d::Zero();  ///< in the camera image
+  /// Projector pixel that lights the point, from the phases of both fringe directions; NaN where a
+  /// phase is missing.
+  Eigen::Vector2d projector_px =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Standard deviation of `projector_px` as the phase noise predicts it.
+  Eigen::Vector2d projector_sigma_px =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+};
+
+/// One pose of the board.
+struct BoardView {
+  std::string name;                ///< of the view's folder, for messages
+  std::vector<BoardPoint> points;  ///< those that were found
+};
+
+}  // namespace frangia

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+
+namespace frangia {
+
+/// Window of a local phase fit.
+struct PhaseFitOptions {
+  int radius_px = 15;   ///< of the square window about the point
+  int min_pixels = 30;  ///< fewer measured ones give no value
+};
+
+/// Absolute phase at one point and its standard deviation; NaN where it cannot be fitted.
+struct PhaseAt {
+  double phase_rad = std::numeric_limits<double>::quiet_NaN();  ///< value of the fit
+  double sigma_rad = std::numeric_limits<double>::quiet_NaN();  ///< scaled to the residuals
+};
+
+/// Absolute phase at a point between pixels: the value of a quadratic that is fitted to the pixels
+/// around it, weighted by their sigma and robust against outliers.
+///
+/// @shape    both images w x h
+/// @units    rad; px
+/// @missing  NaN where too few pixels of the window are measured
+/// @source   least squares with Tukey's biweight
+[[nodiscard]] PhaseAt fit_phase_at(const Image<float>& phase_rad,
+                                   const Image<float>& sigma_rad,
+                                   const Eigen::Vector2d& point_px,
+                                   const PhaseFitOptions& options = {});
+
+}  // namespace frangia

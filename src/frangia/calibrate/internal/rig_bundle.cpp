@@ -1,0 +1,228 @@
+#include "frangia/calibrate/internal/rig_bundle.h"
+
+#include <cmath>
+#include <memory>
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+namespace frangia {
+namespace {
+
+template <typename T>
+Eigen::Matrix<T, 3, 1> transform(const T* pose, const Eigen::Matrix<T, 3, 1>& point) {
+  Eigen::Matrix<T, 3, 1> rotated;
+  ceres::AngleAxisRotatePoint(pose, point.data(), rotated.data());
+  return {rotated.x() + pose[3], rotated.y() + pose[4], rotated.z() + pose[5]};
+}
+
+/// Weighted residual of a point seen by the camera.
+struct CameraResidual {
+  BoardSite site;
+  Eigen::Vector2d pixel;
+  Eigen::Vector2d weight;
+
+  template <typename T>
+  bool operator()(const T* intrinsics, const T* shape, const T* pose, T* residual) const {
+    const Eigen::Matrix<T, 3, 1> point = transform(pose, site.position(shape));
+    if (!(point.z() > T(0.0))) return false;
+    const Eigen::Matrix<T, 2, 1> predicted = project_point(intrinsics, point);
+    residual[0] = weight.x() * (predicted.x() - pixel.x());
+    residual[1] = weight.y() * (predicted.y() - pixel.y());
+    return true;
+  }
+};
+
+/// Weighted residual of the projector pixel that lights a point.
+struct ProjectorResidual {
+  BoardSite site;
+  Eigen::Vector2d pixel;
+  Eigen::Vector2d weight;
+
+  template <typename T>
+  bool operator()(const T* intrinsics,
+                  const T* projector_from_camera,
+                  const T* shape,
+                  const T* pose,
+                  T* residual) const {
+    const Eigen::Matrix<T, 3, 1> point =
+        transform(projector_from_camera, transform(pose, site.position(shape)));
+    if (!(point.z() > T(0.0))) return false;
+    const Eigen::Matrix<T, 2, 1> predicted = project_point(intrinsics, point);
+    residual[0] = weight.x() * (predicted.x() - pixel.x());
+    residual[1] = weight.y() * (predicted.y() - pixel.y());
+    return true;
+  }
+};
+
+template <std::size_t n>
+void fix(ceres::Problem& problem, double* block, const std::array<bool, n>& free) {
+  std::vector<int> constant;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!free[i]) constant.push_back(static_cast<int>(i));
+  if (constant.size() == n) {
+    problem.SetParameterBlockConstant(block);
+  } else if (!constant.empty()) {
+    problem.SetManifold(block,
+                        new ceres::SubsetManifold(static_cast<int>(n), constant));  // NOLINT owned
+  }
+}
+
+/// Lets a stop request end the solver.
+class StopCallback final : public ceres::IterationCallback {
+ public:
+  explicit StopCallback(const Run& run) : run_(run) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return run_.stop.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Run& run_;
+};
+
+void build(std::span<const RigObservation> observations,
+           const RigFreedom& freedom,
+           const RigNoise& noise,
+           bool robust,
+           RigParameters& parameters,
+           ceres::Problem& problem) {
+  constexpr double kHuber = 3.0;  // sigmas
+  problem.AddParameterBlock(parameters.camera.data(), kIntrinsics);
+  problem.AddParameterBlock(parameters.projector.data(), kIntrinsics);
+  problem.AddParameterBlock(parameters.projector_from_camera.data(), kPose);
+  problem.AddParameterBlock(parameters.board.data(), kShape);
+  for (RigParameters::Pose& pose : parameters.camera_from_board)
+    problem.AddParameterBlock(pose.data(), kPose);
+  for (const RigObservation& observation : observations) {
+    const double scale = observation.by_projector ? noise.projector : noise.camera;
+    const Eigen::Vector2d weight = (scale * observation.sigma_px).cwiseInverse();
+    ceres::LossFunction* loss = robust ? new ceres::HuberLoss(kHuber) : nullptr;  // NOLINT owned
+    double* pose = parameters.camera_from_board[observation.view].data();
+    if (observation.by_projector) {
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<ProjectorResidual, 2, kIntrinsics, kPose, kShape, kPose>(
+              new ProjectorResidual{observation.site, observation.pixel, weight}),
+          loss,
+          parameters.projector.data(),
+          parameters.projector_from_camera.data(),
+          parameters.board.data(),
+          pose);
+    } else {
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<CameraResidual, 2, kIntrinsics, kShape, kPose>(
+              new CameraResidual{observation.site, observation.pixel, weight}),
+          loss,
+          parameters.camera.data(),
+          parameters.board.data(),
+          pose);
+    }
+  }
+  fix(problem, parameters.camera.data(), freedom.camera);
+  fix(problem, parameters.projector.data(), freedom.projector);
+  fix(problem, parameters.board.data(), freedom.board);
+}
+
+}  // namespace
+
+std::size_t RigFreedom::count() const {
+  std::size_t free = kPose;
+  for (const bool flag : camera)
+    free += flag ? 1 : 0;
+  for (const bool flag : projector)
+    free += flag ? 1 : 0;
+  for (const bool flag : board)
+    free += flag ? 1 : 0;
+  return free;
+}
+
+std::vector<RigObservation> observations_of(const Board& board, std::span<const BoardView> views) {
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
+  const Eigen::Vector2d center = 0.5 * (nominal.front() + nominal.back());
+  const Eigen::Vector2d half = nominal.back() - center;
+  std::vector<RigObservation> observations;
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    for (std::size_t i = 0; i < views[view].points.size(); ++i) {
+      const BoardPoint& point = views[view].points[i];
+      const Eigen::Vector2d place = nominal[static_cast<std::size_t>(point.index)] - center;
+      const Eigen::Vector2d relative = place.cwiseQuotient(half);
+      const BoardSite site{place, board_height_terms(relative.x(), relative.y())};
+      observations.push_back({view, i, site, false, point.camera_px, Eigen::Vector2d::Ones()});
+      if (point.projector_px.allFinite() && (point.projector_sigma_px.array() > 0.0).all())
+        observations.push_back({view, i, site, true, point.projector_px, point.projector_sigma_px});
+    }
+  }
+  return observations;
+}
+
+Eigen::Vector2d residual_of(const RigObservation& observation, const RigParameters& parameters) {
+  Eigen::Vector2d residual = Eigen::Vector2d::Constant(std::nan(""));
+  const double* pose = parameters.camera_from_board[observation.view].data();
+  const Eigen::Vector2d one = Eigen::Vector2d::Ones();
+  if (observation.by_projector) {
+    ProjectorResidual{observation.site, observation.pixel, one}(
+        parameters.projector.data(),
+        parameters.projector_from_camera.data(),
+        parameters.board.data(),
+        pose,
+        residual.data());
+  } else {
+    CameraResidual{observation.site, observation.pixel, one}(
+        parameters.camera.data(), parameters.board.data(), pose, residual.data());
+  }
+  return residual;
+}
+
+RigBundleResult adjust_rig(std::span<const RigObservation> observations,
+                           const RigFreedom& freedom,
+                           const RigNoise& noise,
+                           int max_iterations,
+                           RigParameters& parameters,
+                           const Run& run) {
+  ceres::Problem problem;
+  build(observations, freedom, noise, true, parameters, problem);
+  StopCallback stop(run);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;  // eliminates the poses
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-12;
+  options.num_threads = 1;  // the same bytes on any machine
+  options.logging_type = ceres::SILENT;
+  options.callbacks.push_back(&stop);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  run.check();
+  return {static_cast<int>(summary.iterations.size()), summary.IsSolutionUsable()};
+}
+
+RigLinearization linearize_rig(std::span<const RigObservation> observations,
+                               const RigFreedom& freedom,
+                               const RigNoise& noise,
+                               const RigParameters& parameters) {
+  RigParameters copy = parameters;
+  ceres::Problem problem;
+  build(observations, freedom, noise, false, copy, problem);
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = {copy.camera.data(),
+                              copy.projector.data(),
+                              copy.projector_from_camera.data(),
+                              copy.board.data()};
+  for (RigParameters::Pose& pose : copy.camera_from_board)
+    options.parameter_blocks.push_back(pose.data());
+  ceres::CRSMatrix sparse;
+  std::vector<double> residuals;
+  problem.Evaluate(options, nullptr, &residuals, nullptr, &sparse);
+  RigLinearization out;
+  out.residuals =
+      Eigen::VectorXd::Map(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+  out.jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row) {
+    const auto end = static_cast<std::size_t>(sparse.rows[static_cast<std::size_t>(row) + 1]);
+    for (auto i = static_cast<std::size_t>(sparse.rows[static_cast<std::size_t>(row)]); i < end;
+         ++i)
+      out.jacobian(row, sparse.cols[i]) = sparse.values[i];
+  }
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "frangia/calibrate/internal/rig_bundle.h"
+#include "frangia/calibrate/solve_rig.h"
+
+namespace frangia {
+
+/// Adds the covariance of camera, projector and relative pose to a solution, with the poses and the
+/// board's shape marginalized, and names the parameters that the data leaves open.
+///
+/// @units    focal lengths and principal points px, rotation rad, translation mm
+/// @missing  a parameter that is not determined has the variance of its prior: none, so infinite
+/// @source   inverse of the normal equations; a direction whose eigenvalue is below 1e-12 of the
+///           largest, in parameters scaled to unit diagonal, counts as not determined
+void add_covariance(std::span<const RigObservation> observations,
+                    const RigFreedom& freedom,
+                    const RigNoise& noise,
+                    const RigParameters& parameters,
+                    RigSolution& solution);
+
+}  // namespace frangia

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace frangia {
+
+constexpr int kIntrinsics = 9;
+constexpr int kPose = 6;
+constexpr int kShape = 14;
+
+/// Parameters of the bundle adjustment as its solver has them: flat blocks of numbers.
+struct RigParameters {
+  using Intrinsics = std::array<double, 9>;  ///< fx fy/fx cx cy k1 k2 p1 p2 k3
+  using Pose = std::array<double, 6>;        ///< rotation vector, rad; translation, mm
+  using Shape = std::array<double, 14>;      ///< aspect, shear, 12 heights in mm
+
+  Intrinsics camera{};
+  Intrinsics projector{};
+  Pose projector_from_camera{};
+  std::vector<Pose> camera_from_board;
+  Shape board{};
+};
+
+/// Which parameters are estimated. Those that are not keep their values.
+struct RigFreedom {
+  std::array<bool, 9> camera{true, false, true, true, true, false, false, false, false};
+  std::array<bool, 9> projector{true, false, true, true, true, false, false, false, false};
+  std::array<bool, 14> board{};
+
+  [[nodiscard]] std::size_t count() const;  ///< of free parameters, poses left out
+};
+
+/// Values of the height terms at a point of the board: Legendre products of degree 2, 3 and 4 in
+/// coordinates that run from -1 to 1 over the board.
+template <typename T>
+[[nodiscard]] std::array<T, 12> board_height_terms(const T& u, const T& v) {
+  const T u2 = 0.5 * (3.0 * u * u - 1.0);
+  const T v2 = 0.5 * (3.0 * v * v - 1.0);
+  const T u3 = 0.5 * u * (5.0 * u * u - 3.0);
+  const T v3 = 0.5 * v * (5.0 * v * v - 3.0);
+  const T u4 = 0.125 * (35.0 * u * u * u * u - 30.0 * u * u + 3.0);
+  const T v4 = 0.125 * (35.0 * v * v * v * v - 30.0 * v * v + 3.0);
+  return {u2, u * v, v2, u3, u2 * v, u * v2, v3, u4, u3 * v, u2 * v2, u * v3, v4};
+}
+
+/// A point of the board as it is estimated to be.
+struct BoardSite {
+  Eigen::Vector2d nominal_mm;  ///< relative to the board's center
+  std::array<double, 12> height_terms;
+
+  template <typename T>
+  [[nodiscard]] Eigen::Matrix<T, 3, 1> position(const T* shape) const {
+    T height(0.0);
+    for (std::size_t i = 0; i < height_terms.size(); ++i)
+      height += shape[i + 2] * height_terms[i];
+    const T y = nominal_mm.y() * (1.0 + shape[0]);
+    return {nominal_mm.x() + shape[1] * y, y, height};
+  }
+};
+
+/// Pixel of a point given in the camera's own frame: pinhole with Brown-Conrady distortion.
+template <typename T>
+[[nodiscard]] Eigen::Matrix<T, 2, 1> project_point(const T* intrinsics,
+                                                   const Eigen::Matrix<T, 3, 1>& point) {
+  const T x = point.x() / point.z();
+  const T y = point.y() / point.z();
+  const T r2 = x * x + y * y;
+  const T radial = 1.0 + r2 * (intrinsics[4] + r2 * (intrinsics[5] + r2 * intrinsics[8]));
+  const T bent_x = x * radial + 2.0 * intrinsics[6] * x * y + intrinsics[7] * (r2 + 2.0 * x * x);
+  const T bent_y = y * radial + intrinsics[6] * (r2 + 2.0 * y * y) + 2.0 * intrinsics[7] * x * y;
+  return {intrinsics[0] * bent_x + intrinsics[2],
+          intrinsics[0] * intrinsics[1] * bent_y + intrinsics[3]};
+}
+
+}  // namespace frangia

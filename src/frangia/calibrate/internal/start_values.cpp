@@ -1,0 +1,156 @@
+#include "frangia/calibrate/internal/start_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <opencv2/calib3d.hpp>
+
+#include "frangia/core/error.h"
+#include "frangia/core/median.h"
+
+namespace frangia {
+namespace {
+
+/// The points of one view as one device sees them.
+struct SeenPoints {
+  std::vector<cv::Point3f> board_mm;
+  std::vector<cv::Point2f> pixels;
+};
+
+SeenPoints seen_points(const Board& board, const BoardView& view, bool by_projector) {
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
+  const Eigen::Vector2d center = 0.5 * (nominal.front() + nominal.back());
+  SeenPoints seen;
+  for (const BoardPoint& point : view.points) {
+    const Eigen::Vector2d& pixel = by_projector ? point.projector_px : point.camera_px;
+    if (!pixel.allFinite()) continue;
+    const Eigen::Vector2d place = nominal[static_cast<std::size_t>(point.index)] - center;
+    seen.board_mm.emplace_back(static_cast<float>(place.x()), static_cast<float>(place.y()), 0.0F);
+    seen.pixels.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+  }
+  return seen;
+}
+
+constexpr std::size_t kFewestPoints = 6;
+
+/// Focal length and principal point, without distortion.
+cv::Mat start_matrix(const std::vector<SeenPoints>& views, int width_px, int height_px) {
+  std::vector<std::vector<cv::Point3f>> board;
+  std::vector<std::vector<cv::Point2f>> pixels;
+  for (const SeenPoints& seen : views) {
+    if (seen.pixels.size() < kFewestPoints) continue;
+    board.push_back(seen.board_mm);
+    pixels.push_back(seen.pixels);
+  }
+  cv::Mat matrix = cv::initCameraMatrix2D(board, pixels, cv::Size(width_px, height_px), 1.0);
+  const double focal = matrix.at<double>(0, 0);
+  const double longest = std::max(width_px, height_px);
+  // Views without tilt leave the focal length open; an ordinary lens is a better start then.
+  constexpr double kShortest = 0.2;
+  constexpr double kLongest = 20.0;
+  constexpr double kOrdinary = 1.5;
+  if (!(focal > kShortest * longest && focal < kLongest * longest))
+    matrix.at<double>(0, 0) = matrix.at<double>(1, 1) = kOrdinary * longest;
+  return matrix;
+}
+
+RigParameters::Intrinsics intrinsics_of(const cv::Mat& matrix) {
+  return {matrix.at<double>(0, 0),
+          1.0,
+          matrix.at<double>(0, 2),
+          matrix.at<double>(1, 2),
+          0.0,
+          0.0,
+          0.0,
+          0.0,
+          0.0};
+}
+
+RigParameters::Pose pose_of(const SeenPoints& seen, const cv::Mat& matrix) {
+  cv::Mat rotation;
+  cv::Mat translation;
+  cv::solvePnP(seen.board_mm,
+               seen.pixels,
+               matrix,
+               cv::noArray(),
+               rotation,
+               translation,
+               false,
+               cv::SOLVEPNP_IPPE);
+  cv::solvePnP(seen.board_mm, seen.pixels, matrix, cv::noArray(), rotation, translation, true);
+  RigParameters::Pose pose{};
+  for (int i = 0; i < 3; ++i) {
+    pose.at(static_cast<std::size_t>(i)) = rotation.at<double>(i);
+    pose.at(static_cast<std::size_t>(i) + 3) = translation.at<double>(i);
+  }
+  return pose;
+}
+
+Eigen::Isometry3d isometry_of(const RigParameters::Pose& pose) {
+  const Eigen::Vector3d rotation(pose[0], pose[1], pose[2]);
+  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
+  if (rotation.norm() > 0.0)
+    isometry.linear() = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).matrix();
+  isometry.translation() = Eigen::Vector3d(pose[3], pose[4], pose[5]);
+  return isometry;
+}
+
+RigParameters::Pose pose_from(const Eigen::Isometry3d& isometry) {
+  const Eigen::AngleAxisd turn(isometry.rotation());
+  const Eigen::Vector3d rotation = turn.angle() * turn.axis();
+  const Eigen::Vector3d& translation = isometry.translation();
+  return {
+      rotation.x(), rotation.y(), rotation.z(), translation.x(), translation.y(), translation.z()};
+}
+
+/// The relative pose that most views agree on: the median of each coordinate.
+RigParameters::Pose median_pose(const std::vector<RigParameters::Pose>& poses) {
+  RigParameters::Pose result{};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    std::vector<double> values;
+    for (const RigParameters::Pose& pose : poses)
+      values.push_back(pose.at(i));
+    result.at(i) = median(values);
+  }
+  return result;
+}
+
+}  // namespace
+
+RigParameters start_values(const Board& board,
+                           std::span<const BoardView> views,
+                           const RigSizes& sizes) {
+  std::vector<SeenPoints> by_camera;
+  std::vector<SeenPoints> by_projector;
+  for (const BoardView& view : views) {
+    by_camera.push_back(seen_points(board, view, false));
+    by_projector.push_back(seen_points(board, view, true));
+    if (by_camera.back().pixels.size() < kFewestPoints) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: only {} points of the board are seen; leave the view out",
+                              view.name,
+                              by_camera.back().pixels.size()));
+    }
+  }
+  RigParameters parameters;
+  const cv::Mat camera = start_matrix(by_camera, sizes.camera_width_px, sizes.camera_height_px);
+  const cv::Mat projector =
+      start_matrix(by_projector, sizes.projector_width_px, sizes.projector_height_px);
+  parameters.camera = intrinsics_of(camera);
+  parameters.projector = intrinsics_of(projector);
+  std::vector<RigParameters::Pose> relative;
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    parameters.camera_from_board.push_back(pose_of(by_camera[view], camera));
+    if (by_projector[view].pixels.size() < kFewestPoints) continue;
+    const Eigen::Isometry3d projector_from_board =
+        isometry_of(pose_of(by_projector[view], projector));
+    relative.push_back(pose_from(projector_from_board *
+                                 isometry_of(parameters.camera_from_board.back()).inverse()));
+  }
+  parameters.projector_from_camera = median_pose(relative);
+  return parameters;
+}
+
+}  // namespace frangia

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "frangia/calibrate/board.h"
+#include "frangia/calibrate/board_view.h"
+#include "frangia/core/run.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// Sizes of the images that the rig is calibrated for.
+struct RigSizes {
+  int camera_width_px = 0;      ///< columns of a camera image
+  int camera_height_px = 0;     ///< rows of a camera image
+  int projector_width_px = 0;   ///< columns of the projector
+  int projector_height_px = 0;  ///< rows of the projector
+};
+
+/// Deviation of the real board from the nominal one: a printed board is scaled unevenly and bulges.
+struct BoardShape {
+  double aspect = 0.0;  ///< y is longer by this share than nominal, x has its nominal length
+  double shear = 0.0;   ///< x grows by this share of y
+  /// Height above the plane: coefficients of the Legendre products in `board_height_terms`, in mm.
+  std::array<double, 12> height_mm{};
+};
+
+/// How well one set of residuals fits, all points counted.
+struct ResidualSummary {
+  double rms_px = 0.0;     ///< root of the mean squared distance, OpenCV's reprojection error
+  double max_px = 0.0;     ///< largest distance
+  std::size_t points = 0;  ///< points that were compared
+  double sigma_px = 0.0;   ///< estimated standard deviation of one coordinate
+};
+
+/// How much freedom the models get.
+struct RigSolveOptions {
+  /// Terms beyond the first radial coefficient and one focal length enter the model only when they
+  /// lower the weighted squares by more than this for each parameter: 2 is Akaike's criterion.
+  double min_gain = 2.0;
+  int max_iterations = 100;   ///< of the solver, for each round
+  bool release_board = true;  ///< estimate the board's deviation from its nominal shape, too
+};
+
+/// The calibrated part of a rig, with its uncertainty.
+struct RigSolution {
+  CameraModel camera;      ///< intrinsics of the camera
+  PinholeModel projector;  ///< intrinsics of the projector
+  Eigen::Isometry3d projector_from_camera = Eigen::Isometry3d::Identity();  ///< relative pose, mm
+  std::vector<Eigen::Isometry3d> camera_from_board;                         ///< one a view
+  BoardShape board;                                ///< estimated shape of the board
+  ResidualSummary camera_residuals;                ///< of all camera pixels
+  ResidualSummary projector_residuals;             ///< of all projector pixels
+  std::vector<ResidualSummary> camera_by_view;     ///< one a view
+  std::vector<ResidualSummary> projector_by_view;  ///< one a view
+  /// Residuals, observed minus predicted, point by point in the order of the views; NaN where there
+  /// is no observation.
+  std::vector<std::vector<Eigen::Vector2d>> camera_residuals_px;
+  std::vector<std::vector<Eigen::Vector2d>> projector_residuals_px;  ///< likewise, of the projector
+  std::vector<std::string> terms;         ///< model terms that the data supports, in words
+  std::vector<std::string> parameters;    ///< names of the rows of `covariance`: "camera.fx", ...
+  Eigen::MatrixXd covariance;             ///< of the free parameters of camera, projector and pose
+  std::vector<std::string> undetermined;  ///< parameters that the poses do not determine
+  int iterations = 0;                     ///< of the solver, all rounds together
+};
+
+/// Estimates camera, projector and their relative pose from views of a board in one bundle
+/// adjustment over all views. The order of the distortion models and of the board's shape is chosen
+/// by evidence; the standard deviations of corners and phases are scaled to what they leave over.
+///
+/// @units    mm, px, rad
+/// @missing  points whose `projector_px` is NaN enter by their camera pixel alone
+/// @errors   Error(Input) for fewer than three views or none with a projector pixel;
+///           Error(Numeric) when the adjustment fails
+/// @source   Zhang 2000, A Flexible New Technique for Camera Calibration; Zhang & Huang 2006, Novel
+///           method for structured light system calibration; Akaike 1974 for the order of the model
+[[nodiscard]] RigSolution solve_rig(const Board& board,
+                                    std::span<const BoardView> views,
+                                    const RigSizes& sizes,
+                                    const RigSolveOptions& options = {},
+                                    const Run& run = {});
+
+}  // namespace frangia
