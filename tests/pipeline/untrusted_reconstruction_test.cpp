@@ -8,39 +8,21 @@
 
 #include "frangia/pipeline/reconstruct.h"
 
+#include "support/displaced_views.h"
 #include "support/small_scan.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
 namespace {
 
+using testing::displace_every_other_view;
 using testing::small_scan;
 using testing::TemporaryFolder;
-
-/// Takes every other view again after the part was pushed, each time elsewhere.
-void push_every_other_view(const Scan& scan) {
-  for (std::size_t view = 1; view < scan.views.size(); view += 2) {
-    const TemporaryFolder folder;
-    Scan plan = scan;
-    plan.folder = folder.path();
-    plan.views = {scan.views[view]};
-    Mesh part = make_part("bracket");
-    const double way = 2.3 * static_cast<double>(view);
-    for (Eigen::Vector3f& vertex : part.vertices_mm)
-      vertex += Eigen::Vector3d(2.5 * std::cos(way), 2.5 * std::sin(way), 1.5).cast<float>();
-    static_cast<void>(simulate_scan(part, plan, {}));
-    const auto frames = scan.views[view].folder;
-    std::filesystem::copy(plan.folder / frames,
-                          scan.folder / frames,
-                          std::filesystem::copy_options::overwrite_existing |
-                              std::filesystem::copy_options::recursive);
-  }
-}
 
 TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
   const TemporaryFolder folder;
   const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {});
-  push_every_other_view(scan);
+  displace_every_other_view(scan);
   std::vector<std::string> notes;
   frangia::Run run;
   run.on_note = [&](const std::string& sentence) { notes.push_back(sentence); };
