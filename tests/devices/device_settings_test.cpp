@@ -55,6 +55,22 @@ TEST(DeviceSettings, NameTheFileAndTheKeyOfAnError) {
             place + "steps must be a whole number");
 }
 
+TEST(DeviceSettings, NameADeviceByItsNameOrItsNumber) {
+  const testing::TemporaryFolder folder;
+  auto all = settings_of(folder.path(),
+                         "[devices.fringes]\nmonitor = 0\nsecond = \"HDMI-1\"\nhalf = 0.5\n"
+                         "below = -1\nlist = [1]\n");
+  DeviceSettings& fringes = all.front();
+  EXPECT_EQ(fringes.name_or_number("monitor", ""), "0");
+  EXPECT_EQ(fringes.name_or_number("second", ""), "HDMI-1");
+  EXPECT_EQ(fringes.name_or_number("missing", "last"), "last");
+  for (const char* key : {"half", "below", "list"}) {
+    EXPECT_EQ(sentence_of([&] { static_cast<void>(fringes.name_or_number(key, "")); }),
+              (folder.path() / "rig.toml").string() + ": devices.fringes." + key +
+                  " must be a name in quotes or a whole number from 0");
+  }
+}
+
 TEST(DeviceSettings, WarnOfKeysThatNoDriverReads) {
   const testing::TemporaryFolder folder;
   auto all = settings_of(folder.path(), "[devices.light]\ndriver = \"x\"\nprot = \"a\"\n");

@@ -55,6 +55,16 @@ std::string DeviceSettings::text_or(std::string_view key, std::string_view other
   return has(key) ? text(key) : std::string(otherwise);
 }
 
+std::string DeviceSettings::name_or_number(std::string_view key, std::string_view otherwise) {
+  if (!has(key)) return std::string(otherwise);
+  const SettingValue& value = at(key);
+  if (const auto* name = std::get_if<std::string>(&value)) return *name;
+  const double* number = std::get_if<double>(&value);
+  if (number == nullptr || !(*number >= 0.0 && *number <= 1e6) || *number != std::floor(*number))
+    fail(key, "must be a name in quotes or a whole number from 0");
+  return fmt::format("{:.0f}", *number);
+}
+
 std::string DeviceSettings::choice(std::string_view key,
                                    std::initializer_list<std::string_view> choices) {
   std::string value = text_or(key, *choices.begin());

@@ -40,6 +40,8 @@ class DeviceSettings {
   [[nodiscard]] std::string text(std::string_view key);  ///< string; the key is required
   /// String, or `otherwise` if the key is missing.
   [[nodiscard]] std::string text_or(std::string_view key, std::string_view otherwise);
+  /// A string, or a whole number of 0 or more as text: the name or the number of a device.
+  [[nodiscard]] std::string name_or_number(std::string_view key, std::string_view otherwise);
   /// One of `choices`; the first when the key is missing.
   [[nodiscard]] std::string choice(std::string_view key,
                                    std::initializer_list<std::string_view> choices);

@@ -13,7 +13,7 @@ Driver glfw_driver() {
   driver.open =
       [](DeviceSettings& settings, const Rig& rig, const Deadline&) -> std::unique_ptr<Device> {
     GlfwSettings display;
-    display.monitor = settings.text_or("monitor", "");
+    display.monitor = settings.name_or_number("monitor", "");
     display.delay_s = settings.number_or("delay_s", display.delay_s, 0.0, 10.0);
     display.response = rig.projector.response;
     return open_glfw_display(display);
