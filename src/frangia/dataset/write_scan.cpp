@@ -1,51 +1,18 @@
 #include "frangia/dataset/write_scan.h"
 
 #include <array>
-#include <cstdlib>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/toml_writer.h"
 
 namespace frangia {
 namespace {
 
-/// Writes keys in the order of the calls; a toml::table would sort them.
-class TomlWriter {
- public:
-  void begin_table_of_list(const std::string& name) { text_ << "\n[[" << name << "]]\n"; }
-  template <typename T>
-  void put(const std::string& key, const T& value) {
-    text_ << key << " = " << toml::value(value) << '\n';
-  }
-  void put(const std::string& key, const toml::array& values) {
-    text_ << key << " = " << values << '\n';
-  }
-  void put(const std::string& key, const std::vector<double>& values) {
-    toml::array array;
-    for (const double value : values)
-      array.push_back(value);
-    put(key, array);
-  }
-  void save(const std::filesystem::path& path) const {
-    AtomicFile file(path);
-    file.stream() << text_.str();
-    file.commit();
-  }
-
- private:
-  std::ostringstream text_;
-};
-
-/// Twelve digits, so that 120 degrees are not written as 120.00000000000001.
 double rounded(double value) {
-  return std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr);
+  return rounded_to_digits(value, 12);
 }
 
 void put_pattern(TomlWriter& writer, const Pattern& pattern) {

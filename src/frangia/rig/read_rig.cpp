@@ -1,15 +1,17 @@
 #include "frangia/rig/read_rig.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/rig/toml_reader.h"
+#include "frangia/rig/toml_writer.h"
 
 namespace frangia {
 namespace {
@@ -122,44 +124,53 @@ Projector read_projector(TomlReader reader, const Run& run) {
   return projector;
 }
 
-std::string toml_of(const CameraModel& model) {
-  return fmt::format(
-      "size_px = [{}, {}]\nfocal_px = [{}, {}]\nprincipal_point_px = [{}, {}]\n"
-      "distortion = [{}]\n",
-      model.width_px,
-      model.height_px,
-      model.focal_px.x(),
-      model.focal_px.y(),
-      model.principal_point_px.x(),
-      model.principal_point_px.y(),
-      fmt::join(model.distortion, ", "));
+toml::array list_of(const Eigen::Vector3d& v) {
+  return toml::array{v.x(), v.y(), v.z()};
 }
 
-std::string toml_of(const Eigen::Vector3d& v) {
-  return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z());
+void put_camera_model(TomlWriter& writer, const CameraModel& model) {
+  writer.put("size_px", toml::array{model.width_px, model.height_px});
+  writer.put("focal_px", toml::array{model.focal_px.x(), model.focal_px.y()});
+  writer.put("principal_point_px",
+             toml::array{model.principal_point_px.x(), model.principal_point_px.y()});
+  writer.put("distortion", std::vector<double>(model.distortion.begin(), model.distortion.end()));
 }
 
-std::string toml_of(const Projector& projector) {
+void put_camera(TomlWriter& writer, const Camera& camera) {
+  writer.begin_table("camera");
+  put_camera_model(writer, camera.model);
+  writer.put("white_level", camera.white_level);
+  if (!camera.noise) return;
+  const double gain = 1.0 / camera.noise->slope_counts;
+  const double read2 = std::max(0.0, camera.noise->floor_counts2 - 1.0 / 12.0);
+  writer.begin_table("camera.noise");
+  writer.put("gain_e_per_count", gain);
+  writer.put("read_e", gain * std::sqrt(read2));
+}
+
+void put_projector(TomlWriter& writer, const Projector& projector) {
   const Eigen::Matrix3d& r = projector.rotation;
-  std::string text =
-      fmt::format("\n[projector]\nmodel = \"{}\"\nposition_mm = {}\nrotation = [{}, {}, {}]\n",
-                  projector.is_angular() ? "angular" : "pinhole",
-                  toml_of(projector.position_mm),
-                  toml_of(Eigen::Vector3d(r.row(0))),
-                  toml_of(Eigen::Vector3d(r.row(1))),
-                  toml_of(Eigen::Vector3d(r.row(2))));
+  writer.begin_table("projector");
+  writer.put("model", std::string(projector.is_angular() ? "angular" : "pinhole"));
+  writer.put("position_mm", list_of(projector.position_mm));
+  writer.put("rotation",
+             toml::array{list_of(r.row(0).transpose()),
+                         list_of(r.row(1).transpose()),
+                         list_of(r.row(2).transpose())});
   if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
-    text += fmt::format("field_deg = [{}, {}]\n",
-                        deg_from_rad(angular->field_min_rad),
-                        deg_from_rad(angular->field_max_rad));
+    writer.put(
+        "field_deg",
+        toml::array{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
   } else {
-    text += toml_of(std::get<PinholeModel>(projector.model));
+    put_camera_model(writer, std::get<PinholeModel>(projector.model));
   }
-  if (projector.response) {
-    text += fmt::format("\n[projector.response]\nlight = [{:.6g}]\n",
-                        fmt::join(projector.response->light, ", "));
-  }
-  return text;
+  if (!projector.response) return;
+  constexpr int kDigits = 6;  // far beyond what a response is measured to
+  std::vector<double> light;
+  for (const double value : projector.response->light)
+    light.push_back(rounded_to_digits(value, kDigits));
+  writer.begin_table("projector.response");
+  writer.put("light", light);
 }
 
 }  // namespace
@@ -187,29 +198,22 @@ Rig read_rig(const std::filesystem::path& path, const Run& run) {
 }
 
 void write_rig(const std::filesystem::path& path, const Rig& rig) {
-  std::string text = "format = \"frangia-rig\"\nversion = 1\n\n[camera]\n";
-  text += toml_of(rig.camera.model);
-  text += fmt::format("white_level = {}\n", rig.camera.white_level);
-  if (rig.camera.noise) {
-    const double gain = 1.0 / rig.camera.noise->slope_counts;
-    const double read2 = std::max(0.0, rig.camera.noise->floor_counts2 - 1.0 / 12.0);
-    text += fmt::format(
-        "\n[camera.noise]\ngain_e_per_count = {}\nread_e = {}\n", gain, gain * std::sqrt(read2));
-  }
-  text += toml_of(rig.projector);
+  TomlWriter writer;
+  writer.put("format", std::string("frangia-rig"));
+  writer.put("version", 1);
+  put_camera(writer, rig.camera);
+  put_projector(writer, rig.projector);
   if (rig.laser_sheet) {
-    text += fmt::format("\n[line]\nnormal = {}\noffset_mm = {}\n",
-                        toml_of(rig.laser_sheet->normal),
-                        rig.laser_sheet->offset_mm);
+    writer.begin_table("line");
+    writer.put("normal", list_of(rig.laser_sheet->normal));
+    writer.put("offset_mm", rig.laser_sheet->offset_mm);
   }
   if (rig.turntable) {
-    text += fmt::format("\n[turntable]\npoint_mm = {}\naxis = {}\n",
-                        toml_of(rig.turntable->point_mm),
-                        toml_of(rig.turntable->axis));
+    writer.begin_table("turntable");
+    writer.put("point_mm", list_of(rig.turntable->point_mm));
+    writer.put("axis", list_of(rig.turntable->axis));
   }
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
+  writer.save(path);
 }
 
 }  // namespace frangia
