@@ -4,6 +4,9 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "frangia/files/internal/zip_file.h"
 #include "frangia/files/read_mesh.h"
@@ -80,6 +83,24 @@ TEST_F(EveryFormat, NamesTheMarksInTextFiles) {
   write_mesh(at("a.dxf"), marked_box());
   for (const char* layer : {"\nSCAN\n", "\nSCAN_DISPLACED\n", "\nSCAN_SYNTHESIZED\n"})
     EXPECT_NE(bytes_in("a.dxf").find(layer), std::string::npos) << layer;
+}
+
+TEST_F(EveryFormat, ShowsSynthesizedTrianglesInTheBlueOfPictures) {
+  // Linear (0.12, 0.36, 0.72), and the same for a screen with gamma 2.2: 255 x^(1 / 2.2).
+  write_mesh(at("a.gltf"), marked_box());
+  const auto gltf = nlohmann::json::parse(bytes_in("a.gltf"));
+  EXPECT_EQ(gltf["materials"][2]["pbrMetallicRoughness"]["baseColorFactor"],
+            (std::vector<double>{0.12, 0.36, 0.72, 1.0}));
+  write_mesh(at("a.off"), marked_box());
+  EXPECT_NE(bytes_in("a.off").find(" 97 160 220\n"), std::string::npos) << bytes_in("a.off");
+  write_mesh(at("a.3mf"), marked_box());
+  std::string model;
+  EXPECT_TRUE(ZipReader(at("a.3mf")).read("3D/3dmodel.model", [&](std::string_view piece) {
+    model += piece;
+  }));
+  EXPECT_NE(model.find("name=\"synthesized\" displaycolor=\"#61A0DC\""), std::string::npos);
+  write_mesh(at("a.dxf"), marked_box());
+  EXPECT_NE(bytes_in("a.dxf").find("SCAN_SYNTHESIZED\n 70\n0\n 62\n150\n"), std::string::npos);
 }
 
 TEST_F(EveryFormat, GltfAndPlyKeepAllVertexAttributesExactly) {

@@ -14,8 +14,9 @@ namespace frangia {
 /// The layer for the triangles of each mark, indexed by Mark.
 inline constexpr std::array<std::string_view, 3> kDxfLayers{
     "SCAN", "SCAN_DISPLACED", "SCAN_SYNTHESIZED"};
-/// Their colour numbers: white, yellow, red.
-inline constexpr std::array<int, 3> kDxfColors{7, 2, 1};
+/// Their color numbers: white, yellow and blue, the hues of `kMarkColors`. 150 is a blue that is
+/// readable on the black background of CAD programs; 5 is not.
+inline constexpr std::array<int, 3> kDxfColors{7, 2, 150};
 
 /// A mesh with the coordinates that the DXF will hold. Coordinates are integers in units of the
 /// written resolution, so equality and extents are exactly those of the file.

@@ -23,7 +23,7 @@ namespace frangia {
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& path, const Run& run = {});
 
 /// Writes one node with the mesh: .glb in binary, .gltf as JSON with the buffer embedded. There is
-/// one primitive per mark, with material "measured", "displaced" (yellow) or "synthesized" (red).
+/// one primitive per mark, with material "measured", "displaced" (yellow) or "synthesized" (blue).
 ///
 /// @units    coordinates are stored in mm; the node scales them to metres and turns z up to y up
 /// @missing  nothing: _SIGMA_MM, _VIEWS and _MARK are attributes of vertices

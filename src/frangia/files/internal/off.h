@@ -18,7 +18,7 @@ namespace frangia {
 [[nodiscard]] Mesh read_off(const std::filesystem::path& path);
 
 /// Writes vertices and faces with the shortest digits that read back to the same numbers. Displaced
-/// triangles are yellow, synthesized ones red.
+/// triangles are yellow, synthesized ones blue.
 ///
 /// @units    mm
 /// @missing  normals, sigma and views are not stored

@@ -20,7 +20,7 @@ namespace frangia {
 [[nodiscard]] Mesh read_3mf(const std::filesystem::path& path, const Run& run = {});
 
 /// Writes one object of type "model" and one build item; triangles of each mark have a base
-/// material named "measured", "displaced" (yellow) or "synthesized" (red).
+/// material named "measured", "displaced" (yellow) or "synthesized" (blue).
 ///
 /// The specification wants a "model" to be closed, and offers "surface" for others. PrusaSlicer 2.5
 /// refuses a build item of type "surface" ("invalid object id") but loads and repairs an open

@@ -3,11 +3,14 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/three_mf.h"
 #include "frangia/files/internal/zip_file.h"
 #include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -78,12 +81,14 @@ void write_model(ZipWriter& file, const Mesh& mesh) {
       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
       " <metadata name=\"Application\">Frangia</metadata>\n"
       " <resources>\n"
-      "  <basematerials id=\"1\">\n"
-      "   <base name=\"measured\" displaycolor=\"#C0C0C8\"/>\n"
-      "   <base name=\"displaced\" displaycolor=\"#F0C828\"/>\n"
-      "   <base name=\"synthesized\" displaycolor=\"#DC2828\"/>\n"
-      "  </basematerials>\n");
+      "  <basematerials id=\"1\">\n");
+  for (const Mark mark : {Mark::Measured, Mark::Displaced, Mark::Synthesized}) {
+    file.text(fmt::format("   <base name=\"{}\" displaycolor=\"#{:02X}\"/>\n",
+                          kMarkNames.at(static_cast<std::size_t>(mark)),
+                          fmt::join(mark_screen_color(mark), "")));
+  }
   file.text(
+      "  </basematerials>\n"
       "  <object id=\"2\" type=\"model\" name=\"scan\" pid=\"1\" pindex=\"0\">\n"
       "   <mesh>\n");
   write_vertices(file, mesh);

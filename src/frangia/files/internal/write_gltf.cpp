@@ -14,6 +14,7 @@
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/mark_names.h"
 #include "frangia/files/lowercase_extension.h"
+#include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -25,8 +26,6 @@ constexpr int kFloat = 5126;
 constexpr int kUnsigned = 5125;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementBuffer = 34963;
-const std::array<std::array<double, 4>, 3> kColors{
-    {{0.75, 0.75, 0.78, 1.0}, {0.94, 0.78, 0.16, 1.0}, {0.86, 0.16, 0.16, 1.0}}};
 
 /// Writes raw bytes.
 class PlainSink {
@@ -151,9 +150,10 @@ class Layout {
                              {"indices", accessor(3 * counts.at(mark), kUnsigned, "SCALAR")},
                              {"material", materials_.size()},
                              {"mode", 4}});
+      const auto& [red, green, blue] = kMarkColors.at(mark);  // linear, as glTF defines them
       materials_.push_back({{"name", kMarkNames.at(mark)},
                             {"pbrMetallicRoughness",
-                             {{"baseColorFactor", kColors.at(mark)},
+                             {{"baseColorFactor", {red, green, blue, 1.0}},
                               {"metallicFactor", 0.0},
                               {"roughnessFactor", 0.8}}},
                             {"doubleSided", true}});

@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/off.h"
+#include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -28,9 +32,9 @@ void write_off(const std::filesystem::path& path, const Mesh& mesh) {
       file.number(std::size_t{corner});
     }
     const Mark mark = mark_of(mesh, i);
-    file.text(mark == Mark::Measured    ? "\n"
-              : mark == Mark::Displaced ? " 240 200 40\n"
-                                        : " 220 40 40\n");
+    if (mark != Mark::Measured)
+      file.text(fmt::format(" {}", fmt::join(mark_screen_color(mark), " ")));
+    file.text("\n");
   }
   file.commit();
 }

@@ -7,6 +7,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/inspect/internal/lighting.h"
 
@@ -15,11 +16,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d kPlain(0.80, 0.775, 0.74);
 const Vector3d kInside(0.80, 0.06, 0.45);
 const Vector3d kHighlighted(0.46, 0.13, 0.62);
-const Vector3d kDisplaced(0.80, 0.58, 0.12);
-const Vector3d kSynthesized(0.12, 0.36, 0.72);
+
+Vector3d color_of_mark(Mark mark) {
+  const auto& [red, green, blue] = mark_color(mark);
+  return {red, green, blue};
+}
 
 /// A color of a map in linear light. Maps are defined for the screen, with gamma 2.2.
 Vector3d mapped_color(ColorMap map, float share) {
@@ -37,9 +40,13 @@ void add_marks(const Mesh& mesh, PictureLegend& legend) {
   std::array<bool, 3> has{};
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     has.at(static_cast<std::size_t>(mark_of(mesh, i))) = true;
-  if (has[0]) legend.entries.push_back({screen_color(kPlain), "measured"});
-  if (has[1]) legend.entries.push_back({screen_color(kDisplaced), "displaced"});
-  if (has[2]) legend.entries.push_back({screen_color(kSynthesized), "synthesized"});
+  const auto add = [&](Mark mark, const char* name) {
+    if (has.at(static_cast<std::size_t>(mark)))
+      legend.entries.push_back({screen_color(color_of_mark(mark)), name});
+  };
+  add(Mark::Measured, "measured");
+  add(Mark::Displaced, "displaced");
+  add(Mark::Synthesized, "synthesized");
 }
 
 }  // namespace
@@ -50,10 +57,9 @@ Vector3d inside_color() {
 
 Vector3d front_color(const Mesh& mesh, const RenderOptions& options, const RayHit& hit) {
   if (!options.highlighted.empty() && options.highlighted[hit.triangle] != 0) return kHighlighted;
-  if (options.show_marks && mark_of(mesh, hit.triangle) != Mark::Measured) {
-    return mark_of(mesh, hit.triangle) == Mark::Displaced ? kDisplaced : kSynthesized;
-  }
-  if (options.values.empty()) return kPlain;
+  if (options.show_marks && mark_of(mesh, hit.triangle) != Mark::Measured)
+    return color_of_mark(mark_of(mesh, hit.triangle));
+  if (options.values.empty()) return color_of_mark(Mark::Measured);
   float value = 0.0F;
   for (std::size_t corner = 0; corner < 3; ++corner) {
     value += static_cast<float>(hit.barycentric[static_cast<Eigen::Index>(corner)]) *
