@@ -57,6 +57,17 @@ TEST(CorrectFringeOrders, CorrectsThePartOfAViewThatIsWholeFringesOff) {
   }
 }
 
+TEST(CorrectFringeOrders, RemovesMixedPixelsByTheGivenCriteria) {
+  const Ball ball;
+  ViewStore views = six_views(ball, 1);
+  FringeOrderCorrectionOptions options;
+  options.mixed_pixels.min_patch_px = 160 * 120;  // larger than any patch: nothing is kept
+  ASSERT_GT(correct_fringe_orders(views, {kBallPattern, ball.rig, ball.rays}, options), 800U);
+  const View corrected = views.load(2);
+  for (const float depth : corrected.range.depth_mm.pixels())
+    ASSERT_TRUE(std::isnan(depth));
+}
+
 TEST(CorrectFringeOrders, CorrectsThePhaseAndTriangulatesItWithoutLoss) {
   const Ball ball;
   ViewStore views = six_views(ball, 1);

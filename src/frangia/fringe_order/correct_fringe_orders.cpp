@@ -9,7 +9,6 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
 #include "frangia/range/fringe_ray.h"
-#include "frangia/range/remove_mixed_pixels.h"
 
 namespace frangia {
 namespace {
@@ -184,7 +183,7 @@ std::size_t correct_view(ViewStore& views,
       view.range.remove(static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
   }
   Image<PixelStatus> status(width, height, PixelStatus::Measured);
-  remove_mixed_pixels(view.range, comparison.rays, status);
+  remove_mixed_pixels(view.range, comparison.rays, status, options.mixed_pixels);
   view.edge_pixels.clear();  // the surface that they continued may have moved
   views.replace(own, view);
   return corrected.size() + corrected_too.size();

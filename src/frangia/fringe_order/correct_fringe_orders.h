@@ -4,6 +4,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/fringe_order/fringe_order_candidates.h"
+#include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -22,6 +23,9 @@ struct FringeOrderCorrectionOptions {
   double min_violations = 0.5;  ///< minimum share of free-space violations of a removed patch
   double tolerance = 0.06;      ///< distance that counts as agreement, per fringe spacing in depth
   int passes = 2;               ///< maximum number of passes over all views
+  /// Criteria of the mixed pixels that are removed from a corrected view. `reconstruct` replaces
+  /// them by those of its own options.
+  MixedPixelOptions mixed_pixels{};
 };
 
 /// Corrects the fringe orders of patches whose surface the other views measured a whole number of
