@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
+
+#include "frangia/core/median.h"
 
 namespace frangia {
 namespace {
@@ -19,10 +23,7 @@ double median_sigma(const Mesh& mesh) {
   std::vector<float> known;
   for (const float sigma : mesh.sigma_mm)
     if (std::isfinite(sigma) && sigma > 0.0F) known.push_back(sigma);
-  if (known.empty()) return 0.0;
-  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), middle, known.end());
-  return static_cast<double>(*middle);
+  return static_cast<double>(median(std::move(known)));
 }
 
 }  // namespace

@@ -1,12 +1,15 @@
 #include "frangia/mesh/internal/fair_patch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include "frangia/core/median.h"
 #include "frangia/mesh/internal/patch_laplacian.h"
 
 namespace frangia {
@@ -56,9 +59,7 @@ Field smoothed(const PatchMesh& patch, Field field) {
 }
 
 double median_of(VectorXd values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median_in_place(std::span(values.data(), static_cast<std::size_t>(values.size())));
 }
 
 /// The bi-Laplacian of the positions for a smooth mean curvature H on the present shape: the normal

@@ -2,10 +2,12 @@
 #include <array>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/median.h"
 #include "frangia/mesh/internal/are_adjacent.h"
 #include "frangia/mesh/internal/fair_patch.h"
 #include "frangia/mesh/internal/hole_patch.h"
@@ -88,10 +90,9 @@ std::vector<PatchSpacing> spacing_of(const Mesh& mesh,
     spacing.push_back({sum / std::max(count, 1.0), 0.0});
     lengths.push_back(spacing.back().edge_mm);
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double usual_mm = median(std::move(lengths));
   for (PatchSpacing& one : spacing)
-    one.edge_mm = std::clamp(one.edge_mm, 0.5 * *middle, 2.0 * *middle);
+    one.edge_mm = std::clamp(one.edge_mm, 0.5 * usual_mm, 2.0 * usual_mm);
   return spacing;
 }
 
