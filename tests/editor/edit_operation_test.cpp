@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,20 @@ TEST(ApplyStep, RefusesToChangeASelectionThatWasNotMade) {
   EditState state = ball_state();
   EXPECT_EQ(error_of(state, {"select-ball", "0,0,10,3mm"}), "");
   EXPECT_EQ(error_of(state, {"grow", "1"}), "");
+}
+
+TEST(ApplyStep, WarnsOfASelectionWithoutATriangle) {
+  EditState state = ball_state();
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  apply_step(state, {"select-ball", "0,0,10,5mm"}, run);
+  EXPECT_TRUE(warnings.empty());
+  apply_step(state, {"select-ball", "100,0,0,5mm"}, run);
+  apply_step(state, {"select-mark", "synthesized"}, run);
+  EXPECT_EQ(warnings,
+            (std::vector<std::string>{"select-ball: no triangle is selected",
+                                      "select-mark: no triangle is selected"}));
 }
 
 TEST(ApplyStep, RefusesACutThatLeavesNothing) {

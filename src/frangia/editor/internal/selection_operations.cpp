@@ -1,6 +1,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/editor/internal/edit_value.h"
@@ -20,8 +22,8 @@ using Numbers = std::vector<double>;
 
 constexpr const char* kGroup = "Selection";
 
-/// Combines a new selection with the present one as the state asks.
-void combine(EditState& state, Selection fresh) {
+/// Combines a new selection with the present one as the state asks. Warns when it selects nothing.
+void combine(EditState& state, Selection fresh, const char* name, const Run& run) {
   const Combine how = std::exchange(state.combine, Combine::Replace);
   if (how != Combine::Replace && !state.selection.empty()) {
     for (std::size_t i = 0; i < fresh.size(); ++i) {
@@ -30,6 +32,7 @@ void combine(EditState& state, Selection fresh) {
       fresh[i] = both ? 1 : 0;
     }
   }
+  if (count_selected(fresh) == 0) run.warn(fmt::format("{}: no triangle is selected", name));
   state.selection = std::move(fresh);
 }
 
@@ -40,8 +43,8 @@ EditOperation by_numbers(const char* name, const char* value, const char* help, 
           kGroup,
           value,
           help,
-          [value, select](EditState& state, const std::string& text, const Run&) {
-            combine(state, select(std::as_const(state.mesh), edit_numbers(value, text)));
+          [name, value, select](EditState& state, const std::string& text, const Run& run) {
+            combine(state, select(std::as_const(state.mesh), edit_numbers(value, text)), name, run);
           }};
 }
 
@@ -128,15 +131,16 @@ std::vector<EditOperation> vertex_data_selections() {
        kGroup,
        "MARK",
        "select by mark: measured, displaced or synthesized",
-       [](EditState& state, const std::string& value, const Run&) {
-         combine(state, select_by_mark(state.mesh, edit_mark(value)));
+       [](EditState& state, const std::string& value, const Run& run) {
+         combine(state, select_by_mark(state.mesh, edit_mark(value)), "select-mark", run);
        }},
       {"select-self-intersections",
        kGroup,
        "",
        "select the triangles that intersect others",
        [](EditState& state, const std::string&, const Run& run) {
-         combine(state, select_self_intersections(state.mesh, run));
+         combine(
+             state, select_self_intersections(state.mesh, run), "select-self-intersections", run);
        }},
   };
 }
