@@ -13,15 +13,13 @@
 namespace frangia {
 namespace {
 
-using testing::axis_error_rad;
 using testing::knobbly;
-using Table = testing::MisalignedTable;
+using testing::MisalignedTable;
 using testing::Shape;
-using testing::shift_mm;
 using testing::small_camera_model;
 
 TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
-  const Table table(8);
+  const MisalignedTable table(8);
   ViewStore views = table.take(knobbly);
   const Shape pushed = [](const Eigen::Vector3d& p) {
     return knobbly(p - Eigen::Vector3d(4.0, -3.0, 0.0));
@@ -42,11 +40,11 @@ TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
   const View emptied = views.load(3);
   const auto depth = emptied.range.depth_mm.pixels();
   EXPECT_TRUE(std::all_of(depth.begin(), depth.end(), [](float z) { return std::isnan(z); }));
-  EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
+  EXPECT_LT(testing::axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
 }
 
 TEST(RegisterViews, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
-  const Table table(6);
+  const MisalignedTable table(6);
   const Shape angle = testing::both(testing::box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0}),
                                     testing::box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0}));
   const Shape pushed = [&](const Eigen::Vector3d& p) {
@@ -59,11 +57,11 @@ TEST(RegisterViews, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
           pushed, small_camera_model(), table.truth.rig_from_object(table.true_angles_rad[1])));
   const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
   EXPECT_EQ(report.outliers, std::vector<std::size_t>{1});
-  EXPECT_LT(shift_mm(report.table, table.truth), 0.03);
+  EXPECT_LT(testing::shift_mm(report.table, table.truth), 0.03);
 }
 
 TEST(RegisterViews, IsNotTrustworthyWhenTooManyViewsContradictEachOther) {
-  const Table table(6);
+  const MisalignedTable table(6);
   const CameraModel model = small_camera_model(150, 750.0);
   ViewStore views = table.take(knobbly, model);
   for (const std::size_t i : {1U, 3U, 5U}) {  // every other view is pushed, each elsewhere
