@@ -141,6 +141,69 @@ TEST(MergeScans, TakesPointsWithoutTriangles) {
   EXPECT_LT(surface_error(merged.mesh, part).p95_mm, 0.4);
 }
 
+bool has_no_sigma(const Mesh& mesh) {
+  return !mesh.sigma_mm.empty() && std::all_of(mesh.sigma_mm.begin(),
+                                               mesh.sigma_mm.end(),
+                                               [](float sigma) { return std::isnan(sigma); });
+}
+
+TEST(MergeScans, TrustsScansThatFit) {
+  const RayScene part(make_part("bust"));
+  for (const bool joined : {true, false}) {
+    const MergedScans merged = merge_scans(scans_of(part, joined), {.register_poses = false});
+    EXPECT_EQ(merged.untrusted_reason, "") << joined;
+    EXPECT_LT(merged.contradiction, 0.04) << joined;
+    EXPECT_FALSE(has_no_sigma(merged.mesh)) << joined;
+    ASSERT_EQ(merged.scans.size(), 6U);
+    std::size_t points = 0;
+    for (const MergedScan& scan : merged.scans)
+      points += scan.points;
+    EXPECT_EQ(points, merged.points);
+  }
+  // The surface of the scanned grid has a noise of 0.02 mm.
+  const MergedScans merged = merge_scans(scans_of(part, true), {.register_poses = false});
+  EXPECT_NEAR(merged.scans[2].noise_mm, 0.02, 0.01);
+  EXPECT_EQ(merged.scans[2].name, "scan 2");
+}
+
+/// Expects that the result is marked as not trustworthy and that no note claims agreement.
+void expect_untrusted(const std::vector<RangeScan>& scans, const MergeScansOptions& options = {}) {
+  std::vector<std::string> notes;
+  frangia::Run run;
+  run.on_note = [&](const std::string& sentence) { notes.push_back(sentence); };
+  const MergedScans merged = merge_scans(scans, options, run);
+  EXPECT_NE(merged.untrusted_reason.find("the scans contradict each other"), std::string::npos)
+      << merged.untrusted_reason << merged.contradiction;
+  EXPECT_TRUE(has_no_sigma(merged.mesh));
+  for (const std::string& note : notes)
+    EXPECT_EQ(note.find("agree"), std::string::npos) << note;
+}
+
+TEST(MergeScans, DoesNotTrustScansOfDifferentScale) {
+  const RayScene part(make_part("bust"));
+  std::vector<RangeScan> scans = scans_of(part, true);
+  for (std::size_t i = 1; i < scans.size(); i += 2) {
+    for (Eigen::Vector3f& vertex : scans[i].mesh.vertices_mm)
+      vertex *= 1.05F;
+  }
+  expect_untrusted(scans);
+}
+
+TEST(MergeScans, DoesNotTrustScansOfAPartThatChanged) {
+  const RayScene part(make_part("bust"));
+  const RayScene other(make_part("bracket"));
+  std::vector<RangeScan> scans = scans_of(part, true);
+  scans[2] = scan_of(other, 2.0 * M_PI / 3.0, 3, true);
+  expect_untrusted(scans);
+}
+
+TEST(MergeScans, DoesNotTrustUnregisteredScansWithPosesThatAreOff) {
+  const RayScene part(make_part("bust"));
+  std::vector<RangeScan> scans = scans_of(part, true);
+  scans[3].world_from_scan.pretranslate(Eigen::Vector3d(0.8, -0.8, 0.4));
+  expect_untrusted(scans, {.register_poses = false});
+}
+
 TEST(MergeScans, RefusesAScanWithoutASurface) {
   RangeScan empty;
   empty.path = "empty.ply";

@@ -26,17 +26,36 @@ enum class ScanPoses {
 struct MergeScansOptions {
   ScanPoses poses = ScanPoses::Auto;  ///< source of the initial poses
   bool register_poses = true;         ///< refine the poses
-  RegisterPosesOptions registration;  ///< refinement of the poses
-  FusionOptions fusion;               ///< fusion into one surface
-  FinishOptions finish;               ///< hole filling and decimation
+  /// Share of a scan's compared points in front of another scan's surface, or behind it, beyond
+  /// which the result is not trustworthy. Poses at random reach a third; scans that fit stay below
+  /// 0.04 (tests/pipeline/merge_scans_test).
+  double max_contradiction = 0.1;
+  /// Median distance between scans beyond which the result is not trustworthy: the larger of this
+  /// many standard deviations of a scan's points ...
+  double max_residual_sigmas = 10.0;
+  double max_residual_spacings = 0.25;  ///< ... and this many distances of neighbouring points
+  RegisterPosesOptions registration;    ///< refinement of the poses
+  FusionOptions fusion;                 ///< fusion into one surface
+  FinishOptions finish;                 ///< hole filling and decimation
+};
+
+/// One of the scans that were merged.
+struct MergedScan {
+  std::string name;        ///< path of its file
+  std::size_t points = 0;  ///< after resampling
+  double noise_mm = 0.0;   ///< standard deviation of a point, from the scatter of neighbours
+  bool left_out = false;   ///< its pose was not found
 };
 
 /// The fused surface of several range scans and how they were registered.
 struct MergedScans {
-  Mesh mesh;                                ///< fused surface
+  Mesh mesh;                                ///< fused surface; sigma is NaN if it is not trusted
+  std::vector<MergedScan> scans;            ///< in the order of the input
   std::size_t points = 0;                   ///< of all resampled scans
   std::optional<FoundPoses> found_poses;    ///< set when poses were found by shape
   std::optional<PosesReport> registration;  ///< empty when the poses were not refined
+  /// Largest share of a scan's compared points that violate the free space of the others.
+  double contradiction = 0.0;
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };

@@ -1,0 +1,172 @@
+#include "frangia/pipeline/internal/resample_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/median.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/geometry/ray_scene.h"
+
+namespace frangia {
+namespace {
+
+/// Median distance of neighbouring points: shortest edges of triangles, or nearest neighbours.
+double spacing_of(const Mesh& mesh) {
+  constexpr std::size_t kSamples = 400;
+  std::vector<double> lengths;
+  const auto& points = mesh.vertices_mm;
+  if (!mesh.triangles.empty()) {
+    const std::size_t every = mesh.triangles.size() / kSamples + 1;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += every) {
+      const auto& [a, b, c] = mesh.triangles[i];
+      lengths.push_back(static_cast<double>(std::min({(points[a] - points[b]).norm(),
+                                                      (points[b] - points[c]).norm(),
+                                                      (points[c] - points[a]).norm()})));
+    }
+    return median(std::move(lengths));
+  }
+  const std::size_t every = points.size() / kSamples + 1;
+  for (std::size_t i = 0; i < points.size(); i += every) {
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (j != i) least = std::min(least, (points[j] - points[i]).squaredNorm());
+    }
+    lengths.push_back(std::sqrt(static_cast<double>(least)));
+  }
+  return median(std::move(lengths));
+}
+
+/// Area-weighted mean normal of the triangles; +z for unorganized points, as range scanners use it.
+Eigen::Vector3d mean_normal(const Mesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d origin = mesh.vertices_mm[a].cast<double>();
+    sum += (mesh.vertices_mm[b].cast<double>() - origin)
+               .cross(mesh.vertices_mm[c].cast<double>() - origin);
+  }
+  return sum.norm() > 0.0 ? sum.normalized() : Eigen::Vector3d::UnitZ();
+}
+
+/// Fills depths with the first hits of the camera's rays on the triangles.
+void cast_rays(const RayScene& scene,
+               const VirtualCamera& camera,
+               const Image<Eigen::Vector2f>& rays,
+               Image<float>& depth) {
+  const Eigen::Isometry3d scan_from_rig = camera.rig_from_scan.inverse();
+  parallel_rows(depth.height(), [&](int y) {
+    for (int x = 0; x < depth.width(); ++x) {
+      const Eigen::Vector3d ray = rays(x, y).homogeneous().cast<double>();
+      const auto hit = scene.first_hit(scan_from_rig.translation(), scan_from_rig.linear() * ray);
+      if (hit && hit->normal.dot(scan_from_rig.linear() * ray) < 0.0)
+        depth(x, y) = static_cast<float>(hit->distance);
+    }
+  });
+}
+
+/// Fills depths with the nearest of the unorganized points in each pixel.
+void splat(const Mesh& mesh,
+           const VirtualCamera& camera,
+           const CameraModel& model,
+           Image<float>& depth) {
+  for (const auto& point : mesh.vertices_mm) {
+    const Eigen::Vector3d seen = camera.rig_from_scan * point.cast<double>();
+    const Eigen::Vector2d pixel = model.project(seen);
+    const auto x = static_cast<int>(std::lround(pixel.x()));
+    const auto y = static_cast<int>(std::lround(pixel.y()));
+    if (x < 0 || y < 0 || x >= depth.width() || y >= depth.height()) continue;
+    const auto z = static_cast<float>(seen.z());
+    if (!(depth(x, y) <= z)) depth(x, y) = z;
+  }
+}
+
+/// Standard deviation from the median absolute second difference, which is zero on a plane.
+double noise_of(const Image<float>& depth) {
+  std::vector<double> second_differences;
+  for (int y = 0; y < depth.height(); ++y) {
+    for (int x = 1; x + 1 < depth.width(); ++x) {
+      const float second_difference = depth(x - 1, y) - 2.0F * depth(x, y) + depth(x + 1, y);
+      if (!std::isnan(second_difference))
+        second_differences.push_back(std::abs(static_cast<double>(second_difference)));
+    }
+  }
+  constexpr double kSigmas = 0.6745 * 2.449;  // of the median; six variances in a second difference
+  return median(std::move(second_differences)) / kSigmas;
+}
+
+}  // namespace
+
+VirtualCamera virtual_camera_of(const RangeScan& scan) {
+  if (!(scan.mesh.vertices_mm.size() > 2)) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: holds no surface: it has fewer than 3 points", scan.path.string()));
+  }
+  Eigen::AlignedBox3f box;
+  for (const auto& point : scan.mesh.vertices_mm)
+    box.extend(point);
+  VirtualCamera camera;
+  camera.radius_mm = 0.5 * static_cast<double>(box.diagonal().norm());
+  camera.spacing_mm = spacing_of(scan.mesh);
+  const Eigen::Vector3d towards = mean_normal(scan.mesh);
+  const Eigen::Vector3d right = towards.unitOrthogonal();
+  camera.rig_from_scan.linear() << right.transpose(), -towards.cross(right).transpose(),
+      -towards.transpose();
+  camera.rig_from_scan.translation() =
+      -(camera.rig_from_scan.linear() * box.center().cast<double>());
+  return camera;
+}
+
+CameraModel common_camera_model(std::vector<VirtualCamera>& cameras, bool points_only) {
+  constexpr double kFar = 5.0;  // radii
+  constexpr int kMax_px = 4000;
+  double radius_mm = 0.0;
+  double spacing_mm = std::numeric_limits<double>::infinity();
+  for (const VirtualCamera& camera : cameras) {
+    radius_mm = std::max(radius_mm, camera.radius_mm);
+    spacing_mm = std::min(spacing_mm, camera.spacing_mm);
+  }
+  if (points_only) spacing_mm *= 1.5;  // so that few pixels stay empty
+  const double distance_mm = kFar * radius_mm;
+  const double across = 2.0 * distance_mm * radius_mm / (distance_mm - radius_mm) / spacing_mm;
+  CameraModel model;
+  model.width_px = model.height_px = std::min(kMax_px, static_cast<int>(std::ceil(across)) + 8);
+  const double focal = std::min(1.0, kMax_px / across) * distance_mm / spacing_mm;
+  model.focal_px = {focal, focal};
+  model.principal_point_px = {0.5 * (model.width_px - 1), 0.5 * (model.height_px - 1)};
+  model.distortion = {};
+  for (VirtualCamera& camera : cameras)
+    camera.rig_from_scan.translation().z() += distance_mm;
+  return model;
+}
+
+ResampledScan resample_scan(const RangeScan& scan,
+                            const VirtualCamera& camera,
+                            const CameraModel& model) {
+  const auto rays = rays_of(model);
+  ResampledScan out;
+  View& view = out.view;
+  view.range.depth_mm = Image<float>(model.width_px, model.height_px, kMissing);
+  if (scan.mesh.triangles.empty()) {
+    splat(scan.mesh, camera, model, view.range.depth_mm);
+  } else {
+    cast_rays(RayScene(scan.mesh), camera, rays, view.range.depth_mm);
+  }
+  constexpr double kMinNoise = 0.01;  // of the spacing, for scans without noise
+  out.noise_mm = std::max(noise_of(view.range.depth_mm), kMinNoise * camera.spacing_mm);
+  view.range.sigma_mm = Image<float>(model.width_px, model.height_px, kMissing);
+  for (std::size_t i = 0; i < view.range.depth_mm.pixels().size(); ++i) {
+    if (std::isnan(view.range.depth_mm.pixels()[i])) continue;
+    view.range.sigma_mm.pixels()[i] = static_cast<float>(out.noise_mm);
+    ++out.points;
+  }
+  view.rig_from_object = camera.rig_from_scan * scan.world_from_scan.inverse();
+  return out;
+}
+
+}  // namespace frangia
