@@ -1,6 +1,8 @@
 #include "frangia/pipeline/reconstruct.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/pipeline/internal/explain_no_points.h"
+#include "frangia/pipeline/internal/mark_left_out.h"
 #include "frangia/pipeline/internal/measure_views.h"
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
@@ -68,20 +71,21 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
   release_cached_pixels();
   out.views = measured.views.size();
+  out.view_summaries = std::move(measured.summaries);
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");
   const std::vector<int> setup_numbers = measured.setups;
   std::vector<MeasuredSetup> setups = split_setups(std::move(measured), setup_numbers);
+  FringeOrderCorrectionOptions correction = options.fringe_order_correction;
+  correction.mixed_pixels = options.mixed_pixels;
+  std::set<std::string> outliers;
   for (MeasuredSetup& setup : setups) {
-    resolve_fringe_orders(setup.measured,
-                          scan.rig,
-                          rays,
-                          options.resolve_by_views,
-                          options.fringe_order_correction,
-                          run);
+    resolve_fringe_orders(
+        setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
     register_setup(setup, scan.rig, options, out.turntable_top_height_mm, run);
     out.points += setup.measured.points;
+    add_outliers(outliers, setup);
   }
   if (out.points == 0) {
     throw Error(ErrorKind::Input, explain_no_points(scan, rays, options.decode, run));
@@ -91,6 +95,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   MeasuredSetup joined = join_setups(std::move(setups), scan, options, run);
   if (joined.registration && joined.registration->iterations > 0)
     run.note(joined.registration->text());
+  add_outliers(outliers, joined);
+  mark_left_out(out.view_summaries, joined, outliers);
   clip_on_registered_turntable(joined, camera, options, run);
   out.registration = joined.registration;
   release_cached_pixels();

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
@@ -13,6 +14,7 @@
 #include "frangia/geometry/mesh.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/finish_mesh.h"
+#include "frangia/pipeline/view_summary.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/register_views.h"
@@ -42,10 +44,11 @@ struct ReconstructOptions {
 
 /// The reconstructed surface and what the stages report.
 struct Reconstruction {
-  Mesh mesh;                                       ///< fused surface, object frame
-  PointCloud raw;                                  ///< empty unless `keep_raw`
-  std::size_t points = 0;                          ///< in all views
-  std::size_t views = 0;                           ///< that hold points
+  Mesh mesh;               ///< fused surface, object frame; sigma is NaN if it is not trusted
+  PointCloud raw;          ///< empty unless `keep_raw`
+  std::size_t points = 0;  ///< in all views
+  std::size_t views = 0;   ///< that hold points
+  std::vector<ViewSummary> view_summaries;         ///< of all views, in the order of the scan
   std::optional<RegistrationReport> registration;  ///< empty when not done
   double turntable_top_height_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed

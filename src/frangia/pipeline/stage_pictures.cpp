@@ -32,7 +32,7 @@ void draw_residue(const Residue& residue, Image<Rgb>& picture) {
 const std::vector<StatusLegend>& status_legend() {
   static const std::vector<StatusLegend> legend = {
       {PixelStatus::Measured, {230, 230, 225}, "white", "measured"},
-      {PixelStatus::Filled, {110, 200, 120}, "green", "filled from its neighbours"},
+      {PixelStatus::Filled, {110, 200, 120}, "green", "filled from neighbours"},
       {PixelStatus::Unmodulated, kMissingColor, "dark", "unmodulated: background or shadow"},
       {PixelStatus::Saturated, {220, 60, 50}, "red", "saturated in a frame"},
       {PixelStatus::Residue, {160, 80, 200}, "purple", "phase residue"},

@@ -1,6 +1,7 @@
 #include "frangia/pipeline/survey_scan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -32,6 +33,11 @@ std::vector<Pattern> patterns_of(const Scan& scan) {
   return shifted;
 }
 
+/// A share in percent, rounded to three decimals; adding 0 turns -0 into 0.
+double rounded_percent(double share) {
+  return std::round(1e5 * share) / 1e3 + 0.0;
+}
+
 void report_gain(const std::string& pattern,
                  double gain_error,
                  const std::vector<StepEstimate>& views,
@@ -43,9 +49,9 @@ void report_gain(const std::string& pattern,
       "pattern \"{}\": mean step error {:+.3f} % over {} views; {:+.3f} % is the phase shifter's "
       "gain error and is corrected, the rest is scatter",
       pattern,
-      100.0 * found,
+      rounded_percent(found),
       views.size(),
-      100.0 * gain_error));
+      rounded_percent(gain_error)));
 }
 
 }  // namespace

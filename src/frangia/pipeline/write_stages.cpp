@@ -44,7 +44,9 @@ class StageWriter {
            const std::string& what,
            const std::string& unit) {
     numbers(name, values, fmt::format("{}, {}", what, unit));
-    const ValueRange range = percentile_range(values);
+    ValueRange range = percentile_range(values);
+    constexpr float kNothing = 1e-6F;  // of the range: rounding, which a caption shows as 0
+    if (std::abs(range.low) < kNothing * std::abs(range.high)) range.low = 0.0F;
     picture(name,
             add_legend(map_picture(values, range, ColorMap::Viridis),
                        {.scales = {{ColorMap::Viridis, range, unit}}}),

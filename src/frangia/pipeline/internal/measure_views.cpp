@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/median.h"
 #include "frangia/pipeline/internal/view_decoder.h"
 #include "frangia/pipeline/survey_scan.h"
 #include "frangia/range/recover_edge_pixels.h"
@@ -51,6 +52,18 @@ void report_assessments(const Scan& scan,
   }
 }
 
+/// The median sigma of the points on every 16th row; NaN without points.
+double median_sigma_mm(const RangeGrid& range) {
+  constexpr int kRows = 16;
+  std::vector<float> sigmas_mm;
+  for (int y = kRows / 2; y < range.sigma_mm.height(); y += kRows) {
+    for (int x = 0; x < range.sigma_mm.width(); ++x) {
+      if (!std::isnan(range.depth_mm(x, y))) sigmas_mm.push_back(range.sigma_mm(x, y));
+    }
+  }
+  return sigmas_mm.empty() ? kMissing : static_cast<double>(median(std::move(sigmas_mm)));
+}
+
 /// One view's range grid.
 struct MeasuredView {
   RangeGrid range;
@@ -91,6 +104,12 @@ MeasuredViews measure_views(const Scan& scan,
     DecodedView decoded = decoder.next();
     report_assessments(scan, i, decoded.assessments, run);
     MeasuredView measured = measure_view(decoded, scan, rays, mixed_pixels);
+    all.summaries.push_back({scan.views[i].folder.string(),
+                             scan.views[i].angle_rad,
+                             scan.views[i].setup,
+                             measured.points,
+                             median_sigma_mm(measured.range),
+                             measured.points == 0 && decoded.unresolved.empty()});
     if (measured.points == 0 && decoded.unresolved.empty()) {
       run.warn(why_empty(scan, i, decoded.phase.status));
       continue;

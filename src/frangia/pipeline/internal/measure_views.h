@@ -11,6 +11,7 @@
 #include "frangia/fringe_order/resolve_by_views.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/pipeline/decode_view.h"
+#include "frangia/pipeline/view_summary.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/views/view_store.h"
@@ -26,6 +27,7 @@ struct MeasuredViews {
   Pattern coarsest;                              ///< coarsest fringe pattern
   bool unwrapped_spatially = false;              ///< whole patches may then be wrong by fringes
   std::size_t points = 0;
+  std::vector<ViewSummary> summaries;  ///< of all views of the scan, also of those left out
 };
 
 /// Reads, decodes and triangulates all views of a scan. The next view is read and decoded while one

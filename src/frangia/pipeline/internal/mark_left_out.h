@@ -1,0 +1,20 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "frangia/pipeline/internal/register_setups.h"
+#include "frangia/pipeline/view_summary.h"
+
+namespace frangia {
+
+/// Adds the names of the views that the registration of a setup emptied.
+void add_outliers(std::set<std::string>& names, const MeasuredSetup& setup);
+
+/// Marks the views that are not part of the joined setups as left out, and the outliers.
+void mark_left_out(std::vector<ViewSummary>& summaries,
+                   const MeasuredSetup& joined,
+                   const std::set<std::string>& outliers);
+
+}  // namespace frangia
