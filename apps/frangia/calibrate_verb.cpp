@@ -15,6 +15,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/rig/read_rig.h"
 
+#include "check_can_write.h"
 #include "drivers.h"
 #include "option_values.h"
 #include "verbs.h"
@@ -59,6 +60,7 @@ std::string with_curve(const std::filesystem::path& rig, const PhaseCurve& curve
 }
 
 void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
+  if (!arguments.output.empty()) check_can_write(arguments.output);
   const Run run = terminal.run();
   run.stage("devices");
   const Rig rig = read_rig(arguments.rig, run);
@@ -78,7 +80,7 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
                                         {"curve_phases_deg", degrees(sweep.curve.phases_rad)},
                                         {"residual_ratio", sweep.residual_ratio}};
     fmt::print("{}\n", result.dump(2));
-  } else {
+  } else if (!terminal.quiet) {
     fmt::print("# for [devices.fringes], instead of command_per_turn\n{}", lines_of(sweep.curve));
     if (!arguments.output.empty()) terminal.print_written(arguments.output.string());
   }

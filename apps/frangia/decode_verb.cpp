@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/make_folder.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/pipeline/decode_view.h"
@@ -14,6 +15,8 @@
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/range/triangulate.h"
 
+#include "check_can_write.h"
+#include "counted.h"
 #include "option_values.h"
 #include "reconstruct_options.h"
 #include "verbs.h"
@@ -39,7 +42,11 @@ void print_result(const DecodedView& decoded,
     const auto count = std::count(status.begin(), status.end(), entry.status);
     json["pixels"][entry.meaning] = count;
     if (count == 0 || terminal.json || terminal.quiet) continue;
-    fmt::print("{:>10} pixels {} ({} in mask.png)\n", count, entry.meaning, entry.color_name);
+    fmt::print("{:>10} {:<6} {} ({} in mask.png)\n",
+               count,
+               count == 1 ? "pixel" : "pixels",
+               entry.meaning,
+               entry.color_name);
   }
   for (const FrameAssessment& assessment : decoded.assessments) {
     json["assessments"].push_back(describe(assessment));
@@ -54,8 +61,8 @@ void print_result(const DecodedView& decoded,
   }
   if (terminal.json) fmt::print("{}\n", json.dump(2));
   if (!terminal.json && !terminal.quiet) {
-    fmt::print("wrote {} files to {}; index.html shows all pictures\n",
-               files.size(),
+    fmt::print("wrote {} to {}; index.html shows all pictures\n",
+               counted(files.size(), "file"),
                arguments.folder.string());
   }
 }
@@ -70,13 +77,19 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
                             arguments.view,
                             scan.views.size() - 1));
   }
+  make_folder(arguments.folder);
+  check_can_write(arguments.folder / "index.html");
   const auto rays = rays_of(scan.rig.camera.model);
   DecodeOptions options = arguments.options;
+  run.stage("survey");
   options.survey = survey_scan(scan, run);
+  run.stage("phase");
   const auto frames = read_frames(scan, arguments.view, run);
   DecodedView decoded = decode_view(frames, scan.rig, rays, options, run);
+  run.stage("range");
   RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
   remove_mixed_pixels(range, rays, decoded.phase.status);
+  run.stage("files");
   const auto files = write_stages(decoded, range, arguments.folder, run);
   print_result(decoded, files, arguments, terminal);
 }

@@ -213,7 +213,7 @@ void demo(const DemoArguments& arguments, Terminal& terminal) {
   terminal.finish();
   if (terminal.json) {
     print_json(demo_cases, terminal);
-  } else {
+  } else if (!terminal.quiet) {
     print_table(demo_cases, terminal);
     fmt::print("wrote meshes and pictures to {}; {} shows them all\n",
                arguments.folder.string(),

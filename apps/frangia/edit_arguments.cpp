@@ -1,31 +1,16 @@
 #include "edit_arguments.h"
 
 #include <string>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "frangia/files/mesh_formats.h"
 
+#include "option_names.h"
 #include "write_options.h"
 
 namespace frangia {
 namespace {
-
-/// Replaces each option that the library names in backticks, such as `list`, by its flag: --list.
-std::string with_flags(std::string_view text) {
-  std::string result;
-  bool inside = false;
-  for (const char c : text) {
-    if (c == '`') {
-      inside = !inside;
-      if (inside) result += "--";
-    } else {
-      result += inside && c == '_' ? '-' : c;
-    }
-  }
-  return result;
-}
 
 void add_operations(CLI::App& verb, EditArguments& arguments) {
   for (const EditOperation& operation : edit_operations()) {

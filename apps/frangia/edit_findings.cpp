@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "fixed_text.h"
+
 namespace frangia {
 namespace {
 
@@ -98,7 +100,8 @@ nlohmann::ordered_json findings_json(const MeshFindings& found) {
 
 void print_findings(const MeshFindings& found) {
   const auto point_text = [](const Eigen::Vector3d& p) {
-    return fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z());
+    return fmt::format(
+        "{} {} {}", fixed_text(p.x(), 3), fixed_text(p.y(), 3), fixed_text(p.z(), 3));
   };
   print_line("triangles", fmt::format("{}", found.triangles));
   print_line("vertices", fmt::format("{}", found.vertices));
@@ -112,9 +115,8 @@ void print_findings(const MeshFindings& found) {
                point_text(found.box_mm.min()) + "  to  " + point_text(found.box_mm.max()));
   }
   print_line("area mm2", fmt::format("{:.3f}", found.area_mm2));
-  print_line(
-      "volume mm3",
-      found.closed ? fmt::format("{:.3f}", found.volume_mm3) : "none: the mesh is not closed");
+  print_line("volume mm3",
+             found.closed ? fixed_text(found.volume_mm3, 3) : "none: the mesh is not closed");
   print_line("non-manifold edges", fmt::format("{}", found.non_manifold_edges));
   print_line("degenerate", fmt::format("{}", found.degenerate_triangles));
   print_line("intersecting pairs",

@@ -7,17 +7,19 @@
 
 #include "frangia/core/error.h"
 
+#include "counted.h"
+
 namespace frangia {
 namespace {
 
 [[noreturn]] void fail_beyond_history(const char* action, std::size_t asked, std::size_t done) {
   throw Error(ErrorKind::Input,
-              fmt::format("{} {}: the history has only {} step{} to {}",
-                          action,
-                          asked,
-                          done,
-                          done == 1 ? "" : "s",
-                          action));
+              done == 0 ? fmt::format("{}: there is no step to {}", action, action)
+                        : fmt::format("{} {}: the history has only {} to {}",
+                                      action,
+                                      asked,
+                                      counted(done, "step"),
+                                      action));
 }
 
 }  // namespace

@@ -18,6 +18,8 @@
 #include "frangia/frames/png.h"
 #include "frangia/inspect/edit_picture.h"
 
+#include "check_can_write.h"
+#include "counted.h"
 #include "edit_arguments.h"
 #include "edit_findings.h"
 #include "edit_session.h"
@@ -35,8 +37,11 @@ bool needs_history(const EditArguments& arguments) {
 
 /// Checks all arguments before the work begins, and reads the scripts.
 std::vector<EditScript> checked_scripts(const EditArguments& arguments) {
-  for (const auto& path : arguments.outputs)
+  for (const auto& path : arguments.outputs) {
     check_mesh_extension(path);
+    check_can_write(path);
+  }
+  if (!arguments.save_script.empty()) check_can_write(arguments.save_script);
   if (!arguments.preview.empty()) check_picture_output(arguments.preview);
   std::vector<EditScript> scripts;
   for (const EditStep& step : arguments.steps) {
@@ -70,8 +75,11 @@ PreviewCounts draw_preview(const Mesh& before,
   return {count_selected(preview.removed), count_selected(preview.added)};
 }
 
-std::string triangles_text(std::size_t count) {
-  return fmt::format("{} triangle{}", count, count == 1 ? "" : "s");
+std::vector<std::filesystem::path> written_files(const EditArguments& arguments) {
+  std::vector<std::filesystem::path> files = arguments.outputs;
+  for (const auto& path : {arguments.save_script, arguments.preview})
+    if (!path.empty()) files.push_back(path);
+  return files;
 }
 
 void report(const Mesh& mesh,
@@ -84,6 +92,10 @@ void report(const Mesh& mesh,
     if (counts) json["preview"] = {{"removed", counts->removed}, {"added", counts->added}};
     for (const auto& stage : terminal.stage_seconds())
       json["seconds"][stage.first] = stage.second;
+    json["warnings"] = terminal.warnings();
+    json["outputs"] = nlohmann::ordered_json::array();
+    for (const auto& path : written_files(arguments))
+      json["outputs"].push_back(path.string());
     fmt::print("{}\n", json.dump(2));
   } else if (arguments.list) {
     const MeshFindings found = mesh_findings(mesh, run);
@@ -91,26 +103,25 @@ void report(const Mesh& mesh,
     print_findings(found);
   } else if (!terminal.quiet) {
     terminal.finish();
-    fmt::print("{}\n", triangles_text(mesh.triangles.size()));
+    fmt::print("{}\n", counted(mesh.triangles.size(), "triangle"));
   }
   if (counts && !terminal.json && !terminal.quiet) {
-    fmt::print("preview: {} would be removed or moved, {} added: {}\n",
-               triangles_text(counts->removed),
-               counts->added,
-               arguments.preview.string());
+    fmt::print("preview: {} would be removed or moved, {} added\n",
+               counted(counts->removed, "triangle"),
+               counts->added);
   }
+  for (const auto& path : written_files(arguments))
+    terminal.print_written(path.string());
 }
 
 Mesh read_triangles(const std::filesystem::path& path, const Run& run) {
   Mesh mesh = read_mesh(path, run);
   if (mesh.empty()) {
     const std::size_t points = mesh.vertices_mm.size();
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("{}: the file has {} point{} and no triangles; edit needs a triangle mesh",
-                    path.string(),
-                    points,
-                    points == 1 ? "" : "s"));
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: the file has {} and no triangles; edit needs a triangle mesh",
+                            path.string(),
+                            counted(points, "point")));
   }
   return mesh;
 }

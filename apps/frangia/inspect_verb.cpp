@@ -18,6 +18,7 @@
 #include "frangia/inspect/surface_error.h"
 #include "frangia/inspect/surface_validity.h"
 
+#include "fixed_text.h"
 #include "option_values.h"
 #include "picture_file.h"
 #include "read_surface.h"
@@ -112,7 +113,7 @@ void print_result(const SurfaceError& error,
                   Terminal& terminal) {
   terminal.finish();
   if (terminal.json) {
-    const nlohmann::ordered_json json{
+    nlohmann::ordered_json json{
         {"vertices", error.count},
         {"rms_mm", error.rms_mm},
         {"mean_mm", error.mean_mm},
@@ -127,15 +128,16 @@ void print_result(const SurfaceError& error,
         {"inward_triangles", validity.inward_triangles},
         {"completeness", completeness.share},
         {"completeness_within_mm", arguments.within_mm}};
+    if (!arguments.picture.empty()) json["picture"] = arguments.picture.string();
     fmt::print("{}\n", json.dump(2));
     return;
   }
   fmt::print(
-      "{} vertices: RMS {:.4f} mm, bias {:+.4f}, 95 % within {:.4f}, 99 % within {:.4f}, all "
+      "{} vertices: RMS {:.4f} mm, bias {}, 95 % within {:.4f}, 99 % within {:.4f}, all "
       "within {:.4f}\n",
       error.count,
       error.rms_mm,
-      error.bias_mm,
+      signed_text(error.bias_mm, 4),
       error.p95_mm,
       error.p99_mm,
       error.max_mm);
@@ -155,11 +157,18 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
   std::optional<RayScene> reference;
   if (!arguments.reference.empty()) reference.emplace(read_surface(arguments.reference, run));
   if (!arguments.picture.empty()) draw(arguments, mesh, reference, run);
-  if (!reference) return;
+  if (!reference) {
+    if (terminal.json) {
+      fmt::print("{}\n", nlohmann::ordered_json{{"picture", arguments.picture.string()}}.dump(2));
+    }
+    terminal.print_written(arguments.picture.string());
+    return;
+  }
   const RayScene mesh_scene(mesh);
   const SurfaceError error = surface_error(mesh, *reference, {}, run);
   const SurfaceCompleteness completeness = completeness_of(arguments, *reference, mesh_scene, run);
   print_result(error, completeness, surface_validity(mesh, *reference, run), arguments, terminal);
+  if (!arguments.picture.empty()) terminal.print_written(arguments.picture.string());
 }
 
 }  // namespace
@@ -178,7 +187,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--within",
                    arguments->within_mm,
                    "a point of the reference is covered by mesh within this distance, mm")
-      ->check(above_zero())
+      ->transform(length_above_zero())
       ->capture_default_str();
   verb->add_option(
           "--max-angle",
@@ -203,7 +212,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       ->capture_default_str();
   verb->add_option(
           "--scale", arguments->scale_mm, "deviation or sigma at the end of the color scale, mm")
-      ->check(above_zero())
+      ->transform(length_above_zero())
       ->capture_default_str();
   verb->add_flag("!--no-legend", arguments->legend, "leave out the color scale");
   verb->callback([arguments, &terminal] { inspect(*arguments, terminal); });

@@ -16,6 +16,7 @@
 #include "counted.h"
 #include "mesh_result.h"
 #include "option_values.h"
+#include "text_table.h"
 #include "write_options.h"
 
 namespace frangia {
@@ -41,13 +42,37 @@ std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths)
   return scans;
 }
 
-void print_result(const MergedScans& result,
-                  std::size_t scans,
-                  const MergeArguments& arguments,
-                  Terminal& terminal) {
+nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const MergedScan& scan : scans) {
+    json.push_back({{"scan", scan.name},
+                    {"points", scan.points},
+                    {"noise_mm", scan.noise_mm},
+                    {"left_out", scan.left_out}});
+  }
+  return json;
+}
+
+/// One line for each scan.
+std::string table_of(const std::vector<MergedScan>& scans) {
+  TextColumn name{"scan", {}, false};
+  TextColumn points{"points", {}};
+  TextColumn noise{"noise mm", {}};
+  TextColumn state{"", {}, false};
+  for (const MergedScan& scan : scans) {
+    name.values.push_back(scan.name);
+    points.values.push_back(fmt::format("{}", scan.points));
+    noise.values.push_back(fmt::format("{:.4f}", scan.noise_mm));
+    state.values.emplace_back(scan.left_out ? "left out" : "");
+  }
+  return text_table({name, points, noise, state});
+}
+
+void print_result(const MergedScans& result, const MergeArguments& arguments, Terminal& terminal) {
   terminal.finish();
   if (terminal.json) {
-    nlohmann::ordered_json json{{"scans", scans},
+    nlohmann::ordered_json json{{"scans", result.scans.size()},
+                                {"per_scan", json_of(result.scans)},
                                 {"points", result.points},
                                 {"vertices", result.mesh.vertices_mm.size()},
                                 {"triangles", result.mesh.triangles.size()}};
@@ -56,6 +81,7 @@ void print_result(const MergedScans& result,
                               {"rms_after_mm", result.registration->rms_after_mm},
                               {"overlap", result.registration->overlap}};
     }
+    json["contradiction"] = result.contradiction;
     json["poses"] = result.found_poses ? "found" : "given";
     json["left_out"] = nlohmann::ordered_json::array();
     if (result.found_poses) {
@@ -66,9 +92,10 @@ void print_result(const MergedScans& result,
     return;
   }
   if (terminal.quiet) return;
+  fmt::print("{}", table_of(result.scans));
   fmt::print("{} points from {} -> {} triangles\n",
              result.points,
-             counted(scans, "scan"),
+             counted(result.scans.size(), "scan"),
              result.mesh.triangles.size());
   print_mesh_summary(terminal, arguments.outputs.paths);
 }
@@ -83,8 +110,8 @@ void merge(MergeArguments& arguments, Terminal& terminal) {
   const MergedScans result = merge_scans(scans, arguments.options, run);
   run.stage("files");
   arguments.outputs.write_all(result.mesh, run);
-  terminal.judge(result.untrusted_reason);
-  print_result(result, scans.size(), arguments, terminal);
+  terminal.assess(result.untrusted_reason);
+  print_result(result, arguments, terminal);
 }
 
 }  // namespace

@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/files/lowercase_extension.h"
+
+#include "check_can_write.h"
 
 namespace frangia {
 
@@ -20,7 +21,7 @@ inline void check_picture_output(const std::filesystem::path& path) {
                 fmt::format("{}: pictures are written as PNG; use a name that ends in .png",
                             path.string()));
   }
-  const AtomicFile probe(path);
+  check_can_write(path);
 }
 
 }  // namespace frangia

@@ -43,6 +43,7 @@ void draw(PictureArguments arguments, Terminal& terminal) {
   } else {
     write_png(arguments.output, contact_sheet({pictures}, arguments.shade.height_px));
   }
+  terminal.print_written(arguments.output.string());
 }
 
 }  // namespace

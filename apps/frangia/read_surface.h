@@ -8,6 +8,8 @@
 #include "frangia/core/run.h"
 #include "frangia/files/read_mesh.h"
 
+#include "counted.h"
+
 namespace frangia {
 
 /// Reads a mesh that must have triangles.
@@ -17,10 +19,9 @@ inline Mesh read_surface(const std::filesystem::path& path, const Run& run = {})
   Mesh mesh = read_mesh(path, run);
   if (mesh.triangles.empty()) {
     throw Error(ErrorKind::Input,
-                fmt::format("{}: it has {} point{} and no triangles; name a mesh with a surface",
+                fmt::format("{}: it has {} and no triangles; name a mesh with a surface",
                             path.string(),
-                            mesh.vertices_mm.size(),
-                            mesh.vertices_mm.size() == 1 ? "" : "s"));
+                            counted(mesh.vertices_mm.size(), "point")));
   }
   return mesh;
 }

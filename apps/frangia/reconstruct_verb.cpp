@@ -9,15 +9,17 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/files/ply.h"
 #include "frangia/pipeline/reconstruct.h"
 
+#include "check_can_write.h"
 #include "counted.h"
+#include "fixed_text.h"
 #include "mesh_result.h"
 #include "option_values.h"
 #include "reconstruct_options.h"
+#include "text_table.h"
 #include "verbs.h"
 #include "write_options.h"
 
@@ -66,6 +68,43 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
   return json;
 }
 
+nlohmann::ordered_json json_of(const std::vector<ViewSummary>& views) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const ViewSummary& view : views) {
+    json.push_back({{"view", view.name},
+                    {"angle_deg", deg_from_rad(view.angle_rad)},
+                    {"setup", view.setup},
+                    {"points", view.points},
+                    {"sigma_mm",
+                     std::isnan(view.sigma_mm) ? nlohmann::ordered_json()
+                                               : nlohmann::ordered_json(view.sigma_mm)},
+                    {"left_out", view.left_out}});
+  }
+  return json;
+}
+
+/// One line for each view.
+std::string table_of(const std::vector<ViewSummary>& views) {
+  TextColumn name{"view", {}, false};
+  TextColumn setup{"setup", {}};
+  TextColumn angle{"angle deg", {}};
+  TextColumn points{"points", {}};
+  TextColumn sigma{"sigma mm", {}};
+  TextColumn state{"", {}, false};
+  bool several_setups = false;
+  for (const ViewSummary& view : views) {
+    several_setups = several_setups || view.setup != views.front().setup;
+    name.values.push_back(view.name);
+    setup.values.push_back(fmt::format("{}", view.setup));
+    angle.values.push_back(fixed_text(deg_from_rad(view.angle_rad), 2));
+    points.values.push_back(fmt::format("{}", view.points));
+    sigma.values.push_back(std::isnan(view.sigma_mm) ? "-" : fmt::format("{:.4f}", view.sigma_mm));
+    state.values.emplace_back(view.left_out ? "left out" : "");
+  }
+  if (several_setups) return text_table({name, setup, angle, points, sigma, state});
+  return text_table({name, angle, points, sigma, state});
+}
+
 void print_result(const Reconstruction& result,
                   const ReconstructArguments& arguments,
                   Terminal& terminal) {
@@ -73,6 +112,7 @@ void print_result(const Reconstruction& result,
     nlohmann::ordered_json json;
     json["points"] = result.points;
     json["views"] = result.views;
+    json["per_view"] = json_of(result.view_summaries);
     json["vertices"] = result.mesh.vertices_mm.size();
     json["triangles"] = result.mesh.triangles.size();
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
@@ -84,6 +124,7 @@ void print_result(const Reconstruction& result,
   }
   if (terminal.quiet) return;
   terminal.finish();
+  fmt::print("{}", table_of(result.view_summaries));
   fmt::print("{} points from {} -> {} triangles\n",
              result.points,
              counted(result.views, "view"),
@@ -110,7 +151,7 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
     require(
         lowercase_extension(arguments.raw) == ".ply",
         "`keep_raw` writes points with their sigma as .ply; give a file name that ends with .ply");
-    const AtomicFile probe(arguments.raw);
+    check_can_write(arguments.raw);
   }
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
@@ -118,7 +159,7 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   const Reconstruction result = reconstruct(scan, arguments.options, run);
   run.stage("files");
   write_outputs(result, arguments, run);
-  terminal.judge(result.untrusted_reason);
+  terminal.assess(result.untrusted_reason);
   print_result(result, arguments, terminal);
 }
 

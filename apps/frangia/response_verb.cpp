@@ -12,6 +12,7 @@
 #include "frangia/phase/measure_response.h"
 #include "frangia/rig/read_rig.h"
 
+#include "check_can_write.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -23,6 +24,7 @@ struct ResponseArguments {
 };
 
 void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
+  check_can_write(arguments.output);  // fails before the work where no file can be written
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
   std::vector<FrameStack> ramps;
@@ -46,9 +48,9 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   if (terminal.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"light", response->light}}.dump(2));
   } else if (!terminal.quiet) {
-    fmt::print("half of full drive gives {:.1f} % of full light\nwrote {}\n",
-               100.0 * response->light_of(0.5),
-               arguments.output.string());
+    fmt::print("half of full drive gives {:.1f} % of full light\n",
+               100.0 * response->light_of(0.5));
+    terminal.print_written(arguments.output.string());
   }
 }
 

@@ -267,10 +267,10 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
     fmt::print("{}\n", result.dump(2));
     return;
   }
-  run.note(fmt::format("wrote {}: {} of {}, and truth.ply",
-                       scan.folder.string(),
-                       counted(scan.views.size(), "view"),
-                       counted(scan.patterns.size(), "pattern")));
+  terminal.print_written(fmt::format("{}: {} of {}, and truth.ply",
+                                     scan.folder.string(),
+                                     counted(scan.views.size(), "view"),
+                                     counted(scan.patterns.size(), "pattern")));
 }
 
 }  // namespace

@@ -63,10 +63,12 @@ void Terminal::release() {
   held_.clear();
 }
 
-void Terminal::judge(const std::string& reason) {
+void Terminal::assess(const std::string& reason) {
   if (!reason.empty()) {
-    print_line("the result is not trustworthy: " + with_flags(reason));
+    const std::string text = with_flags(reason);
+    print_line("the result is not trustworthy: " + text);
     exit_code = kUntrustedExitCode;
+    std::erase_if(held_, [&](const std::string& line) { return line.find(text) != line.npos; });
   }
   release();
 }

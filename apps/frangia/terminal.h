@@ -14,8 +14,8 @@ namespace frangia {
 /// What the user sees while a verb works: a progress line, warnings and notes, all on standard
 /// error; standard output is for results.
 ///
-/// A line a view and a summary are shown by default. `verbose` adds the notes of the stages that
-/// work view by view, the seconds of each stage and the peak memory.
+/// By default the user sees one line for each view and a summary. `verbose` adds the notes of the
+/// stages that work view by view, the seconds of each stage and the peak memory.
 class Terminal {
  public:
   bool json = false;         ///< results as JSON on standard output, no progress
@@ -33,9 +33,9 @@ class Terminal {
   /// Prints what was kept back.
   void release();
 
-  /// For a result that must not be trusted: prints the reason before everything that was kept back
-  /// and sets the exit code. Does nothing but `release` when `reason` is empty.
-  void judge(const std::string& reason);
+  /// Prints what was kept back. For a result that must not be trusted, prints the reason first,
+  /// leaves out the lines that repeat it, and sets the exit code; `reason` is empty otherwise.
+  void assess(const std::string& reason);
 
   /// Stages in the order in which they first began, with the seconds spent in each.
   [[nodiscard]] std::vector<std::pair<std::string, double>> stage_seconds();

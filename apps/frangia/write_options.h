@@ -9,12 +9,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/pipeline/finish_mesh.h"
 
+#include "check_can_write.h"
 #include "option_values.h"
 
 namespace frangia {
@@ -45,7 +45,7 @@ struct MeshOutputs {
   void check() const {
     for (const auto& path : paths) {
       check_mesh_extension(path);
-      const AtomicFile probe(path);
+      check_can_write(path);
     }
   }
   /// Writes every file. A DXF is simplified to `dxf_faces`; a note of `run` states the deviation.

@@ -67,6 +67,42 @@ int width_of(const std::filesystem::path& png) {
   return width;
 }
 
+TEST_F(PictureProgram, SaysWhatItWrote) {
+  write_mesh(at("part.ply"), testing::box({0, 0, 0}, {10, 20, 30}));
+  for (const std::string& command :
+       {"inspect " + at("part.ply") + " --show shape --picture " + at("a.png"),
+        "inspect " + at("part.ply") + " --reference " + at("part.ply") + " --picture " +
+            at("a.png"),
+        "picture " + at("part.ply") + " -o " + at("a.png"),
+        "edit " + at("part.ply") + " --remove-spikes -o " + at("a.png.stl") + " --preview " +
+            at("a.png")}) {
+    const Answer answer = run_program(command);
+    EXPECT_EQ(answer.exit_code, 0) << command;
+    EXPECT_NE(answer.output.find("wrote " + at("a.png") + "\n"), std::string::npos)
+        << answer.output;
+  }
+}
+
+TEST_F(PictureProgram, TakesLengthsWithUnits) {
+  write_mesh(at("part.ply"), testing::box({0, 0, 0}, {10, 20, 30}));
+  const std::string inspect =
+      "inspect " + at("part.ply") + " --reference " + at("part.ply") + " --picture " + at("a.png");
+  EXPECT_EQ(run_program(inspect + " --within 0.01in --scale 50um").exit_code, 0);
+  const Answer answer = run_program("--json " + inspect + " --within 0.01in");
+  EXPECT_NE(answer.output.find("\"completeness_within_mm\": 0.254"), std::string::npos)
+      << answer.output;
+  EXPECT_EQ(run_program(inspect + " --scale 0mm").exit_code, 2);
+}
+
+TEST_F(PictureProgram, AnEditChecksThePathsOfItsFilesBeforeTheWork) {
+  for (const char* option : {"-o ", "--save-script ", "--preview "}) {
+    const Answer answer = run_program("edit " + at("missing.ply") + " --remove-spikes " + option +
+                                      at("nowhere/a.png"));
+    EXPECT_EQ(answer.exit_code, 3) << option;
+    EXPECT_EQ(answer.output.find("missing.ply"), std::string::npos) << answer.output;
+  }
+}
+
 TEST_F(PictureProgram, AddsAColorScaleUnlessToldNotTo) {
   write_mesh(at("part.ply"), testing::box({0, 0, 0}, {10, 20, 30}));
   const std::string command = "inspect " + at("part.ply") + " --reference " + at("part.ply");

@@ -27,6 +27,11 @@ bool shows(const Answer& answer, const std::string& part) {
   return answer.output.find(part) != std::string::npos;
 }
 
+/// Sum of the two numbers that a regular expression captured.
+int sum_of(const std::smatch& found) {
+  return std::stoi(found.str(1)) + std::stoi(found.str(2));
+}
+
 std::string rig_file() {
   return std::string(FRANGIA_SOURCE_DIR) + "/tests/data/small-interferometer.toml";
 }
@@ -52,9 +57,27 @@ TEST_F(TerminalProgram, ShowsASummaryByDefaultAndTheRestUnderVerbose) {
   EXPECT_TRUE(shows(brief, "wrote " + path("a.ply"))) << brief.output;
   EXPECT_FALSE(shows(brief, "algorithm") || shows(brief, "contrast") || shows(brief, " MB"))
       << brief.output;
-  EXPECT_LE(std::count(brief.output.begin(), brief.output.end(), '\n'), 6) << brief.output;
+  EXPECT_LE(std::count(brief.output.begin(), brief.output.end(), '\n'), 8) << brief.output;
   const Answer all = run_program("--verbose " + reconstruct);
   EXPECT_TRUE(shows(all, "contrast") && shows(all, " MB")) << all.output;
+}
+
+TEST_F(TerminalProgram, PrintsOneLineForEachView) {
+  simulate("ball-bar --rig angular --views 2");
+  const std::string reconstruct = "reconstruct " + path("scan") + " -o " + path("a.ply");
+  const Answer answer = run_program(reconstruct);
+  EXPECT_EQ(answer.exit_code, 0);
+  const std::regex table(
+      R"(view +angle deg +points +sigma mm\nviews/000 +0\.00 +(\d+) +0\.\d{4}\nviews/001 +180\.00 +(\d+) +0\.\d{4}\n)");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(answer.output, found, table)) << answer.output;
+  EXPECT_TRUE(shows(answer, fmt::format("\n{} points from 2 views", sum_of(found))))
+      << answer.output;
+  EXPECT_FALSE(shows(answer, "-0.0")) << answer.output;
+  const Answer json = run_program("--json " + reconstruct + " 2>/dev/null");
+  EXPECT_TRUE(shows(json, "\"view\": \"views/001\"")) << json.output;
+  const Answer quiet = run_program("--quiet " + reconstruct);
+  EXPECT_EQ(quiet.output, "");
 }
 
 TEST_F(TerminalProgram, SaysWhatItWrote) {

@@ -1,9 +1,12 @@
 // A result that is not trustworthy: first line, exit code and JSON.
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "frangia/files/ply.h"
 
 #include "support/displaced_views.h"
 #include "support/run_program.h"
@@ -33,6 +36,35 @@ TEST(UntrustedProgram, AnnouncesAnUntrustworthyResultInTheFirstLine) {
   EXPECT_EQ(json.exit_code, 5);
   EXPECT_NE(json.output.find("\"trustworthy\": false"), std::string::npos) << json.output;
   EXPECT_NE(json.output.find("\"reason\": \"the views contradict"), std::string::npos);
+}
+
+TEST(UntrustedProgram, AnnouncesScansThatContradictEachOtherInTheFirstLine) {
+  const TemporaryFolder folder;
+  const auto path = [&](const std::string& name) { return (folder.path() / name).string(); };
+  Mesh relief;
+  constexpr std::uint32_t kSide = 50;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const auto x = static_cast<float>(i % kSide);
+    const auto y = static_cast<float>(i / kSide);
+    relief.vertices_mm.emplace_back(x, y, 4.0F * std::sin(0.3F * x) * std::cos(0.2F * y));
+    if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
+    relief.triangles.push_back({i, i + 1, i + kSide + 1});
+    relief.triangles.push_back({i, i + kSide + 1, i + kSide});
+  }
+  write_ply(path("one.ply"), relief);
+  for (Eigen::Vector3f& vertex : relief.vertices_mm)
+    vertex.z() *= 1.5F;
+  write_ply(path("two.ply"), relief);
+  const std::string arguments =
+      "merge " + path("one.ply") + " " + path("two.ply") + " --poses given -o " + path("a.ply");
+  const Answer answer = run_program(arguments);
+  EXPECT_EQ(answer.exit_code, 5) << answer.output;
+  const std::string first = "the result is not trustworthy: the scans contradict each other, ";
+  EXPECT_EQ(answer.output.find(first), 0U) << answer.output;
+  EXPECT_EQ(answer.output.find("contradict", first.size()), std::string::npos) << answer.output;
+  const Answer json = run_program("--json " + arguments + " 2>/dev/null");
+  EXPECT_EQ(json.exit_code, 5);
+  EXPECT_NE(json.output.find("\"trustworthy\": false"), std::string::npos) << json.output;
 }
 
 }  // namespace
