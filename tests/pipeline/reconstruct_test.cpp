@@ -1,5 +1,6 @@
 #include "frangia/pipeline/reconstruct.h"
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@
 namespace frangia {
 namespace {
 
+// Limits are about 1.3 times the value that a comment gives as measured. Quantities that should be
+// zero and come out far below the noise have a limit above the noise of their last digits instead.
+
 using testing::small_scan;
 using testing::TemporaryFolder;
 
@@ -30,19 +34,26 @@ TEST(Reconstruct, MeasuresABustWithADigitalProjector) {
   const Reconstruction result = reconstruct(scan);
   const SurfaceError error = error_of(result, "bust");
   EXPECT_EQ(result.views, 6U);
-  EXPECT_GT(result.points, 50000U);
-  EXPECT_LT(error.rms_mm, 0.06);
-  EXPECT_LT(error.p99_mm, 0.3);
+  EXPECT_GT(result.points, 56000U);  // measured 72495
+  EXPECT_LT(error.rms_mm, 0.051);    // measured 0.0396
+  EXPECT_LT(error.p99_mm, 0.18);     // measured 0.138
 }
 
 TEST(Reconstruct, ResolvesEveryFringeOrderOfThePapersRigByTheLaserSheet) {
   // Half a fringe is 14 mm here: a single view off by one would show.
-  for (const char* part : {"shaft", "bracket", "blade"}) {
+  struct Limits {
+    const char* part;
+    double rms_mm;
+    double max_mm;
+  };
+  for (const Limits& limits : {Limits{"shaft", 0.097, 1.54},    // measured 0.0743, 1.18
+                               Limits{"bracket", 0.094, 2.55},  // measured 0.0723, 1.96
+                               Limits{"blade", 0.23, 2.9}}) {   // measured 0.176, 2.21
     const TemporaryFolder folder;
-    const Scan scan = small_scan(folder.path(), part, "angular", 6);
-    const SurfaceError error = error_of(reconstruct(scan), part);
-    EXPECT_LT(error.rms_mm, 0.4) << part;
-    EXPECT_LT(error.max_mm, 4.0) << part;
+    const Scan scan = small_scan(folder.path(), limits.part, "angular", 6);
+    const SurfaceError error = error_of(reconstruct(scan), limits.part);
+    EXPECT_LT(error.rms_mm, limits.rms_mm) << limits.part;
+    EXPECT_LT(error.max_mm, limits.max_mm) << limits.part;
   }
 }
 
@@ -69,10 +80,12 @@ TEST(Reconstruct, MeasuresAsWellWithTheAxisAndTheAnglesOff) {
   faults.angle_error_rad = rad_from_deg(0.15);
   const Reconstruction wanted = reconstruct(small_scan(exact.path(), "bracket", "digital", 6));
   const Reconstruction found = reconstruct(small_scan(off.path(), "bracket", "digital", 6, faults));
-  EXPECT_LT(error_of(found, "bracket").rms_mm, 1.15 * error_of(wanted, "bracket").rms_mm);
+  // The ratio is measured as 1.002.
+  EXPECT_LT(error_of(found, "bracket").rms_mm, 1.01 * error_of(wanted, "bracket").rms_mm);
   ASSERT_TRUE(found.registration);
-  EXPECT_NEAR(found.registration->axis_moved_mm(), 0.5, 0.01);
-  EXPECT_NEAR(found.registration->axis_turned_rad(), rad_from_deg(0.3), rad_from_deg(0.02));
+  EXPECT_NEAR(found.registration->axis_moved_mm(), 0.5, 0.0016);  // measured 0.5012
+  // Measured 0.3002 degrees.
+  EXPECT_NEAR(found.registration->axis_turned_rad(), rad_from_deg(0.3), rad_from_deg(0.001));
 }
 
 TEST(Reconstruct, LeavesTheTurntableTopOut) {
@@ -81,8 +94,8 @@ TEST(Reconstruct, LeavesTheTurntableTopOut) {
   faults.turntable_top_radius_mm = 70.0;
   const Scan scan = small_scan(folder.path(), "bracket", "digital", 4, faults);
   const Reconstruction result = reconstruct(scan);
-  EXPECT_NEAR(result.turntable_top_height_mm, 0.0, 0.1);
-  EXPECT_LT(error_of(result, "bracket").max_mm, 2.0);
+  EXPECT_NEAR(result.turntable_top_height_mm, 0.0, 0.002);  // measured 0.0002
+  EXPECT_LT(error_of(result, "bracket").max_mm, 1.54);      // measured 1.18
   ReconstructOptions keep;
   keep.keep_turntable_top = true;
   EXPECT_GT(error_of(reconstruct(scan, keep), "bracket").max_mm, 10.0);
@@ -95,8 +108,8 @@ TEST(Reconstruct, ClipsBelowAHeightAndBeyondARadius) {
   options.clip_below_mm = 10.0;
   options.clip_radius_mm = 30.0;
   for (const auto& vertex : reconstruct(scan, options).mesh.vertices_mm) {
-    EXPECT_GT(vertex.z(), 9.0F);
-    EXPECT_LT(vertex.head<2>().norm(), 31.0F);
+    EXPECT_GT(vertex.z(), 9.96F);                // measured 9.971
+    EXPECT_LT(vertex.head<2>().norm(), 30.33F);  // measured 30.248
   }
   options.clip_below_mm = 1000.0;
   EXPECT_THROW(static_cast<void>(reconstruct(scan, options)), Error);
@@ -122,9 +135,14 @@ TEST(Reconstruct, NamesAViewOfAMovedPartAndLeavesItOut) {
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const Reconstruction result = reconstruct(scan, {}, run);
+  ASSERT_EQ(result.view_summaries.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(result.view_summaries[i].left_out, i == 3) << i;
+    EXPECT_GT(result.view_summaries[i].points, 0U) << i;
+  }
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("views/3 fits no other view"), std::string::npos) << warnings[0];
-  EXPECT_LT(error_of(result, "bust").rms_mm, 0.06);
+  EXPECT_LT(error_of(result, "bust").rms_mm, 0.045);  // measured 0.0348
 }
 
 void darken(const std::filesystem::path& folder) {
@@ -145,6 +163,14 @@ TEST(Reconstruct, LeavesADarkViewOutWithAWarningAndGoesOn) {
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const Reconstruction result = reconstruct(scan, {}, run);
   EXPECT_EQ(result.views, 3U);
+  ASSERT_EQ(result.view_summaries.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ViewSummary& view = result.view_summaries[i];
+    EXPECT_EQ(view.name, "views/" + std::to_string(i));
+    EXPECT_EQ(view.left_out, i == 2) << i;
+    EXPECT_EQ(view.points == 0, i == 2) << i;
+    EXPECT_EQ(std::isnan(view.sigma_mm), i == 2) << i;
+  }
   EXPECT_FALSE(result.mesh.empty());
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("views/2"), std::string::npos);
@@ -198,8 +224,8 @@ TEST(Reconstruct, MeasuresTheBallBarOfTheSharedScans) {
         near.emplace_back(vertex.cast<double>());
     }
     const auto sphere = fit_sphere(near);
-    EXPECT_NEAR(2.0 * sphere.radius_mm, 40.0, 0.02);
-    EXPECT_LT(sphere.rms_mm, 0.02);
+    EXPECT_NEAR(2.0 * sphere.radius_mm, 40.0, 0.0042);  // measured 39.9968 and 39.9972
+    EXPECT_LT(sphere.rms_mm, 0.0156);                   // measured 0.0120 and 0.0114
   }
 }
 

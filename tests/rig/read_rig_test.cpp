@@ -10,6 +10,7 @@
 #include "frangia/rig/paper_rig.h"
 
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -76,6 +77,26 @@ TEST(ReadRig, ReadsBackAWrittenRig) {
   EXPECT_TRUE(back.laser_sheet->normal.isApprox(rig.laser_sheet->normal, 1e-15));
   EXPECT_NEAR(back.camera.noise->variance(100.0), rig.camera.noise->variance(100.0), 1e-9);
   EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
+}
+
+TEST(WriteRig, WritesTheShortestNumbersThatRestoreTheRigExactly) {
+  const TemporaryFolder folder;
+  Rig rig = make_paper_rig({});
+  rig.camera.model.principal_point_px = {490.45, 377.0};
+  rig.camera.model.focal_px = {1.0 / 3.0 * 1e4, 1800.1};
+  rig.projector.response = ResponseCurve{{0.0, 0.1, 1.0}};
+  const auto path = folder.path() / "rig.toml";
+  write_rig(path, rig);
+  const std::string text = testing::text_of(path);
+  EXPECT_NE(text.find("format = \"frangia-rig\"\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("principal_point_px = [490.45, 377.0]\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("light = [0.0, 0.1, 1.0]\n"), std::string::npos) << text;
+  const Rig back = read_rig(path);
+  EXPECT_EQ(back.camera.model.principal_point_px, rig.camera.model.principal_point_px);
+  EXPECT_EQ(back.camera.model.focal_px, rig.camera.model.focal_px);
+  EXPECT_EQ(back.projector.position_mm, rig.projector.position_mm);
+  EXPECT_EQ(back.laser_sheet->offset_mm, rig.laser_sheet->offset_mm);
+  EXPECT_EQ(back.projector.response->light, rig.projector.response->light);
 }
 
 TEST(ReadRig, WarnsAboutUnknownKeysByName) {

@@ -45,10 +45,10 @@ void put_part_poses(TomlWriter& writer, const std::map<int, Eigen::Isometry3d>& 
   for (const auto& [setup, part_pose] : part_poses) {
     const Eigen::Matrix3d rotation = part_pose.linear();
     const Eigen::Vector3d translation_mm = part_pose.translation();
-    toml::array rows;
+    std::vector<std::vector<double>> rows;
     for (int row = 0; row < 3; ++row) {
-      rows.push_back(toml::array{
-          rounded(rotation(row, 0)), rounded(rotation(row, 1)), rounded(rotation(row, 2))});
+      rows.push_back(
+          {rounded(rotation(row, 0)), rounded(rotation(row, 1)), rounded(rotation(row, 2))});
     }
     writer.begin_table_of_list("setup");
     writer.put("number", setup);

@@ -124,15 +124,15 @@ Projector read_projector(TomlReader reader, const Run& run) {
   return projector;
 }
 
-toml::array list_of(const Eigen::Vector3d& v) {
-  return toml::array{v.x(), v.y(), v.z()};
+std::vector<double> list_of(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
 }
 
 void put_camera_model(TomlWriter& writer, const CameraModel& model) {
-  writer.put("size_px", toml::array{model.width_px, model.height_px});
-  writer.put("focal_px", toml::array{model.focal_px.x(), model.focal_px.y()});
+  writer.put("size_px", std::vector<int>{model.width_px, model.height_px});
+  writer.put("focal_px", std::vector{model.focal_px.x(), model.focal_px.y()});
   writer.put("principal_point_px",
-             toml::array{model.principal_point_px.x(), model.principal_point_px.y()});
+             std::vector{model.principal_point_px.x(), model.principal_point_px.y()});
   writer.put("distortion", std::vector<double>(model.distortion.begin(), model.distortion.end()));
 }
 
@@ -154,13 +154,13 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
   writer.put("model", std::string(projector.is_angular() ? "angular" : "pinhole"));
   writer.put("position_mm", list_of(projector.position_mm));
   writer.put("rotation",
-             toml::array{list_of(r.row(0).transpose()),
+             std::vector{list_of(r.row(0).transpose()),
                          list_of(r.row(1).transpose()),
                          list_of(r.row(2).transpose())});
   if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
     writer.put(
         "field_deg",
-        toml::array{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
+        std::vector{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
   } else {
     put_camera_model(writer, std::get<PinholeModel>(projector.model));
   }
