@@ -46,7 +46,7 @@ TEST(UntrustedProgram, AnnouncesScansThatContradictEachOtherInTheFirstLine) {
   for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
     const auto x = static_cast<float>(i % kSide);
     const auto y = static_cast<float>(i / kSide);
-    relief.vertices_mm.emplace_back(x, y, 4.0F * std::sin(0.3F * x) * std::cos(0.2F * y));
+    relief.vertices_mm.emplace_back(x, y, 8.0F * std::sin(0.1F * x) * std::cos(0.08F * y));
     if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
     relief.triangles.push_back({i, i + 1, i + kSide + 1});
     relief.triangles.push_back({i, i + kSide + 1, i + kSide});
