@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures how sensitive the fused mesh is to each parameter of the fusion.
 
-usage: sensitivity.py PROGRAM STUDY docs/parameters.md
+usage: sensitivity.py PROGRAM STUDY docs/parameters.md [FOLDER]
 
 PROGRAM is the frangia program and STUDY is fusion_sensitivity of the benchmarks. Six small scans are
-simulated once into out/sensitivity, with half the pixels of the digital rig on a side. For each, STUDY fuses the views with half and with double of
+simulated once into FOLDER (out/sensitivity), with half the pixels of the digital rig on a side. For each, STUDY fuses the views with half and with double of
 each parameter and compares the meshes with the truth; its answers are kept as JSON lines beside the
 scans, and a scan whose answers exist is not measured again. The script writes the table of the page.
 """
@@ -108,6 +108,8 @@ def main(program, study, page):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) not in (4, 5):
         sys.exit(__doc__)
-    main(*map(pathlib.Path, sys.argv[1:]))
+    if len(sys.argv) == 5:
+        FOLDER = pathlib.Path(sys.argv[4])
+    main(*map(pathlib.Path, sys.argv[1:4]))

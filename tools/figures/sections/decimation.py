@@ -1,0 +1,40 @@
+"""Distances of decimated meshes from the scan, measured by MeshLab."""
+import os
+import re
+import subprocess
+
+import meshlab
+from study import ROOT
+
+TITLE = "Decimation, measured by MeshLab"
+
+HAUSDORFF = [("RichMesh", "SampledMesh", 0), ("RichMesh", "TargetMesh", 1), ("RichBool", "SaveSample", "false"),
+             ("RichBool", "SampleVert", "true"), ("RichBool", "SampleEdge", "true"),
+             ("RichBool", "SampleFauxEdge", "false"), ("RichBool", "SampleFace", "true"),
+             ("RichInt", "SampleNum", 1000000), ("RichAbsPerc", "MaxDist", 5)]
+
+
+def distance(sampled, target):
+    """The maximum and the RMS distance, mm, from two million points of one mesh to the other."""
+    text = meshlab.apply("Hausdorff Distance", HAUSDORFF, [sampled, target])
+    found = re.search(r"max (\S+)\s+mean : \S+\s+RMS : (\S+)", text)
+    if not found:
+        raise SystemExit(f"MeshLab did not measure {sampled}:\n{text}")
+    return float(found[1]), float(found[2])
+
+
+def measure(study):
+    missing = meshlab.is_missing()
+    if missing:
+        study.add(f"Not measured: missing {', '.join(missing)}.")
+        return
+    study.build("bench_mesh")
+    data = ROOT / "out" / "bench" / "data"
+    subprocess.run([ROOT / "build/release/bin/bench_mesh", "--benchmark_filter=^decimate_to"], check=True,
+                   env=dict(os.environ, FRANGIA_BENCH_DATA=str(data)))
+    scan = data / "scan.ply"
+    study.add("A scan of two million triangles, decimated to a tenth (`bench_mesh` writes both meshes). Distances from all vertices, a million points on the edges and about as many on the triangles of one mesh to the other; wanted: no larger than those of CGAL.\n")
+    study.table("", "maximum from mesh to scan, mm", "RMS", "maximum from scan to mesh, mm", "RMS")
+    for name, mesh in {"frangia": data / "tenth.ply", "CGAL, Garland-Heckbert": data / "tenth-by-cgal.ply"}.items():
+        (there, there_rms), (back, back_rms) = distance(mesh, scan), distance(scan, mesh)
+        study.row(name, f"{there:.4f}", f"{there_rms:.4f}", f"{back:.4f}", f"{back_rms:.4f}")

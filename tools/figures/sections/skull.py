@@ -1,0 +1,25 @@
+"""The real skull against the mesh that its owners published."""
+import numpy
+from scipy.spatial import cKDTree
+
+from study import seconds
+from surfaces import points_of, read_ply
+
+TITLE = "A real scan: the skull"
+
+
+def measure(study):
+    scan = study.shared("skull")
+    if not scan:
+        return
+    mesh = study.work / "skull.ply"
+    answer = study.run("reconstruct", scan, "-o", mesh)
+    raw = (scan / "reference.ply").read_bytes()
+    reference = numpy.frombuffer(raw, "<f4", offset=raw.index(b"end_header\n") + 11).reshape(-1, 3)
+    distance = cKDTree(reference).query(points_of(read_ply(mesh)))[0]
+    study.add("`frangia reconstruct ../shared/scans/skull -o skull.ply`; distances to the nearest point of its `reference.ply`, which is itself coarse.\n")
+    study.table("", "measured", "wanted")
+    study.row("points", answer["points"], "at least 300 000")
+    study.row("vertices, triangles", f"{answer['vertices']}, {answer['triangles']}", "")
+    study.row("median distance of a vertex, mm", f"{numpy.median(distance):.3f}", "at most 0.40")
+    study.add(f"\nSeconds: {seconds(answer)}; peak {answer['peak_memory_mb']:.0f} MB.")

@@ -1,0 +1,9 @@
+"""Draws the pictures of docs/surface.md."""
+import subprocess
+import sys
+
+from study import ROOT
+
+
+def measure(study):
+    subprocess.run([sys.executable, ROOT / "tools" / "surface_pictures.py", study.program, ROOT / "docs" / "images"], check=True)
