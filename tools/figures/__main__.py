@@ -15,7 +15,7 @@ from study import ROOT, Study  # noqa: E402
 
 # In the order in which they stand on their pages.
 SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misaligned_turntable", "large", "edits",
-            "decimation", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead", "kills",
+            "decimation", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead",
             "file_readers", "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
 
 
