@@ -1,0 +1,62 @@
+"""Tries faults on the whole program: python3 tests/faults PROGRAM [--long] [--page docs/reliability.md] [--seed N] [NAME...]
+
+The short run is part of `./run test`, the long one is `./run faults`, which writes the table of docs/reliability.md.
+Ends with exit code 1 and one sentence for each failure.
+"""
+import argparse
+import importlib
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from campaign import Campaign  # noqa: E402
+
+STUDIES = ["kills", "power_cuts", "io_errors", "two_sessions", "signals", "device_faults", "memory", "inputs"]
+BEGIN, END = "<!-- begin table: written by `./run faults` -->", "<!-- end table -->"
+
+
+def write_table(page, answers):
+    text = page.read_text()
+    rows = {line.split("`")[1]: line for line in text.split(BEGIN)[1].split(END)[0].splitlines() if line.startswith("| `")}
+    for answer in answers:
+        rows[answer.name] = f"| `{answer.name}` | {answer.title} | {answer.tried} | {len(answer.failures)} | {answer.measured} |"
+    ordered = [rows[name] for name in STUDIES if name in rows]
+    table = ["", "| study | what was done | tried | failed | measured |", "|---|---|---|---|---|", *ordered, ""]
+    temporary = page.with_suffix(".tmp")
+    temporary.write_text(text.split(BEGIN)[0] + BEGIN + "\n".join(table) + "\n" + END + text.split(END)[1])
+    os.replace(temporary, page)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("program")
+    arguments.add_argument("--long", action="store_true")
+    arguments.add_argument("--page", type=pathlib.Path)
+    arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(STUDIES)}")
+    chosen = arguments.parse_args()
+    failed = 0
+    for name in chosen.names or STUDIES:
+        if name not in STUDIES:
+            sys.exit(f"faults: there is no study '{name}'; the studies are {', '.join(STUDIES)}")
+        work = tempfile.mkdtemp(prefix="frangia-faults-")
+        begin = time.monotonic()
+        answer = importlib.import_module(name).run(Campaign(chosen.program, work, chosen.long, chosen.seed))
+        print(f"{name}: {answer.tried} tried, {len(answer.failures)} failed, {time.monotonic() - begin:.0f} s; {answer.measured}", flush=True)
+        for failure in answer.failures:
+            print(f"  {failure}", flush=True)
+        failed += len(answer.failures)
+        if chosen.page:
+            write_table(chosen.page, [answer])
+        if not answer.failures:
+            shutil.rmtree(work)
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

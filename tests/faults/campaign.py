@@ -1,0 +1,96 @@
+"""What the studies share: the program, a small rig, the result of an undisturbed scan, and their answers."""
+import dataclasses
+import hashlib
+import pathlib
+import random
+import subprocess
+import time
+import zlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+RIG = ROOT / "tests" / "data" / "small-interferometer.toml"
+
+
+@dataclasses.dataclass
+class Answer:
+    """The result of one study: how much was tried and what of it failed."""
+
+    name: str  # the file of the study
+    title: str  # what was done, for the table
+    tried: int
+    failures: list = dataclasses.field(default_factory=list)  # one sentence each
+    measured: str = ""  # further figures
+
+
+class Campaign:
+    """One run: `count(short, long)` chooses how much is tried."""
+
+    def __init__(self, program, work, is_long, seed):
+        self.program = pathlib.Path(program).resolve()
+        self.work = pathlib.Path(work)
+        self.is_long = is_long
+        self.random = random.Random(seed)
+        self.views = "3"
+        self._whole = None
+
+    def count(self, short, long):
+        return long if self.is_long else short
+
+    def fresh(self, name):
+        """A path that does not exist, below the campaign's folder."""
+        folder = self.work / f"{name}-{self.random.getrandbits(40):010x}"
+        folder.mkdir(parents=True)
+        return folder / "scan"
+
+    def scan_command(self, scan, rig=RIG):
+        return [self.program, "--quiet", "scan", rig, "--views", self.views, "-o", scan]
+
+    def digest(self, scan):
+        """A hash of all frames and of the mesh."""
+        mesh = scan.parent / "mesh.ply"
+        subprocess.run([self.program, "--quiet", "reconstruct", scan, "-o", mesh], check=True, stderr=subprocess.DEVNULL)
+        found = hashlib.sha256(mesh.read_bytes())
+        for frame in sorted(scan.rglob("*.png")):
+            found.update(str(frame.relative_to(scan)).encode() + frame.read_bytes())
+        return found.hexdigest()
+
+    def whole(self):
+        """Digest and seconds of a scan that nothing disturbs."""
+        if self._whole is None:
+            scan = self.fresh("whole")
+            begin = time.monotonic()
+            subprocess.run(self.scan_command(scan), check=True)
+            seconds = time.monotonic() - begin
+            self._whole = self.digest(scan), seconds
+        return self._whole
+
+    def finish(self, scan, answer, what):
+        """Repeats the command until the scan is complete, and compares it with the undisturbed one."""
+        for _ in range(4):
+            result = subprocess.run(self.scan_command(scan), capture_output=True, text=True, timeout=60)
+            if result.returncode == 0:
+                break
+        else:
+            answer.failures.append(f"{what}: the scan cannot be finished: {result.stderr.strip()}")
+            return
+        if self.digest(scan) != self.whole()[0]:
+            answer.failures.append(f"{what}: a frame or the mesh differs from those of an undisturbed scan")
+
+
+def acknowledged_frames(scan):
+    """The frames that the manifest lists, with their checksums."""
+    manifest = scan / "capture" / "manifest.txt"
+    if not manifest.exists():
+        return []
+    lines = manifest.read_bytes().decode("latin-1").splitlines(keepends=True)
+    words = [line.split() for line in lines if line.startswith("frame ") and line.endswith("\n")]
+    return [(line[1], int(line[2], 16)) for line in words]
+
+
+def count_lost(scan, frames=None):
+    """The number of acknowledged frames that are missing or changed."""
+    lost = 0
+    for name, checksum in acknowledged_frames(scan) if frames is None else frames:
+        frame = scan / name
+        lost += not frame.exists() or zlib.crc32(frame.read_bytes()) != checksum
+    return lost
