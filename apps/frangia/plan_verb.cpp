@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
+#include "frangia/pattern/order_confusion.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/rig_presets.h"
 
@@ -24,14 +26,28 @@ struct PlanArguments {
   double fringes = 64.0;
   double sigma_rad = 0.1;
   double max_wrong_order = 1e-6;
+  std::optional<int> maps;
+  std::optional<double> lowest;
 };
+
+/// A hierarchy from one fringe, or beats of a given number of maps.
+SequencePlan plan_of(const PlanArguments& arguments) {
+  if (!arguments.maps) {
+    require(!arguments.lowest, "`lowest` is for sequences of beats; set the number of `maps`");
+    return plan_sequence(arguments.fringes, arguments.sigma_rad, arguments.max_wrong_order);
+  }
+  return plan_beats(arguments.fringes,
+                    *arguments.maps,
+                    arguments.lowest.value_or(0.5 * arguments.fringes),
+                    arguments.sigma_rad,
+                    arguments.max_wrong_order);
+}
 
 void plan(const PlanArguments& arguments, Terminal& terminal) {
   const Rig rig = std::filesystem::path(arguments.rig).has_extension()
                       ? read_rig(arguments.rig, terminal.run())
                       : rig_preset(arguments.rig);
-  const SequencePlan found =
-      plan_sequence(arguments.fringes, arguments.sigma_rad, arguments.max_wrong_order);
+  const SequencePlan found = plan_of(arguments);
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<double> values;
   for (const double fringes : found.fringes) {
@@ -67,7 +83,11 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
 void add_plan_verb(CLI::App& program, Terminal& terminal) {
   CLI::App* verb =
       program.add_subcommand("plan", "find the shortest pattern sequence for a given phase noise");
-  verb->footer("example:\n  frangia plan --rig digital --fringes 64 --sigma 0.1");
+  verb->footer(
+      "examples:\n"
+      "  frangia plan --rig digital --fringes 64 --sigma 0.1\n"
+      "  frangia plan --rig digital --fringes 64 --sigma 0.05 --maps 3     only fine fringes, "
+      "such as 64, 58 and 53");
   auto arguments = std::make_shared<PlanArguments>();
   verb->add_option("--rig", arguments->rig, "name of a rig, or a rig.toml")->capture_default_str();
   verb->add_option("--fringes", arguments->fringes, "fringes of the finest pattern over the field")
@@ -81,6 +101,16 @@ void add_plan_verb(CLI::App& program, Terminal& terminal) {
                    "allowed probability of a wrong fringe order per pixel")
       ->check(from_to(1e-15, 0.5))
       ->capture_default_str();
+  verb->add_option("--maps",
+                   arguments->maps,
+                   "plan beats: this many maps of fine fringes whose combination determines the "
+                   "order, none of them with a single fringe")
+      ->check(from_to(2, 16));
+  verb->add_option("--lowest",
+                   arguments->lowest,
+                   "fewest fringes of a map over the field, with --maps (default: half of "
+                   "--fringes)")
+      ->check(above_zero());
   verb->callback([arguments, &terminal] { plan(*arguments, terminal); });
 }
 

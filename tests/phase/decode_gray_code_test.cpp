@@ -33,7 +33,10 @@ struct Shown {
 };
 
 /// Fringes and Gray code of a camera whose pixels blur the edges of the stripes.
-Shown show(bool inverted, double noise_counts) {
+Shown show(InvertedFrames inverted,
+           double noise_counts,
+           BitOrder order = BitOrder::MostSignificantFirst,
+           bool is_binary = false) {
   Pattern pattern{.name = "f", .period_px = kPeriod_px};
   pattern.shifts_rad = testing::equal_shifts(4, 0.5 * kPi);
   const NoiseModel noise{.floor_counts2 = noise_counts * noise_counts + 1.0};
@@ -44,6 +47,8 @@ Shown show(bool inverted, double noise_counts) {
   Shown out{wrap_phase(stack, least_squares(pattern.shifts_rad), noise, {.max_sigma_rad = 2.0F}),
             {.pattern = gray_code_for_fringes(pattern, kColumns, inverted), .white_level = 65535},
             noise};
+  out.gray.pattern.order = order;
+  out.gray.pattern.is_binary = is_binary;
   for (int k = 0; k < out.gray.pattern.frame_count(); ++k) {
     Image<std::uint16_t> image(kColumns, kRows);
     for (int y = 0; y < kRows; ++y) {
@@ -90,16 +95,54 @@ TEST(GrayCode, NeighboursDifferInOneBitAndDecodingInvertsEncoding) {
 }
 
 TEST(DecodeGrayCode, FindsEveryOrderWithAndWithoutInvertedFrames) {
-  for (const bool inverted : {true, false}) {
+  for (const auto inverted : {InvertedFrames::After, InvertedFrames::None}) {
     const Shown shown = show(inverted, 300.0);
     const Orders orders = orders_of(decode_gray_code({&shown.gray, 1}, shown.fringes, shown.noise));
-    EXPECT_EQ(orders.wrong, 0.0) << inverted;
-    EXPECT_GT(orders.kept, 0.999) << inverted;
+    EXPECT_EQ(orders.wrong, 0.0) << static_cast<int>(inverted);
+    EXPECT_GT(orders.kept, 0.999) << static_cast<int>(inverted);
   }
 }
 
+TEST(DecodeGrayCode, ReadsEveryRecordedOrderOfFrames) {
+  for (const auto inverted :
+       {InvertedFrames::After, InvertedFrames::None, InvertedFrames::Alternating}) {
+    for (const auto order : {BitOrder::MostSignificantFirst, BitOrder::LeastSignificantFirst}) {
+      const Shown shown = show(inverted, 300.0, order);
+      const Orders orders =
+          orders_of(decode_gray_code({&shown.gray, 1}, shown.fringes, shown.noise));
+      EXPECT_EQ(orders.wrong, 0.0);
+      EXPECT_GT(orders.kept, 0.999);
+    }
+  }
+}
+
+TEST(DecodeGrayCode, ReadsBinaryCodeAndDiscardsTheEdgesOfItsStripes) {
+  const Shown shown =
+      show(InvertedFrames::Alternating, 300.0, BitOrder::LeastSignificantFirst, true);
+  const Orders orders = orders_of(decode_gray_code({&shown.gray, 1}, shown.fringes, shown.noise));
+  EXPECT_EQ(orders.wrong, 0.0);
+  EXPECT_GT(orders.kept, 0.8);
+}
+
+TEST(GrayCode, PlacesFramesAsListedByHand) {
+  // Three bits, each frame followed by its inverse, narrowest stripes first.
+  const Pattern gray{.kind = PatternKind::Gray,
+                     .bits = 3,
+                     .inverted = InvertedFrames::Alternating,
+                     .order = BitOrder::LeastSignificantFirst};
+  EXPECT_EQ(gray.frame_count(), 6);
+  EXPECT_EQ(frame_of_bit(gray, 0, false), 4);
+  EXPECT_EQ(frame_of_bit(gray, 0, true), 5);
+  EXPECT_EQ(frame_of_bit(gray, 2, false), 0);
+  EXPECT_TRUE(is_stripe_bright(gray, 4, 5.0));  // stripe 5, code 111
+  EXPECT_FALSE(is_stripe_bright(gray, 5, 5.0));
+  EXPECT_TRUE(is_stripe_bright(gray, 0, 5.0));
+  EXPECT_FALSE(is_stripe_bright(gray, 0, 4.0));  // stripe 4, code 110
+  EXPECT_THROW(static_cast<void>(is_stripe_bright(gray, 6, 0.0)), Error);
+}
+
 TEST(DecodeGrayCode, WrongOrdersStayWithinTheReportedProbability) {
-  const Shown shown = show(true, 8000.0);
+  const Shown shown = show(InvertedFrames::After, 8000.0);
   const Orders all = orders_of(
       decode_gray_code({&shown.gray, 1}, shown.fringes, shown.noise, {.max_wrong_order = 1.0}));
   EXPECT_GT(all.wrong, 2e-4);
@@ -110,7 +153,7 @@ TEST(DecodeGrayCode, WrongOrdersStayWithinTheReportedProbability) {
 }
 
 TEST(DecodeGrayCode, RefusesStripesWiderThanAFringeAndOtherDirections) {
-  Shown shown = show(true, 300.0);
+  Shown shown = show(InvertedFrames::After, 300.0);
   const auto refuses = [&] {
     EXPECT_THROW(static_cast<void>(decode_gray_code({&shown.gray, 1}, shown.fringes, shown.noise)),
                  Error);

@@ -9,6 +9,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
+#include "frangia/pattern/order_confusion.h"
 
 namespace frangia {
 namespace {
@@ -110,6 +111,50 @@ TEST(UnwrapSequence, WrongOrdersOccurAsPredictedAndAreDiscardedAboveTheLimit) {
   const AbsolutePhase strict =
       unwrap_sequence(maps, wide_display(), {.max_wrong_order = 0.5 * expected});
   EXPECT_EQ(strict.status(300, 5), PixelStatus::UncertainOrder);
+}
+
+TEST(UnwrapSequence, UnwrapsBeatsOfBeats) {
+  // No map and no beat of two has one fringe: 6, 5, and 64 - 2 * 58 + 53 = 1.
+  const std::vector<double> sequence{53.0, 58.0, 64.0};
+  const double sigma = 0.05;
+  const Errors errors = errors_of(unwrap_sequence(maps_of(sequence, sigma), wide_display()), 64.0);
+  EXPECT_LT(errors.wrong_share, 1e-5);
+  EXPECT_GT(errors.kept_share, 0.999);
+  EXPECT_NEAR(errors.rms_rad / sigma, 1.0 / std::hypot(1.0, 58.0 / 64.0, 53.0 / 64.0), 0.01);
+}
+
+TEST(UnwrapSequence, UnwrapsANarrowBandWhoseBeatsAllExceedOneFringe) {
+  const SequencePlan plan = plan_beats(47.0, 4, 40.0, 0.05);
+  const Errors errors =
+      errors_of(unwrap_sequence(maps_of(plan.fringes, 0.05), wide_display()), 47.0);
+  EXPECT_LT(errors.wrong_share, 1e-5);
+  EXPECT_GT(errors.kept_share, 0.999);
+}
+
+TEST(UnwrapSequence, ConfusesOrdersAsOftenAsPredicted) {
+  const std::vector<double> sequence{53.0, 58.0, 64.0};
+  const double sigma = 0.11;
+  const double expected = confusion_probability(sequence, sigma);
+  const Errors all = errors_of(
+      unwrap_sequence(maps_of(sequence, sigma), wide_display(), {.max_wrong_order = 1.0}), 64.0);
+  EXPECT_GT(expected, 1e-3);
+  EXPECT_NEAR(all.wrong_share / expected, 1.0, 0.25);
+  // A limit discards the pixels whose second order is likely: few wrong orders are left.
+  const Errors strict = errors_of(
+      unwrap_sequence(maps_of(sequence, sigma), wide_display(), {.max_wrong_order = 1e-4}), 64.0);
+  EXPECT_LT(strict.wrong_share, 2e-4);
+  EXPECT_GT(strict.kept_share, 0.5);
+}
+
+TEST(UnwrapSequence, DiscardsTheEndsOfAFieldWhereNoiseReachesTheOtherEnd) {
+  const std::vector<double> sequence{53.0, 58.0, 64.0};
+  const AbsolutePhase phase = unwrap_sequence(maps_of(sequence, 0.05), wide_display());
+  for (int y = 0; y < kMapHeight; ++y) {
+    for (const int x : {0, kMapWidth - 1}) {
+      if (phase.status(x, y) != PixelStatus::Measured) continue;
+      EXPECT_NEAR(phase.phase_rad(x, y), kTwoPi * 64.0 * x / kMapWidth, 0.5);
+    }
+  }
 }
 
 TEST(UnwrapSequence, RefusesMapsThatDetermineNoAbsolutePhase) {

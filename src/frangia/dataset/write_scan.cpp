@@ -27,7 +27,11 @@ void put_pattern(TomlWriter& writer, const Pattern& pattern) {
   if (pattern.kind == PatternKind::Gray) {
     writer.put("bits", pattern.bits);
     writer.put("stripe_px", pattern.stripe_px);
-    writer.put("inverted", pattern.inverted);
+    static constexpr std::array kInverted = {"none", "after", "alternating"};
+    writer.put("inverted", std::string(kInverted.at(static_cast<std::size_t>(pattern.inverted))));
+    if (pattern.is_binary) writer.put("code", std::string("binary"));
+    if (pattern.order == BitOrder::LeastSignificantFirst)
+      writer.put("order", std::string("lsb-first"));
   }
   if (pattern.kind != PatternKind::Fringe) return;
   if (pattern.fringes_per_degree > 0.0) {

@@ -20,6 +20,15 @@ namespace frangia {
   return gray;
 }
 
+/// Returns the number of the frame that shows a bit, 0 for the most significant one, or its
+/// inverse.
+[[nodiscard]] int frame_of_bit(const Pattern& gray, int bit, bool is_inverse);
+
+/// Returns the code of a stripe: Gray code, or the number itself for a binary code.
+[[nodiscard]] std::uint32_t code_of_stripe(const Pattern& gray, std::uint32_t stripe);
+/// Inverts `code_of_stripe`.
+[[nodiscard]] std::uint32_t stripe_of_code(const Pattern& gray, std::uint32_t code);
+
 /// Returns whether a frame of a Gray code pattern lights the stripe at `column` (or row) of the
 /// projector. Column k has its centre at k.
 [[nodiscard]] bool is_stripe_bright(const Pattern& gray, int frame, double column);
@@ -28,6 +37,8 @@ namespace frangia {
 /// misread as its neighbour then still gives the correct fringe order.
 ///
 /// @errors   Error(Input) unless half a fringe is finite and at least one pixel wide
-[[nodiscard]] Pattern gray_code_for_fringes(const Pattern& fringes, double columns, bool inverted);
+[[nodiscard]] Pattern gray_code_for_fringes(const Pattern& fringes,
+                                            double columns,
+                                            InvertedFrames inverted);
 
 }  // namespace frangia

@@ -19,19 +19,34 @@ enum class FringeDirection {
   Horizontal  ///< the phase varies with the projector's row
 };
 
+/// Which frames of a Gray code are shown inverted as well.
+enum class InvertedFrames {
+  None,        ///< none
+  After,       ///< all, after the last bit
+  Alternating  ///< all, each right after its bit
+};
+
+/// Order of the bits of a Gray code in time.
+enum class BitOrder {
+  MostSignificantFirst,  ///< widest stripes first
+  LeastSignificantFirst  ///< narrowest stripes first
+};
+
 /// A pattern that the projector shows in one or more frames; a [[pattern]] table of scan.toml.
 struct Pattern {
   std::string name;                        ///< also the prefix of its file names
   PatternKind kind = PatternKind::Fringe;  ///< what the frames show
   /// Of fringes and of the stripes of a Gray code.
   FringeDirection direction = FringeDirection::Vertical;
-  double fringes_per_degree = 0.0;   ///< for an angular projector; 0 for a pinhole one
-  double period_px = 0.0;            ///< for a pinhole projector; 0 for an angular one
-  std::vector<double> shifts_rad;    ///< sigma_i of the paper's equation (1), one per frame
-  int bits = 0;                      ///< Gray code: number of bits, most significant first
-  double stripe_px = 1.0;            ///< Gray code: width of a stripe
-  bool inverted = false;             ///< Gray code: the inverted frames follow the frames
-  std::vector<double> levels;        ///< ramp: projector levels from 0 to 1
+  double fringes_per_degree = 0.0;  ///< for an angular projector; 0 for a pinhole one
+  double period_px = 0.0;           ///< for a pinhole projector; 0 for an angular one
+  std::vector<double> shifts_rad;   ///< sigma_i of the paper's equation (1), one per frame
+  int bits = 0;                     ///< Gray code: number of bits
+  double stripe_px = 1.0;           ///< Gray code: width of a stripe
+  bool is_binary = false;           ///< Gray code: the number itself instead, as binary code
+  InvertedFrames inverted = InvertedFrames::None;   ///< Gray code: inverted frames
+  BitOrder order = BitOrder::MostSignificantFirst;  ///< Gray code: order of the bits
+  std::vector<double> levels;                       ///< ramp: projector levels from 0 to 1
   std::vector<double> exposures_ms;  ///< exposures of each frame; empty: one, of unknown length
 
   /// Spatial frequency in fringes per degree (angular) or per projector pixel (pinhole).
@@ -44,7 +59,7 @@ struct Pattern {
       case PatternKind::Line:
         return 1;
       case PatternKind::Gray:
-        return inverted ? 2 * bits : bits;
+        return inverted == InvertedFrames::None ? bits : 2 * bits;
       case PatternKind::Ramp:
         return static_cast<int>(levels.size());
       case PatternKind::Fringe:

@@ -91,18 +91,21 @@ class GrayCodeReader {
  private:
   /// Phase at the centre of the stripe with this code.
   [[nodiscard]] double expected_rad(std::uint32_t code) const {
-    const double column = (gray_to_binary(code) + 0.5) * code_.stripe_px - 0.5;
+    const double column = (stripe_of_code(code_, code) + 0.5) * code_.stripe_px - 0.5;
     return kTwoPi * column / fringes_.pattern.period_px;
   }
   [[nodiscard]] Bit read(int i, int x, int y) const {
     double best = 0.0;  // of the exposure with the largest margin
     for (const FrameStack& stack : gray_) {
-      const double counts = counts_at(stack.frames[static_cast<std::size_t>(i)], x, y);
+      const auto counts_of = [&](bool is_inverse) {
+        const auto frame = static_cast<std::size_t>(frame_of_bit(code_, i, is_inverse));
+        return static_cast<double>(counts_at(stack.frames[frame], x, y));
+      };
+      const double counts = counts_of(false);
       double threshold = 0.0;
       double variance = noise_.variance(counts);
-      if (code_.inverted) {
-        threshold = counts_at(
-            stack.frames[static_cast<std::size_t>(i) + static_cast<std::size_t>(code_.bits)], x, y);
+      if (code_.inverted != InvertedFrames::None) {
+        threshold = counts_of(true);
         variance += noise_.variance(threshold);
       } else {
         threshold = stack.gain() * static_cast<double>(fringes_.mean_counts(x, y));

@@ -6,12 +6,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/vectorized.h"
+#include "frangia/pattern/order_confusion.h"
 #include "frangia/phase/internal/hierarchical_unwrapper.h"
+#include "frangia/phase/internal/order_search.h"
 #include "frangia/phase/internal/wrap_tile.h"
+#include "frangia/phase/unwrap_levels.h"
+#include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
@@ -36,18 +41,9 @@ PixelStatus status_of(std::span<const WrappedPhase> maps, std::size_t i) {
   return status;
 }
 
-}  // namespace
-
-AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
-                              const Projector& projector,
-                              const TemporalUnwrapOptions& options) {
-  std::vector<Pattern> patterns;
-  for (const WrappedPhase& map : coarse_to_fine) {
-    patterns.push_back(map.pattern);
-    require(same_size(map.phase_rad, coarse_to_fine.front().phase_rad),
-            "unwrap_sequence: the phases differ in size");
-  }
-  const HierarchicalUnwrapper unwrapper(patterns, projector, options.max_wrong_order);
+/// Unwraps all pixels, tile by tile, by a HierarchicalUnwrapper or an OrderSearch.
+template <class Unwrapper>
+AbsolutePhase unwrap_all(std::span<const WrappedPhase> coarse_to_fine, const Unwrapper& unwrapper) {
   const int width = coarse_to_fine.back().phase_rad.width();
   const int height = coarse_to_fine.back().phase_rad.height();
   AbsolutePhase out{coarse_to_fine.back().pattern,
@@ -82,6 +78,44 @@ AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
     }
   });
   return out;
+}
+
+/// Whether comparing one level with the next loses nothing: every level is a map of its own, or the
+/// beats leave a wide margin.
+bool suits_hierarchy(std::span<const UnwrapLevel> levels) {
+  constexpr double kSigma = 0.05;
+  constexpr double kMaxWrongOrder = 1e-4;
+  if (levels.empty()) return false;
+  const bool beats = std::any_of(
+      levels.begin(), levels.end(), [](const UnwrapLevel& level) { return level.subtracted >= 0; });
+  return !beats || is_safe(levels, kSigma, kMaxWrongOrder);
+}
+
+}  // namespace
+
+AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
+                              const Projector& projector,
+                              const TemporalUnwrapOptions& options) {
+  std::vector<Pattern> patterns;
+  for (const WrappedPhase& map : coarse_to_fine) {
+    patterns.push_back(map.pattern);
+    require(same_size(map.phase_rad, coarse_to_fine.front().phase_rad),
+            "unwrap_sequence: the phases differ in size");
+  }
+  if (suits_hierarchy(find_unwrap_levels(patterns, projector))) {
+    return unwrap_all(coarse_to_fine,
+                      HierarchicalUnwrapper(patterns, projector, options.max_wrong_order));
+  }
+  return unwrap_all(coarse_to_fine, OrderSearch(patterns, projector, options.max_wrong_order));
+}
+
+bool determine_absolute_phase(std::span<const Pattern> coarse_to_fine, const Projector& projector) {
+  if (coarse_to_fine.empty()) return false;
+  if (!find_unwrap_levels(coarse_to_fine, projector).empty()) return true;
+  std::vector<double> fringes;
+  for (const Pattern& pattern : coarse_to_fine)
+    fringes.push_back(phase_range(pattern, projector).width_rad() / kTwoPi);
+  return determines_order(fringes);
 }
 
 }  // namespace frangia

@@ -11,17 +11,27 @@
 namespace frangia {
 
 /// Computes the absolute phase of the finest fringes from maps of arbitrary frequency ratios:
-/// doubling, heterodyne, negative exponential. All maps contribute through the weighted
-/// least-squares slope of phase over frequency.
+/// doubling, heterodyne, negative exponential, narrow bands. All maps contribute through the
+/// weighted least-squares slope of phase over frequency.
+///
+/// Where a map or a safe beat of two has at most one fringe over the field, each level is unwrapped
+/// by the next coarser one. Otherwise all orders are searched for the most likely one, which needs
+/// no map and no beat of one fringe: 64, 58 and 53 fringes suffice.
 ///
 /// @shape    coarse to fine, all w x h
 /// @missing  a pixel missing in any map, or whose probability of a wrong order, summed over the
 ///          levels, exceeds the limit, is NaN; its status states the reason
-/// @errors   Error(Input) when empty, of different size, or when no map and no beat of two maps has
-///          at most one fringe over the field
+/// @errors   Error(Input) when empty, of different size, or when no combination of the maps is
+///          unique over the field
 /// @source   Huntley and Saldner 1997 for the slope; Reich, Ritter and Thesing 1997 for beats
 [[nodiscard]] AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
                                             const Projector& projector,
                                             const TemporalUnwrapOptions& options = {});
+
+/// Returns whether maps of these patterns determine the absolute phase of the finest one.
+///
+/// @shape    coarse to fine; false when empty
+[[nodiscard]] bool determine_absolute_phase(std::span<const Pattern> coarse_to_fine,
+                                            const Projector& projector);
 
 }  // namespace frangia

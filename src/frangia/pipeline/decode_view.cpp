@@ -77,20 +77,22 @@ double crossing_distance(const Pattern& pattern, const Rig& rig) {
   return intersect_fringe({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
 }
 
-/// The unwrapping levels of several patterns, beats of two patterns included; empty if the patterns
-/// do not determine the order.
-std::vector<UnwrapLevel> unwrap_levels_of(std::span<const FrameStack* const> fringes,
-                                          const Projector& projector) {
+std::vector<Pattern> patterns_of(std::span<const FrameStack* const> fringes) {
   std::vector<Pattern> patterns;
   for (const FrameStack* stack : fringes)
     patterns.push_back(stack->pattern);
-  return patterns.size() > 1 ? find_unwrap_levels(patterns, projector) : std::vector<UnwrapLevel>{};
+  return patterns;
 }
 
-/// Whether every unwrapping level is safe for each single pixel that wrapping keeps.
-bool is_pixelwise_safe(std::span<const UnwrapLevel> levels, const DecodeOptions& options) {
+/// Whether several patterns have unwrapping levels that are all safe for each single pixel that
+/// wrapping keeps.
+bool is_pixelwise_safe(std::span<const Pattern> patterns,
+                       const Projector& projector,
+                       const DecodeOptions& options) {
   constexpr double kMaxWrongOrder = 1e-6;  // probability per pixel
-  return is_safe(levels, options.wrap.max_sigma_rad, kMaxWrongOrder);
+  return patterns.size() > 1 &&
+         is_safe(
+             find_unwrap_levels(patterns, projector), options.wrap.max_sigma_rad, kMaxWrongOrder);
 }
 
 /// The algorithm for one pattern's frames.
@@ -179,7 +181,7 @@ bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& proj
   std::stable_sort(fringes.begin(), fringes.end(), [](const Pattern& a, const Pattern& b) {
     return a.fringes_per_unit() < b.fringes_per_unit();
   });
-  return !find_unwrap_levels(fringes, projector).empty();
+  return determine_absolute_phase(fringes, projector);
 }
 
 DecodedView decode_view(std::span<const FrameStack> stacks,
@@ -191,9 +193,9 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   const auto fringes = fringes_of(stacks);
   out.noise = noise_of(stacks, rig, options);
   out.coarsest = fringes.front()->pattern;
-  const auto levels = unwrap_levels_of(fringes, rig.projector);
+  const auto patterns = patterns_of(fringes);
   const auto gray = gray_of(stacks, out.coarsest.direction);
-  const bool pixelwise_safe = gray.empty() && is_pixelwise_safe(levels, options);
+  const bool pixelwise_safe = gray.empty() && is_pixelwise_safe(patterns, rig.projector, options);
   if (pixelwise_safe && !options.keep_maps && are_unprocessed_frames(fringes, options)) {
     decode_in_one_pass(fringes, rig, options, run, out);
     fill_enclosed(out.phase, options.fill);
@@ -210,7 +212,7 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
         options.temporal);
   } else if (!pixelwise_safe && is_absolute(out.coarsest, rig.projector)) {
     out.phase = unwrap_temporally(out.wrapped, rig.projector, options.temporal);
-  } else if (!levels.empty()) {
+  } else if (patterns.size() > 1 && determine_absolute_phase(patterns, rig.projector)) {
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.temporal);
   } else {
     out.relative = unwrap_spatially(out.wrapped.front(), options.spatial);

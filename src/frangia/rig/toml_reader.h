@@ -52,6 +52,10 @@ class TomlReader {
     }
     return static_cast<int>(*value);
   }
+  /// Whether the key is present and a boolean.
+  [[nodiscard]] bool is_boolean(std::string_view key) const {
+    return has(key) && table_->get(key)->is_boolean();
+  }
   /// Returns a boolean; the key is required.
   [[nodiscard]] bool boolean(std::string_view key) {
     const auto value = node(key).value_exact<bool>();

@@ -119,7 +119,10 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
     patterns.push_back(angular_pattern(name, fringes / field_deg, plan.shifts));
   }
   if (gray)
-    patterns.push_back(gray_code_for_fringes(patterns.front(), pinhole->width_px, plan.inverted));
+    patterns.push_back(
+        gray_code_for_fringes(patterns.front(),
+                              pinhole->width_px,
+                              plan.inverted ? InvertedFrames::After : InvertedFrames::None));
   return patterns;
 }
 

@@ -1,12 +1,15 @@
 #include "frangia/dataset/internal/read_pattern.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
 
@@ -45,13 +48,39 @@ void read_fringes(TomlReader& reader, const Rig& rig, Pattern& pattern) {
   }
 }
 
+/// One of the words; the first where the key is absent.
+std::size_t read_word(TomlReader& reader,
+                      std::string_view key,
+                      const std::vector<std::string>& words) {
+  if (!reader.has(key)) return 0;
+  const std::string found = reader.text(key);
+  const auto at = std::find(words.begin(), words.end(), found);
+  if (at == words.end()) {
+    reader.fail(key,
+                fmt::format(R"(is "{}"; it must be "{}")", found, fmt::join(words, R"(" or ")")));
+  }
+  return static_cast<std::size_t>(at - words.begin());
+}
+
+/// true and false are "after" and "none".
+InvertedFrames read_inverted(TomlReader& reader) {
+  constexpr std::array kValues{
+      InvertedFrames::None, InvertedFrames::After, InvertedFrames::Alternating};
+  if (reader.is_boolean("inverted"))
+    return reader.boolean("inverted") ? InvertedFrames::After : InvertedFrames::None;
+  return kValues.at(read_word(reader, "inverted", {"none", "after", "alternating"}));
+}
+
 void read_gray(TomlReader& reader, const Rig& rig, Pattern& pattern) {
   constexpr int kMaxBits = 24;
   pattern.kind = PatternKind::Gray;
   const auto* model = std::get_if<PinholeModel>(&rig.projector.model);
   if (model == nullptr) reader.fail("kind", "is \"gray\", which an angular projector cannot show");
   pattern.bits = reader.integer("bits", 1, kMaxBits);
-  if (reader.has("inverted")) pattern.inverted = reader.boolean("inverted");
+  pattern.inverted = read_inverted(reader);
+  pattern.is_binary = read_word(reader, "code", {"gray", "binary"}) == 1;
+  if (read_word(reader, "order", {"msb-first", "lsb-first"}) == 1)
+    pattern.order = BitOrder::LeastSignificantFirst;
   if (reader.has("stripe_px")) pattern.stripe_px = reader.positive("stripe_px");
   const bool rows = pattern.direction == FringeDirection::Horizontal;
   const int side = rows ? model->height_px : model->width_px;
