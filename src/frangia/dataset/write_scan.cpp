@@ -33,15 +33,17 @@ class TomlWriter {
       array.push_back(value);
     put(key, array);
   }
-  void save(const std::filesystem::path& path) const {
-    AtomicFile file(path);
-    file.stream() << text_.str();
-    file.commit();
-  }
+  [[nodiscard]] std::string text() const { return text_.str(); }
 
  private:
   std::ostringstream text_;
 };
+
+void save(const std::filesystem::path& path, const std::string& text, Durability durability) {
+  AtomicFile file(path, durability);
+  file.stream() << text;
+  file.commit();
+}
 
 /// Twelve digits, so that 120 degrees are not written as 120.00000000000001.
 double rounded(double value) {
@@ -95,8 +97,7 @@ void put_part_poses(TomlWriter& writer, const std::map<int, Eigen::Isometry3d>& 
 
 }  // namespace
 
-void write_scan(const Scan& scan) {
-  write_rig(scan.folder / "rig.toml", scan.rig);
+std::string scan_text(const Scan& scan) {
   TomlWriter writer;
   writer.put("format", std::string("frangia-scan"));
   writer.put("version", kScanVersion);
@@ -110,14 +111,19 @@ void write_scan(const Scan& scan) {
     if (view.setup != 0) writer.put("setup", view.setup);
   }
   put_part_poses(writer, scan.part_poses);
-  writer.save(scan.folder / "scan.toml");
+  return writer.text();
+}
+
+void write_scan(const Scan& scan, Durability durability) {
+  write_rig(scan.folder / "rig.toml", scan.rig, durability);
+  save(scan.folder / "scan.toml", scan_text(scan), durability);
 }
 
 void write_part_poses(const std::filesystem::path& path,
                       const std::map<int, Eigen::Isometry3d>& part_poses) {
   TomlWriter writer;
   put_part_poses(writer, part_poses);
-  writer.save(path);
+  save(path, writer.text(), Durability::Buffered);
 }
 
 }  // namespace frangia

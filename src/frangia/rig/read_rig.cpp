@@ -186,7 +186,7 @@ Rig read_rig(const std::filesystem::path& path, const Run& run) {
   return rig;
 }
 
-void write_rig(const std::filesystem::path& path, const Rig& rig) {
+std::string rig_text(const Rig& rig) {
   std::string text = "format = \"frangia-rig\"\nversion = 1\n\n[camera]\n";
   text += toml_of(rig.camera.model);
   text += fmt::format("white_level = {}\n", rig.camera.white_level);
@@ -207,8 +207,12 @@ void write_rig(const std::filesystem::path& path, const Rig& rig) {
                         toml_of(rig.turntable->point_mm),
                         toml_of(rig.turntable->axis));
   }
-  AtomicFile file(path);
-  file.stream() << text;
+  return text;
+}
+
+void write_rig(const std::filesystem::path& path, const Rig& rig, Durability durability) {
+  AtomicFile file(path, durability);
+  file.stream() << rig_text(rig);
   file.commit();
 }
 
