@@ -110,6 +110,7 @@ RigDevices open_devices(const std::filesystem::path& rig_file,
     std::unique_ptr<Device> device = driver.open(settings, rig, deadline);
     settings.warn_of_unused_keys(run);
     assign(std::move(device), driver.kind, devices);
+    devices.settings.push_back(settings);
   }
   check_sizes(rig_file, rig, devices);
   return devices;

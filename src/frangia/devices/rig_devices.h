@@ -6,6 +6,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/devices/camera_device.h"
+#include "frangia/devices/device_settings.h"
 #include "frangia/devices/driver.h"
 #include "frangia/devices/pattern_display.h"
 #include "frangia/devices/phase_shifter.h"
@@ -31,6 +32,7 @@ struct RigDevices {
   std::unique_ptr<LaserSheetSource> laser_sheet;  ///< source of the laser sheet, `line`
   std::unique_ptr<SwitchDevice> light;            ///< laser or lamp of the fringes
   std::unique_ptr<TurntableDevice> turntable;     ///< null: the object stays where it is
+  std::vector<DeviceSettings> settings;           ///< as read from rig.toml
 
   /// All devices of the rig, light first.
   [[nodiscard]] std::vector<Device*> all() const;

@@ -32,6 +32,14 @@ class TurntableDevice : public Device {
   /// @errors   Error(Device) when it is disabled or the switch is not reached
   virtual void home(const Deadline& deadline) = 0;
 
+  /// Makes `angle_rad` the angle of the present position of a table without a home switch.
+  ///
+  /// @errors   Error(Device) when it is disabled, or has a home switch and does not support this
+  virtual void set_angle(double angle_rad, const Deadline& deadline) {
+    if (angle_rad != 0.0) fail_device(*this, "its angle cannot be set; home it");
+    home(deadline);
+  }
+
   /// The present angle; empty when it is unknown.
   [[nodiscard]] virtual std::optional<double> angle_rad() const = 0;
 

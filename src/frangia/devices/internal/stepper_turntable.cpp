@@ -42,8 +42,19 @@ void StepperTurntable::home(const Deadline& deadline) {
   } else {
     board_->set_zero(deadline);
   }
+  zero_deg_ = 0.0;
   stop_count_ = board_->stop_count();
   angle_rad_ = 0.0;
+}
+
+void StepperTurntable::set_angle(double angle_rad, const Deadline& deadline) {
+  if (!enabled_) fail_device(*this, "it is not enabled; enable it before setting its angle");
+  angle_rad_.reset();
+  backlash_taken_up_ = false;
+  board_->set_zero(deadline);
+  zero_deg_ = deg_from_rad(angle_rad);
+  stop_count_ = board_->stop_count();
+  angle_rad_ = angle_rad;
 }
 
 std::optional<double> StepperTurntable::angle_rad() const {
@@ -81,7 +92,7 @@ void StepperTurntable::check_target(double angle_rad) const {
 
 void StepperTurntable::command_angle(double angle_deg, const Deadline& deadline) {
   const double sign = options_.reversed ? -1.0 : 1.0;
-  board_->move_to(sign * angle_deg * options_.units_per_degree,
+  board_->move_to(sign * (angle_deg - zero_deg_) * options_.units_per_degree,
                   options_.speed_deg_per_s * options_.units_per_degree,
                   deadline);
 }

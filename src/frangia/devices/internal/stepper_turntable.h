@@ -38,6 +38,7 @@ class StepperTurntable final : public TurntableDevice {
   [[nodiscard]] const TurntableInfo& info() const override { return options_.info; }
   void enable(bool on, const Deadline& deadline) override;
   void home(const Deadline& deadline) override;
+  void set_angle(double angle_rad, const Deadline& deadline) override;
   [[nodiscard]] std::optional<double> angle_rad() const override;
   void move_to(double angle_rad, const Deadline& deadline) override;
 
@@ -48,7 +49,8 @@ class StepperTurntable final : public TurntableDevice {
   std::shared_ptr<MotionController> board_;
   StepperTurntableOptions options_;
   std::optional<double> angle_rad_;
-  int stop_count_ = 0;  ///< of the board when the angle was found
+  double zero_deg_ = 0.0;  ///< angle at the board's position 0
+  int stop_count_ = 0;     ///< of the board when the angle was found
   bool enabled_ = false;
   bool backlash_taken_up_ = false;  ///< the last move ended upwards
 };
