@@ -96,8 +96,14 @@ void CaptureDevices::turn_to(double angle_rad) {
   const Deadline until = deadline(options_.move_timeout_s);
   if (!enabled_) table.enable(true, until);
   enabled_ = true;
-  if (!table.angle_rad()) table.home(until);
+  if (!table.angle_rad() && standing_rad_ && !table.info().can_home) {
+    table.set_angle(*standing_rad_, until);  // a fault of another device did not turn it
+  } else if (!table.angle_rad()) {
+    table.home(until);
+  }
+  standing_rad_.reset();
   table.move_to(angle_rad, until);
+  standing_rad_ = angle_rad;
   deadline(options_.settle_s + 1.0).sleep(options_.settle_s);
 }
 
@@ -176,11 +182,10 @@ void CaptureDevices::make_safe() noexcept {
 void CaptureDevices::check_health() {
   for (Device* device : devices_.all())
     static_cast<void>(device->test(deadline(options_.timeout_s)));
-  if (devices_.turntable && !devices_.turntable->info().can_home &&
-      !devices_.turntable->angle_rad()) {
+  if (devices_.turntable && !devices_.turntable->info().can_home && !standing_rad_) {
     fail_device(*devices_.turntable,
-                "its angle was lost and it has no home switch; turn it back to 0 by hand and scan "
-                "again, which goes on where this ended");
+                "its angle was lost and it has no home switch; turn it to 0 by hand and scan again "
+                "with `table_at_rad` 0, which continues this scan");
   }
 }
 

@@ -27,8 +27,12 @@ class CaptureDevices {
                  const CaptureOptions& options,
                  const Run& run);
 
+  /// States the present angle of a table without a home switch.
+  void set_table_angle(double angle_rad) { standing_rad_ = angle_rad; }
   /// Moves the table and waits until it has settled. Enables and homes it first when needed.
   void turn_to(double angle_rad);
+  /// Switches the fringes' light and the laser sheet off.
+  void darken() { switch_to(Light::None); }
   /// Prepares the first frame of a set: returns the phase shifter to its start, which resets its
   /// hysteresis.
   void begin_set(const Pattern& pattern, double scale);
@@ -63,6 +67,8 @@ class CaptureDevices {
   Light active_light_ = Light::None;
   double exposure_ms_ = 0.0;  ///< set last; 0 when unknown
   bool enabled_ = false;
+  /// Angle at which the table stands; empty before its first move and after a fault during a move.
+  std::optional<double> standing_rad_;
   double seconds_ = 0.0;
 };
 
