@@ -25,8 +25,8 @@ struct CaptureOptions {
   int set_attempts = 3;           ///< captures of a set until it shows no motion
   int view_attempts = 2;          ///< captures of a view after device faults
   double settle_s = 0.0;          ///< wait after a table move, in addition to the table's own
-  double timeout_s = 10.0;        ///< per device call, in addition to the exposure
-  double move_timeout_s = 120.0;  ///< per table move
+  /// Per device call, in addition to the exposure or to 1.5 times the expected duration of a move.
+  double timeout_s = 10.0;
 };
 
 /// Frames, retries and times of a capture session.

@@ -16,6 +16,7 @@
 #include "frangia/acquisition/internal/assess_set.h"
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/capture_folder.h"
+#include "frangia/acquisition/internal/check_devices.h"
 #include "frangia/acquisition/internal/frame_store.h"
 #include "frangia/acquisition/internal/set_files.h"
 #include "frangia/acquisition/internal/survey_exposures.h"
@@ -39,13 +40,6 @@ std::string describe(const CaptureOptions& options) {
       options.camera.gain_db,
       options.camera.black_level_counts,
       options.control_steps);
-}
-
-std::vector<double> angles_of(const Scan& plan) {
-  std::vector<double> angles_rad;
-  for (const ScanView& view : plan.views)
-    angles_rad.push_back(view.angle_rad);
-  return angles_rad;
 }
 
 /// The plan with the noise model at a camera gain: noise in counts grows with the gain.
@@ -134,8 +128,12 @@ class Session {
         devices_.make_safe();
         if (error.kind() != ErrorKind::Device) throw;
         store_.drain();
-        devices_.check_health();  // throws when a device is lost
-        why = error.what();
+        devices_.check_health(error.what());  // throws when a device is lost
+        if (why.empty()) {
+          why = error.what();
+        } else if (why != error.what()) {
+          why += std::string("; at the next attempt: ") + error.what();
+        }
         counted_ = counted;
         if (attempt + 1 < options_.view_attempts)
           run_.warn(fmt::format("view {} is captured again: {}", view + 1, why));
@@ -255,6 +253,7 @@ class Session {
         assessor_.report(false);
       }
     }
+    devices_.end_set();
     return frames;
   }
 
@@ -324,7 +323,7 @@ CaptureReport capture_scan(const Scan& plan,
   require(!plan.patterns.empty() && !plan.views.empty(),
           "a scan needs at least one pattern and one view; add them to the plan");
   const SafeStateGuard safe(devices);
-  check_devices(devices, plan.rig, plan.patterns, angles_of(plan));
+  check_devices(devices, plan, options);
   Scan real = with_gain(plan, options.camera.gain_db);
   const bool begun = claim_folder(real, describe(options));
   if (begun && devices.turntable && !devices.turntable->info().can_home) {
