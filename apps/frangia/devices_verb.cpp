@@ -64,7 +64,8 @@ Json test_devices(const std::filesystem::path& rig_file,
       const Driver& driver = driver_for(settings, drivers);
       entry["driver"] = driver.name;
       opened.push_back(driver.open(settings, rig, Deadline::in(kTimeout_s, run.stop)));
-      if (const auto how = opened.back()->safe_off()) watches.push_back(session.guardian.watch(*how));
+      if (const auto how = opened.back()->safe_off())
+        watches.push_back(session.guardian.watch(*how));
       settings.warn_of_unused_keys(run);
       entry["name"] = opened.back()->name();
       entry["answer"] = opened.back()->test(Deadline::in(kTimeout_s, run.stop));

@@ -20,11 +20,7 @@ GuardianProgram guardian_program() {
 }
 
 OpenRig::OpenRig(const std::filesystem::path& rig_file, const Rig& rig, const Run& run)
-    : devices_(open_devices(rig_file,
-                            rig,
-                            all_drivers(),
-                            Deadline::in(30.0, run.stop),
-                            run,
-                            &session_.guardian)) {}
+    : devices_(open_devices(
+          rig_file, rig, all_drivers(), Deadline::in(30.0, run.stop), run, &session_.guardian)) {}
 
 }  // namespace frangia

@@ -17,8 +17,8 @@ namespace frangia {
 /// The guardian process of this program: `frangia guardian`, which the help does not list.
 [[nodiscard]] GuardianProgram guardian_program();
 
-/// Devices of this program: they are made safe before a signal ends it, and a guardian process makes
-/// them safe when the program dies without doing so.
+/// Devices of this program: they are made safe before a signal ends it, and a guardian process
+/// makes them safe when the program dies without doing so.
 struct DeviceSession {
   DeviceScope scope;
   Guardian guardian{guardian_program()};

@@ -117,12 +117,17 @@ int finish_output(int code) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   if (reader_has_ended()) end_by_sigpipe();
-  throw std::system_error(errno, std::generic_category(), "cannot write to the standard output");
+  throw std::system_error(errno, std::generic_category());
 }
 
-int fail(const char* sentence, int code) {
-  static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence));  // NOLINT(*-vararg)
+int fail(const std::string& sentence, int code) {
+  static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
   return code;
+}
+
+std::string output_sentence(const std::system_error& error) {
+  const bool output = std::ferror(stdout) != 0;
+  return output ? "cannot write to the standard output: " + error.code().message() : error.what();
 }
 
 }  // namespace
@@ -138,7 +143,7 @@ int main(int argc, char** argv) {
     return frangia::finish_output(frangia::run_program(argc, argv));
   } catch (const std::system_error& error) {  // while printing
     if (frangia::reader_has_ended()) frangia::end_by_sigpipe();
-    return frangia::fail(error.what(), frangia::BadInput);
+    return frangia::fail(frangia::output_sentence(error), frangia::BadInput);
   } catch (const std::exception& error) {  // before the parse
     return frangia::fail(error.what(), frangia::NumericFault);
   }

@@ -101,7 +101,9 @@ void add_reliability_options(CLI::App& verb, ScanArguments& arguments) {
         ->group("Reliability");
   };
   add("--settle", options.settle_s, "wait after each turntable move, s");
-  add("--patience", options.timeout_s, "timeout of each call to a device, s; of a table move, in addition to its expected duration");
+  add("--patience",
+      options.timeout_s,
+      "timeout of each call to a device, s; of a table move, in addition to its expected duration");
   add("--frame-attempts", options.frame_attempts, "attempts for a frame that arrives incomplete");
   add("--set-attempts", options.set_attempts, "attempts for a set of frames that shows motion");
   add("--view-attempts", options.view_attempts, "attempts for a view in which a device fails");

@@ -82,8 +82,7 @@ TEST_F(CaptureWithTable, TheFirstCauseOfALostAngleIsReported) {
   WatchedTable* table = nullptr;
   RigDevices devices = open_watched(table);
   table->fault_at_rad = 1.0;
-  const std::string sentence =
-      error_of([&] { static_cast<void>(capture_scan(plan_, devices)); });
+  const std::string sentence = error_of([&] { static_cast<void>(capture_scan(plan_, devices)); });
   EXPECT_EQ(sentence.find("table: ALARM:1, a limit switch was hit; consequence: table: its angle"),
             0U)
       << sentence;

@@ -67,12 +67,12 @@ class LightOfAScan : public testing::PseudoTerminalTest {
             "2"};
   }
   [[nodiscard]] bool is_lit() {
-    return board_.with<MisbehavingDevice>(
-               [](auto& device) { return device.template inner<EmulatedGrbl>().spindle; }) ||
-           supply_.with<EmulatedScpi>([](auto& supply) { return supply.output; });
+    return board_.with<MisbehavingDevice>([](auto& device) {
+      return device.template inner<EmulatedGrbl>().spindle;
+    }) || supply_.with<EmulatedScpi>([](auto& supply) { return supply.output; });
   }
-  /// Sends a signal while the light is on, `delay_s` after it went on. Returns the seconds until the
-  /// light is off.
+  /// Sends a signal while the light is on, `delay_s` after it went on. Returns the seconds until
+  /// the light is off.
   [[nodiscard]] double seconds_of_light_after(const std::vector<int>& signals,
                                               double delay_s,
                                               int& exit_code) {
@@ -168,8 +168,8 @@ TEST_F(LightOfAScan, IsNotSwitchedOnForAPatternThatTheDevicesCannotShow) {
 }
 
 TEST(Output, OfAProgramOnAFullDiskIsAnError) {
-  const testing::Answer answer = testing::run_shell(std::string(FRANGIA_PROGRAM) +
-                                                    " algorithms --json >/dev/full");
+  const testing::Answer answer =
+      testing::run_shell(std::string(FRANGIA_PROGRAM) + " algorithms --json >/dev/full");
   EXPECT_EQ(answer.exit_code, 3) << answer.output;
   EXPECT_NE(answer.output.find("cannot write to the standard output"), std::string::npos);
 }

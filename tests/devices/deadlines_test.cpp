@@ -46,8 +46,7 @@ TEST_F(BoundedWaits, AGrblBoardThatMisbehavesIsDarkAndStoppedInTime) {
     EmulatedPort port(std::make_unique<MisbehavingDevice>(std::make_unique<EmulatedGrbl>()));
     MotionControllerSettings settings;
     settings.boot_s = 0.3;
-    const std::shared_ptr<MotionController> board =
-        make_grbl(open_serial({port.path()}), settings);
+    const std::shared_ptr<MotionController> board = make_grbl(open_serial({port.path()}), settings);
     board->connect(soon());
     StepperTurntable table(board);
     BoardSwitch laser(board, "M3 S1000", "M5");
@@ -55,9 +54,8 @@ TEST_F(BoundedWaits, AGrblBoardThatMisbehavesIsDarkAndStoppedInTime) {
     port.with<MisbehavingDevice>([&](auto& device) { kFaults[i](device); });
     EXPECT_LT(seconds_of([&] { laser.make_safe(); }), 2.0) << i;
     EXPECT_LT(seconds_of([&] { table.make_safe(); }), 2.0) << i;
-    port.with<MisbehavingDevice>([&](auto& device) {
-      EXPECT_FALSE(device.template inner<EmulatedGrbl>().spindle) << i;
-    });
+    port.with<MisbehavingDevice>(
+        [&](auto& device) { EXPECT_FALSE(device.template inner<EmulatedGrbl>().spindle) << i; });
   }
 }
 
@@ -70,9 +68,7 @@ TEST_F(BoundedWaits, ACommandFailsAtItsDeadlineWhateverTheBoardSends) {
       kFaults[i](device);
     });
     const auto firmware = make_grbl(open_serial({port.path()}));
-    EXPECT_LT(seconds_of([&] {
-                EXPECT_THROW(firmware->command("M5", Deadline::in(0.3)), Error);
-              }),
+    EXPECT_LT(seconds_of([&] { EXPECT_THROW(firmware->command("M5", Deadline::in(0.3)), Error); }),
               0.8)
         << i;
   }

@@ -96,8 +96,7 @@ class GuardianOf : public testing::PseudoTerminalTest {
   [[nodiscard]] RigDevices open(const std::string& light, Guardian* guardian = nullptr) {
     const auto file = folder_.path() / "rig.toml";
     std::ofstream(file) << "format = \"frangia-rig\"\nversion = 1\n[devices.light]\n" << light;
-    return open_devices(
-        file, Rig{}, hardware_drivers(), Deadline::in(5.0), {}, guardian);
+    return open_devices(file, Rig{}, hardware_drivers(), Deadline::in(5.0), {}, guardian);
   }
   /// Switches a light on, sends a part of a command and lets the program die. Returns the seconds
   /// until `is_dark`.
@@ -138,8 +137,10 @@ TEST_F(GuardianOf, MarlinSwitchesOffACustomOutputAfterAHalfWrittenCommand) {
   const auto is_dark = [&] {
     return port.with<EmulatedMarlin>([](auto& marlin) { return !marlin.pin; });
   };
-  const std::string board = "driver = \"marlin\"\nboot_s = 0.3\non = \"M42 P4 S255\"\n"
-                            "off = \"M42 P4 S0\"\n" + port.settings();
+  const std::string board =
+      "driver = \"marlin\"\nboot_s = 0.3\non = \"M42 P4 S255\"\n"
+      "off = \"M42 P4 S0\"\n" +
+      port.settings();
   expect_soon(seconds_until_dark(board, "N9 G1 X", is_dark));
 }
 
@@ -198,10 +199,11 @@ TEST_F(GuardianOf, AReleasedLineAndAFarewellSwitchNothingOff) {
     devices.light->set(true, Deadline::in(2.0));
     guardian.send({kind, how->file});
     guardian.die();
-    EXPECT_LT(wait_until([&] {
-                return port.with<EmulatedScpi>([](auto& supply) { return !supply.output; });
-              }, 0.4),
-              0.0);
+    EXPECT_LT(
+        wait_until(
+            [&] { return port.with<EmulatedScpi>([](auto& supply) { return !supply.output; }); },
+            0.4),
+        0.0);
   }
 }
 

@@ -16,10 +16,10 @@ class MisbehavingDevice : public EmulatedDevice {
 
   explicit MisbehavingDevice(std::unique_ptr<EmulatedDevice> inner) : inner_(std::move(inner)) {}
 
-  bool silent = false;        ///< works, but its answers are lost
-  bool deaf = false;          ///< nothing that is sent arrives; it does not answer
-  bool endless_line = false;  ///< sends bytes without a line end, without pause
-  bool flood = false;         ///< sends lines without pause
+  bool silent = false;                         ///< works, but its answers are lost
+  bool deaf = false;                           ///< nothing that is sent arrives; it does not answer
+  bool endless_line = false;                   ///< sends bytes without a line end, without pause
+  bool flood = false;                          ///< sends lines without pause
   std::chrono::milliseconds chatter_every{0};  ///< sends `chatter` so often; 0: never
   std::string chatter = "[MSG:report]\r\n";
 

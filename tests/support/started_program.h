@@ -22,7 +22,8 @@ class StartedProgram {
     pointers.push_back(nullptr);
     process_ = ::fork();
     if (process_ != 0) return;
-    const int file = ::open(output.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);  // NOLINT(*-vararg)
+    const int file =
+        ::open(output.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);  // NOLINT(*-vararg)
     ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);
     ::execv(pointers.front(), pointers.data());

@@ -28,9 +28,10 @@ constexpr double kStart_s = 10.0;
 constexpr double kEnd_s = 1.0;
 
 [[noreturn]] void fail_guardian(const std::string& what) {
-  throw Error(ErrorKind::Device,
-              fmt::format("the guardian process, which switches light off when the program dies, {}",
-                          what));
+  throw Error(
+      ErrorKind::Device,
+      fmt::format("the guardian process, which switches light off when the program dies, {}",
+                  what));
 }
 
 /// Attributes and file actions of a process that holds nothing of this one but its socket.

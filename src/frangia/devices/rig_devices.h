@@ -47,8 +47,8 @@ struct RigDevices {
   void make_dark() noexcept;
 };
 
-/// Opens the devices in the `[devices.NAME]` tables of a rig.toml. A `guardian` watches each one from
-/// then on; it must outlive the devices.
+/// Opens the devices in the `[devices.NAME]` tables of a rig.toml. A `guardian` watches each one
+/// from then on; it must outlive the devices.
 ///
 /// @errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or
 ///          setting, a camera or display whose size differs from the rig; Error(Device) when a

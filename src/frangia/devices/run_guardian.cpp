@@ -64,10 +64,9 @@ void send_bytes(int file, const std::string& bytes) {
     if (count < 0 && errno != EAGAIN && errno != EINTR) return;  // unplugged
     constexpr int kPiece_ms = 20;
     pollfd waiting{file, POLLOUT, 0};
-    if (::poll(&waiting, 1, kPiece_ms) == 0) {
-      // Commands that the device has not taken yet are obsolete.
-      if (::isatty(file) != 0) ::tcflush(file, TCOFLUSH);
-    }
+    // The device takes nothing. Commands that wait for it are obsolete.
+    if (::poll(&waiting, 1, kPiece_ms) == 0 && sent == 0 && ::isatty(file) != 0)
+      ::tcflush(file, TCOFLUSH);
   }
 }
 

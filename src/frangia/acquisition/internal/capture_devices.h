@@ -44,7 +44,8 @@ class CaptureDevices {
   /// @errors   Error(Device), also when all `frame_attempts` frames are incomplete
   [[nodiscard]] CompleteFrame capture(const FrameLabel& label);
 
-  /// Switches all lights off after a fault, and motion unless the table is at rest at a known angle.
+  /// Switches all lights off after a fault, and motion unless the table is at rest at a known
+  /// angle.
   void make_safe() noexcept;
   /// Checks that all devices answer and that the table can find its angle again.
   ///

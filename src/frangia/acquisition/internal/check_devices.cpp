@@ -14,13 +14,14 @@ namespace {
   throw Error(ErrorKind::Input, fmt::format("the pattern \"{}\" {}", pattern.name, why));
 }
 
-/// A table of an interferometer's fringes shows fringes only.
+/// A phase shifter shows fringes only.
 void check_on_shifter(const Pattern& pattern, const PhaseShifter& shifter) {
   if (pattern.kind == PatternKind::Ramp) {
-    refuse(pattern,
-           fmt::format("is a grey ramp, which {} cannot show; scan without `ramp`, or use a digital "
-                       "projector",
-                       shifter.name()));
+    refuse(
+        pattern,
+        fmt::format("is a grey ramp, which {} cannot show; scan without `ramp`, or use a digital "
+                    "projector",
+                    shifter.name()));
   }
   if (pattern.kind == PatternKind::Gray) {
     refuse(pattern,
@@ -123,7 +124,9 @@ void check_devices(const RigDevices& devices, const Scan& plan, const CaptureOpt
     for (const double exposure_ms : pattern.exposures_ms)
       check_exposure(*devices.camera, exposure_ms);
   }
-  if (options.exposure == ExposureChoice::Given)
+  const auto has_exposures = [](const Pattern& pattern) { return !pattern.exposures_ms.empty(); };
+  if (options.exposure == ExposureChoice::Given &&
+      std::none_of(plan.patterns.begin(), plan.patterns.end(), has_exposures))
     check_exposure(*devices.camera, options.camera.exposure_ms);
   if (devices.turntable) return check_angles(*devices.turntable, plan.views);
   require(plan.views.size() < 2,

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/devices/internal/grbl_codes.h"
 #include "frangia/devices/internal/motion_controller.h"
 
 namespace frangia {
@@ -14,49 +15,9 @@ namespace {
 constexpr const char* kReset = "\x18";
 constexpr const char* kHold = "!";
 constexpr double kQuiet_s = 0.05;  ///< a board that sends nothing for so long has answered
-constexpr double kDrain_s = 0.3;  ///< for the answers after a reset, also when they do not end
+constexpr double kDrain_s = 0.3;   ///< for the answers after a reset, also when they do not end
 constexpr double kWrite_s = 0.2;
 constexpr double kRestart_s = 0.1;  ///< from a soft reset until GRBL accepts commands
-
-const char* meaning_of_alarm(int code) {
-  switch (code) {
-    case 1:
-      return "a limit switch was hit";
-    case 2:
-      return "the target is beyond the travel set in $130 to $132";
-    case 3:
-      return "it was reset while it moved";
-    case 6:
-    case 7:
-    case 8:
-    case 9:
-      return "homing failed; check the home switch";
-    default:
-      return "see the list of alarms of GRBL";
-  }
-}
-
-const char* meaning_of_error(int code) {
-  switch (code) {
-    case 5:
-      return "homing is not enabled; set $22=1, or home = \"here\"";
-    case 8:
-      return "that is only possible at standstill";
-    case 9:
-      return "it is locked after an alarm; home the table again";
-    case 15:
-      return "the target is beyond its travel";
-    case 20:
-      return "the command is unknown";
-    default:
-      return "see the list of errors of GRBL";
-  }
-}
-
-/// The number at the end of "ALARM:3" or "error:9".
-int number_after_colon(const std::string& line) {
-  return std::atoi(line.c_str() + line.find(':') + 1);  // NOLINT(cert-err34-c) 0 is not a code
-}
 
 bool is_greeting(const std::string& line) {
   return line.rfind("Grbl ", 0) == 0;
@@ -196,10 +157,6 @@ class Grbl final : public MotionController {
   void note(const std::string& line) {
     if (line.rfind("ALARM:", 0) == 0) alarm_ = line.substr(0, line.find_last_not_of("\r ") + 1);
   }
-  [[nodiscard]] static std::string explained(const std::string& alarm) {
-    return fmt::format("{}, {}", printable(alarm), meaning_of_alarm(number_after_colon(alarm)));
-  }
-
   /// The settings before "ok".
   std::map<int, double> answer_to(const std::string& line, const Deadline& deadline) {
     stopped_ = false;
@@ -213,8 +170,9 @@ class Grbl final : public MotionController {
       }
       if (answer.rfind("ALARM:", 0) == 0) {
         note(answer);
-        fail_device(name(),
-                    fmt::format("{}; its angle is lost, home the table again", explained(answer)));
+        fail_device(
+            name(),
+            fmt::format("{}; its angle is lost, home the table again", explained_alarm(answer)));
       }
       if (is_greeting(answer)) {
         fail_device(name(), "the board restarted; its angle is lost, home the table again");
@@ -231,11 +189,9 @@ class Grbl final : public MotionController {
     }
   }
   [[nodiscard]] std::string refusal(const std::string& line, const std::string& answer) const {
-    const int code = number_after_colon(answer);
-    constexpr int kLocked = 9;
-    std::string text =
-        fmt::format("refused {} ({}): {}", line, printable(answer), meaning_of_error(code));
-    return code == kLocked && !alarm_.empty() ? explained(alarm_) + "; " + text : text;
+    std::string text = fmt::format("refused {} {}", line, explained_error(answer));
+    const bool locked = answer == "error:9";
+    return locked && !alarm_.empty() ? explained_alarm(alarm_) + "; " + text : text;
   }
 
   [[nodiscard]] int axis_index() const {

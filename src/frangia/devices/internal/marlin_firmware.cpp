@@ -113,9 +113,7 @@ class Marlin final : public MotionController {
 
  private:
   /// Quick stop, fan output and spindle off, and the outputs that devices use.
-  [[nodiscard]] std::string quick_stop() const {
-    return "M410\nM107\nM5\n" + off_commands("\n");
-  }
+  [[nodiscard]] std::string quick_stop() const { return "M410\nM107\nM5\n" + off_commands("\n"); }
 
   /// Reads the highest rate of the axis, in units per s, from a line such as
   /// "echo:  M203 X500.00 Y500.00".
@@ -123,7 +121,8 @@ class Marlin final : public MotionController {
     const std::size_t found = line.find("M203 ");
     if (found == std::string::npos) return;
     const std::size_t at = line.find(fmt::format(" {}", settings_.axis), found);
-    if (at != std::string::npos) max_rate_ = std::atof(line.c_str() + at + 2);  // NOLINT(cert-err34-c)
+    if (at != std::string::npos)
+      max_rate_ = std::atof(line.c_str() + at + 2);  // NOLINT(cert-err34-c)
   }
 
   /// False when the board requests the line again.

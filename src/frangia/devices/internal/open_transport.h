@@ -20,8 +20,8 @@ struct SerialSettings {
 ///
 /// @errors   Error(Device) when the port does not exist, may not be opened, is in use, or does not
 ///          support the baud rate
-[[nodiscard]] std::unique_ptr<Transport> open_serial(
-    const SerialSettings& settings, const Deadline& deadline = Deadline::in(0.0));
+[[nodiscard]] std::unique_ptr<Transport> open_serial(const SerialSettings& settings,
+                                                     const Deadline& deadline = Deadline::in(0.0));
 
 /// Opens a TCP connection.
 ///

@@ -72,7 +72,8 @@ void StepperTurntable::move_to(double angle_rad, const Deadline& deadline) {
 double StepperTurntable::move_time_s(double angle_rad) const {
   const std::optional<double> from_rad = this->angle_rad();
   if (!from_rad) return options_.settle_s;
-  const double way_deg = std::abs(deg_from_rad(angle_rad - *from_rad)) + 2.0 * options_.backlash_deg;
+  const double way_deg =
+      std::abs(deg_from_rad(angle_rad - *from_rad)) + 2.0 * options_.backlash_deg;
   const double scale = options_.units_per_degree;
   // A move that takes up backlash stops twice.
   const double stop_s = board_->move_time_s(0.0, options_.speed_deg_per_s * scale);

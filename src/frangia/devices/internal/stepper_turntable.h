@@ -16,7 +16,7 @@ struct StepperTurntableOptions {
   double backlash_deg = 0.0;  ///< targets are approached upwards; after a downward move from this
                               ///< far below, which may be beyond the limits
   double speed_deg_per_s = 20.0;
-  double settle_s = 0.0;  ///< time for the part to stop vibrating
+  double settle_s = 0.0;      ///< time for the part to stop vibrating
   double home_time_s = 60.0;  ///< expected duration of homing, for boards that do not report it
 };
 
