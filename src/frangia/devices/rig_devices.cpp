@@ -123,6 +123,7 @@ void RigDevices::make_safe() noexcept {
   frangia::make_safe(devices_of(*this));
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const): the devices are part of it
 void RigDevices::make_dark() noexcept {
   std::array<Device*, 6> devices = devices_of(*this);
   if (turntable && turntable->angle_rad())

@@ -2,6 +2,7 @@
 // disk space when the program that started it dies.
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <map>
 #include <string>
