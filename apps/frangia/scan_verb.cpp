@@ -103,7 +103,9 @@ void add_reliability_options(CLI::App& verb, ScanArguments& arguments) {
         ->group("Reliability");
   };
   add("--settle", options.settle_s, "wait after each turntable move, s");
-  add("--patience", options.timeout_s, "timeout of each call to a device, s");
+  add("--patience",
+      options.timeout_s,
+      "timeout of each call to a device, s; of a table move, in addition to its expected duration");
   add("--frame-attempts", options.frame_attempts, "attempts for a frame that arrives incomplete");
   add("--set-attempts", options.set_attempts, "attempts for a set of frames that shows motion");
   add("--view-attempts", options.view_attempts, "attempts for a view in which a device fails");
@@ -161,12 +163,11 @@ void scan(const ScanArguments& arguments, Terminal& terminal) {
                     " exclude each other; set only one of them");
   }
   const FolderLock lock(plan.folder);  // before opening the devices, which may be in use
-  constexpr double kOpening_s = 30.0;
-  RigDevices devices =
-      open_devices(arguments.rig, plan.rig, all_drivers(), Deadline::in(kOpening_s, run.stop), run);
+  OpenRig rig(arguments.rig, plan.rig, run);
   run.stage("scan");
   try {
-    print_capture(arguments.output, capture_scan(plan, devices, lock, options, run), terminal);
+    print_capture(
+        arguments.output, capture_scan(plan, rig.devices(), lock, options, run), terminal);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Cancelled) throw;
     throw Error(

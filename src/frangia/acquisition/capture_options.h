@@ -22,12 +22,12 @@ struct CaptureOptions {
   ExposureChoice exposure = ExposureChoice::Given;  ///< how the exposure time is chosen
   bool control_steps =
       true;  ///< corrects the shifter's commands by the steps measured in earlier sets
-  int frame_attempts = 50;        ///< exposures until a frame arrives complete
-  int set_attempts = 3;           ///< captures of a set until it shows no motion
-  int view_attempts = 2;          ///< captures of a view after device faults
-  double settle_s = 0.0;          ///< wait after a table move, in addition to the table's own
-  double timeout_s = 10.0;        ///< per device call, in addition to the exposure
-  double move_timeout_s = 120.0;  ///< per table move
+  int frame_attempts = 50;  ///< exposures until a frame arrives complete
+  int set_attempts = 3;     ///< captures of a set until it shows no motion
+  int view_attempts = 2;    ///< captures of a view after device faults
+  double settle_s = 0.0;    ///< wait after a table move, in addition to the table's own
+  /// Per device call, in addition to the exposure or to 1.5 times the expected duration of a move.
+  double timeout_s = 10.0;
   /// Present angle of a turntable without a home switch. Empty: 0 when a scan begins. A scan that
   /// is continued requires it.
   std::optional<double> table_at_rad;

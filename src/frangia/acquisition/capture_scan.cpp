@@ -4,13 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/capture_session.h"
+#include "frangia/acquisition/internal/check_devices.h"
 #include "frangia/acquisition/internal/describe_devices.h"
 #include "frangia/core/angles.h"
 
@@ -27,13 +27,6 @@ std::string describe(const CaptureOptions& options) {
       options.camera.gain_db,
       options.camera.black_level_counts,
       options.control_steps);
-}
-
-std::vector<double> angles_of(const Scan& plan) {
-  std::vector<double> angles_rad;
-  for (const ScanView& view : plan.views)
-    angles_rad.push_back(view.angle_rad);
-  return angles_rad;
 }
 
 /// The plan with the noise model at a camera gain: noise in counts grows with the gain.
@@ -71,7 +64,7 @@ CaptureReport capture_scan(const Scan& plan,
   require(std::filesystem::equivalent(plan.folder, lock.folder(), ignored),
           "the lock is that of another folder; lock the folder of the plan");
   const SafeStateGuard safe(devices);
-  check_devices(devices, plan.rig, plan.patterns, angles_of(plan));
+  check_devices(devices, plan, options);
   Scan real = with_gain(plan, options.camera.gain_db);
   claim_folder(real, {describe(options), describe_devices(devices.settings)}, run);
   return CaptureSession(std::move(real), devices, options, run).capture();

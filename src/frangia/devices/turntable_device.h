@@ -50,6 +50,12 @@ class TurntableDevice : public Device {
   ///          is disabled or its angle unknown, or when it is not at standstill by the deadline,
   ///          which stops the motion
   virtual void move_to(double angle_rad, const Deadline& deadline) = 0;
+
+  /// Expected duration of a move to an angle from the present one, by the way and the speed; 0 when
+  /// it is unknown. Callers derive the deadline of a move from it.
+  [[nodiscard]] virtual double move_time_s(double /*angle_rad*/) const { return 0.0; }
+  /// Expected duration of `home`; 0 when it is unknown.
+  [[nodiscard]] virtual double home_time_s() const { return 0.0; }
 };
 
 }  // namespace frangia

@@ -107,8 +107,12 @@ std::string CaptureSession::capture_view(std::size_t view) {
       table_.forget();
       if (error.kind() != ErrorKind::Device) throw;
       store_.drain();
-      devices_.check_health();  // throws when a device is lost
-      why = error.what();
+      devices_.check_health(error.what());  // throws when a device is lost
+      if (why.empty()) {
+        why = error.what();
+      } else if (why != error.what()) {
+        why += std::string("; at the next attempt: ") + error.what();
+      }
       counted_ = counted;
       if (attempt + 1 < options_.view_attempts)
         run_.warn(fmt::format("view {} is captured again: {}", view + 1, why));

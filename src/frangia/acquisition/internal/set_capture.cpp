@@ -124,6 +124,7 @@ std::vector<SetCapture::FramePtr> SetCapture::acquire(std::size_t view,
       on_frames_(1);
     }
   }
+  parts_.devices.end_set();
   return frames;
 }
 

@@ -1,5 +1,6 @@
 #include "frangia/devices/internal/stepper_turntable.h"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ std::string StepperTurntable::test(const Deadline& deadline) {
 }
 
 void StepperTurntable::make_safe() noexcept {
+  const std::scoped_lock lock(board_->mutex());
   angle_rad_.reset();
   enabled_ = false;
   board_->stop();
@@ -76,6 +78,24 @@ void StepperTurntable::move_to(double angle_rad, const Deadline& deadline) {
   backlash_taken_up_ = true;
   deadline.sleep(options_.settle_s);
   angle_rad_ = angle_rad;
+}
+
+double StepperTurntable::move_time_s(double angle_rad) const {
+  const std::optional<double> from_rad = this->angle_rad();
+  if (!from_rad) return options_.settle_s;
+  const double way_deg =
+      std::abs(deg_from_rad(angle_rad - *from_rad)) + 2.0 * options_.backlash_deg;
+  const double scale = options_.units_per_degree;
+  // A move that takes up backlash stops twice.
+  const double stop_s = board_->move_time_s(0.0, options_.speed_deg_per_s * scale);
+  return board_->move_time_s(way_deg * scale, options_.speed_deg_per_s * scale) + stop_s +
+         options_.settle_s;
+}
+
+double StepperTurntable::home_time_s() const {
+  if (!options_.info.can_home) return 0.0;
+  const double reported_s = board_->home_time_s();
+  return reported_s > 0.0 ? reported_s : options_.home_time_s;
 }
 
 void StepperTurntable::check_target(double angle_rad) const {

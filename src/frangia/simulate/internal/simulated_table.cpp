@@ -88,10 +88,19 @@ class SimulatedTable final : public TurntableDevice {
           *this,
           fmt::format("did not reach {} degrees in time; see what blocks it", degrees(angle_rad)));
     }
-    if (deg_per_s_ > 0.0)
-      deadline.sleep(deg_from_rad(std::abs(angle_rad - motor_rad_)) / deg_per_s_);
+    deadline.sleep(move_time_s(angle_rad));
+    if (deadline.passed()) {
+      make_safe();
+      fail_device(*this,
+                  fmt::format("did not reach {} degrees within {:.3g} s; see what blocks it",
+                              degrees(angle_rad),
+                              deadline.timeout_s));
+    }
     if (angle_rad < motor_rad_) turn_to(angle_rad - approach_rad_);
     turn_to(angle_rad);
+  }
+  [[nodiscard]] double move_time_s(double angle_rad) const override {
+    return deg_per_s_ > 0.0 ? deg_from_rad(std::abs(angle_rad - motor_rad_)) / deg_per_s_ : 0.0;
   }
 
  private:
