@@ -64,11 +64,9 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
   run.stage("devices");
   const Rig rig = read_rig(arguments.rig, run);
-  constexpr double kOpening_s = 30.0;
-  RigDevices devices =
-      open_devices(arguments.rig, rig, all_drivers(), Deadline::in(kOpening_s, run.stop), run);
+  OpenRig open(arguments.rig, rig, run);
   run.stage("sweep");
-  const PiezoSweep sweep = sweep_piezo(devices, rig, arguments.options, run);
+  const PiezoSweep sweep = sweep_piezo(open.devices(), rig, arguments.options, run);
   if (!arguments.output.empty()) {
     AtomicFile file(arguments.output);
     file.stream() << with_curve(arguments.rig, sweep.curve);

@@ -54,6 +54,8 @@ Json test_devices(const std::filesystem::path& rig_file,
                   const std::vector<Driver>& drivers,
                   const Run& run) {
   const Rig rig = read_rig(rig_file, run);
+  DeviceSession session;
+  std::vector<Guardian::Watch> watches;
   std::vector<std::unique_ptr<Device>> opened;  // kept open: tables may share a board
   Json all = Json::array();
   for (DeviceSettings& settings : read_device_settings(rig_file)) {
@@ -62,6 +64,8 @@ Json test_devices(const std::filesystem::path& rig_file,
       const Driver& driver = driver_for(settings, drivers);
       entry["driver"] = driver.name;
       opened.push_back(driver.open(settings, rig, Deadline::in(kTimeout_s, run.stop)));
+      if (const auto how = opened.back()->safe_off())
+        watches.push_back(session.guardian.watch(*how));
       settings.warn_of_unused_keys(run);
       entry["name"] = opened.back()->name();
       entry["answer"] = opened.back()->test(Deadline::in(kTimeout_s, run.stop));
@@ -71,8 +75,10 @@ Json test_devices(const std::filesystem::path& rig_file,
     }
     all.push_back(entry);
   }
+  std::vector<Device*> devices;
   for (const auto& device : opened)
-    device->make_safe();
+    devices.push_back(device.get());
+  make_safe(devices);
   return all;
 }
 

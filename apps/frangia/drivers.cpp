@@ -15,4 +15,12 @@ std::vector<Driver> all_drivers() {
   return drivers;
 }
 
+GuardianProgram guardian_program() {
+  return {"/proc/self/exe", {"frangia", "guardian"}};
+}
+
+OpenRig::OpenRig(const std::filesystem::path& rig_file, const Rig& rig, const Run& run)
+    : devices_(open_devices(
+          rig_file, rig, all_drivers(), Deadline::in(30.0, run.stop), run, &session_.guardian)) {}
+
 }  // namespace frangia

@@ -1,13 +1,20 @@
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <memory>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include "frangia/core/error.h"
+#include "frangia/devices/guardian.h"
 
+#include "interrupt.h"
 #include "merge_verb.h"
 #include "option_names.h"
 #include "option_values.h"
@@ -93,6 +100,10 @@ int run_program(int argc, char** argv) {
     return print_error(terminal,
                        "this does not fit into the memory of the machine; set a larger `voxel`",
                        NumericFault);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return print_error(terminal, error.what(), BadInput);
+  } catch (const std::system_error&) {
+    throw;  // of the output; a message may fail as well
   } catch (const std::exception& error) {
     return print_error(terminal, error.what(), NumericFault);
   }
@@ -100,14 +111,40 @@ int run_program(int argc, char** argv) {
   return terminal.exit_code;
 }
 
+/// Ends the output. A reader that has ended stops the program, as it does other programs.
+int finish_output(int code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  if (reader_has_ended()) end_by_sigpipe();
+  throw std::system_error(errno, std::generic_category());
+}
+
+int fail(const std::string& sentence, int code) {
+  static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
+  return code;
+}
+
+std::string output_sentence(const std::system_error& error) {
+  const bool output = std::ferror(stdout) != 0;
+  return output ? "cannot write to the standard output: " + error.code().message() : error.what();
+}
+
 }  // namespace
 }  // namespace frangia
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "guardian") {
+    const int code = frangia::run_guardian();
+    return code == 0 ? 0 : frangia::fail("only frangia itself starts its guardian", code);
+  }
   try {
-    return frangia::run_program(argc, argv);
-  } catch (const std::exception& error) {  // before the parse, or while printing a result
-    static_cast<void>(std::fprintf(stderr, "frangia: %s\n", error.what()));  // NOLINT(*-vararg)
-    return frangia::NumericFault;
+    frangia::handle_signals();
+    return frangia::finish_output(frangia::run_program(argc, argv));
+  } catch (const std::system_error& error) {  // while printing
+    if (frangia::reader_has_ended()) frangia::end_by_sigpipe();
+    return frangia::fail(frangia::output_sentence(error), frangia::BadInput);
+  } catch (const std::exception& error) {  // before the parse
+    return frangia::fail(error.what(), frangia::NumericFault);
   }
 }

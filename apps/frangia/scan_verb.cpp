@@ -1,18 +1,19 @@
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <regex>
 #include <string>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "frangia/acquisition/capture_scan.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/folder_lock.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/default_patterns.h"
 
-#include "counted.h"
+#include "capture_result.h"
 #include "drivers.h"
 #include "option_values.h"
 #include "verbs.h"
@@ -26,6 +27,7 @@ struct ScanArguments {
   int views = 8;
   std::string exposure = "10";
   bool no_step_control = false;
+  std::optional<double> table_at_deg;
   bool not_inverted = false;
   PatternPlan patterns;
   CaptureOptions options;
@@ -101,58 +103,44 @@ void add_reliability_options(CLI::App& verb, ScanArguments& arguments) {
         ->group("Reliability");
   };
   add("--settle", options.settle_s, "wait after each turntable move, s");
-  add("--patience", options.timeout_s, "timeout of each call to a device, s");
+  add("--patience",
+      options.timeout_s,
+      "timeout of each call to a device, s; of a table move, in addition to its expected duration");
   add("--frame-attempts", options.frame_attempts, "attempts for a frame that arrives incomplete");
   add("--set-attempts", options.set_attempts, "attempts for a set of frames that shows motion");
   add("--view-attempts", options.view_attempts, "attempts for a view in which a device fails");
+  verb.add_option("--table-at",
+                  arguments.table_at_deg,
+                  "present angle of a turntable without a home switch, degrees; needed to continue "
+                  "a scan")
+      ->check(from_to(-1e6, 1e6))
+      ->group("Reliability");
   verb.add_flag("--no-step-control",
                 arguments.no_step_control,
                 "do not correct the phase shifter by the steps measured in the frames")
       ->group("Reliability");
 }
 
-void print(const ScanArguments& arguments, const CaptureReport& report, Terminal& terminal) {
-  terminal.finish();
-  if (terminal.json) {
-    nlohmann::ordered_json result{{"scan", arguments.output.string()},
-                                  {"captured", report.captured},
-                                  {"resumed", report.resumed},
-                                  {"frame_retries", report.frame_retries},
-                                  {"set_retakes", report.set_retakes},
-                                  {"skipped", report.skipped},
-                                  {"exposures_ms", report.exposures_ms},
-                                  {"device_s", report.device_s},
-                                  {"disk_s", report.disk_s},
-                                  {"overhead_ms_per_frame", report.overhead_ms()},
-                                  {"warnings", terminal.warnings()}};
-    fmt::print("{}\n", result.dump(2));
-    return;
-  }
-  terminal.run().note(
-      fmt::format("{}: {} captured, {} already there, {} repeated, {} retaken, {} skipped",
-                  arguments.output.string(),
-                  counted(report.captured, "frame"),
-                  report.resumed,
-                  report.frame_retries,
-                  counted(report.set_retakes, "set"),
-                  counted(report.skipped.size(), "view")));
-  if (report.captured > 0 && terminal.verbose) {
-    terminal.run().note(fmt::format("devices {:.1f} s, disk {:.1f} s, program {:.1f} ms per frame",
-                                    report.device_s,
-                                    report.disk_s,
-                                    report.overhead_ms()));
-  }
+/// The name of a folder, which "scan/" and "." do not end with.
+std::string name_of(const std::filesystem::path& folder) {
+  const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
+  return (path.filename().empty() ? path.parent_path() : path).filename().string();
 }
 
 Scan plan_of(const ScanArguments& arguments, const Run& run) {
   Scan plan;
   plan.folder = arguments.output;
-  plan.name = std::filesystem::absolute(arguments.output).lexically_normal().filename().string();
+  plan.name = name_of(arguments.output);
   plan.rig = read_rig(arguments.rig, run);
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
   for (int i = 0; i < arguments.views; ++i)
     plan.views.push_back({kTwoPi * i / arguments.views, fmt::format("views/{:03}", i)});
   return plan;
+}
+
+/// The command to continue with. The turntable has moved since its angle was stated.
+std::string command_to_continue(const std::string& command_line) {
+  return std::regex_replace(command_line, std::regex(" --table-at[= ][^ ]+"), "");
 }
 
 void scan(const ScanArguments& arguments, Terminal& terminal) {
@@ -161,6 +149,7 @@ void scan(const ScanArguments& arguments, Terminal& terminal) {
   const Scan plan = plan_of(arguments, run);
   CaptureOptions options = arguments.options;
   options.control_steps = !arguments.no_step_control;
+  if (arguments.table_at_deg) options.table_at_rad = rad_from_deg(*arguments.table_at_deg);
   if (arguments.exposure == "auto") {
     options.exposure = ExposureChoice::Automatic;
   } else if (arguments.exposure == "bracket") {
@@ -173,16 +162,18 @@ void scan(const ScanArguments& arguments, Terminal& terminal) {
                 "`exposures` and `exposure` " + arguments.exposure +
                     " exclude each other; set only one of them");
   }
-  constexpr double kOpening_s = 30.0;
-  RigDevices devices =
-      open_devices(arguments.rig, plan.rig, all_drivers(), Deadline::in(kOpening_s, run.stop), run);
+  const FolderLock lock(plan.folder);  // before opening the devices, which may be in use
+  OpenRig rig(arguments.rig, plan.rig, run);
   run.stage("scan");
   try {
-    print(arguments, capture_scan(plan, devices, options, run), terminal);
+    print_capture(
+        arguments.output, capture_scan(plan, rig.devices(), lock, options, run), terminal);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Cancelled) throw;
-    throw Error(ErrorKind::Cancelled,
-                fmt::format("{}; continue with: {}", error.what(), terminal.command_line));
+    throw Error(
+        ErrorKind::Cancelled,
+        fmt::format(
+            "{}; continue with: {}", error.what(), command_to_continue(terminal.command_line)));
   }
 }
 

@@ -146,7 +146,7 @@ TEST_F(CaptureScan, StuckTableIsTriedAgainThenTheViewIsSkippedAndNamed) {
   devices_["turntable"] += "faults = [\"alarm 120\", \"stuck 240 always\"]\n";
   const CaptureReport report = capture();
   ASSERT_EQ(report.skipped.size(), 1U);
-  EXPECT_TRUE(holds(report.skipped.front(),
+  EXPECT_TRUE(holds(report.skipped.front().sentence(),
                     "view 3 at 240 degrees: simulated turntable: did not reach 240 degrees"));
   EXPECT_EQ(read_scan(plan_.folder).views.size(), 2U);
   use("angular", 4);  // freed: the same command takes what is missing

@@ -80,6 +80,75 @@ TEST_F(CaptureProgram, IsStoppedByASignalAndContinues) {
   EXPECT_TRUE(holds(finished, "view 3 of 3 at 240 degrees"));
 }
 
+TEST_F(CaptureProgram, EndsWithCode4AndATableWhenViewsWereSkipped) {
+  const std::string stuck = rig("[devices.turntable]\ndriver = \"simulated\"",
+                                "[devices.turntable]\ndriver = \"simulated\"\n"
+                                "faults = [\"stuck 120 always\"]");
+  const std::string command = "scan " + stuck + " -o " + scan() + " --views 3";
+  const Answer answer = run_program(command);
+  EXPECT_EQ(answer.exit_code, 4) << answer.output;
+  EXPECT_TRUE(holds(answer, "1 view not captured")) << answer.output;
+  EXPECT_TRUE(holds(answer, "     2         120  simulated turntable: did not reach 120 degrees"))
+      << answer.output;
+  const Answer json = run_program("--json " + command + " 2>/dev/null");
+  EXPECT_EQ(json.exit_code, 4);
+  EXPECT_TRUE(holds(json, "\"view\": 2,")) << json.output;
+  EXPECT_EQ(run_program("scan " + rig() + " -o " + scan() + " --views 3").exit_code, 0)
+      << "freed, the same command captures what is missing";
+}
+
+TEST_F(CaptureProgram, FindsTheSameScanUnderAnyNameOfItsFolder) {
+  const std::string rest = rig() + " --views 1 -o ";
+  EXPECT_EQ(run_program("scan " + rest + scan() + "/").exit_code, 0);
+  for (const std::string& folder : {scan(), scan() + "/", scan() + "/../scan"}) {
+    const Answer answer = run_program("scan " + rest + folder);
+    EXPECT_EQ(answer.exit_code, 0) << answer.output;
+    EXPECT_TRUE(holds(answer, "0 frames captured, 5 already there")) << answer.output;
+  }
+  const Answer here = run_shell(fmt::format("cd {} && {} scan {}.", scan(), FRANGIA_PROGRAM, rest));
+  EXPECT_EQ(here.exit_code, 0) << here.output;
+  std::filesystem::rename(scan(), folder_.path() / "moved");
+  EXPECT_EQ(run_program("scan " + rest + (folder_.path() / "moved").string()).exit_code, 0);
+  std::ifstream in(folder_.path() / "moved/scan.toml");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find("name = 'moved'"), std::string::npos) << text;
+}
+
+TEST_F(CaptureProgram, IsRefusedAFolderThatAnotherScanWritesTo) {
+  const std::string slow = rig("part = \"plate\"", "part = \"plate\"\nreal_time = true");
+  const std::string command =
+      fmt::format("{} scan {} -o {} --views 3 --exposure 200", FRANGIA_PROGRAM, slow, scan());
+  const Answer answer = run_shell(
+      fmt::format("{} >/dev/null 2>&1 & first=$!; until ls {}/views/*/*-1.png >/dev/null 2>&1 || "
+                  "! kill -0 $first; do sleep 0.05; done; {}; echo code $? first $first; "
+                  "kill -KILL $first; wait $first",
+                  command,
+                  scan(),
+                  command));
+  EXPECT_TRUE(holds(answer, "code 3")) << answer.output;
+  EXPECT_TRUE(holds(answer, "is writing to this folder")) << answer.output;
+  const std::size_t id = answer.output.find("first ") + 6;
+  const std::string process = answer.output.substr(id, answer.output.find('\n', id) - id);
+  EXPECT_TRUE(holds(answer, "process " + process + " on ")) << answer.output;
+  EXPECT_EQ(run_shell(command).exit_code, 0) << "the lock of a killed process is taken over";
+}
+
+TEST_F(CaptureProgram, NeedsTheTableAngleToContinueWithoutAHomeSwitch) {
+  const std::string here = rig("[devices.turntable]\ndriver = \"simulated\"",
+                               "[devices.turntable]\ndriver = \"simulated\"\n"
+                               "home = \"here\"\nfaults = [\"stuck 120 always\"]");
+  const std::string command = "scan " + here + " -o " + scan() + " --views 3";
+  EXPECT_EQ(run_program(command).exit_code, 4);
+  const std::string freed = "scan " +
+                            rig("[devices.turntable]\ndriver = \"simulated\"",
+                                "[devices.turntable]\ndriver = \"simulated\"\nhome = \"here\"") +
+                            " -o " + scan() + " --views 3";
+  const Answer refused = run_program(freed);
+  EXPECT_EQ(refused.exit_code, 3) << refused.output;
+  EXPECT_TRUE(holds(refused, "set --table-at to 0")) << refused.output;
+  EXPECT_EQ(run_program(freed + " --table-at 0").exit_code, 0);
+}
+
 TEST_F(CaptureProgram, CalibratesAPiezoIntoACopyOfItsRig) {
   const std::string copy = (folder_.path() / "calibrated.toml").string();
   const Answer answer = run_program("calibrate piezo " + rig() + " --steps 13 -o " + copy);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "frangia/dataset/read_frames.h"
 #include "frangia/frames/png.h"
@@ -100,6 +101,42 @@ TEST(ReadScanFault, AFrameOfAnotherDepthIsNamed) {
   expect_names(complaint(folder), "fringe-1.png");
 }
 
+TEST(ReadScanFault, AFrameThatIsNoFileIsRefusedAtOnceByItsKind) {
+  const SmallFolder folder;
+  const auto path = folder.view() / "fringe-2.png";
+  std::filesystem::remove(path);
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  expect_names(complaint(folder), "fringe-2.png: is a named pipe, not a file");
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  expect_names(complaint(folder), "fringe-2.png: is a folder, not a file");
+}
+
+TEST(ReadScanFault, AFrameThatIsALinkOutOfTheScanIsNamed) {
+  const SmallFolder folder;
+  const TemporaryFolder outside;
+  const auto path = folder.view() / "fringe-2.png";
+  std::filesystem::rename(path, outside.path() / "fringe-2.png");
+  std::filesystem::create_symlink(outside.path() / "fringe-2.png", path);
+  expect_names(complaint(folder), "fringe-2.png: is a link to a file outside of the scan folder");
+}
+
+TEST(ReadScan, AcceptsAFrameThatIsALinkInsideTheScan) {
+  const SmallFolder folder;
+  const auto path = folder.view() / "fringe-2.png";
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink("fringe-1.png", path);
+  EXPECT_EQ(complaint(folder), "accepted");
+}
+
+TEST(ReadScanFault, AFrameOfAnotherSizeIsRefusedBeforeItIsDecoded) {
+  const SmallFolder folder;
+  const auto path = folder.view() / "fringe-1.png";
+  write_png(path, Frame(Image<std::uint8_t>(1300, 1000, 80)));
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  expect_names(complaint(folder), "1300 x 1000");
+}
+
 struct Fault {
   std::string from;
   std::string to;
@@ -132,6 +169,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"folder = \"views/000\"", "folder = \"../../etc\"", "inside"},
                       Fault{"folder = \"views/000\"", "folder = \"views/../..\"", "inside"},
                       Fault{"folder = \"views/000\"", "folder = \"\"", "inside"},
+                      Fault{"folder = \"views/000\"", R"(folder = "views/000\u0000/x")", "inside"},
+                      Fault{"name = \"line\"", R"(name = "li\nne")", "pattern[1].name"},
+                      Fault{"name = \"line\"", R"(name = "li\u001bne")", "pattern[1].name"},
+                      Fault{"name = \"line\"", R"(name = "line\u0000x")", "pattern[1].name"},
                       Fault{"angle_deg", "round = 1\nangle_deg", "is called setup now"},
                       Fault{
                           "[[view]]", "[[round]]\nround = 1\n[[view]]", "is called [[setup]] now"},

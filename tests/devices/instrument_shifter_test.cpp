@@ -98,6 +98,23 @@ TEST_F(Gcs2Shifter, ReturnsFromAMoveOnTarget) {
   EXPECT_NE(error_of([&] { stage.drive(150.0, soon()); }).find("reports 7"), std::string::npos);
 }
 
+TEST_F(Gcs2Shifter, MovesAgainAfterAStop) {
+  EmulatedPort port(std::make_unique<EmulatedGcs2>());
+  InstrumentShifter stage = shifter_at(port, gcs2_protocol(), 80.0);
+  stage.drive(12.5, soon());
+  stage.make_safe();
+  stage.drive(20.0, soon());
+  port.with<EmulatedGcs2>([](auto& controller) { EXPECT_DOUBLE_EQ(controller.target, 20.0); });
+}
+
+TEST_F(ScpiShifter, SwitchesTheOutputOnWithItsFirstValueOnly) {
+  EmulatedPort port(std::make_unique<EmulatedScpi>());
+  InstrumentShifter piezo = shifter_at(port, scpi_protocol(), 4.0);
+  port.with<EmulatedScpi>([](auto& generator) { EXPECT_FALSE(generator.output); });
+  piezo.drive(1.0, soon());
+  port.with<EmulatedScpi>([](auto& generator) { EXPECT_TRUE(generator.output); });
+}
+
 TEST_F(PrologixShifter, AnInstrumentOnGpibWorksAsOnItsOwnLine) {
   EmulatedPort port(std::make_unique<EmulatedPrologix>(std::make_unique<EmulatedScpi>(), 9),
                     EmulatedPort::Kind::Tcp);

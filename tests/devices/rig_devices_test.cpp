@@ -1,6 +1,10 @@
 #include "frangia/devices/rig_devices.h"
 
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +16,7 @@ namespace {
 /// A switch whose state the test can read.
 class TestSwitch : public SwitchDevice {
  public:
-  explicit TestSwitch(bool* on) : on_(on) {}
+  explicit TestSwitch(std::atomic<bool>* on) : on_(on) {}
   [[nodiscard]] std::string name() const override { return "test switch"; }
   [[nodiscard]] std::string test(const Deadline& /*deadline*/) override { return "works"; }
   void make_safe() noexcept override { *on_ = false; }
@@ -20,10 +24,10 @@ class TestSwitch : public SwitchDevice {
   [[nodiscard]] bool is_on() const override { return *on_; }
 
  private:
-  bool* on_;
+  std::atomic<bool>* on_;
 };
 
-std::vector<Driver> switch_drivers(DeviceKind kind, bool* on) {
+std::vector<Driver> switch_drivers(DeviceKind kind, std::atomic<bool>* on) {
   Driver driver;
   driver.name = "test";
   driver.kind = kind;
@@ -54,7 +58,7 @@ class OpenDevices : public ::testing::Test {
 };
 
 TEST_F(OpenDevices, AreDarkAfterDestruction) {
-  bool on = false;
+  std::atomic<bool> on = false;
   {
     const RigDevices devices =
         open("[devices.light]\ndriver = \"test\"\n", switch_drivers(DeviceKind::Light, &on));
@@ -66,7 +70,7 @@ TEST_F(OpenDevices, AreDarkAfterDestruction) {
 }
 
 TEST_F(OpenDevices, NamesAnUnknownDriverAndTheAvailableOnes) {
-  bool on = false;
+  std::atomic<bool> on = false;
   const std::string sentence =
       fault("[devices.light]\ndriver = \"torch\"\n", switch_drivers(DeviceKind::Light, &on));
   EXPECT_NE(sentence.find("devices.light.driver is \"torch\""), std::string::npos) << sentence;
@@ -74,10 +78,39 @@ TEST_F(OpenDevices, NamesAnUnknownDriverAndTheAvailableOnes) {
 }
 
 TEST_F(OpenDevices, RefusesADeviceOfAnotherKindThanItsDriver) {
-  bool on = false;
+  std::atomic<bool> on = false;
   const std::string sentence =
       fault("[devices.turntable]\ndriver = \"test\"\n", switch_drivers(DeviceKind::Turntable, &on));
   EXPECT_NE(sentence.find("another kind"), std::string::npos) << sentence;
+}
+
+/// A camera that hangs while it is made safe.
+class HangingCamera final : public CameraDevice {
+ public:
+  [[nodiscard]] std::string name() const override { return "hanging camera"; }
+  [[nodiscard]] std::string test(const Deadline& /*deadline*/) override { return "works"; }
+  void make_safe() noexcept override { std::this_thread::sleep_for(std::chrono::seconds(1)); }
+  [[nodiscard]] const CameraInfo& info() const override { return info_; }
+  CameraSettings configure(const CameraSettings& settings, const Deadline& /*at*/) override {
+    return settings;
+  }
+  [[nodiscard]] CapturedFrame capture(const FrameLabel& /*label*/,
+                                      const Deadline& /*deadline*/) override {
+    return {};
+  }
+
+ private:
+  CameraInfo info_;
+};
+
+TEST(MakeSafe, ADeviceThatHangsKeepsNoOtherOn) {
+  std::atomic<bool> on = true;
+  HangingCamera camera;
+  TestSwitch light(&on);
+  const std::array<Device*, 2> devices = {&camera, &light};
+  std::jthread safe([&] { make_safe(devices); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_FALSE(light.is_on());
 }
 
 }  // namespace

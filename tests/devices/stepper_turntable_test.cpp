@@ -70,6 +70,27 @@ TEST_F(GrblTurntable, IsAtStandstillAtTheAngleWhenAMoveReturns) {
   EXPECT_NEAR(table.angle_rad().value(), rad_from_deg(45.0), 1e-12);
 }
 
+TEST_F(GrblTurntable, MovesByTheDifferenceFromAnAngleThatWasSet) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  port.with<EmulatedGrbl>([](auto& grbl) { grbl.speed_factor = 10.0; });
+  StepperTurntable table(ready(grbl_at(port)), options_with(0.0));
+  const auto position = [&] {
+    double units = 0.0;
+    port.with<EmulatedGrbl>([&](auto& grbl) { units = grbl.position(); });
+    return units;
+  };
+  table.enable(true, soon());
+  table.set_angle(rad_from_deg(90.0), soon());
+  EXPECT_NEAR(table.angle_rad().value(), rad_from_deg(90.0), 1e-12);
+  const double before = position();
+  table.move_to(rad_from_deg(100.0), soon());
+  EXPECT_NEAR(position() - before, 10.0, 1e-3);
+  table.move_to(0.0, soon());
+  EXPECT_NEAR(position() - before, -90.0, 1e-3);
+  table.home(soon());
+  EXPECT_EQ(table.angle_rad().value(), 0.0);
+}
+
 TEST_F(GrblTurntable, ApproachesEveryTargetFromBelow) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   StepperTurntable table(ready(grbl_at(port)), options_with(2.0));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "frangia/core/error.h"
 
@@ -73,6 +74,29 @@ TEST(Png, RefusesMissingEmptyAndForeignFiles) {
   EXPECT_NE(error_message(folder.path() / "text.png"), "accepted");
   EXPECT_NE(error_message(folder.path() / "empty.png").find("is an empty file"), std::string::npos);
   EXPECT_NE(error_message(folder.path() / "none.png").find("does not exist"), std::string::npos);
+}
+
+TEST(Png, ChecksTheSizeInTheHeaderBeforeDecodingAnyPixel) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "cut.png";
+  write_png(path, Frame(ramp<std::uint8_t>(64, 64, 7)));
+  std::filesystem::resize_file(path, 60);  // signature, header and the beginning of the pixels
+  try {
+    static_cast<void>(read_png(path, [](int width_px, int height_px) {
+      throw Error(ErrorKind::Input, std::to_string(width_px) + " x " + std::to_string(height_px));
+    }));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "64 x 64");
+  }
+}
+
+TEST(Png, RefusesANamedPipeAndAFolderAtOnce) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe.png";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(error_message(pipe).find("is a named pipe"), std::string::npos);
+  EXPECT_NE(error_message(folder.path()).find("is a folder"), std::string::npos);
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ class EmulatedMarlin : public EmulatedLineDevice {
   int lines_to_break = 0;  ///< number of the next lines that arrive damaged
   bool kill_in_next_move = false;
   double position = 0.0;
+  double max_rate = 500.0;
+  bool fan = false;
+  bool pin = false;
   std::vector<std::string> commands;
 
   std::string greet() override { return "start\necho:Marlin 2.0.9\necho: Last Updated\n"; }
@@ -31,8 +34,10 @@ class EmulatedMarlin : public EmulatedLineDevice {
       expected_ = 1;
       return "ok\n";
     }
+    if (line.empty()) return {};
     const std::size_t star = line.rfind('*');
     if (line.front() != 'N' || star == std::string::npos) {
+      switch_output(line);
       commands.push_back(line);
       return "ok\n";
     }
@@ -51,8 +56,16 @@ class EmulatedMarlin : public EmulatedLineDevice {
   }
 
  private:
+  /// The fan output and pin 4.
+  void switch_output(const std::string& command) {
+    if (command.rfind("M106", 0) == 0) fan = true;
+    if (command == "M107") fan = false;
+    if (command.rfind("M42 P4 ", 0) == 0) pin = command != "M42 P4 S0";
+  }
   std::string execute(const std::string& command) {
     commands.push_back(command);
+    switch_output(command);
+    if (command == "M503") return "echo:  M203 X" + std::to_string(max_rate) + " Y500.00\nok\n";
     if (command.rfind("G1 ", 0) == 0) position = number_after(command, 'X');
     if (command == "M400") {
       if (std::exchange(kill_in_next_move, false)) {
@@ -101,7 +114,7 @@ class EmulatedScpi : public EmulatedLineDevice {
   std::vector<double> set;
 
   std::string answer(const std::string& line) override {
-    if (silent) return {};
+    if (silent || line.empty()) return {};
     if (line == "*IDN?") return "Frangia,Emulated generator,0,1\n";
     if (line == "*OPC?") return never_settles ? "0\n" : "1\n";
     if (line == "SYST:ERR?") return std::exchange(error_, "+0,\"No error\"") + "\n";

@@ -22,6 +22,7 @@ class EmulatedGrbl : public EmulatedDevice {
   // Faults, and what a test wants to know.
   bool silent = false;
   bool reset_in_next_move = false;  ///< a brown-out
+  bool limit_in_next_move = false;  ///< a limit switch is hit
   bool garbage = false;             ///< another baud rate
   bool starts_locked = false;       ///< $22=1: locked until homed
   double speed_factor = 50.0;       ///< moves are faster than commanded by this factor
@@ -55,6 +56,12 @@ class EmulatedGrbl : public EmulatedDevice {
       said += queue_.front().answer;
       queue_.pop_front();
       if (!queue_.empty()) queue_.front().ends = Clock::now() + queue_.front().lasts;
+    }
+    if (limit_in_next_move && moving()) {
+      limit_in_next_move = false;
+      alarm = true;
+      queue_.clear();
+      said += "ALARM:1\r\n[MSG:Reset to continue]\r\n";
     }
     if (reset_in_next_move && moving()) {
       reset_in_next_move = false;

@@ -62,7 +62,7 @@ class EmulatedPort {
   enum class Kind { Terminal, Tcp };
 
   explicit EmulatedPort(std::unique_ptr<EmulatedDevice> device, Kind kind = Kind::Terminal)
-      : device_(std::move(device)) {
+      : device_(std::move(device)), kind_(kind) {
     if (kind == Kind::Terminal) {
       open_terminal();
     } else {
@@ -81,6 +81,11 @@ class EmulatedPort {
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] int tcp_port() const { return tcp_port_; }
+  /// The lines of rig.toml that open this port.
+  [[nodiscard]] std::string settings() const {
+    if (kind_ == Kind::Terminal) return "port = \"" + path_ + "\"\n";
+    return "host = \"127.0.0.1\"\ntcp_port = " + std::to_string(tcp_port_) + "\n";
+  }
   /// Looks at the device, or gives it a fault, while it is not at work.
   template <typename Device, typename Do>
   auto with(const Do& action) {
@@ -133,18 +138,29 @@ class EmulatedPort {
       } else if (ready) {
         std::array<char, 256> bytes{};
         const ssize_t count = ::read(fd_, bytes.data(), bytes.size());
-        if (count <= 0) return;
+        if (count <= 0) {  // the program has closed the line
+          if (kind_ == Kind::Terminal) return;
+          ::close(std::exchange(fd_, -1));  // another one may connect
+          continue;
+        }
         transmit(device_->receive({bytes.data(), static_cast<std::size_t>(count)}));
       }
       transmit(device_->tick());
     }
   }
+  /// Drops what does not fit into the line, as a serial port without flow control does.
   void transmit(const std::string& text) const {
     if (fd_ < 0 || text.empty()) return;
-    if (::write(fd_, text.data(), text.size()) < 0) return;
+    ::fcntl(fd_, F_SETFL, ::fcntl(fd_, F_GETFL) | O_NONBLOCK);  // NOLINT(*-vararg)
+    if (kind_ == Kind::Tcp) {
+      if (::send(fd_, text.data(), text.size(), MSG_NOSIGNAL) < 0) return;
+    } else if (::write(fd_, text.data(), text.size()) < 0) {
+      return;
+    }
   }
 
   std::unique_ptr<EmulatedDevice> device_;
+  Kind kind_;
   std::mutex mutex_;
   int fd_ = -1;
   int other_end_ = -1;  ///< kept open, so that the terminal outlives the program that opens it

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,22 +22,34 @@ struct CaptureOptions {
   ExposureChoice exposure = ExposureChoice::Given;  ///< how the exposure time is chosen
   bool control_steps =
       true;  ///< corrects the shifter's commands by the steps measured in earlier sets
-  int frame_attempts = 50;        ///< exposures until a frame arrives complete
-  int set_attempts = 3;           ///< captures of a set until it shows no motion
-  int view_attempts = 2;          ///< captures of a view after device faults
-  double settle_s = 0.0;          ///< wait after a table move, in addition to the table's own
-  double timeout_s = 10.0;        ///< per device call, in addition to the exposure
-  double move_timeout_s = 120.0;  ///< per table move
+  int frame_attempts = 50;  ///< exposures until a frame arrives complete
+  int set_attempts = 3;     ///< captures of a set until it shows no motion
+  int view_attempts = 2;    ///< captures of a view after device faults
+  double settle_s = 0.0;    ///< wait after a table move, in addition to the table's own
+  /// Per device call, in addition to the exposure or to 1.5 times the expected duration of a move.
+  double timeout_s = 10.0;
+  /// Present angle of a turntable without a home switch. Empty: 0 when a scan begins. A scan that
+  /// is continued requires it.
+  std::optional<double> table_at_rad;
+};
+
+/// A view that could not be captured.
+struct SkippedView {
+  std::size_t view = 0;    ///< index in the plan
+  double angle_rad = 0.0;  ///< of the turntable
+  std::string reason;      ///< the error of the last attempt
+
+  /// "view 3 at 240 degrees: REASON", counted from 1.
+  [[nodiscard]] std::string sentence() const;
 };
 
 /// Frames, retries and times of a capture session.
 struct CaptureReport {
-  std::size_t captured = 0;       ///< frames stored in this session
-  std::size_t resumed = 0;        ///< frames stored by earlier sessions
-  std::size_t frame_retries = 0;  ///< repeated exposures of incomplete frames, all sessions
-  std::size_t set_retakes = 0;    ///< sets captured again because of motion, all sessions
-  std::vector<std::string>
-      skipped;  ///< one sentence per skipped view: its number, angle and reason
+  std::size_t captured = 0;          ///< frames stored in this session
+  std::size_t resumed = 0;           ///< frames stored by earlier sessions
+  std::size_t frame_retries = 0;     ///< repeated exposures of incomplete frames, all sessions
+  std::size_t set_retakes = 0;       ///< sets captured again because of motion, all sessions
+  std::vector<SkippedView> skipped;  ///< in the order of the plan
   std::vector<double> exposures_ms;  ///< of the fringes
   double device_s = 0.0;             ///< time in device calls: exposing, settling, moving
   double disk_s = 0.0;               ///< time waiting for fsync

@@ -1,23 +1,22 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <string>
+
+#include "frangia/core/durability.h"
 
 namespace frangia {
 
-/// How strongly a committed file is protected against a power failure.
-enum class Durability {
-  Buffered,  ///< the operating system chooses when to write to the disk
-  Synced     ///< the file and its folder entry are on the disk when `commit` returns; takes tens of
-             ///< milliseconds
-};
-
 /// A file that appears under its final name only when it is complete.
 ///
-/// Bytes go to a temporary file in the same folder. `commit` flushes, checks and renames it. The
-/// destructor removes a temporary file that was not committed.
+/// Bytes go to a new temporary file with a random name in the same folder. `commit` flushes, checks
+/// and renames it. A file that it replaces keeps its permissions. The destructor removes a
+/// temporary file that was not committed.
 ///
-/// @errors   Error(File) when the folder cannot be written or the disk is full
+/// @errors   Error(File) when the folder cannot be written, the disk is full, or the path names a
+///          folder, a device or a named pipe
 class AtomicFile {
  public:
   /// Opens the temporary file beside `path`; with Durability::Synced, `commit` waits for the disk.
@@ -41,5 +40,13 @@ class AtomicFile {
   std::ofstream stream_;
   Durability durability_;
 };
+
+/// Whether a file name has the form of AtomicFile's temporary files:
+/// ".NAME.frangia-0123456789abcdef.tmp".
+[[nodiscard]] bool is_temporary_file_name(const std::string& name);
+
+/// Removes the temporary files that killed processes left in a folder and its subfolders. No other
+/// process may be writing there. Does not follow symbolic links. Returns the number of files.
+std::size_t remove_temporary_files(const std::filesystem::path& folder);
 
 }  // namespace frangia

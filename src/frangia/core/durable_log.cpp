@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/internal/parse_log.h"
 #include "frangia/core/sync_to_disk.h"
 
 namespace frangia {
@@ -19,17 +20,19 @@ DurableLog::DurableLog(std::filesystem::path path)
     : path_(std::move(path)),
       file_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)) {  // NOLINT(*-vararg)
   if (file_ < 0) fail(errno);
-  std::ifstream in(path_, std::ios::binary);
-  text_.assign(std::istreambuf_iterator<char>(in), {});
-  const std::size_t end = text_.rfind('\n');
-  text_.resize(end == std::string::npos ? 0 : end + 1);
-  const auto size = static_cast<::off_t>(text_.size());
-  if (::ftruncate(file_, size) != 0 || ::lseek(file_, size, SEEK_SET) != size) {
-    const int error = errno;
+  try {
+    std::ifstream in(path_, std::ios::binary);
+    ParsedLog log = parse_log(std::string(std::istreambuf_iterator<char>(in), {}));
+    const auto size = static_cast<::off_t>(log.size);
+    if (::ftruncate(file_, size) != 0 || ::lseek(file_, size, SEEK_SET) != size) fail(errno);
+    if (log.lacks_newline) write("\n");
+    lines_ = std::move(log.lines);
+    repaired_ = log.repaired;
+    sync_to_disk(folder_of(path_));
+  } catch (...) {
     ::close(file_);
-    fail(error);
+    throw;
   }
-  sync_to_disk(folder_of(path_));
 }
 
 DurableLog::~DurableLog() {
@@ -37,10 +40,14 @@ DurableLog::~DurableLog() {
 }
 
 void DurableLog::append(const std::string& line) {
-  const std::string whole = line + "\n";
+  const std::scoped_lock lock(mutex_);
+  write(with_checksum(line) + "\n");
+}
+
+void DurableLog::write(const std::string& bytes) {
   std::size_t done = 0;
-  while (done < whole.size()) {
-    const ::ssize_t written = ::write(file_, whole.data() + done, whole.size() - done);
+  while (done < bytes.size()) {
+    const ::ssize_t written = ::write(file_, bytes.data() + done, bytes.size() - done);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
     done += static_cast<std::size_t>(written);

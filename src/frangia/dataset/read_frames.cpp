@@ -7,10 +7,12 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "frangia/core/parallel.h"
+#include "frangia/dataset/internal/leads_outside.h"
 #include "frangia/frames/png.h"
 
 namespace frangia {
@@ -56,20 +58,34 @@ int brightest(const Frame& frame) {
       frame);
 }
 
-void check_frame(const Frame& frame,
-                 const Frame& first,
-                 const Camera& camera,
-                 const std::filesystem::path& path) {
-  const auto fail = [&](const std::string& what) {
-    throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), what));
-  };
-  if (width_of(frame) != camera.model.width_px || height_of(frame) != camera.model.height_px) {
-    fail(fmt::format("is {} x {} pixels, but camera.size_px in rig.toml is {} x {}",
-                     width_of(frame),
-                     height_of(frame),
-                     camera.model.width_px,
-                     camera.model.height_px));
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), what));
+}
+
+/// Reads a frame inside the scan folder, of the size of the rig's camera.
+Frame read_frame(const Scan& scan, const std::filesystem::path& relative) {
+  const std::filesystem::path path = scan.folder / relative;
+  std::error_code ignored;
+  if (std::filesystem::is_symlink(path, ignored) && leads_outside(scan.folder, relative)) {
+    refuse(path, "is a link to a file outside of the scan folder; copy the file into the folder");
   }
+  const CameraModel& model = scan.rig.camera.model;
+  return read_png(path, [&](int width_px, int height_px) {
+    if (width_px == model.width_px && height_px == model.height_px) return;
+    refuse(path,
+           fmt::format("is {} x {} pixels, but camera.size_px in rig.toml is {} x {}",
+                       width_px,
+                       height_px,
+                       model.width_px,
+                       model.height_px));
+  });
+}
+
+void check_counts(const Frame& frame,
+                  const Frame& first,
+                  const Camera& camera,
+                  const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& what) { refuse(path, what); };
   if (frame.index() != first.index())
     fail("has another bit depth than the view's first frame; capture the view again");
   if (frame.index() == 0) {
@@ -90,7 +106,7 @@ void check_frame(const Frame& frame,
 
 /// A file and the frame that it is read into.
 struct FrameFile {
-  std::filesystem::path path;
+  std::filesystem::path relative;  ///< to the scan folder
   Frame* frame;
 };
 
@@ -133,16 +149,16 @@ std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Ru
   std::vector<FrameFile> files;
   for (FrameStack& stack : stacks) {
     for (std::size_t i = 0; i < stack.frames.size(); ++i) {
-      files.push_back({folder / frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure),
-                       &stack.frames[i]});
+      const std::string name = frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure);
+      files.push_back({scan.views[view].folder / name, &stack.frames[i]});
     }
   }
   for_each_file(files, [&](const FrameFile& file) {
     run.check();
-    *file.frame = read_png(file.path);
+    *file.frame = read_frame(scan, file.relative);
   });
   for_each_file(files, [&](const FrameFile& file) {
-    check_frame(*file.frame, *files.front().frame, scan.rig.camera, file.path);
+    check_counts(*file.frame, *files.front().frame, scan.rig.camera, scan.folder / file.relative);
   });
   return stacks;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/dataset/internal/leads_outside.h"
 #include "frangia/dataset/internal/read_pattern.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/toml_reader.h"
@@ -32,16 +33,6 @@ void refuse_renamed(const TomlReader& reader, std::initializer_list<RenamedKey> 
   }
 }
 
-/// Whether `inner` leads out of the folder `outer`, by its name or over a symbolic link.
-bool leads_outside(const std::filesystem::path& outer, const std::filesystem::path& inner) {
-  const auto begins_with_parent = [](const std::filesystem::path& path) {
-    return path.empty() || *path.begin() == "..";
-  };
-  if (inner.is_absolute() || begins_with_parent(inner.lexically_normal())) return true;
-  const std::filesystem::path real = std::filesystem::weakly_canonical(outer / inner);
-  return begins_with_parent(real.lexically_relative(std::filesystem::weakly_canonical(outer)));
-}
-
 ScanView read_view(TomlReader reader, const Scan& scan, const Run& run) {
   refuse_renamed(reader, {{"round", "setup"}});
   ScanView view;
@@ -51,7 +42,7 @@ ScanView read_view(TomlReader reader, const Scan& scan, const Run& run) {
   if (leads_outside(scan.folder, view.folder)) {
     reader.fail("folder",
                 fmt::format("is \"{}\"; it must be relative to the scan folder and lie inside it",
-                            view.folder.string()));
+                            view.folder.c_str()));  // up to a NUL character
   }
   if (reader.has("setup")) view.setup = reader.integer("setup", 0, kMaxSetups);
   reader.warn_of_unused_keys(run);

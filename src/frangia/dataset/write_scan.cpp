@@ -11,6 +11,7 @@
 namespace frangia {
 namespace {
 
+/// Twelve digits, so that 120 degrees are not written as 120.00000000000001.
 double rounded(double value) {
   return rounded_to_digits(value, 12);
 }
@@ -64,10 +65,7 @@ void put_part_poses(TomlWriter& writer, const std::map<int, Eigen::Isometry3d>& 
   }
 }
 
-}  // namespace
-
-void write_scan(const Scan& scan) {
-  write_rig(scan.folder / "rig.toml", scan.rig);
+TomlWriter composed(const Scan& scan) {
   TomlWriter writer;
   writer.put("format", std::string("frangia-scan"));
   writer.put("version", kScanVersion);
@@ -81,7 +79,18 @@ void write_scan(const Scan& scan) {
     if (view.setup != 0) writer.put("setup", view.setup);
   }
   put_part_poses(writer, scan.part_poses);
-  writer.save(scan.folder / "scan.toml");
+  return writer;
+}
+
+}  // namespace
+
+std::string scan_text(const Scan& scan) {
+  return composed(scan).text();
+}
+
+void write_scan(const Scan& scan, Durability durability) {
+  write_rig(scan.folder / "rig.toml", scan.rig, durability);
+  composed(scan).save(scan.folder / "scan.toml", durability);
 }
 
 void write_part_poses(const std::filesystem::path& path,

@@ -2,17 +2,22 @@
 
 #include <filesystem>
 #include <map>
+#include <string>
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/durability.h"
 #include "frangia/dataset/scan_folder.h"
 
 namespace frangia {
 
-/// Writes scan.toml and rig.toml into `scan.folder`. Each file appears complete or not at all.
+/// Returns the text of scan.toml.
+[[nodiscard]] std::string scan_text(const Scan& scan);
+
+/// Writes rig.toml and then scan.toml into `scan.folder`. Each file appears complete or not at all.
 ///
 /// @errors   Error(File) when a file cannot be written
-void write_scan(const Scan& scan);
+void write_scan(const Scan& scan, Durability durability = Durability::Buffered);
 
 /// Writes part poses alone, as `[[setup]]` tables that can be appended to scan.toml.
 ///

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "frangia/core/error.h"
 #include "frangia/devices/deadline.h"
+#include "frangia/devices/safe_off.h"
 
 namespace frangia {
 
@@ -31,8 +33,13 @@ class Device {
   [[nodiscard]] virtual std::string test(const Deadline& deadline) = 0;
 
   /// Switches light off and stops and disables motion as fast as possible. Called on any fault, on
-  /// a signal and at the end; never throws.
+  /// a signal and at the end, and side by side with the other devices of the rig; never throws.
+  /// Returns within 2 s even when the device does not answer.
   virtual void make_safe() noexcept = 0;
+
+  /// How another process switches the device off when this program dies; empty for a device that
+  /// is dark and at rest without its program.
+  [[nodiscard]] virtual std::optional<SafeOff> safe_off() const { return std::nullopt; }
 };
 
 /// Throws Error(Device) with "NAME: WHAT". `what` states the fault and what to do.

@@ -31,6 +31,8 @@ class DeviceSettings {
   /// "camera", "fringes", "line", "light" or "turntable": the name after `devices.`
   [[nodiscard]] const std::string& device() const { return device_; }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }  ///< path of rig.toml
+  /// All keys of the table and their values.
+  [[nodiscard]] const std::map<std::string, SettingValue>& values() const { return values_; }
   /// The value of the key `driver`.
   [[nodiscard]] std::string driver() { return text("driver"); }
 

@@ -1,6 +1,9 @@
 #include "frangia/devices/rig_devices.h"
 
+#include <algorithm>
 #include <array>
+#include <exception>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -93,23 +96,56 @@ std::vector<Device*> RigDevices::all() const {
   return devices;
 }
 
+void make_safe(std::span<Device* const> devices) noexcept {
+  constexpr std::size_t kMost = 8;  // more than a rig has
+  std::array<std::thread, kMost> threads;
+  std::size_t running = 0;
+  const auto is_display = [](Device* device) {
+    return dynamic_cast<PatternDisplay*>(device) != nullptr;
+  };
+  for (Device* device : devices) {
+    if (device == nullptr || is_display(device)) continue;
+    try {
+      threads.at(running) = std::thread([device] { device->make_safe(); });
+      ++running;
+    } catch (const std::exception&) {  // no further thread can be started
+      device->make_safe();
+    }
+  }
+  for (Device* device : devices)
+    if (device != nullptr && is_display(device)) device->make_safe();
+  for (std::size_t i = 0; i < running; ++i)
+    threads.at(i).join();
+}
+
 // NOLINTNEXTLINE(readability-make-member-function-const): the devices are part of it
 void RigDevices::make_safe() noexcept {
-  for (Device* device : devices_of(*this))
-    if (device != nullptr) device->make_safe();
+  frangia::make_safe(devices_of(*this));
+}
+
+// NOLINTNEXTLINE(readability-make-member-function-const): the devices are part of it
+void RigDevices::make_dark() noexcept {
+  std::array<Device*, 6> devices = devices_of(*this);
+  if (turntable && turntable->angle_rad())
+    std::replace(devices.begin(), devices.end(), static_cast<Device*>(turntable.get()), {});
+  frangia::make_safe(devices);
 }
 
 RigDevices open_devices(const std::filesystem::path& rig_file,
                         const Rig& rig,
                         const std::vector<Driver>& drivers,
                         const Deadline& deadline,
-                        const Run& run) {
+                        const Run& run,
+                        Guardian* guardian) {
   RigDevices devices;
   for (DeviceSettings& settings : read_device_settings(rig_file)) {
     const Driver& driver = driver_for(settings, drivers);
     std::unique_ptr<Device> device = driver.open(settings, rig, deadline);
     settings.warn_of_unused_keys(run);
+    if (const auto how = device->safe_off(); how && guardian != nullptr)
+      devices.watches.push_back(guardian->watch(*how));
     assign(std::move(device), driver.kind, devices);
+    devices.settings.push_back(settings);
   }
   check_sizes(rig_file, rig, devices);
   return devices;

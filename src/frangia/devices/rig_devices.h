@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "frangia/core/run.h"
 #include "frangia/devices/camera_device.h"
+#include "frangia/devices/device_settings.h"
 #include "frangia/devices/driver.h"
+#include "frangia/devices/guardian.h"
 #include "frangia/devices/pattern_display.h"
 #include "frangia/devices/phase_shifter.h"
 #include "frangia/devices/switch_device.h"
@@ -14,8 +17,11 @@
 
 namespace frangia {
 
-/// The devices of a rig, null where it has none. On destruction and on any fault all are made safe:
-/// first light, then motion.
+/// Makes devices safe side by side, so that one that does not answer delays no other. Displays are
+/// made safe by the calling thread, which their windows belong to.
+void make_safe(std::span<Device* const> devices) noexcept;
+
+/// The devices of a rig, null where it has none. On destruction and on any fault all are made safe.
 struct RigDevices {
   RigDevices() = default;
   RigDevices(const RigDevices&) = delete;
@@ -25,20 +31,26 @@ struct RigDevices {
   RigDevices& operator=(RigDevices&&) = delete;
   ~RigDevices() { make_safe(); }
 
+  std::vector<Guardian::Watch> watches;  ///< released after the devices are closed
+
   std::unique_ptr<CameraDevice> camera;           ///< required for any capture
   std::unique_ptr<PhaseShifter> shifter;          ///< the fringes of an interferometer ...
   std::unique_ptr<PatternDisplay> display;        ///< ... or those of a digital projector
   std::unique_ptr<LaserSheetSource> laser_sheet;  ///< source of the laser sheet, `line`
   std::unique_ptr<SwitchDevice> light;            ///< laser or lamp of the fringes
   std::unique_ptr<TurntableDevice> turntable;     ///< null: the object stays where it is
+  std::vector<DeviceSettings> settings;           ///< as read from rig.toml
 
   /// All devices of the rig, light first.
   [[nodiscard]] std::vector<Device*> all() const;
-  /// Switches off all light, then stops all motion; see `Device::make_safe`.
+  /// Switches off all light and stops all motion, side by side; see `Device::make_safe`.
   void make_safe() noexcept;
+  /// As `make_safe`, but a turntable at rest at a known angle stays enabled and keeps the angle.
+  void make_dark() noexcept;
 };
 
-/// Opens the devices in the `[devices.NAME]` tables of a rig.toml.
+/// Opens the devices in the `[devices.NAME]` tables of a rig.toml. A `guardian` watches each one
+/// from then on; it must outlive the devices.
 ///
 /// @errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or
 ///          setting, a camera or display whose size differs from the rig; Error(Device) when a
@@ -47,6 +59,7 @@ struct RigDevices {
                                       const Rig& rig,
                                       const std::vector<Driver>& drivers,
                                       const Deadline& deadline,
-                                      const Run& run = {});
+                                      const Run& run = {},
+                                      Guardian* guardian = nullptr);
 
 }  // namespace frangia

@@ -32,6 +32,14 @@ class TurntableDevice : public Device {
   /// @errors   Error(Device) when it is disabled or the switch is not reached
   virtual void home(const Deadline& deadline) = 0;
 
+  /// Makes `angle_rad` the angle of the present position of a table without a home switch.
+  ///
+  /// @errors   Error(Device) when it is disabled, or has a home switch and does not support this
+  virtual void set_angle(double angle_rad, const Deadline& deadline) {
+    if (angle_rad != 0.0) fail_device(*this, "its angle cannot be set; home it");
+    home(deadline);
+  }
+
   /// The present angle; empty when it is unknown.
   [[nodiscard]] virtual std::optional<double> angle_rad() const = 0;
 
@@ -42,6 +50,12 @@ class TurntableDevice : public Device {
   ///          is disabled or its angle unknown, or when it is not at standstill by the deadline,
   ///          which stops the motion
   virtual void move_to(double angle_rad, const Deadline& deadline) = 0;
+
+  /// Expected duration of a move to an angle from the present one, by the way and the speed; 0 when
+  /// it is unknown. Callers derive the deadline of a move from it.
+  [[nodiscard]] virtual double move_time_s(double /*angle_rad*/) const { return 0.0; }
+  /// Expected duration of `home`; 0 when it is unknown.
+  [[nodiscard]] virtual double home_time_s() const { return 0.0; }
 };
 
 }  // namespace frangia

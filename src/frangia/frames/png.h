@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "frangia/core/image.h"
@@ -10,11 +11,16 @@
 
 namespace frangia {
 
+/// Accepts the size of an image, or throws. It is called before memory for the pixels is allocated.
+using PngSizeCheck = std::function<void(int width_px, int height_px)>;
+
 /// Reads a grey PNG. Depths up to 8 bits give an 8-bit frame, 16 bits a 16-bit frame.
 ///
-/// @errors   Error(Input) that names the file when it is missing, not a PNG, truncated, in colour,
-///          or larger than 65 535 pixels a side
-[[nodiscard]] Frame read_png(const std::filesystem::path& path);
+/// @errors   Error(Input) that names the file when it is missing, not a regular file, not a PNG,
+///          truncated, in colour, larger than 65 535 pixels a side, or larger than 1 GiB; the error
+///          of `check_size`
+[[nodiscard]] Frame read_png(const std::filesystem::path& path,
+                             const PngSizeCheck& check_size = {});
 
 using Rgb = std::array<std::uint8_t, 3>;  ///< red, green and blue, 0 to 255
 

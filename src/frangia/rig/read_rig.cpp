@@ -173,6 +173,25 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
   writer.put("light", light);
 }
 
+TomlWriter composed_rig(const Rig& rig) {
+  TomlWriter writer;
+  writer.put("format", std::string("frangia-rig"));
+  writer.put("version", 1);
+  put_camera(writer, rig.camera);
+  put_projector(writer, rig.projector);
+  if (rig.laser_sheet) {
+    writer.begin_table("line");
+    writer.put("normal", list_of(rig.laser_sheet->normal));
+    writer.put("offset_mm", rig.laser_sheet->offset_mm);
+  }
+  if (rig.turntable) {
+    writer.begin_table("turntable");
+    writer.put("point_mm", list_of(rig.turntable->point_mm));
+    writer.put("axis", list_of(rig.turntable->axis));
+  }
+  return writer;
+}
+
 }  // namespace
 
 Rig read_rig(const std::filesystem::path& path, const Run& run) {
@@ -197,23 +216,12 @@ Rig read_rig(const std::filesystem::path& path, const Run& run) {
   return rig;
 }
 
-void write_rig(const std::filesystem::path& path, const Rig& rig) {
-  TomlWriter writer;
-  writer.put("format", std::string("frangia-rig"));
-  writer.put("version", 1);
-  put_camera(writer, rig.camera);
-  put_projector(writer, rig.projector);
-  if (rig.laser_sheet) {
-    writer.begin_table("line");
-    writer.put("normal", list_of(rig.laser_sheet->normal));
-    writer.put("offset_mm", rig.laser_sheet->offset_mm);
-  }
-  if (rig.turntable) {
-    writer.begin_table("turntable");
-    writer.put("point_mm", list_of(rig.turntable->point_mm));
-    writer.put("axis", list_of(rig.turntable->axis));
-  }
-  writer.save(path);
+std::string rig_text(const Rig& rig) {
+  return composed_rig(rig).text();
+}
+
+void write_rig(const std::filesystem::path& path, const Rig& rig, Durability durability) {
+  composed_rig(rig).save(path, durability);
 }
 
 }  // namespace frangia

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "frangia/core/durability.h"
 #include "frangia/core/run.h"
 #include "frangia/rig/rig.h"
 
@@ -14,9 +16,14 @@ namespace frangia {
 ///          or not finite, when the projector model is unknown, or when a matrix is not a rotation
 [[nodiscard]] Rig read_rig(const std::filesystem::path& path, const Run& run = {});
 
-/// Writes a rig.toml from which `read_rig` restores the same rig.
+/// Returns the text of a rig.toml from which `read_rig` restores the same rig.
+[[nodiscard]] std::string rig_text(const Rig& rig);
+
+/// Writes `rig_text` to a file.
 ///
 /// @errors   Error(File) when the file cannot be written
-void write_rig(const std::filesystem::path& path, const Rig& rig);
+void write_rig(const std::filesystem::path& path,
+               const Rig& rig,
+               Durability durability = Durability::Buffered);
 
 }  // namespace frangia

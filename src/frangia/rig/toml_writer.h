@@ -53,11 +53,14 @@ class TomlWriter {
     text_ << "]\n";
   }
 
+  /// Returns the content of the file.
+  [[nodiscard]] std::string text() const { return text_.str(); }
+
   /// Writes the file.
   ///
   /// @errors   Error(File) when it cannot be written
-  void save(const std::filesystem::path& path) const {
-    AtomicFile file(path);
+  void save(const std::filesystem::path& path, Durability durability = Durability::Buffered) const {
+    AtomicFile file(path, durability);
     file.stream() << text_.str();
     file.commit();
   }

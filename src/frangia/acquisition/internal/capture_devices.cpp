@@ -42,45 +42,6 @@ void check_frame(const Device& camera, const Frame& frame, const Rig& rig) {
 
 }  // namespace
 
-void check_devices(const RigDevices& devices,
-                   const Rig& rig,
-                   std::span<const Pattern> patterns,
-                   std::span<const double> angles_rad) {
-  require(devices.camera != nullptr, "the rig has no [devices.camera]; add it to rig.toml");
-  for (const Pattern& pattern : patterns) {
-    if (pattern.kind == PatternKind::Line) {
-      require(devices.laser_sheet != nullptr,
-              "the rig has no [devices.line], which the laser sheet needs; add it to rig.toml");
-    } else if (rig.projector.is_angular()) {
-      require(devices.shifter != nullptr,
-              "the rig has no [devices.fringes], which moves an interferometer's fringes; add it "
-              "to rig.toml");
-    } else {
-      require(devices.display != nullptr,
-              "the rig has no [devices.fringes], which shows a digital projector's patterns; add "
-              "it to rig.toml");
-    }
-  }
-  if (!devices.turntable) {
-    require(angles_rad.size() < 2,
-            "the rig has no [devices.turntable], which several views need; add it to rig.toml, or "
-            "set `views` to 1");
-    return;
-  }
-  const TurntableInfo& info = devices.turntable->info();
-  constexpr double kRounding = 1e-9;
-  for (const double angle_rad : angles_rad) {
-    if (angle_rad >= info.min_rad - kRounding && angle_rad <= info.max_rad + kRounding) continue;
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: the view at {:.6g} degrees is outside its limits, {:.6g} to "
-                            "{:.6g}; take other views, or correct min_deg and max_deg in rig.toml",
-                            devices.turntable->name(),
-                            deg_from_rad(angle_rad),
-                            deg_from_rad(info.min_rad),
-                            deg_from_rad(info.max_rad)));
-  }
-}
-
 CaptureDevices::CaptureDevices(RigDevices& devices,
                                const Rig& rig,
                                const CaptureOptions& options,
@@ -93,12 +54,24 @@ void CaptureDevices::turn_to(double angle_rad) {
   if (!devices_.turntable) return;
   const Stopwatch watch(seconds_);
   TurntableDevice& table = *devices_.turntable;
-  const Deadline until = deadline(options_.move_timeout_s);
-  if (!enabled_) table.enable(true, until);
+  end_set();
+  if (!enabled_) table.enable(true, deadline(options_.timeout_s));
   enabled_ = true;
-  if (!table.angle_rad()) table.home(until);
-  table.move_to(angle_rad, until);
+  if (!table.angle_rad() && standing_rad_ && !table.info().can_home) {
+    // A fault of another device did not turn it.
+    table.set_angle(*standing_rad_, deadline(options_.timeout_s));
+  } else if (!table.angle_rad()) {
+    table.home(motion_deadline(table.home_time_s()));
+  }
+  standing_rad_.reset();
+  table.move_to(angle_rad, motion_deadline(table.move_time_s(angle_rad)));
+  standing_rad_ = angle_rad;
   deadline(options_.settle_s + 1.0).sleep(options_.settle_s);
+}
+
+Deadline CaptureDevices::motion_deadline(double expected_s) const {
+  constexpr double kMargin = 1.5;  // motors and gears of hobby boards are up to a third too slow
+  return deadline(options_.timeout_s + kMargin * expected_s);
 }
 
 void CaptureDevices::begin_set(const Pattern& pattern, double scale) {
@@ -122,6 +95,10 @@ void CaptureDevices::show(const Pattern& pattern, int frame) {
   const Image<float> picture = pattern_picture(pattern, frame, info.width_px, info.height_px);
   const Stopwatch watch(seconds_);
   devices_.display->show(picture, deadline(options_.timeout_s));
+}
+
+void CaptureDevices::end_set() {
+  if (active_light_ == Light::Line) switch_to(Light::None);
 }
 
 void CaptureDevices::switch_to(Light wanted) {
@@ -167,21 +144,35 @@ CompleteFrame CaptureDevices::capture(const FrameLabel& label) {
 }
 
 void CaptureDevices::make_safe() noexcept {
-  devices_.make_safe();
+  devices_.make_dark();
   active_light_ = Light::None;
-  enabled_ = false;
+  enabled_ = enabled_ && devices_.turntable && devices_.turntable->angle_rad();
   exposure_ms_ = 0.0;
 }
 
-void CaptureDevices::check_health() {
-  for (Device* device : devices_.all())
-    static_cast<void>(device->test(deadline(options_.timeout_s)));
-  if (devices_.turntable && !devices_.turntable->info().can_home &&
-      !devices_.turntable->angle_rad()) {
-    fail_device(*devices_.turntable,
-                "its angle was lost and it has no home switch; turn it back to 0 by hand and scan "
-                "again, which goes on where this ended");
+void CaptureDevices::check_health(const std::string& cause) {
+  const std::string fault = find_fault();
+  if (fault.empty()) return;
+  if (fault == cause) throw Error(ErrorKind::Device, cause);
+  throw Error(ErrorKind::Device, fmt::format("{}; consequence: {}", cause, fault));
+}
+
+std::string CaptureDevices::find_fault() {
+  try {
+    for (Device* device : devices_.all())
+      static_cast<void>(device->test(deadline(options_.timeout_s)));
+    const TurntableDevice* table = devices_.turntable.get();
+    if (table != nullptr && !table->info().can_home && !standing_rad_) {
+      fail_device(
+          *table,
+          "its angle was lost and it has no home switch; turn it to 0 by hand and scan again "
+          "with `table_at_rad` 0, which continues this scan");
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Device) throw;
+    return error.what();
   }
+  return {};
 }
 
 }  // namespace frangia

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <string>
 
 #include "frangia/acquisition/capture_options.h"
 #include "frangia/core/run.h"
@@ -27,13 +27,20 @@ class CaptureDevices {
                  const CaptureOptions& options,
                  const Run& run);
 
-  /// Moves the table and waits until it has settled. Enables and homes it first when needed.
+  /// States the present angle of a table without a home switch.
+  void set_table_angle(double angle_rad) { standing_rad_ = angle_rad; }
+  /// Moves the table, with the laser sheet off, and waits until it has settled. Enables and homes
+  /// it first when needed.
   void turn_to(double angle_rad);
+  /// Switches the fringes' light and the laser sheet off.
+  void darken() { switch_to(Light::None); }
   /// Prepares the first frame of a set: returns the phase shifter to its start, which resets its
   /// hysteresis.
   void begin_set(const Pattern& pattern, double scale);
   /// Projects one frame of a pattern.
   void show(const Pattern& pattern, int frame);
+  /// Switches the laser sheet off, which is on only while its frames are captured.
+  void end_set();
   /// Switches the fringes' light on and the laser sheet off without moving the phase shifter.
   void light_fringes() { switch_to(Light::Fringes); }
   void expose_for(double exposure_ms);
@@ -41,11 +48,13 @@ class CaptureDevices {
   /// @errors   Error(Device), also when all `frame_attempts` frames are incomplete
   [[nodiscard]] CompleteFrame capture(const FrameLabel& label);
 
-  /// Switches all lights and motion off after a fault.
+  /// Switches all lights off after a fault, and motion unless the table is at rest at a known
+  /// angle.
   void make_safe() noexcept;
   /// Checks that all devices answer and that the table can find its angle again.
-  /// @errors   Error(Device) that names the device
-  void check_health();
+  ///
+  /// @errors   Error(Device) with `cause`, the fault before the check, and the fault that it finds
+  void check_health(const std::string& cause);
 
   [[nodiscard]] bool has_phase_shifter() const { return devices_.shifter != nullptr; }
   [[nodiscard]] double seconds() const { return seconds_; }
@@ -54,6 +63,8 @@ class CaptureDevices {
   enum class Light { None, Fringes, Line };
   void switch_to(Light wanted);
   [[nodiscard]] Deadline deadline(double seconds) const { return Deadline::in(seconds, run_.stop); }
+  [[nodiscard]] Deadline motion_deadline(double expected_s) const;
+  [[nodiscard]] std::string find_fault();
 
   RigDevices& devices_;
   const Rig& rig_;
@@ -63,6 +74,8 @@ class CaptureDevices {
   Light active_light_ = Light::None;
   double exposure_ms_ = 0.0;  ///< set last; 0 when unknown
   bool enabled_ = false;
+  /// Angle at which the table stands; empty before its first move and after a fault during a move.
+  std::optional<double> standing_rad_;
   double seconds_ = 0.0;
 };
 
@@ -79,13 +92,5 @@ class SafeStateGuard {
  private:
   RigDevices& devices_;
 };
-
-/// Checks that the devices can show the patterns and reach the angles.
-///
-/// @errors   Error(Input) that names the table that rig.toml lacks, or the angle
-void check_devices(const RigDevices& devices,
-                   const Rig& rig,
-                   std::span<const Pattern> patterns,
-                   std::span<const double> angles_rad);
 
 }  // namespace frangia

@@ -1,92 +1,120 @@
 #include "frangia/acquisition/internal/capture_folder.h"
 
-#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "frangia/acquisition/internal/capture_manifest.h"
+#include "frangia/acquisition/internal/first_difference.h"
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
+#include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/dataset/write_scan.h"
+#include "frangia/rig/read_rig.h"
 
 namespace frangia {
 namespace {
+
+/// A file of the stored plan.
+struct PlanFile {
+  std::string name;
+  std::string text;
+};
+using PlanFiles = std::array<PlanFile, 4>;
+
+PlanFiles files_of(const Scan& plan, const CaptureSettings& settings) {
+  return {PlanFile{"scan.toml", scan_text(plan)},
+          PlanFile{"rig.toml", rig_text(plan.rig)},
+          PlanFile{"options.txt", settings.options},
+          PlanFile{"devices.txt", settings.devices}};
+}
+
+/// The text without the name of the scan, which follows the name of its folder.
+std::string identity_of(const std::string& text) {
+  const std::size_t begin = text.find("\nname = ");
+  if (begin == std::string::npos || begin > text.find("\n[")) return text;
+  const std::size_t end = text.find('\n', begin + 1);
+  return text.substr(0, begin) + (end == std::string::npos ? "" : text.substr(end));
+}
 
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Writes scan.toml, rig.toml and options.txt.
-void write_plan(const Scan& plan,
-                const std::filesystem::path& folder,
-                const std::string& options_text) {
-  make_folder(folder);
-  Scan copy = plan;
-  copy.folder = folder;
-  write_scan(copy);
-  std::ofstream(folder / "options.txt", std::ios::binary) << options_text;
-  for (const auto* name : {"scan.toml", "rig.toml", "options.txt"})
-    sync_to_disk(folder / name);
+void write_durably(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path, Durability::Synced);
+  file.stream() << text;
+  file.commit();
 }
 
-bool same_plan(const std::filesystem::path& a, const std::filesystem::path& b) {
-  constexpr std::array kFiles = {"scan.toml", "rig.toml", "options.txt"};
-  return std::all_of(kFiles.begin(), kFiles.end(), [&](const char* name) {
-    return text_of(a / name) == text_of(b / name);
-  });
-}
-
-/// The temporary files of a session that was killed: ".NAME.PROCESS.tmp".
-void remove_remnants(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, ignored)) {
+/// Writes the plan under another name first, so that `capture/` is complete or missing.
+void store_plan(const std::filesystem::path& folder, const PlanFiles& files) {
+  const std::filesystem::path fresh = folder / "capture.new";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_regular_file() && name.front() == '.' && entry.path().extension() == ".tmp")
-      std::filesystem::remove(entry.path(), ignored);
+    if (name == FolderLock::kFileName || name == fresh.filename()) continue;
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: is not empty; name a new folder, or empty this one", folder.string()));
+  }
+  std::filesystem::remove_all(fresh);  // of a session that was killed, or whose disk was full
+  make_folder(fresh, Durability::Synced);
+  CaptureManifest::PlanChecksums checksums;
+  for (const PlanFile& file : files) {
+    write_durably(fresh / file.name, file.text);
+    checksums[file.name] = crc32(identity_of(file.text));
+  }
+  CaptureManifest::begin(fresh / CaptureManifest::kFileName, checksums);
+  std::filesystem::rename(fresh, folder / "capture");
+  sync_to_disk(folder);
+}
+
+/// Checks that a plan equals the stored one. A stored file that is damaged is replaced.
+void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, const Run& run) {
+  const CaptureManifest manifest(folder);
+  for (const PlanFile& file : files) {
+    const std::filesystem::path path = folder / "capture" / file.name;
+    const std::string before = identity_of(text_of(path));
+    const std::string now = identity_of(file.text);
+    if (before == now) continue;
+    const auto stored = manifest.plan_checksums().find(file.name);
+    const bool known = stored != manifest.plan_checksums().end();
+    if (!known && !std::filesystem::exists(path)) continue;
+    if (known && stored->second == crc32(now)) {
+      run.warn(fmt::format("{}: was damaged and is replaced", path.string()));
+      write_durably(path, file.text);
+      continue;
+    }
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: holds another scan: {} {}; name a new folder, or use the options "
+                            "and the rig of the first session",
+                            folder.string(),
+                            file.name,
+                            first_difference(before, now)));
   }
 }
 
 }  // namespace
 
-bool claim_folder(const Scan& plan, const std::string& options_text) {
-  const std::filesystem::path kept = plan.folder / "capture";
-  const std::filesystem::path fresh = plan.folder / "capture.new";
-  make_folder(plan.folder);
-  const bool begun = std::filesystem::exists(kept);
-  if (!begun && !std::filesystem::is_empty(plan.folder) && !std::filesystem::exists(fresh)) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: is not empty; name a new folder, or empty this one",
-                            plan.folder.string()));
+void claim_folder(const Scan& plan, const CaptureSettings& settings, const Run& run) {
+  const PlanFiles files = files_of(plan, settings);
+  if (!std::filesystem::exists(plan.folder / "capture")) {
+    store_plan(plan.folder, files);
+  } else {
+    compare_plan(plan.folder, files, run);
   }
-  write_plan(plan, fresh, options_text);
-  if (!begun) {
-    std::filesystem::rename(fresh, kept);
-    sync_to_disk(plan.folder);
-    return false;
-  }
-  const bool same = same_plan(kept, fresh);
-  std::filesystem::remove_all(fresh);
-  if (!same) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("{}: holds another scan; name a new folder, or use the options and the rig "
-                    "of the first session",
-                    plan.folder.string()));
-  }
-  remove_remnants(plan.folder);
-  return true;
+  remove_temporary_files(plan.folder);
 }
 
 void finish_folder(const Scan& scan) {
-  write_scan(scan);
-  sync_to_disk(scan.folder / "rig.toml");
-  sync_to_disk(scan.folder / "scan.toml");
-  sync_to_disk(scan.folder);
+  write_scan(scan, Durability::Synced);
 }
 
 }  // namespace frangia

@@ -2,18 +2,26 @@
 
 #include <string>
 
+#include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
 
 namespace frangia {
 
-/// Stores a plan in `capture/` of its folder, or checks that it equals the plan stored there.
-/// Removes the temporary files of a killed session. Returns whether a plan was stored before.
-///
-/// `options_text` describes the capture options, which must be the same in every session.
-/// @errors   Error(Input) when the folder holds anything else; Error(File)
-bool claim_folder(const Scan& plan, const std::string& options_text);
+/// The parts of a capture that must be the same in every session besides the plan, one per line.
+struct CaptureSettings {
+  std::string options;  ///< capture options
+  std::string devices;  ///< devices and their settings, see `describe_devices`
+};
 
-/// Writes scan.toml and rig.toml of the scan and syncs them to the disk.
+/// Stores a plan in `capture/` of its folder, or checks that it equals the plan stored there. The
+/// names of the scan and of its folder may differ. Removes the temporary files of a killed session.
+/// The caller holds the lock of the folder.
+///
+/// @errors   Error(Input) when the folder holds anything else, naming the first difference;
+///          Error(File)
+void claim_folder(const Scan& plan, const CaptureSettings& settings, const Run& run);
+
+/// Writes rig.toml and scan.toml of the scan and syncs them to the disk.
 void finish_folder(const Scan& scan);
 
 }  // namespace frangia

@@ -1,6 +1,5 @@
 #include "frangia/acquisition/internal/capture_manifest.h"
 
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
+#include "frangia/core/read_regular_file.h"
 
 namespace frangia {
 namespace {
@@ -23,43 +23,90 @@ std::istringstream value_of(const std::string& word, const std::string& key) {
 
 }  // namespace
 
+void CaptureManifest::begin(const std::filesystem::path& file, const PlanChecksums& plan) {
+  DurableLog log(file);
+  for (const auto& [name, checksum] : plan)
+    log.append(fmt::format("plan {} {:08x}", name, checksum));
+}
+
 CaptureManifest::CaptureManifest(std::filesystem::path folder)
-    : folder_(std::move(folder)), log_(folder_ / "capture" / "manifest.txt") {
-  std::istringstream lines(log_.text());
+    : folder_(std::move(folder)), log_(folder_ / "capture" / kFileName) {
   std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);)
-    read_line(line, ++number);
+  for (const LogLine& line : log_.lines()) {
+    ++number;
+    if (line.damaged) {
+      ++damaged_lines_;
+      last_damaged_ = number;
+    } else {
+      read_line(line.text, number);
+    }
+  }
 }
 
 void CaptureManifest::read_line(const std::string& line, std::size_t number) {
   std::istringstream words(line);
   std::string kind;
-  std::string name;
-  std::string attempts;
-  std::string last;
   words >> kind;
+  bool known = false;
   if (kind == "frame") {
-    ManifestFrame frame;
-    words >> name >> std::hex >> frame.checksum >> std::dec >> frame.bytes >> attempts >> last;
-    if (words && value_of(attempts, "attempts") >> frame.attempts &&
-        value_of(last, "scale") >> frame.scale) {
-      frames_[name] = frame;
-      return;
-    }
+    known = read_frame(words);
   } else if (kind == "set") {
-    ManifestSet set;
-    std::string outcome;
-    words >> name >> set.attempt >> outcome >> last;
-    set.moved = outcome == "moved";
-    if (words && value_of(last, "scale") >> set.scale) return add(name, set);
+    known = read_set(words, number);
+  } else if (kind == "table") {
+    known = read_table(words);
   } else if (kind == "exposures") {
     exposures_ms_.assign(std::istream_iterator<double>(words), {});
-    if (!exposures_ms_.empty()) return;
+    known = !exposures_ms_.empty();
+  } else if (kind == "plan") {
+    std::string name;
+    std::uint32_t checksum = 0;
+    known = static_cast<bool>(words >> name >> std::hex >> checksum);
+    plan_[name] = checksum;
   }
+  if (known) return;
   throw Error(ErrorKind::Input,
-              fmt::format("{}: line {} cannot be read; start the scan in a new folder",
-                          (folder_ / "capture" / "manifest.txt").string(),
+              fmt::format("{}: line {} is of a newer version of the program; update it, or start "
+                          "the scan in a new folder",
+                          (folder_ / "capture" / kFileName).string(),
                           number));
+}
+
+bool CaptureManifest::read_frame(std::istream& words) {
+  ManifestFrame frame;
+  std::string name;
+  std::string attempts;
+  std::string scale;
+  words >> name >> std::hex >> frame.checksum >> std::dec >> frame.bytes >> attempts >> scale;
+  if (!words || !(value_of(attempts, "attempts") >> frame.attempts) ||
+      !(value_of(scale, "scale") >> frame.scale))
+    return false;
+  frames_[name] = frame;
+  return true;
+}
+
+bool CaptureManifest::read_set(std::istream& words, std::size_t number) {
+  ManifestSet set;
+  std::string name;
+  std::string outcome;
+  std::string scale;
+  words >> name >> set.attempt >> outcome >> scale;
+  if (!words || !(value_of(scale, "scale") >> set.scale)) return false;
+  set.moved = outcome == "moved";
+  if (set.moved) rejected_at_[name] = number;
+  add(name, set);
+  return true;
+}
+
+bool CaptureManifest::read_table(std::istream& words) {
+  std::string state;
+  double angle_deg = 0.0;
+  if (!(words >> state >> angle_deg)) return false;
+  if (state == "moving") {
+    table_.intended_deg = angle_deg;
+  } else {
+    table_ = {.reached_deg = angle_deg, .intended_deg = std::nullopt};
+  }
+  return true;
 }
 
 void CaptureManifest::add(const std::string& set, const ManifestSet& outcome) {
@@ -79,6 +126,10 @@ void CaptureManifest::store(const std::string& file,
   AtomicFile out(folder_ / file, Durability::Synced);
   out.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.commit();
+  append(file, frame);
+}
+
+void CaptureManifest::append(const std::string& file, const ManifestFrame& frame) {
   log_.append(fmt::format("frame {} {:08x} {} attempts={} scale={}",
                           file,
                           frame.checksum,
@@ -105,6 +156,27 @@ void CaptureManifest::add_exposures(const std::vector<double>& exposures_ms) {
   exposures_ms_ = exposures_ms;
 }
 
+void CaptureManifest::add_recovered(const std::string& file, std::span<const char> bytes) {
+  const ManifestFrame frame{.checksum = crc32(bytes), .bytes = bytes.size()};
+  append(file, frame);
+  frames_[file] = frame;
+}
+
+void CaptureManifest::add_table_move(double target_deg) {
+  log_.append(fmt::format("table moving {}", target_deg));
+  table_.intended_deg = target_deg;
+}
+
+void CaptureManifest::add_table_at(double angle_deg) {
+  log_.append(fmt::format("table at {}", angle_deg));
+  table_ = {.reached_deg = angle_deg, .intended_deg = std::nullopt};
+}
+
+bool CaptureManifest::may_lack_frames_of(const std::string& set) const {
+  const auto rejected = rejected_at_.find(set);
+  return damaged_lines_ > 0 && (rejected == rejected_at_.end() || last_damaged_ > rejected->second);
+}
+
 bool CaptureManifest::is_good(const std::string& set) const {
   const auto found = sets_.find(set);
   return found != sets_.end() && !found->second.moved;
@@ -125,9 +197,12 @@ std::size_t CaptureManifest::retries() const {
 
 std::size_t CaptureManifest::forget_damaged() {
   return std::erase_if(frames_, [&](const auto& entry) {
-    std::ifstream in(folder_ / entry.first, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-    return bytes.size() != entry.second.bytes || crc32(bytes) != entry.second.checksum;
+    try {
+      const std::vector<char> bytes = read_regular_file(folder_ / entry.first);
+      return bytes.size() != entry.second.bytes || crc32(bytes) != entry.second.checksum;
+    } catch (const Error&) {
+      return true;
+    }
   });
 }
 

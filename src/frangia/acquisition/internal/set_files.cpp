@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/make_folder.h"
+#include "frangia/core/sync_to_disk.h"
 
 namespace frangia {
 
@@ -63,7 +64,7 @@ std::vector<bool> SetFiles::stored_frames(std::size_t view, const Pattern& patte
 void SetFiles::move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const {
   const std::filesystem::path folder = plan_.folder / plan_.views[view].folder;
   const std::filesystem::path rejected = folder / "rejected";
-  make_folder(rejected);
+  make_folder(rejected, Durability::Synced);
   for (int frame = 0; frame < pattern.frame_count(); ++frame) {
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
       const std::string name = frame_file_name(pattern, frame, exposure);
@@ -73,6 +74,8 @@ void SetFiles::move_to_rejected(std::size_t view, const Pattern& pattern, int at
         std::filesystem::rename(folder / name, to);
     }
   }
+  sync_to_disk(rejected);
+  sync_to_disk(folder);
 }
 
 }  // namespace frangia

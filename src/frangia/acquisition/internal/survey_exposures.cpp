@@ -42,6 +42,7 @@ Image<PixelStatus> probe(const Scan& plan,
 
 std::vector<double> survey_exposures(const Scan& plan,
                                      CaptureDevices& devices,
+                                     TableMover& table,
                                      const CaptureOptions& options,
                                      ExposureRange range,
                                      const Run& run) {
@@ -52,7 +53,7 @@ std::vector<double> survey_exposures(const Scan& plan,
   for (std::size_t i = 0; i < views; ++i) {
     run.check();
     const std::size_t view = i * plan.views.size() / views;
-    devices.turn_to(plan.views[view].angle_rad);
+    table.turn_to(plan.views[view].angle_rad);
     const ExposureProbe probe_here = [&](double exposure_ms) {
       run.check();
       return probe(plan, view, devices, exposure_ms);

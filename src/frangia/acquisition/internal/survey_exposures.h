@@ -4,6 +4,7 @@
 
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/exposure_search.h"
+#include "frangia/acquisition/internal/table_mover.h"
 #include "frangia/dataset/scan_folder.h"
 
 namespace frangia {
@@ -15,6 +16,7 @@ namespace frangia {
 /// @errors   Error(Input) without a pattern of fringes, and those of the devices
 [[nodiscard]] std::vector<double> survey_exposures(const Scan& plan,
                                                    CaptureDevices& devices,
+                                                   TableMover& table,
                                                    const CaptureOptions& options,
                                                    ExposureRange range,
                                                    const Run& run);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -21,11 +22,17 @@ constexpr std::size_t kMinShifts = 3;
 /// A text that file names begin with.
 std::string file_name_part(TomlReader& reader, std::string_view key) {
   std::string name = reader.text(key);
-  const bool plain = !name.empty() && name.front() != '.' &&
-                     std::none_of(name.begin(), name.end(), [](char letter) {
-                       return letter == '/' || letter == '\\' || letter == '@' || letter == '\0';
-                     });
+  const bool plain =
+      !name.empty() && name.front() != '.' &&
+      std::none_of(name.begin(), name.end(), [](unsigned char letter) {
+        return letter == '/' || letter == '\\' || letter == '@' || std::iscntrl(letter) != 0;
+      });
   if (!plain) {
+    std::replace_if(
+        name.begin(),
+        name.end(),
+        [](unsigned char letter) { return std::iscntrl(letter) != 0; },
+        '?');
     reader.fail(
         key,
         fmt::format("is \"{}\"; file names begin with it: use letters, digits, - and _ only",

@@ -12,7 +12,7 @@ namespace frangia {
 /// number, with an optional format: "VOLT {value:.3f}".
 struct ActuatorProtocol {
   MessageInstrument::Language language;
-  std::vector<std::string> start;  ///< sent once, before anything else
+  std::vector<std::string> start;  ///< sent before the first value, and again after a stop
   std::string set;                 ///< sets the value
   std::string settled_query;  ///< repeated until the answer is `settled_answer`; empty: not used
   std::string settled_answer;

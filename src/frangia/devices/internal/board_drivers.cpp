@@ -72,6 +72,7 @@ StepperTurntableOptions read_table(DeviceSettings& settings, bool has_switch) {
   options.backlash_deg = settings.number_or("backlash_deg", 0.0, 0.0, 30.0);
   options.speed_deg_per_s = settings.number_or("speed_deg_per_s", 20.0, 0.01, 720.0);
   options.settle_s = settings.number_or("settle_s", 0.0, 0.0, 60.0);
+  options.home_time_s = settings.number_or("home_time_s", options.home_time_s, 0.0, 3600.0);
   return options;
 }
 

@@ -5,7 +5,9 @@
 namespace frangia {
 
 BoardSwitch::BoardSwitch(std::shared_ptr<MotionController> board, std::string on, std::string off)
-    : board_(std::move(board)), on_command_(std::move(on)), off_command_(std::move(off)) {}
+    : board_(std::move(board)), on_command_(std::move(on)), off_command_(std::move(off)) {
+  board_->add_off_command(off_command_);
+}
 
 BoardSwitch::~BoardSwitch() {
   make_safe();
@@ -16,9 +18,11 @@ std::string BoardSwitch::test(const Deadline& deadline) {
 }
 
 void BoardSwitch::make_safe() noexcept {
+  constexpr double kAnswer_s = 0.3;  // boards at rest answer within 10 ms
+  const std::scoped_lock lock(board_->mutex());
   if (!is_on()) return;
   try {
-    set(false, Deadline::in(1.0));
+    set(false, Deadline::in(kAnswer_s));
   } catch (const Error&) {
     board_->stop();
     on_ = false;

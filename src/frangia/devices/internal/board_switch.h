@@ -22,6 +22,7 @@ class BoardSwitch final : public SwitchDevice {
   [[nodiscard]] std::string name() const override { return "light at " + board_->name(); }
   [[nodiscard]] std::string test(const Deadline& deadline) override;
   void make_safe() noexcept override;
+  [[nodiscard]] std::optional<SafeOff> safe_off() const override { return board_->safe_off(); }
   void set(bool on, const Deadline& deadline) override;
   [[nodiscard]] bool is_on() const override { return on_ && stop_count_ == board_->stop_count(); }
 

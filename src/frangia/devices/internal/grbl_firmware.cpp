@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -5,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/devices/internal/grbl_codes.h"
 #include "frangia/devices/internal/motion_controller.h"
 
 namespace frangia {
@@ -12,47 +14,10 @@ namespace {
 
 constexpr const char* kReset = "\x18";
 constexpr const char* kHold = "!";
-constexpr double kQuiet_s = 0.05;
-
-const char* meaning_of_alarm(int code) {
-  switch (code) {
-    case 1:
-      return "a limit switch was hit";
-    case 2:
-      return "the target is beyond the travel set in $130 to $132";
-    case 3:
-      return "it was reset while it moved";
-    case 6:
-    case 7:
-    case 8:
-    case 9:
-      return "homing failed; check the home switch";
-    default:
-      return "see the list of alarms of GRBL";
-  }
-}
-
-const char* meaning_of_error(int code) {
-  switch (code) {
-    case 5:
-      return "homing is not enabled; set $22=1, or home = \"here\"";
-    case 8:
-      return "that is only possible at standstill";
-    case 9:
-      return "it is locked after an alarm; home the table again";
-    case 15:
-      return "the target is beyond its travel";
-    case 20:
-      return "the command is unknown";
-    default:
-      return "see the list of errors of GRBL";
-  }
-}
-
-/// The number at the end of "ALARM:3" or "error:9".
-int number_after_colon(const std::string& line) {
-  return std::atoi(line.c_str() + line.find(':') + 1);  // NOLINT(cert-err34-c) 0 is not a code
-}
+constexpr double kQuiet_s = 0.05;  ///< a board that sends nothing for so long has answered
+constexpr double kDrain_s = 0.3;   ///< for the answers after a reset, also when they do not end
+constexpr double kWrite_s = 0.2;
+constexpr double kRestart_s = 0.1;  ///< from a soft reset until GRBL accepts commands
 
 bool is_greeting(const std::string& line) {
   return line.rfind("Grbl ", 0) == 0;
@@ -93,7 +58,9 @@ class Grbl final : public MotionController {
   // only ask.
   void enable_motor(bool on, const Deadline& deadline) override {
     static_cast<void>(identify(deadline));
-    if (on && settings_.steps_per_unit > 0.0) set_steps(deadline);
+    if (!on) return;
+    values_ = answer_to("$$", deadline);
+    if (settings_.steps_per_unit > 0.0) set_steps(deadline);
   }
 
   void home(const Deadline& deadline) override {
@@ -103,6 +70,7 @@ class Grbl final : public MotionController {
 
   void set_zero(const Deadline& deadline) override {
     command("$X", deadline);
+    alarm_.clear();
     command(fmt::format("G92 {}0", settings_.axis), deadline);
   }
 
@@ -124,30 +92,74 @@ class Grbl final : public MotionController {
 
   void stop() noexcept override {
     record_stop();
+    if (stopped_) return;
     try {
       const Deadline soon = Deadline::in(1.0);
       transport_->write(kHold, soon);
       // A reset switches off spindle and coolant, to which lasers are connected.
       transport_->write(kReset, soon);
-      if (!wait_for_greeting(soon)) return;
-      // Answers to abandoned commands may still arrive.
-      while (transport_->try_read('\n', Deadline::in(kQuiet_s))) {
-      }
+      stopped_ = true;
+      static_cast<void>(wait_for_greeting(soon));
+      transport_->write(off_commands("\n"), Deadline::in(kWrite_s));
+      discard_answers(off_command_count());
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is broken
     }
+  }
+
+  [[nodiscard]] SafeOff safe_off() const override {
+    return {.line = name(),
+            .file = transport_->file(),
+            .end_command = transport_->framed(std::string("\n") + kHold + kReset),
+            .pause_s = kRestart_s,
+            .off = off_commands("\n")};
+  }
+
+  /// By $110 and $120: the highest rate in units per minute and the acceleration in units per s².
+  [[nodiscard]] double move_time_s(double distance, double units_per_s) const override {
+    const double rate = setting(110 + axis_index()) / 60.0;
+    const double speed = rate > 0.0 ? std::min(rate, units_per_s) : units_per_s;
+    const double acceleration = setting(120 + axis_index());
+    return distance / speed + (acceleration > 0.0 ? speed / acceleration : 0.0);
+  }
+
+  /// GRBL searches the switch over 1.5 times $130, the travel, at the rate $25, then approaches it
+  /// again from $27 units at the rate $24.
+  [[nodiscard]] double home_time_s() const override {
+    const double seek = setting(25) / 60.0;
+    const double feed = setting(24) / 60.0;
+    if (!(seek > 0.0 && feed > 0.0)) return 0.0;
+    constexpr double kSearch = 1.5;
+    constexpr double kPasses = 4.0;  // two approaches and two retreats
+    return kSearch * setting(130 + axis_index()) / seek + kPasses * setting(27) / feed;
   }
 
  private:
   bool wait_for_greeting(const Deadline& deadline) {
     while (auto line = transport_->try_read('\n', deadline)) {
       if (is_greeting(*line)) return true;
+      note(*line);
       if (line->find_first_not_of("\r ") != std::string::npos) last_line_ = *line;
     }
     return false;
   }
 
-  /// The lines before "ok".
+  /// Discards the answers to `count` commands and to abandoned ones before them.
+  void discard_answers(std::size_t count) {
+    const Deadline drained = Deadline::in(kDrain_s);
+    for (;;) {
+      const auto line = transport_->try_read('\n', count > 0 ? drained : drained.at_most(kQuiet_s));
+      if (!line) return;
+      note(*line);
+      if (count > 0 && (line->rfind("ok", 0) == 0 || line->rfind("error:", 0) == 0)) --count;
+    }
+  }
+  /// Remembers an alarm, which explains why later commands are refused.
+  void note(const std::string& line) {
+    if (line.rfind("ALARM:", 0) == 0) alarm_ = line.substr(0, line.find_last_not_of("\r ") + 1);
+  }
+  /// The settings before "ok".
   std::map<int, double> answer_to(const std::string& line, const Deadline& deadline) {
+    stopped_ = false;
     transport_->write(line + "\n", deadline);
     std::map<int, double> values;
     for (;;) {
@@ -157,10 +169,10 @@ class Grbl final : public MotionController {
         fail_device(name(), refusal(line, answer));
       }
       if (answer.rfind("ALARM:", 0) == 0) {
-        fail_device(name(),
-                    fmt::format("{}, {}; its angle is lost, home the table again",
-                                answer,
-                                meaning_of_alarm(number_after_colon(answer))));
+        note(answer);
+        fail_device(
+            name(),
+            fmt::format("{}; its angle is lost, home the table again", explained_alarm(answer)));
       }
       if (is_greeting(answer)) {
         fail_device(name(), "the board restarted; its angle is lost, home the table again");
@@ -176,16 +188,25 @@ class Grbl final : public MotionController {
       }
     }
   }
-  [[nodiscard]] static std::string refusal(const std::string& line, const std::string& answer) {
-    return fmt::format(
-        "refused {} ({}): {}", line, answer, meaning_of_error(number_after_colon(answer)));
+  [[nodiscard]] std::string refusal(const std::string& line, const std::string& answer) const {
+    std::string text = fmt::format("refused {} {}", line, explained_error(answer));
+    const bool locked = answer == "error:9";
+    return locked && !alarm_.empty() ? explained_alarm(alarm_) + "; " + text : text;
+  }
+
+  [[nodiscard]] int axis_index() const {
+    return settings_.axis == 'Y' ? 1 : settings_.axis == 'Z' ? 2 : 0;
+  }
+  /// A setting of the board; 0 when it does not report it.
+  [[nodiscard]] double setting(int key) const {
+    const auto found = values_.find(key);
+    return found == values_.end() ? 0.0 : found->second;
   }
 
   void set_steps(const Deadline& deadline) {
-    const int key = 100 + (settings_.axis == 'Y' ? 1 : settings_.axis == 'Z' ? 2 : 0);
-    const auto values = answer_to("$$", deadline);
-    const auto found = values.find(key);
-    if (found == values.end()) fail_device(name(), fmt::format("does not report its ${}", key));
+    const int key = 100 + axis_index();
+    const auto found = values_.find(key);
+    if (found == values_.end()) fail_device(name(), fmt::format("does not report its ${}", key));
     if (std::abs(found->second - settings_.steps_per_unit) < 1e-3) return;
     // Write only when different: the EEPROM wears, and the board loses bytes that arrive while it
     // writes, so wait for "ok" before sending more.
@@ -194,7 +215,10 @@ class Grbl final : public MotionController {
 
   std::unique_ptr<Transport> transport_;
   MotionControllerSettings settings_;
+  std::map<int, double> values_;  ///< settings of the board by their numbers
   std::string last_line_;
+  std::string alarm_;     ///< the last one, until it is cleared
+  bool stopped_ = false;  ///< nothing was sent since the last stop
 };
 
 }  // namespace

@@ -8,6 +8,9 @@
 namespace frangia {
 namespace {
 
+/// The reset switches lasers and motor off.
+constexpr const char* kHoldAndReset = "!\x18";
+
 class Horus final : public MotionController {
  public:
   Horus(std::unique_ptr<Transport> transport, const MotionControllerSettings& settings)
@@ -67,6 +70,7 @@ class Horus final : public MotionController {
   }
 
   void command(const std::string& line, const Deadline& deadline) override {
+    stopped_ = false;
     transport_->write(line + "\r\n", deadline);
     for (;;) {
       const std::string answer = read_line(*transport_, deadline);
@@ -82,11 +86,20 @@ class Horus final : public MotionController {
 
   void stop() noexcept override {
     record_stop();
+    if (stopped_) return;
     try {
-      transport_->write(
-          "!\x18", Deadline::in(1.0));  // hold, then reset, which switches lasers and motor off
-    } catch (const Error&) {            // NOLINT(bugprone-empty-catch) the line is broken
+      transport_->write(kHoldAndReset, Deadline::in(1.0));
+      stopped_ = true;
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is broken
     }
+  }
+
+  [[nodiscard]] SafeOff safe_off() const override {
+    return {.line = name(),
+            .file = transport_->file(),
+            .end_command = transport_->framed(kHoldAndReset),
+            .pause_s = 0.1,
+            .off = "\r\n" + off_commands("\r\n")};
   }
 
  private:
@@ -100,6 +113,7 @@ class Horus final : public MotionController {
   std::unique_ptr<Transport> transport_;
   MotionControllerSettings settings_;
   double position_ = 0.0;
+  bool stopped_ = false;  ///< nothing was sent since the last stop
 };
 
 }  // namespace

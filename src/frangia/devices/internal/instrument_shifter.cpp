@@ -16,8 +16,7 @@ InstrumentShifter::InstrumentShifter(std::unique_ptr<Transport> transport,
       info_(std::move(info)),
       settle_s_(settle_s) {
   static_cast<void>(fill_command(protocol_.set, info_.min_command));
-  instrument_.discard_input();
-  start(deadline);
+  instrument_.clear_errors(deadline);
 }
 
 InstrumentShifter::~InstrumentShifter() {
@@ -42,6 +41,7 @@ void InstrumentShifter::drive(double command, const Deadline& deadline) {
 }
 
 void InstrumentShifter::start(const Deadline& deadline) {
+  instrument_.clear_errors(deadline);  // a stop may be reported as an error
   for (const std::string& command : protocol_.start)
     instrument_.send(command, deadline);
   started_ = true;

@@ -9,9 +9,10 @@
 namespace frangia {
 
 /// A piezo driven by an instrument with one value. Never sends a value outside the range of `info`.
+/// Sends the commands in `start`, which switch the output on, before the first value.
 class InstrumentShifter final : public PhaseShifter {
  public:
-  /// @errors   Error(Device) when the instrument rejects the commands in `start`
+  /// @errors   Error(Device) when the instrument has an error query and does not answer it
   InstrumentShifter(std::unique_ptr<Transport> transport,
                     ActuatorProtocol protocol,
                     ShifterInfo info,
@@ -28,6 +29,9 @@ class InstrumentShifter final : public PhaseShifter {
   }
   [[nodiscard]] std::string test(const Deadline& deadline) override;
   void make_safe() noexcept override;
+  [[nodiscard]] std::optional<SafeOff> safe_off() const override {
+    return instrument_.safe_off(protocol_.stop);
+  }
   [[nodiscard]] const ShifterInfo& info() const override { return info_; }
   void drive(double command, const Deadline& deadline) override;
 

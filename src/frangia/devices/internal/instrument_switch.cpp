@@ -9,6 +9,8 @@ InstrumentSwitch::InstrumentSwitch(MessageInstrument line,
                                    std::vector<std::string> off,
                                    const Deadline& deadline)
     : instrument_(std::move(line)), on_(std::move(on)), off_(std::move(off)) {
+  instrument_.send_unchecked(off_);
+  instrument_.clear_errors(deadline);
   set(false, deadline);
 }
 

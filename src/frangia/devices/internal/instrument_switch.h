@@ -13,6 +13,8 @@ namespace frangia {
 class InstrumentSwitch final : public SwitchDevice {
  public:
   /// Switches off first.
+  ///
+  /// @errors   Error(Device) when the instrument does not answer or rejects a command in `off`
   InstrumentSwitch(MessageInstrument line,
                    std::vector<std::string> on,
                    std::vector<std::string> off,
@@ -26,6 +28,9 @@ class InstrumentSwitch final : public SwitchDevice {
   [[nodiscard]] std::string name() const override { return "light at " + instrument_.name(); }
   [[nodiscard]] std::string test(const Deadline& deadline) override;
   void make_safe() noexcept override;
+  [[nodiscard]] std::optional<SafeOff> safe_off() const override {
+    return instrument_.safe_off(off_);
+  }
   void set(bool on, const Deadline& deadline) override;
   [[nodiscard]] bool is_on() const override { return is_on_; }
 

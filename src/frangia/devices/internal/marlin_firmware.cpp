@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -29,8 +30,8 @@ class Marlin final : public MotionController {
     // The messages of the boot end before the answer to this.
     transport_->discard_input();
     transport_->write("M110 N0\n", deadline);
-    while (!begins(read_line(*transport_, deadline), "ok")) {
-    }
+    for (std::string answer; !begins(answer, "ok");)
+      answer = read_line(*transport_, deadline);
     number_ = 0;
     command("G21", deadline);
     command("G90", deadline);
@@ -42,6 +43,7 @@ class Marlin final : public MotionController {
   }
 
   void enable_motor(bool on, const Deadline& deadline) override {
+    if (on) command("M503", deadline);  // reports the settings
     command(fmt::format("{} {}", on ? "M17" : "M18", settings_.axis), deadline);
   }
 
@@ -72,6 +74,7 @@ class Marlin final : public MotionController {
       sum ^= static_cast<unsigned char>(c);
     }
     const std::string message = fmt::format("{}*{}\n", numbered, sum);
+    stopped_ = false;
     for (int sent = 0; sent <= kMostResends; ++sent) {
       transport_->write(message, deadline);
       if (was_accepted(line, deadline)) return;
@@ -84,14 +87,44 @@ class Marlin final : public MotionController {
 
   void stop() noexcept override {
     record_stop();
+    if (stopped_) return;
     try {
-      const Deadline soon = Deadline::in(1.0);
-      transport_->write("M410\nM107\nM5\n", soon);  // quick stop, fan output and spindle off
+      // The line feed ends a command of which only a part was sent.
+      transport_->write("\n" + quick_stop(), Deadline::in(1.0));
+      stopped_ = true;
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is broken
     }
   }
 
+  [[nodiscard]] SafeOff safe_off() const override {
+    // After a broken line, Marlin discards what it has received within this time.
+    constexpr double kPause_s = 0.1;
+    return {.line = name(),
+            .file = transport_->file(),
+            .end_command = transport_->framed("\n"),
+            .pause_s = kPause_s,
+            .off = quick_stop()};
+  }
+
+  /// By the highest feed rate of the axis, if the board reports it.
+  [[nodiscard]] double move_time_s(double distance, double units_per_s) const override {
+    return distance / (max_rate_ > 0.0 ? std::min(max_rate_, units_per_s) : units_per_s);
+  }
+
  private:
+  /// Quick stop, fan output and spindle off, and the outputs that devices use.
+  [[nodiscard]] std::string quick_stop() const { return "M410\nM107\nM5\n" + off_commands("\n"); }
+
+  /// Reads the highest rate of the axis, in units per s, from a line such as
+  /// "echo:  M203 X500.00 Y500.00".
+  void read_max_rate(const std::string& line) {
+    const std::size_t found = line.find("M203 ");
+    if (found == std::string::npos) return;
+    const std::size_t at = line.find(fmt::format(" {}", settings_.axis), found);
+    if (at != std::string::npos)
+      max_rate_ = std::atof(line.c_str() + at + 2);  // NOLINT(cert-err34-c)
+  }
+
   /// False when the board requests the line again.
   bool was_accepted(const std::string& line, const Deadline& deadline) {
     bool again = false;
@@ -111,16 +144,20 @@ class Marlin final : public MotionController {
       if (answer.find("halted") != std::string::npos || begins(answer, "!!")) {
         fail_device(name(),
                     fmt::format("halted ('{}'); switch it off and on, then home the table again",
-                                printable(answer)));
+                                printable(trouble.empty() ? answer : trouble)));
       }
-      if (begins(answer, "Error:")) trouble = answer.substr(6);
+      // The first one names the cause.
+      if (begins(answer, "Error:") && trouble.empty()) trouble = answer.substr(6);
+      read_max_rate(answer);
       // "echo:busy: processing" and reports: the board is alive and the answer follows.
     }
   }
 
   std::unique_ptr<Transport> transport_;
   MotionControllerSettings settings_;
+  double max_rate_ = 0.0;  ///< in units per s; 0 when the board does not report it
   int number_ = 0;
+  bool stopped_ = false;  ///< nothing was sent since the last stop
 };
 
 }  // namespace

@@ -5,25 +5,40 @@
 #include <fmt/format.h>
 
 namespace frangia {
+namespace {
+
+/// For the error query after a query without an answer.
+constexpr double kErrorQuery_s = 0.5;
+/// SCPI instruments keep some tens of errors.
+constexpr int kMostErrors = 64;
+
+}  // namespace
 
 MessageInstrument::MessageInstrument(std::unique_ptr<Transport> transport, Language language)
     : transport_(std::move(transport)), language_(std::move(language)) {}
 
 void MessageInstrument::send(const std::string& command, const Deadline& deadline) {
-  transport_->write(command + language_.terminator, deadline);
-  if (language_.error_query.empty()) return;
-  const std::string answer = ask(language_.error_query, deadline);
-  const std::size_t sign = answer.rfind('+', 0) == 0 ? 1 : 0;  // some answer +0,"No error"
-  if (answer.compare(sign, language_.no_error.size(), language_.no_error) != 0) {
-    fail_device(
-        name(),
-        fmt::format("reports {} after '{}'; check the command", printable(answer), command));
-  }
+  write(command, deadline);
+  const std::string reported = query_error(deadline);
+  if (!reported.empty()) fail_with(reported, command);
 }
 
 std::string MessageInstrument::ask(const std::string& question, const Deadline& deadline) {
-  transport_->write(question + language_.terminator, deadline);
-  return read_line(*transport_, deadline);
+  try {
+    write(question, deadline);
+    return read_line(*transport_, deadline);
+  } catch (const Error& error) {
+    // An instrument does not answer a query that it refuses; its error queue names the cause.
+    if (error.kind() != ErrorKind::Device || question == language_.error_query) throw;
+    std::string reported;
+    try {
+      reported = query_error(Deadline::in(kErrorQuery_s, deadline.stop));
+    } catch (const Error& silent) {
+      if (silent.kind() != ErrorKind::Device) throw;
+    }
+    if (reported.empty()) throw;
+    fail_with(reported, question);
+  }
 }
 
 std::string MessageInstrument::identify(const Deadline& deadline) {
@@ -31,12 +46,52 @@ std::string MessageInstrument::identify(const Deadline& deadline) {
   return printable(ask(language_.identify, deadline));
 }
 
+void MessageInstrument::clear_errors(const Deadline& deadline) {
+  transport_->discard_input();
+  for (int i = 0; i < kMostErrors && !query_error(deadline).empty(); ++i) {
+  }
+}
+
 void MessageInstrument::send_unchecked(const std::vector<std::string>& commands) noexcept {
   try {
+    const Deadline deadline = Deadline::in(1.0);
+    if (unfinished_) transport_->write(transport_->end_of_command(language_.terminator), deadline);
     for (const std::string& command : commands)
-      transport_->write(command + language_.terminator, Deadline::in(1.0));
+      write(command, deadline);
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch) the line is broken
   }
+}
+
+SafeOff MessageInstrument::safe_off(const std::vector<std::string>& commands) const {
+  // Instruments discard the rest of a line with an error within this time.
+  constexpr double kPause_s = 0.05;
+  SafeOff how{.line = name(),
+              .file = transport_->file(),
+              .end_command = transport_->end_of_command(language_.terminator),
+              .pause_s = kPause_s};
+  for (const std::string& command : commands)
+    how.off += transport_->framed(command + language_.terminator);
+  return how;
+}
+
+void MessageInstrument::write(const std::string& line, const Deadline& deadline) {
+  unfinished_ = true;
+  transport_->write(line + language_.terminator, deadline);
+  unfinished_ = false;
+}
+
+std::string MessageInstrument::query_error(const Deadline& deadline) {
+  if (language_.error_query.empty()) return {};
+  std::string answer = ask(language_.error_query, deadline);
+  const std::size_t sign = answer.rfind('+', 0) == 0 ? 1 : 0;  // some answer +0,"No error"
+  const bool none = answer.compare(sign, language_.no_error.size(), language_.no_error) == 0;
+  if (none) return {};
+  return answer.empty() ? "an empty line" : answer;
+}
+
+void MessageInstrument::fail_with(const std::string& reported, const std::string& after) const {
+  fail_device(name(),
+              fmt::format("reports {} after '{}'; check the command", printable(reported), after));
 }
 
 }  // namespace frangia

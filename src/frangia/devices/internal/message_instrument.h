@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frangia/devices/internal/transport.h"
+#include "frangia/devices/safe_off.h"
 
 namespace frangia {
 
@@ -23,15 +24,28 @@ class MessageInstrument {
   [[nodiscard]] const std::string& name() const { return transport_->name(); }
   /// @errors   Error(Device) when it does not answer or reports an error
   void send(const std::string& command, const Deadline& deadline);
+  /// @errors   Error(Device) with the error that the instrument reports instead of an answer, or
+  ///          when it does not answer
   [[nodiscard]] std::string ask(const std::string& question, const Deadline& deadline);
   [[nodiscard]] std::string identify(const Deadline& deadline);
-  /// Sends commands without error queries, in any state of the instrument.
+  /// Discards errors from before, so that they are not reported after the next command.
+  ///
+  /// @errors   Error(Device) when it does not answer
+  void clear_errors(const Deadline& deadline);
+  /// Sends commands without error queries, in any state of the instrument. Returns within 1 s.
   void send_unchecked(const std::vector<std::string>& commands) noexcept;
-  void discard_input() { transport_->discard_input(); }
+  /// How another process sends `commands`.
+  [[nodiscard]] SafeOff safe_off(const std::vector<std::string>& commands) const;
 
  private:
+  void write(const std::string& line, const Deadline& deadline);
+  /// The answer to the error query if it is an error; empty otherwise.
+  [[nodiscard]] std::string query_error(const Deadline& deadline);
+  [[noreturn]] void fail_with(const std::string& reported, const std::string& after) const;
+
   std::unique_ptr<Transport> transport_;
   Language language_;
+  bool unfinished_ = false;  ///< only a part of the last line was sent
 };
 
 }  // namespace frangia

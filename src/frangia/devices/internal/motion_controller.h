@@ -1,14 +1,17 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "frangia/devices/internal/transport.h"
+#include "frangia/devices/safe_off.h"
 
 namespace frangia {
 
-/// A motion board, in the board's own units along its axis. Call `connect` first. A call that
-/// throws leaves the board stopped and its position unknown.
+/// A motion board, in the board's own units along its axis. Call `connect` first. A call of
+/// `move_to` that throws leaves the board stopped and its position unknown.
 class MotionController {
  public:
   MotionController() = default;
@@ -33,15 +36,39 @@ class MotionController {
   virtual void move_to(double units, double units_per_s, const Deadline& deadline) = 0;
   /// Sends one line in the language of the board, such as "M3 S1000" for a laser.
   virtual void command(const std::string& line, const Deadline& deadline) = 0;
-  /// Stops motion and outputs at once. Never throws.
+  /// Stops motion and switches outputs off at once. Returns within 1.5 s and never throws. Does
+  /// nothing if nothing was sent since the last stop.
   virtual void stop() noexcept = 0;
+  /// How another process stops the board and switches its outputs off.
+  [[nodiscard]] virtual SafeOff safe_off() const = 0;
+  /// Expected duration of a move over a distance, by the limits that the board reports.
+  [[nodiscard]] virtual double move_time_s(double distance, double units_per_s) const {
+    return distance / units_per_s;
+  }
+  /// Expected duration of homing; 0 when the board does not report it.
+  [[nodiscard]] virtual double home_time_s() const { return 0.0; }
+
+  /// Adds a command that switches an output off. `stop` and `safe_off` send it.
+  void add_off_command(const std::string& command) { off_commands_.push_back(command); }
   /// The number of stops so far. A stop invalidates known positions and outputs.
   [[nodiscard]] int stop_count() const { return stop_count_; }
+  /// Devices that share the board and are made safe side by side lock it.
+  [[nodiscard]] std::mutex& mutex() { return mutex_; }
 
  protected:
   void record_stop() noexcept { ++stop_count_; }
+  [[nodiscard]] std::size_t off_command_count() const { return off_commands_.size(); }
+  /// The commands that switch outputs off, each with `end` after it.
+  [[nodiscard]] std::string off_commands(const std::string& end) const {
+    std::string all;
+    for (const std::string& command : off_commands_)
+      all += command + end;
+    return all;
+  }
 
  private:
+  std::vector<std::string> off_commands_;
+  std::mutex mutex_;
   int stop_count_ = 0;
 };
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kPrologixPort = 1234;
 constexpr int kScpiPort = 5025;
+/// A guardian process ends sooner.
+constexpr double kPortInUse_s = 4.0;
 
 int tcp_port_of(DeviceSettings& settings) {
   const int usual = settings.has("gpib_address") ? kPrologixPort : kScpiPort;
@@ -30,7 +32,7 @@ std::unique_ptr<Transport> open_serial_or_tcp(DeviceSettings& settings,
   serial.stop_bits = settings.integer_or("stop_bits", 1, 1, 2);
   const std::string parity = settings.choice("parity", {"none", "even", "odd"});
   serial.parity = parity == "even" ? Parity::Even : parity == "odd" ? Parity::Odd : Parity::None;
-  return open_serial(serial);
+  return open_serial(serial, deadline.at_most(kPortInUse_s));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include <boost/asio/connect.hpp>
@@ -19,8 +20,12 @@ namespace {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-/// Limit of a line; a device that exceeds it uses another protocol or baud rate.
-constexpr std::size_t kLongestLine = 65536;
+/// Limit of a line; a device that exceeds it uses another protocol or baud rate. The longest real
+/// answers, lists of settings, have lines below 100 bytes.
+constexpr std::size_t kLongestLine = 4096;
+/// Limit of the input that is discarded at once. A device that sends more does not stop sending.
+constexpr std::size_t kMostDiscarded = 65536;
+constexpr double kRetryLock_s = 0.02;
 
 /// Runs the context until `done`. On a stop request or at the deadline it calls `cancel` and lets
 /// the handlers finish. Returns whether the operation completed in time.
@@ -50,6 +55,8 @@ class AsioTransport final : public Transport {
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] Stream& stream() { return stream_; }
   [[nodiscard]] asio::io_context& context() { return context_; }
+  // Asio declares the function without const.
+  [[nodiscard]] int file() const override { return const_cast<Stream&>(stream_).native_handle(); }
 
   void write(std::string_view bytes, const Deadline& deadline) override {
     bool done = false;
@@ -85,13 +92,22 @@ class AsioTransport final : public Transport {
   }
 
   void discard_input() override {
-    while (receive(Deadline::in(0.0))) {
+    for (std::size_t discarded = 0; discarded < kMostDiscarded;) {
+      received_.clear();
+      late_read_.reset();
+      if (!receive(Deadline::in(0.0))) break;
+      discarded += received_.size();
     }
     received_.clear();
   }
 
  private:
   bool receive(const Deadline& deadline) {
+    deadline.check();
+    // Bytes that arrived in time count when they are read late. One read is enough for them, and a
+    // device that sends without pause does not extend the deadline.
+    if (deadline.passed() && std::exchange(late_read_, deadline.time) == deadline.time)
+      return false;
     bool done = false;
     error_code failure;
     std::size_t received = 0;
@@ -100,7 +116,6 @@ class AsioTransport final : public Transport {
       received = count;
       done = true;
     });
-    // Bytes that have already arrived count even after the deadline.
     context_.restart();
     context_.poll();
     const bool in_time = done || run_until(context_, done, deadline, [this] { cancel(); });
@@ -122,6 +137,7 @@ class AsioTransport final : public Transport {
   asio::io_context context_;
   Stream stream_;
   std::array<char, 1024> chunk_{};
+  std::optional<Deadline::Clock::time_point> late_read_;  ///< deadline after which a read was made
   std::string received_;
 };
 
@@ -140,7 +156,7 @@ void configure_port(asio::serial_port& port, const SerialSettings& settings) {
 
 }  // namespace
 
-std::unique_ptr<Transport> open_serial(const SerialSettings& settings) {
+std::unique_ptr<Transport> open_serial(const SerialSettings& settings, const Deadline& deadline) {
   auto transport = std::make_unique<AsioTransport<asio::serial_port>>(settings.port);
   asio::serial_port& port = transport->stream();
   error_code failure;
@@ -153,9 +169,12 @@ std::unique_ptr<Transport> open_serial(const SerialSettings& settings) {
                             forbidden ? "join the group dialout and log in again"
                                       : "run 'frangia devices' to list the ports"));
   }
-  // Two programs on one port would mix their commands.
-  if (::flock(port.native_handle(), LOCK_EX | LOCK_NB) != 0) {
-    fail_device(settings.port, "is in use by another program; close that first");
+  // Two programs on one port would mix their commands. The guardian of a program that was killed
+  // holds the port for a moment.
+  while (::flock(port.native_handle(), LOCK_EX | LOCK_NB) != 0) {
+    if (deadline.passed())
+      fail_device(settings.port, "is in use by another program; close that first");
+    deadline.sleep(kRetryLock_s);
   }
   try {
     configure_port(port, settings);

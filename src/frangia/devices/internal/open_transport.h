@@ -16,11 +16,12 @@ struct SerialSettings {
   int stop_bits = 1;  ///< 1 or 2
 };
 
-/// Opens a serial port.
+/// Opens a serial port. Waits until `deadline` while another program uses it.
 ///
 /// @errors   Error(Device) when the port does not exist, may not be opened, is in use, or does not
 ///          support the baud rate
-[[nodiscard]] std::unique_ptr<Transport> open_serial(const SerialSettings& settings);
+[[nodiscard]] std::unique_ptr<Transport> open_serial(const SerialSettings& settings,
+                                                     const Deadline& deadline = Deadline::in(0.0));
 
 /// Opens a TCP connection.
 ///

@@ -17,6 +17,12 @@ class PrologixTransport final : public Transport {
 
   /// Each line is one message; the adapter adds the terminator and EOI.
   void write(std::string_view bytes, const Deadline& deadline) override {
+    adapter_->write(framed(bytes), deadline);
+    asked_ = false;
+  }
+
+  [[nodiscard]] int file() const override { return adapter_->file(); }
+  [[nodiscard]] std::string framed(std::string_view bytes) const override {
     while (!bytes.empty() && (bytes.back() == '\n' || bytes.back() == '\r')) {
       bytes.remove_suffix(1);
     }
@@ -26,8 +32,11 @@ class PrologixTransport final : public Transport {
       if (c == '\n' || c == '\r' || c == '+' || c == '\x1b') message += '\x1b';
       message += c;
     }
-    adapter_->write(message + "\n", deadline);
-    asked_ = false;
+    return message + "\n";
+  }
+  /// After an escape byte, the first line feed is data and the second ends the command.
+  [[nodiscard]] std::string end_of_command(std::string_view /*terminator*/) const override {
+    return "\n\n";
   }
 
   [[nodiscard]] std::optional<std::string> try_read(char end, const Deadline& deadline) override {

@@ -1,5 +1,6 @@
 #include "frangia/devices/internal/stepper_turntable.h"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ std::string StepperTurntable::test(const Deadline& deadline) {
 }
 
 void StepperTurntable::make_safe() noexcept {
+  const std::scoped_lock lock(board_->mutex());
   angle_rad_.reset();
   enabled_ = false;
   board_->stop();
@@ -42,8 +44,19 @@ void StepperTurntable::home(const Deadline& deadline) {
   } else {
     board_->set_zero(deadline);
   }
+  zero_deg_ = 0.0;
   stop_count_ = board_->stop_count();
   angle_rad_ = 0.0;
+}
+
+void StepperTurntable::set_angle(double angle_rad, const Deadline& deadline) {
+  if (!enabled_) fail_device(*this, "it is not enabled; enable it before setting its angle");
+  angle_rad_.reset();
+  backlash_taken_up_ = false;
+  board_->set_zero(deadline);
+  zero_deg_ = deg_from_rad(angle_rad);
+  stop_count_ = board_->stop_count();
+  angle_rad_ = angle_rad;
 }
 
 std::optional<double> StepperTurntable::angle_rad() const {
@@ -67,6 +80,24 @@ void StepperTurntable::move_to(double angle_rad, const Deadline& deadline) {
   angle_rad_ = angle_rad;
 }
 
+double StepperTurntable::move_time_s(double angle_rad) const {
+  const std::optional<double> from_rad = this->angle_rad();
+  if (!from_rad) return options_.settle_s;
+  const double way_deg =
+      std::abs(deg_from_rad(angle_rad - *from_rad)) + 2.0 * options_.backlash_deg;
+  const double scale = options_.units_per_degree;
+  // A move that takes up backlash stops twice.
+  const double stop_s = board_->move_time_s(0.0, options_.speed_deg_per_s * scale);
+  return board_->move_time_s(way_deg * scale, options_.speed_deg_per_s * scale) + stop_s +
+         options_.settle_s;
+}
+
+double StepperTurntable::home_time_s() const {
+  if (!options_.info.can_home) return 0.0;
+  const double reported_s = board_->home_time_s();
+  return reported_s > 0.0 ? reported_s : options_.home_time_s;
+}
+
 void StepperTurntable::check_target(double angle_rad) const {
   if (!(angle_rad >= options_.info.min_rad && angle_rad <= options_.info.max_rad)) {
     fail_device(*this,
@@ -81,7 +112,7 @@ void StepperTurntable::check_target(double angle_rad) const {
 
 void StepperTurntable::command_angle(double angle_deg, const Deadline& deadline) {
   const double sign = options_.reversed ? -1.0 : 1.0;
-  board_->move_to(sign * angle_deg * options_.units_per_degree,
+  board_->move_to(sign * (angle_deg - zero_deg_) * options_.units_per_degree,
                   options_.speed_deg_per_s * options_.units_per_degree,
                   deadline);
 }

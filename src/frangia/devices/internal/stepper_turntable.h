@@ -16,7 +16,8 @@ struct StepperTurntableOptions {
   double backlash_deg = 0.0;  ///< targets are approached upwards; after a downward move from this
                               ///< far below, which may be beyond the limits
   double speed_deg_per_s = 20.0;
-  double settle_s = 0.0;  ///< time for the part to stop vibrating
+  double settle_s = 0.0;      ///< time for the part to stop vibrating
+  double home_time_s = 60.0;  ///< expected duration of homing, for boards that do not report it
 };
 
 /// A turntable on a stepper motor board. Any failed call stops the board and invalidates the angle;
@@ -35,11 +36,15 @@ class StepperTurntable final : public TurntableDevice {
   [[nodiscard]] std::string name() const override { return "turntable at " + board_->name(); }
   [[nodiscard]] std::string test(const Deadline& deadline) override;
   void make_safe() noexcept override;
+  [[nodiscard]] std::optional<SafeOff> safe_off() const override { return board_->safe_off(); }
   [[nodiscard]] const TurntableInfo& info() const override { return options_.info; }
   void enable(bool on, const Deadline& deadline) override;
   void home(const Deadline& deadline) override;
+  void set_angle(double angle_rad, const Deadline& deadline) override;
   [[nodiscard]] std::optional<double> angle_rad() const override;
   void move_to(double angle_rad, const Deadline& deadline) override;
+  [[nodiscard]] double move_time_s(double angle_rad) const override;
+  [[nodiscard]] double home_time_s() const override;
 
  private:
   void check_target(double angle_rad) const;
@@ -48,7 +53,8 @@ class StepperTurntable final : public TurntableDevice {
   std::shared_ptr<MotionController> board_;
   StepperTurntableOptions options_;
   std::optional<double> angle_rad_;
-  int stop_count_ = 0;  ///< of the board when the angle was found
+  double zero_deg_ = 0.0;  ///< angle at the board's position 0
+  int stop_count_ = 0;     ///< of the board when the angle was found
   bool enabled_ = false;
   bool backlash_taken_up_ = false;  ///< the last move ended upwards
 };

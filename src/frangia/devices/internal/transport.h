@@ -26,8 +26,20 @@ class Transport {
   virtual void write(std::string_view bytes, const Deadline& deadline) = 0;
   /// The bytes before the next `end`, which is removed; empty when the deadline passes first.
   [[nodiscard]] virtual std::optional<std::string> try_read(char end, const Deadline& deadline) = 0;
-  /// Discards bytes that have arrived, such as answers to abandoned queries.
+  /// Discards bytes that have arrived, such as answers to abandoned queries. Bounded in time even
+  /// when the device sends without pause.
   virtual void discard_input() = 0;
+
+  /// The open file of the line; -1 if it has none.
+  [[nodiscard]] virtual int file() const { return -1; }
+  /// The bytes that `write` sends on the line for `bytes`.
+  [[nodiscard]] virtual std::string framed(std::string_view bytes) const {
+    return std::string(bytes);
+  }
+  /// The bytes that end a command of which only a part was sent on the line.
+  [[nodiscard]] virtual std::string end_of_command(std::string_view terminator) const {
+    return std::string(terminator);
+  }
 };
 
 /// As try_read, but throws Error(Device) with the elapsed time when the deadline passes.

@@ -27,7 +27,9 @@ class SimulatedTable final : public TurntableDevice {
         approach_rad_(rad_from_deg(settings.number_or("approach_deg", 2.0, 0.0, 90.0))),
         error_rad_(rad_from_deg(settings.number_or("angle_error_deg", 0.0, 0.0, 10.0))),
         deg_per_s_(settings.number_or("speed_deg_per_s", 0.0, 0.0, 1e6)) {
-    info_.can_home = true;
+    info_.can_home = settings.choice("home", {"switch", "here"}) == "switch";
+    table_rad_ = offset_rad_ = rad_from_deg(settings.number_or("start_deg", 0.0, -1e6, 1e6));
+    bench_->table_rad = table_rad_;
     constexpr double kMany_deg = 1e6;
     info_.min_rad = rad_from_deg(settings.number_or("min_deg", -kMany_deg));
     info_.max_rad = rad_from_deg(settings.number_or("max_deg", kMany_deg));
@@ -45,11 +47,19 @@ class SimulatedTable final : public TurntableDevice {
     homed_ = false;
   }
   void enable(bool on, const Deadline& /*deadline*/) override { enabled_ = on; }
-  void home(const Deadline& /*deadline*/) override {
+  void home(const Deadline& deadline) override {
+    if (!info_.can_home) return set_angle(0.0, deadline);
     check_enabled();
     homed_ = true;
+    offset_rad_ = 0.0;
     turn_to(-approach_rad_);
     turn_to(0.0);
+  }
+  void set_angle(double angle_rad, const Deadline& /*deadline*/) override {
+    check_enabled();
+    homed_ = true;
+    offset_rad_ += motor_rad_ - angle_rad;
+    motor_rad_ = angle_rad;
   }
   [[nodiscard]] std::optional<double> angle_rad() const override {
     return homed_ ? std::optional(motor_rad_) : std::nullopt;
@@ -78,10 +88,19 @@ class SimulatedTable final : public TurntableDevice {
           *this,
           fmt::format("did not reach {} degrees in time; see what blocks it", degrees(angle_rad)));
     }
-    if (deg_per_s_ > 0.0)
-      deadline.sleep(deg_from_rad(std::abs(angle_rad - motor_rad_)) / deg_per_s_);
+    deadline.sleep(move_time_s(angle_rad));
+    if (deadline.passed()) {
+      make_safe();
+      fail_device(*this,
+                  fmt::format("did not reach {} degrees within {:.3g} s; see what blocks it",
+                              degrees(angle_rad),
+                              deadline.timeout_s));
+    }
     if (angle_rad < motor_rad_) turn_to(angle_rad - approach_rad_);
     turn_to(angle_rad);
+  }
+  [[nodiscard]] double move_time_s(double angle_rad) const override {
+    return deg_per_s_ > 0.0 ? deg_from_rad(std::abs(angle_rad - motor_rad_)) / deg_per_s_ : 0.0;
   }
 
  private:
@@ -91,9 +110,10 @@ class SimulatedTable final : public TurntableDevice {
   /// The turntable top lags the motor by the backlash when approached from above; the gear adds an
   /// error that depends on the angle.
   void turn_to(double angle_rad) {
-    table_rad_ = std::clamp(table_rad_, angle_rad, angle_rad + backlash_rad_);
+    const double true_rad = angle_rad + offset_rad_;
+    table_rad_ = std::clamp(table_rad_, true_rad, true_rad + backlash_rad_);
     motor_rad_ = angle_rad;
-    const auto seed = static_cast<std::uint64_t>(std::llround(1e6 * angle_rad));
+    const auto seed = static_cast<std::uint64_t>(std::llround(1e6 * true_rad));
     bench_->table_rad = table_rad_;
     if (seed != 0) bench_->table_rad += error_rad_ * normal_from(hash(hash(0x7AB1E), seed));
   }
@@ -107,6 +127,7 @@ class SimulatedTable final : public TurntableDevice {
   double deg_per_s_;  ///< 0: moves take no time
   double motor_rad_ = 0.0;
   double table_rad_ = 0.0;
+  double offset_rad_ = 0.0;  ///< true angle minus that of the motor; not 0 without a home switch
   bool enabled_ = false;
   bool homed_ = false;
   bool unplugged_ = false;

@@ -1,0 +1,76 @@
+#include "capture_result.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+
+#include "counted.h"
+
+namespace frangia {
+namespace {
+
+nlohmann::ordered_json json_of(const std::vector<SkippedView>& skipped) {
+  auto views = nlohmann::ordered_json::array();
+  for (const SkippedView& view : skipped) {
+    views.push_back({{"view", view.view + 1},
+                     {"angle_deg", deg_from_rad(view.angle_rad)},
+                     {"reason", view.reason}});
+  }
+  return views;
+}
+
+void print_skipped(const std::vector<SkippedView>& skipped, const Run& run) {
+  if (skipped.empty()) return;
+  run.note(fmt::format("{} not captured; repeat the command to capture what is missing:",
+                       counted(skipped.size(), "view")));
+  run.note("  view  angle, deg  reason");
+  for (const SkippedView& view : skipped)
+    run.note(fmt::format(
+        "  {:>4}  {:>10.6g}  {}", view.view + 1, deg_from_rad(view.angle_rad), view.reason));
+}
+
+}  // namespace
+
+void print_capture(const std::filesystem::path& output,
+                   const CaptureReport& report,
+                   Terminal& terminal) {
+  terminal.finish();
+  constexpr int kDeviceFault = 4;
+  if (!report.skipped.empty()) terminal.exit_code = kDeviceFault;
+  if (terminal.json) {
+    nlohmann::ordered_json result{{"scan", output.string()},
+                                  {"captured", report.captured},
+                                  {"resumed", report.resumed},
+                                  {"frame_retries", report.frame_retries},
+                                  {"set_retakes", report.set_retakes},
+                                  {"skipped", json_of(report.skipped)},
+                                  {"exposures_ms", report.exposures_ms},
+                                  {"device_s", report.device_s},
+                                  {"disk_s", report.disk_s},
+                                  {"overhead_ms_per_frame", report.overhead_ms()},
+                                  {"warnings", terminal.warnings()}};
+    fmt::print("{}\n", result.dump(2));
+    return;
+  }
+  terminal.run().note(
+      fmt::format("{}: {} captured, {} already there, {} repeated, {} retaken, {} skipped",
+                  output.string(),
+                  counted(report.captured, "frame"),
+                  report.resumed,
+                  report.frame_retries,
+                  counted(report.set_retakes, "set"),
+                  counted(report.skipped.size(), "view")));
+  if (report.captured > 0 && terminal.verbose) {
+    terminal.run().note(fmt::format("devices {:.1f} s, disk {:.1f} s, program {:.1f} ms per frame",
+                                    report.device_s,
+                                    report.disk_s,
+                                    report.overhead_ms()));
+  }
+  print_skipped(report.skipped, terminal.run());
+}
+
+}  // namespace frangia

@@ -1,0 +1,158 @@
+#include "frangia/acquisition/internal/capture_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/acquisition/internal/capture_folder.h"
+#include "frangia/acquisition/internal/recover_frames.h"
+#include "frangia/core/make_folder.h"
+
+namespace frangia {
+
+CaptureSession::CaptureSession(Scan plan,
+                               RigDevices& devices,
+                               const CaptureOptions& options,
+                               const Run& run)
+    : plan_(std::move(plan)),
+      options_(options),
+      run_(run),
+      devices_(devices, plan_.rig, options, run),
+      camera_(devices.camera->info()),
+      manifest_(plan_.folder),
+      table_(devices_, manifest_, devices.turntable.get(), options.table_at_rad, run),
+      exposures_(choose_exposures(plan_, devices_, camera_, table_, manifest_, options_, run_)),
+      files_(plan_, manifest_),
+      store_(manifest_),
+      assessor_(plan_, run),
+      sets_({plan_, options_, run_, devices_, table_, manifest_, files_, store_},
+            exposures_.single_ms,
+            [this](std::ptrdiff_t frames) {
+              count(frames);
+              assessor_.report(false);
+            }),
+      captured_(plan_),
+      total_(static_cast<std::ptrdiff_t>(plan_.views.size() * files_.frames_per_view())) {
+  report_.exposures_ms = exposures_.fringes_ms;
+  check_stored_frames();
+}
+
+void CaptureSession::check_stored_frames() {
+  if (const std::size_t repaired = manifest_.repaired_lines(); repaired > 0)
+    run_.warn(fmt::format("lines of the manifest with a wrong bit, repaired: {}", repaired));
+  if (const std::size_t damaged = manifest_.damaged_lines(); damaged > 0) {
+    run_.warn(fmt::format("damaged lines of the manifest: {}, frames recovered from the disk: {}",
+                          damaged,
+                          recover_frames(plan_, files_, manifest_)));
+  }
+  if (const std::size_t damaged = manifest_.forget_damaged(); damaged > 0)
+    run_.warn(fmt::format("frames missing or damaged on the disk, captured again: {}", damaged));
+}
+
+CaptureReport CaptureSession::capture() {
+  capture_views();
+  finish();
+  return_table();
+  const std::chrono::duration<double> time = Deadline::Clock::now() - begin_;
+  report_.captured = sets_.captured();
+  report_.resumed += sets_.resumed();
+  report_.frame_retries = manifest_.retries();
+  report_.set_retakes = manifest_.retakes();
+  report_.device_s = devices_.seconds();
+  report_.disk_s = store_.disk_wait_s();
+  report_.other_s = time.count() - report_.device_s - report_.disk_s;
+  return report_;
+}
+
+void CaptureSession::capture_views() {
+  captured_.views.clear();
+  for (std::size_t view = 0; view < plan_.views.size(); ++view) {
+    const std::string why = capture_view(view);
+    if (why.empty()) {
+      captured_.views.push_back(plan_.views[view]);
+    } else {
+      skip(view, why);
+    }
+  }
+}
+
+void CaptureSession::capture_view_once(std::size_t view) {
+  make_folder(plan_.folder / plan_.views[view].folder, Durability::Synced);
+  std::vector<std::shared_ptr<const Frame>> frames;
+  for (const Pattern& pattern : plan_.patterns) {
+    const auto set = sets_.capture(view, pattern);
+    frames.insert(frames.end(), set.begin(), set.end());
+  }
+  assessor_.begin(view, std::move(frames));
+}
+
+/// Captures the missing frames of a view. Returns the reason of a failure, or an empty text.
+std::string CaptureSession::capture_view(std::size_t view) {
+  if (files_.is_complete(view)) {
+    report_.resumed += files_.frames_per_view();
+    count(static_cast<std::ptrdiff_t>(files_.frames_per_view()));
+    return {};
+  }
+  std::string why;
+  for (int attempt = 0; attempt < options_.view_attempts; ++attempt) {
+    const std::ptrdiff_t counted = counted_;
+    try {
+      capture_view_once(view);
+      return {};
+    } catch (const Error& error) {
+      devices_.make_safe();
+      table_.forget();
+      if (error.kind() != ErrorKind::Device) throw;
+      store_.drain();
+      devices_.check_health(error.what());  // throws when a device is lost
+      if (why.empty()) {
+        why = error.what();
+      } else if (why != error.what()) {
+        why += std::string("; at the next attempt: ") + error.what();
+      }
+      counted_ = counted;
+      if (attempt + 1 < options_.view_attempts)
+        run_.warn(fmt::format("view {} is captured again: {}", view + 1, why));
+    }
+  }
+  return why;
+}
+
+void CaptureSession::skip(std::size_t view, const std::string& why) {
+  report_.skipped.push_back({view, plan_.views[view].angle_rad, why});
+  run_.warn("skipped " + report_.skipped.back().sentence());
+  count(static_cast<std::ptrdiff_t>((view + 1) * files_.frames_per_view()) - counted_);
+}
+
+/// Writes scan.toml, which makes the scan complete.
+void CaptureSession::finish() {
+  store_.drain();
+  assessor_.report(true);
+  if (captured_.views.empty())
+    throw Error(ErrorKind::Device,
+                "no view could be captured; " + report_.skipped.front().sentence());
+  finish_folder(captured_);
+}
+
+/// A fault of the table here does not make the scan incomplete.
+void CaptureSession::return_table() {
+  if (!report_.skipped.empty()) return;
+  try {
+    table_.return_to_zero();
+  } catch (const Error& error) {
+    devices_.make_safe();
+    if (error.kind() != ErrorKind::Device) throw;
+    run_.warn(fmt::format("the scan is complete, but the turntable did not return to 0: {}",
+                          error.what()));
+  }
+}
+
+void CaptureSession::count(std::ptrdiff_t frames) {
+  counted_ += frames;
+  run_.report(std::min(1.0, static_cast<double>(counted_) / static_cast<double>(total_)));
+}
+
+}  // namespace frangia

@@ -1,0 +1,137 @@
+#include "frangia/acquisition/internal/set_capture.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/acquisition/internal/assess_set.h"
+#include "frangia/frames/png.h"
+
+namespace frangia {
+
+std::vector<SetCapture::FramePtr> SetCapture::capture(std::size_t view, const Pattern& pattern) {
+  const std::string set = parts_.files.set_of(view, pattern);
+  for (;;) {
+    const int attempt = parts_.manifest.attempt_of(set);
+    const std::vector<FramePtr> frames = acquire(view, pattern, attempt);
+    if (!parts_.manifest.is_good(set) && shows_motion(view, pattern, frames, attempt)) {
+      parts_.run.warn(
+          fmt::format("view {}: the frames of \"{}\" show motion and are captured again",
+                      view + 1,
+                      pattern.name));
+      on_frames_(-static_cast<std::ptrdiff_t>(frames.size()));
+      continue;
+    }
+    std::vector<FramePtr> ordered;
+    const auto exposures = static_cast<std::size_t>(pattern.exposure_count());
+    for (std::size_t exposure = 0; exposure < exposures; ++exposure) {
+      for (std::size_t i = exposure; i < frames.size(); i += exposures)
+        ordered.push_back(frames[i]);
+    }
+    return ordered;
+  }
+}
+
+/// Captures a set that is not stored, before the first stored one: it measures the step error, so
+/// that all views are captured with corrected steps.
+void SetCapture::capture_trial_set(std::size_t view, const Pattern& pattern) {
+  const bool due = parts_.options.control_steps && parts_.devices.has_phase_shifter() &&
+                   pattern.kind == PatternKind::Fringe && !parts_.manifest.has_sets();
+  if (!due) return;
+  FrameStack stack{pattern, {}, parts_.plan.rig.camera.white_level};
+  stack.pattern.exposures_ms.clear();
+  parts_.devices.begin_set(pattern, 1.0);
+  parts_.devices.expose_for(exposure_of(pattern, 0));
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    parts_.devices.show(pattern, frame);
+    stack.frames.push_back(
+        parts_.devices.capture({static_cast<int>(view), pattern.name, frame, 0, 0}).frame);
+  }
+  const SetAssessment assessment = assess_set({&stack, 1}, parts_.plan.rig.camera.noise, true);
+  ManifestSet outcome;
+  if (assessment.step_found) outcome.scale = 1.0 / (1.0 + assessment.gain_error);
+  parts_.store.put("trial", outcome);
+  parts_.run.note(
+      fmt::format("step error of the phase shifter: {:+.2f} %, corrected from the first set on",
+                  100.0 * assessment.gain_error));
+}
+
+/// Assesses a complete set and stores the outcome.
+bool SetCapture::shows_motion(std::size_t view,
+                              const Pattern& pattern,
+                              const std::vector<FramePtr>& frames,
+                              int attempt) {
+  ManifestSet outcome{.attempt = attempt, .scale = parts_.manifest.scale()};
+  if (pattern.kind == PatternKind::Fringe) {
+    const SetAssessment assessment = assess_set(stacks_of(pattern, frames),
+                                                parts_.plan.rig.camera.noise,
+                                                parts_.devices.has_phase_shifter());
+    outcome.moved = assessment.moved && attempt + 1 < parts_.options.set_attempts;
+    if (parts_.options.control_steps && assessment.step_found && !assessment.moved) {
+      // The trial set corrected the gain error; each further set has its own phase-shift jitter.
+      constexpr double kShare = 0.5;
+      outcome.scale /= 1.0 + kShare * assessment.gain_error;
+    }
+  }
+  parts_.store.put(parts_.files.set_of(view, pattern), outcome);
+  return outcome.moved;
+}
+
+std::vector<FrameStack> SetCapture::stacks_of(const Pattern& pattern,
+                                              const std::vector<FramePtr>& frames) const {
+  std::vector<FrameStack> stacks;
+  stacks.reserve(static_cast<std::size_t>(pattern.exposure_count()));
+  for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
+    stacks.push_back({pattern, {}, parts_.plan.rig.camera.white_level, exposure});
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    stacks[i % stacks.size()].frames.push_back(*frames[i]);
+  return stacks;
+}
+
+/// The frames of a set at all exposures: read where stored, captured otherwise.
+std::vector<SetCapture::FramePtr> SetCapture::acquire(std::size_t view,
+                                                      const Pattern& pattern,
+                                                      int attempt) {
+  const bool complete = parts_.files.has_all_frames(view, pattern);
+  if (!complete) {
+    parts_.table.turn_to(parts_.plan.views[view].angle_rad);
+    capture_trial_set(view, pattern);
+  }
+  const std::vector<bool> stored = parts_.files.stored_frames(view, pattern);
+  const double scale = parts_.files.scale_of(view, pattern);
+  if (!complete) {
+    if (attempt > 0) parts_.store.drain();  // until the rejected frames are written
+    if (attempt > 0) parts_.files.move_to_rejected(view, pattern, attempt - 1);
+    parts_.devices.begin_set(pattern, scale);
+  }
+  std::vector<FramePtr> frames;
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    // The shifter passes all positions, stored frames included, for the same hysteresis.
+    if (!complete) parts_.devices.show(pattern, frame);
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      const std::string file = parts_.files.file_of(view, pattern, frame, exposure);
+      if (stored[frames.size()]) {
+        frames.push_back(std::make_shared<const Frame>(read_png(parts_.plan.folder / file)));
+        ++resumed_;
+      } else {
+        const FrameLabel label{static_cast<int>(view), pattern.name, frame, exposure, attempt};
+        parts_.devices.expose_for(exposure_of(pattern, exposure));
+        CompleteFrame taken = parts_.devices.capture(label);
+        frames.push_back(std::make_shared<const Frame>(std::move(taken.frame)));
+        parts_.store.put(file, frames.back(), {.attempts = taken.attempts, .scale = scale});
+        ++captured_;
+      }
+      on_frames_(1);
+    }
+  }
+  parts_.devices.end_set();
+  return frames;
+}
+
+double SetCapture::exposure_of(const Pattern& pattern, int exposure) const {
+  if (!pattern.exposures_ms.empty())
+    return pattern.exposures_ms[static_cast<std::size_t>(exposure)];
+  return exposure_ms_;
+}
+
+}  // namespace frangia

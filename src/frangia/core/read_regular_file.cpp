@@ -1,0 +1,75 @@
+#include "frangia/core/read_regular_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+/// An open file that is closed at the end.
+struct Descriptor {
+  explicit Descriptor(int opened) : file(opened) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
+  ~Descriptor() {
+    if (file >= 0) ::close(file);
+  }
+  int file;
+};
+
+const char* kind_of(::mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISFIFO(mode)) return "a named pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+}  // namespace
+
+std::vector<char> read_regular_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), what));
+  };
+  if (path.native().find('\0') != std::string::npos)
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: the name goes on after a NUL character; rename the file", path.c_str()));
+  struct ::stat state {};
+  const Descriptor descriptor(
+      ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));  // NOLINT(*-vararg)
+  const int error = errno;
+  const bool known = descriptor.file >= 0 ? ::fstat(descriptor.file, &state) == 0
+                                          : ::stat(path.c_str(), &state) == 0;
+  if (known && !S_ISREG(state.st_mode))
+    fail(fmt::format("is {}, not a file; replace it", kind_of(state.st_mode)));
+  if (!known && (error == ENOENT || error == ENOTDIR)) fail("does not exist; check the path");
+  if (descriptor.file < 0 || !known)
+    fail(fmt::format("cannot be read: {}", std::generic_category().message(error)));
+  const auto size = static_cast<std::size_t>(state.st_size);
+  if (size > max_bytes)
+    fail(fmt::format("has {} bytes, more than the {} bytes that it can need", size, max_bytes));
+  std::vector<char> bytes(size);
+  std::size_t done = 0;
+  while (done < size) {
+    const ::ssize_t got = ::read(descriptor.file, bytes.data() + done, size - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail("cannot be read; check the disk");
+    if (got == 0) break;  // another process shortened the file
+    done += static_cast<std::size_t>(got);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+}  // namespace frangia

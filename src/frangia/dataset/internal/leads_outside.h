@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+namespace frangia {
+
+/// Whether the path `inner` leads out of the folder `outer`: by its name, over a symbolic link, or
+/// by a NUL character, at which the operating system would cut it off.
+[[nodiscard]] bool leads_outside(const std::filesystem::path& outer,
+                                 const std::filesystem::path& inner);
+
+}  // namespace frangia
