@@ -123,7 +123,7 @@ struct EdgeParameters {
   /// ... plus this many sigmas.
   double on_face_sigmas = 3.0;
   /// A vertex this near to an edge may lie on no face, voxels.
-  double edge_zone_voxels = 0.9;
+  double edge_zone_voxels = 0.6;
   /// A face vertex: largest angle between its normal and the face.
   double face_vertex_rad = rad_from_deg(26.0);
   /// Farthest that a chamfer vertex moves to a corner, voxels; half the diagonal of a cell is 0.87.
