@@ -150,7 +150,8 @@ class Grbl final : public MotionController {
       const auto line = transport_->try_read('\n', count > 0 ? drained : drained.at_most(kQuiet_s));
       if (!line) return;
       note(*line);
-      if (count > 0 && (line->rfind("ok", 0) == 0 || line->rfind("error:", 0) == 0)) --count;
+      const bool is_answer = line->rfind("ok", 0) == 0 || line->rfind("error:", 0) == 0;
+      if (is_answer && count > 0) --count;
     }
   }
   /// Remembers an alarm, which explains why later commands are refused.
