@@ -1,6 +1,7 @@
 #include "frangia/local_fit/local_planes.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -92,6 +93,73 @@ TEST(LocalPlanes, AreLessNoisyWithWiderWindows) {
   const double ratio =
       static_cast<double>(value_variance(3)) / static_cast<double>(value_variance(2));
   EXPECT_NEAR(variance(true) / variance(false), ratio, 0.1);
+}
+
+bool are_equal(const LocalPlanes::Plane& a, const LocalPlanes::Plane& b) {
+  return a.normal == b.normal && a.distance_mm == b.distance_mm && a.weight == b.weight &&
+         a.tangent_distance_mm == b.tangent_distance_mm && a.window == b.window;
+}
+
+bool are_equal(const LocalPlanes::Quad& a, const LocalPlanes::Quad& b) {
+  return a.distance_mm == b.distance_mm && a.weight == b.weight && a.kind == b.kind;
+}
+
+/// The number of pixels at multiples of `every` whose plane, quad or inverse depth differs.
+int count_differences(const LocalPlanes& a, const LocalPlanes& b, int every = 1) {
+  int differences = 0;
+  for (int y = 0; y < a.quads.height(); y += every) {
+    for (int x = 0; x < a.quads.width(); x += every) {
+      const float q = a.inverse_depth(x, y);
+      const bool same_depth =
+          q == b.inverse_depth(x, y) || (std::isnan(q) && std::isnan(b.inverse_depth(x, y)));
+      const bool same = same_depth && are_equal(a.planes(x, y), b.planes(x, y)) &&
+                        are_equal(a.quads(x, y), b.quads(x, y));
+      differences += same ? 0 : 1;
+    }
+  }
+  return differences;
+}
+
+/// A ball that covers a part of the image.
+View small_ball(const CameraModel& camera, double radius_mm, double azimuth_rad) {
+  return testing::snapshot(
+      testing::sphere(radius_mm), camera, look_from(azimuth_rad, 0.5, kStandOff));
+}
+
+TEST(LocalPlanes, DoNotDependOnTheViewThatLentItsMemory) {
+  const CameraRays camera(small_camera_model());
+  const LocalPlanesOptions extrapolating{.extrapolate_px = 3};
+  const View small = small_ball(camera.model, 8.0, 0.0);
+  const View large = small_ball(camera.model, 20.0, 0.4);
+  LocalPlanes reused = local_planes(large, camera, extrapolating);
+  reused = local_planes(small, camera, {}, std::move(reused));
+  EXPECT_EQ(count_differences(reused, local_planes(small, camera)), 0);
+  reused = local_planes(large, camera, {.every = 3}, std::move(reused));
+  reused = local_planes(small, camera, extrapolating, std::move(reused));
+  EXPECT_EQ(count_differences(reused, local_planes(small, camera, extrapolating)), 0);
+}
+
+TEST(LocalPlanes, OfEveryThirdPixelAreThoseOfAllPixels) {
+  const CameraRays camera(small_camera_model());
+  const View view = small_ball(camera.model, 20.0, 0.0);
+  const LocalPlanes all = local_planes(view, camera);
+  EXPECT_EQ(count_differences(all, local_planes(view, camera, {.every = 3}), 3), 0);
+}
+
+TEST(LocalPlanes, LieInTheirBox) {
+  const CameraRays camera(small_camera_model());
+  const LocalPlanes view =
+      local_planes(small_ball(camera.model, 8.0, 0.0), camera, {.extrapolate_px = 3});
+  EXPECT_LT(view.box.width(), view.planes.width() / 2);
+  for (int y = 0; y < view.quads.height(); ++y) {
+    for (int x = 0; x < view.quads.width(); ++x) {
+      const bool outside =
+          x < view.box.left || x >= view.box.right || y < view.box.top || y >= view.box.bottom;
+      if (!outside) continue;
+      EXPECT_FALSE(view.has_plane(x, y));
+      EXPECT_EQ(view.quads(x, y).kind, LocalPlanes::Kind::Unseen);
+    }
+  }
 }
 
 TEST(LocalPlanes, RefuseAViewOfAnotherSize) {

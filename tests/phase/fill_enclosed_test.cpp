@@ -64,6 +64,15 @@ TEST(FillEnclosed, KeepsAHoleThatReachesTheBorder) {
   EXPECT_EQ(fill_enclosed(phase), 0U);
 }
 
+TEST(FillEnclosed, KeepsALargePatchWhicheverOfItsTopsTheSearchStartsAt) {
+  AbsolutePhase phase = measured(60, 60);
+  for (int prong = 10; prong < 50; prong += 4)  // a comb: each prong is a start of its own
+    punch(phase, {prong, 10}, {prong + 2, 20}, PixelStatus::Saturated);
+  punch(phase, {10, 20}, {48, 24}, PixelStatus::Saturated);
+  punch(phase, {54, 10}, {56, 12}, PixelStatus::Saturated);
+  EXPECT_EQ(fill_enclosed(phase), 4U);
+}
+
 TEST(FillEnclosed, DoesNotBridgeADepthStep) {
   AbsolutePhase phase = measured(40, 30);
   punch(phase, {18, 10}, {22, 14}, PixelStatus::Residue);

@@ -123,7 +123,8 @@ TEST(UnwrapTemporally, RefusesLevelsOutOfOrderOrWithoutAnAbsoluteStart) {
       Error);
   EXPECT_THROW(static_cast<void>(unwrap_temporally(levels(scene, {320.0, 10.0}), wall_display())),
                Error);
-  EXPECT_THROW(static_cast<void>(unwrap_temporally({}, wall_display())), Error);
+  EXPECT_THROW(
+      static_cast<void>(unwrap_temporally(std::span<const WrappedPhase>(), wall_display())), Error);
 }
 
 }  // namespace

@@ -94,6 +94,61 @@ TEST(ViewStore, LoadsPointsWithoutPhase) {
   EXPECT_EQ(store.load(0).range.phase_rad(5, 5), 7.0F);
 }
 
+/// 30 x 20 pixels, of which those of a box are measured.
+View view_of_box(const PixelBox& box) {
+  View view;
+  for (Image<float>* image : {&view.range.depth_mm, &view.range.sigma_mm, &view.range.phase_rad}) {
+    *image = Image<float>(30, 20, kMissing);
+    for (int y = box.top; y < box.bottom; ++y) {
+      for (int x = box.left; x < box.right; ++x)
+        (*image)(x, y) = static_cast<float>(100 * y + x);
+    }
+  }
+  return view;
+}
+
+void expect_same(const Image<float>& a, const Image<float>& b) {
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    EXPECT_TRUE(a.pixels()[i] == b.pixels()[i] ||
+                (std::isnan(a.pixels()[i]) && std::isnan(b.pixels()[i])))
+        << i;
+  }
+}
+
+TEST(ViewStore, ReturnsTheMissingPixelsAroundAPart) {
+  ViewStore store;
+  for (const PixelBox& box :
+       {PixelBox{4, 3, 17, 9}, {0, 0, 30, 20}, {29, 19, 30, 20}, {0, 0, 0, 0}})
+    store.add(view_of_box(box));
+  expect_same(store.load(0).range.depth_mm, view_of_box({4, 3, 17, 9}).range.depth_mm);
+  expect_same(store.load(0).range.phase_rad, view_of_box({4, 3, 17, 9}).range.phase_rad);
+  expect_same(store.load_points(1).range.sigma_mm, view_of_box({0, 0, 30, 20}).range.sigma_mm);
+  expect_same(store.load_depth_mm(2), view_of_box({29, 19, 30, 20}).range.depth_mm);
+  expect_same(store.load(3).range.depth_mm, view_of_box({0, 0, 0, 0}).range.depth_mm);
+}
+
+TEST(ViewStore, HoldsAViewWhosePartGrows) {
+  ViewStore store;
+  store.add(view_of_box({4, 3, 5, 4}));
+  store.add(view_of_box({1, 1, 9, 9}));
+  store.replace(0, view_of_box({2, 2, 28, 18}));
+  expect_same(store.load(0).range.phase_rad, view_of_box({2, 2, 28, 18}).range.phase_rad);
+  expect_same(store.load(1).range.phase_rad, view_of_box({1, 1, 9, 9}).range.phase_rad);
+}
+
+TEST(ViewStore, KeepsTheRaysOfTheLastCamera) {
+  const ViewStore store;
+  CameraModel camera{.width_px = 30,
+                     .height_px = 20,
+                     .focal_px = {100.0, 100.0},
+                     .principal_point_px = {15.0, 10.0}};
+  const auto first = store.rays(camera);
+  EXPECT_EQ((*first)(25, 10), Eigen::Vector2f(0.1F, 0.0F));
+  EXPECT_EQ(store.rays(camera), first);
+  camera.focal_px.x() = 50.0;
+  EXPECT_EQ((*store.rays(camera))(25, 10), Eigen::Vector2f(0.2F, 0.0F));
+}
+
 TEST(ViewStore, NamesTheTemporaryFolderThatCannotHoldIt) {
   const char* before = std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): no other thread
   const std::string folder = before != nullptr ? before : "/tmp";

@@ -55,7 +55,7 @@ Image<T> decode(spng_ctx* context,
                 const std::filesystem::path& path) {
   std::size_t size = 0;
   if (spng_decoded_image_size(context, format, &size) != 0) fail(path, "has a broken header");
-  Image<T> image(static_cast<int>(header.width), static_cast<int>(header.height));
+  Image<T> image(static_cast<int>(header.width), static_cast<int>(header.height), Uninitialized{});
   if (size != image.pixels().size_bytes()) fail(path, "has a broken header");
   const int error = spng_decode_image(context, image.pixels().data(), size, format, 0);
   if (error != 0) {

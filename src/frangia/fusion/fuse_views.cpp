@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <future>
 #include <optional>
 #include <utility>
 
@@ -20,6 +19,7 @@
 #include "frangia/geometry/clean_mesh.h"
 #include "frangia/local_fit/local_planes.h"
 #include "frangia/views/add_edge_pixels.h"
+#include "frangia/views/load_each_view.h"
 #include "frangia/views/subsample.h"
 
 namespace frangia {
@@ -39,27 +39,19 @@ double choose_voxel(const Sampling& sampling, const FusionOptions& options, cons
   return voxel_mm;
 }
 
-/// Calls `use` with every `step`-th pixel of each view in turn. The next view is read meanwhile.
+/// Calls `use` with the local planes of every `step`-th pixel of each view in turn.
 void for_each_view(const ViewStore& views,
                    int step,
                    const CameraRays& camera,
                    const LocalPlanesOptions& how,
                    const std::function<void(const LocalPlanes&)>& use) {
-  const auto read = [&](std::size_t i) {
-    return std::async(std::launch::async, [&views, step, i] {
-      View view = views.load_points(i);
-      add_edge_pixels(view);
-      return step > 1 ? subsample(view, step) : view;
-    });
-  };
   LocalPlanes planes;
-  std::future<View> next = read(0);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const View view = next.get();
-    if (i + 1 < views.size()) next = read(i + 1);
-    planes = local_planes(view, camera, how, std::move(planes));
+  load_each_view(views, [&](std::size_t /*index*/, View& view) {
+    add_edge_pixels(view);
+    planes = step > 1 ? local_planes(subsample(view, step), camera, how, std::move(planes))
+                      : local_planes(view, camera, how, std::move(planes));
     use(planes);
-  }
+  });
 }
 
 /// Pixel step for the field. The field only locates the crossings, so pixels denser than its voxels
@@ -92,7 +84,7 @@ Mesh fuse_views(const ViewStore& views,
                 const CameraModel& camera,
                 const FusionOptions& options,
                 const Run& run) {
-  const CameraRays rays(camera);
+  const CameraRays rays(views, camera);
   const Sampling sampling = measure_sampling(views, rays, run);
 
   require(sampling.points > 0, "no view holds a point: there is no surface to fuse");

@@ -3,23 +3,38 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "frangia/core/image.h"
+#include "frangia/core/pixel_box.h"
 #include "frangia/local_fit/choose_window.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/views/view.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 
 /// A camera model and the ray of each pixel.
 struct CameraRays {
   /// Computes the rays of all pixels of `camera`.
-  explicit CameraRays(const CameraModel& camera) : model(camera), rays(rays_of(camera)) {}
+  explicit CameraRays(const CameraModel& camera)
+      : CameraRays(camera, std::make_shared<const Image<Eigen::Vector2f>>(rays_of(camera))) {}
+  /// Shares the rays that `views` keeps.
+  CameraRays(const ViewStore& views, const CameraModel& camera)
+      : CameraRays(camera, views.rays(camera)) {}
 
-  CameraModel model;            ///< camera that the rays belong to
-  Image<Eigen::Vector2f> rays;  ///< `rays_of(model)`: normalized points (x/z, y/z)
+  CameraModel model;  ///< camera that the rays belong to
+
+ private:
+  std::shared_ptr<const Image<Eigen::Vector2f>> shared_;
+  CameraRays(const CameraModel& camera, std::shared_ptr<const Image<Eigen::Vector2f>> shared)
+      : model(camera), shared_(std::move(shared)), rays(*shared_) {}
+
+ public:
+  const Image<Eigen::Vector2f>& rays;  ///< `rays_of(model)`: normalized points (x/z, y/z)
 };
 
 /// The local planes of a view, from which the signed distance of a point to the measured surface
@@ -68,6 +83,9 @@ struct LocalPlanes {
   Image<float> inverse_depth;  ///< q, 1/mm
   Image<Plane> planes;         ///< one for each pixel; `distance_mm` 0 where no plane was fitted
   Image<Quad> quads;           ///< one between each four neighbouring pixels
+  /// Pixels outside of this box have no plane, and quads whose upper left pixel lies outside of it
+  /// are Unseen.
+  PixelBox box;
   /// Pose of the object when it was measured.
   Eigen::Isometry3d rig_from_object = Eigen::Isometry3d::Identity();
 
@@ -182,9 +200,10 @@ struct WideningOptions {
 
 /// Window radius, crease angle and smoothing of the local planes.
 struct LocalPlanesOptions {
-  int radius = 2;               ///< radius of the windows, px
-  double crease_rad = 0.3;      ///< neighbouring planes at a larger angle belong to different faces
-  int extrapolate_px = 0;       ///< distance that planes are extrapolated beyond measured pixels
+  int radius = 2;           ///< radius of the windows, px
+  double crease_rad = 0.3;  ///< neighbouring planes at a larger angle belong to different faces
+  int extrapolate_px = 0;   ///< distance that planes are extrapolated beyond measured pixels
+  int every = 1;  ///< pixel step; only planes and quads at multiples of it, in x and y, are needed
   bool widen = false;           ///< smooth over 7 x 7 pixels where the residuals are noise
   WideningOptions widening;     ///< criteria for `widen`
   WindowChoiceOptions windows;  ///< choice of the window around a pixel
@@ -198,9 +217,10 @@ struct LocalPlanesOptions {
 /// A window across an edge of the object would round the edge off. There a window is used that
 /// holds the pixel and lies to one side of the edge, see `choose_window`. Neighbouring pixels are
 /// on one surface unless the line that joins them is within 8 degrees of the viewing ray by more
-/// than their noise. `reuse` lends its memory to the result.
+/// than their noise. `reuse`, an earlier result, lends its memory to the new one.
 ///
 /// @shape    w x h of the camera
+/// @missing  with `every` above 1, pixels and quads that are not needed may have no plane
 /// @units    mm, rig frame
 /// @errors   Error(Input) when the grid and the camera differ in size
 /// @source   the choice among windows: Kuwahara et al. 1976

@@ -2,20 +2,24 @@
 
 #include <utility>
 
+#include "frangia/views/load_each_view.h"
+
 namespace frangia {
 
 std::vector<SurfelMap> make_surfel_maps(const ViewStore& views,
                                         const CameraModel& camera,
                                         std::size_t pixels,
                                         const Run& run) {
-  const CameraRays rays(camera);
+  const CameraRays rays(views, camera);
+  const LocalPlanesOptions options{.every =
+                                       surfel_stride(camera.width_px, camera.height_px, pixels)};
   std::vector<SurfelMap> maps;
   LocalPlanes planes;
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  load_each_view(views, [&](std::size_t i, const View& view) {
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));
-    planes = local_planes(views.load_points(i), rays, {}, std::move(planes));
+    planes = local_planes(view, rays, options, std::move(planes));
     maps.push_back(make_surfel_map(planes, rays, pixels));
-  }
+  });
   return maps;
 }
 

@@ -7,11 +7,14 @@
 
 namespace frangia {
 
+int surfel_stride(int width, int height, std::size_t pixels) {
+  const double all = static_cast<double>(width) * height;
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(all / static_cast<double>(pixels)))));
+}
+
 SurfelMap make_surfel_map(const LocalPlanes& view, const CameraRays& camera, std::size_t pixels) {
-  const auto all = static_cast<double>(view.planes.pixels().size());
   SurfelMap map;
-  map.stride =
-      std::max(1, static_cast<int>(std::ceil(std::sqrt(all / static_cast<double>(pixels)))));
+  map.stride = surfel_stride(view.planes.width(), view.planes.height(), pixels);
   map.surfels = Image<SurfelMap::Surfel>(view.quads.width() / map.stride + 1,
                                          view.quads.height() / map.stride + 1);
   parallel_rows(map.surfels.height(), [&](int row) {

@@ -28,9 +28,14 @@ struct SurfelMap {
   Image<Surfel> surfels;  ///< surfel (x, y) is pixel (x stride, y stride)
 };
 
+/// The smallest distance of neighbouring surfels, in pixels, with which a map of an image holds at
+/// most about `pixels` surfels.
+[[nodiscard]] int surfel_stride(int width, int height, std::size_t pixels);
+
 /// Builds a surfel map of at most about `pixels` surfels.
 ///
 /// @units    mm, rig frame
+/// @shape    `view` needs the planes of every `surfel_stride`-th pixel, see `LocalPlanesOptions`
 /// @missing  a pixel at a crease or a depth step, or without a centered window, has no surfel
 [[nodiscard]] SurfelMap make_surfel_map(const LocalPlanes& view,
                                         const CameraRays& camera,

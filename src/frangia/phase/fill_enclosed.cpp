@@ -23,12 +23,15 @@ struct Pixel {
   int y;
 };
 
+/// An enclosed patch of discarded pixels.
 struct Hole {
   std::vector<Pixel> inside;
   std::vector<Pixel> boundary;  ///< adjacent measured pixels, possibly repeated
   std::size_t unmodulated = 0;
-  bool open = false;  ///< reaches the border of the image or a pixel of another status
 };
+
+/// Which discarded pixels a search has reached.
+enum Reached : std::uint8_t { No, InThisPatch, InRejectedPatch };
 
 bool is_discarded(PixelStatus status) {
   return status == PixelStatus::Saturated || status == PixelStatus::Residue ||
@@ -43,28 +46,42 @@ void visit_neighbors(const Image<PixelStatus>& status, Pixel p, const Visit& vis
   if (p.y + 1 < status.height()) visit(Pixel{p.x, p.y + 1});
 }
 
-/// Collects the discarded pixels that are connected to `start`.
-Hole collect(const Image<PixelStatus>& status, Pixel start, Image<std::uint8_t>& seen) {
-  Hole hole;
-  hole.inside.push_back(start);
-  seen(start.x, start.y) = 1;
-  for (std::size_t head = 0; head < hole.inside.size(); ++head) {
+/// Collects the discarded pixels that are connected to `start`. Returns false, and stops, when the
+/// patch has more than `max_px` pixels or is open: it reaches the border of the image, a pixel of
+/// another status, or a patch that an earlier search rejected, which it then belongs to. The
+/// background of an image is therefore not collected.
+bool collect(const Image<PixelStatus>& status,
+             Pixel start,
+             std::size_t max_px,
+             Image<Reached>& reached,
+             Hole& hole) {
+  hole.inside.assign(1, start);
+  hole.boundary.clear();
+  hole.unmodulated = 0;
+  reached(start.x, start.y) = InThisPatch;
+  bool closed = true;
+  for (std::size_t head = 0; closed && head < hole.inside.size(); ++head) {
     const Pixel p = hole.inside[head];
     if (status(p.x, p.y) == PixelStatus::Unmodulated) ++hole.unmodulated;
     if (p.x == 0 || p.y == 0 || p.x + 1 == status.width() || p.y + 1 == status.height())
-      hole.open = true;
+      closed = false;
     visit_neighbors(status, p, [&](Pixel q) {
       if (status(q.x, q.y) == PixelStatus::Measured) {
         hole.boundary.push_back(q);
-      } else if (!is_discarded(status(q.x, q.y))) {
-        hole.open = true;
-      } else if (seen(q.x, q.y) == 0) {
-        seen(q.x, q.y) = 1;
+      } else if (!is_discarded(status(q.x, q.y)) || reached(q.x, q.y) == InRejectedPatch) {
+        closed = false;
+      } else if (reached(q.x, q.y) == No) {
+        reached(q.x, q.y) = InThisPatch;
         hole.inside.push_back(q);
       }
     });
+    closed = closed && hole.inside.size() <= max_px;
   }
-  return hole;
+  if (!closed) {
+    for (const Pixel p : hole.inside)
+      reached(p.x, p.y) = InRejectedPatch;
+  }
+  return closed;
 }
 
 struct Plane {
@@ -120,16 +137,20 @@ void fill(AbsolutePhase& phase, const Hole& hole, const Plane& plane) {
 }  // namespace
 
 std::size_t fill_enclosed(AbsolutePhase& phase, const FillOptions& options) {
-  Image<std::uint8_t> seen(phase.status.width(), phase.status.height(), 0);
+  const Image<PixelStatus>& status = phase.status;
+  Image<Reached> reached(status.width(), status.height(), No);
+  Hole hole;
   std::size_t filled = 0;
-  for (int y = 0; y < phase.status.height(); ++y) {
-    for (int x = 0; x < phase.status.width(); ++x) {
-      if (seen(x, y) != 0 || !is_discarded(phase.status(x, y))) continue;
-      const Hole hole = collect(phase.status, {x, y}, seen);
+  for (int y = 1; y < status.height(); ++y) {
+    const PixelStatus* row = &status(0, y);
+    for (int x = 1; x < status.width(); ++x) {
+      // The first pixel of an enclosed patch has measured pixels to its left and above it.
+      if (row[x] == PixelStatus::Measured || row[x - 1] != PixelStatus::Measured) continue;
+      if (!is_discarded(row[x]) || status(x, y - 1) != PixelStatus::Measured) continue;
+      if (reached(x, y) != No || !collect(status, {x, y}, options.max_px, reached, hole)) continue;
       const bool may_be_true =
           2 * hole.unmodulated > hole.inside.size() && hole.inside.size() > kSpeckPx;
-      if (hole.open || may_be_true || hole.boundary.empty() || hole.inside.size() > options.max_px)
-        continue;
+      if (may_be_true) continue;
       const Plane plane = fit_plane(phase, hole.boundary);
       if (plane.largest > options.max_plane_deviation_rad) continue;
       fill(phase, hole, plane);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "frangia/pattern/fringe_sequence.h"
 #include "frangia/phase/phase_map.h"
@@ -29,6 +30,11 @@ struct TemporalUnwrapOptions {
 /// @errors   Error(Input) when empty, not coarse to fine, or of different size
 /// @source   the paper's reference [36], Müller 1995
 [[nodiscard]] AbsolutePhase unwrap_temporally(std::span<const WrappedPhase> coarse_to_fine,
+                                              const Projector& projector,
+                                              const TemporalUnwrapOptions& options = {});
+
+/// Does the same and uses the memory of the maps for the result.
+[[nodiscard]] AbsolutePhase unwrap_temporally(std::vector<WrappedPhase>&& coarse_to_fine,
                                               const Projector& projector,
                                               const TemporalUnwrapOptions& options = {});
 

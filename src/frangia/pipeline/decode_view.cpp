@@ -201,17 +201,25 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
     fill_enclosed(out.phase, options.fill);
     return out;
   }
+  const bool unwraps_temporally =
+      gray.empty() && !pixelwise_safe && is_absolute(out.coarsest, rig.projector);
   for (const FrameStack* stack : fringes) {
     run.check();
     wrap(*stack, options, run, out);
+    if (options.keep_maps || !unwraps_temporally) continue;
+    // Only the assessment needs them; the next pattern uses their memory.
+    out.wrapped.back().modulation_counts = {};
+    out.wrapped.back().mean_counts = {};
   }
   if (!gray.empty()) {
     out.phase = unwrap_finer_levels(
         decode_gray_code(gray, out.wrapped.front(), out.noise, options.temporal),
         std::span(out.wrapped).subspan(1),
         options.temporal);
-  } else if (!pixelwise_safe && is_absolute(out.coarsest, rig.projector)) {
-    out.phase = unwrap_temporally(out.wrapped, rig.projector, options.temporal);
+  } else if (unwraps_temporally) {
+    out.phase = options.keep_maps
+                    ? unwrap_temporally(out.wrapped, rig.projector, options.temporal)
+                    : unwrap_temporally(std::move(out.wrapped), rig.projector, options.temporal);
   } else if (patterns.size() > 1 && determine_absolute_phase(patterns, rig.projector)) {
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.temporal);
   } else {
@@ -231,6 +239,7 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
     out.phase = unwrap_finer_levels(std::move(resolved.phase), finer, options.temporal);
     out.unresolved = std::move(resolved.unresolved);
   }
+  if (!options.keep_maps) out.wrapped.clear();
   fill_enclosed(out.phase, options.fill);
   return out;
 }

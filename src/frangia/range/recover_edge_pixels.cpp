@@ -4,17 +4,42 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/four_neighbors.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/pixel_box.h"
 #include "frangia/range/internal/continues_surface.h"
 #include "frangia/range/internal/is_depth_step.h"
 
 namespace frangia {
 namespace {
+
+/// Pixels around a removed one that its recovery reads: at most five, see `continues_surface`.
+constexpr int kMargin = 8;
+
+/// Copies the part of an image in a box; the other pixels stay uninitialized.
+Image<float> copy_of(const Image<float>& image, const PixelBox& box) {
+  Image<float> copy(image.width(), image.height(), Uninitialized{});
+  for (int y = box.top; y < box.bottom; ++y)
+    std::copy_n(&image(box.left, y), box.width(), &copy(box.left, y));
+  return copy;
+}
+
+/// The box that holds pixels.
+PixelBox box_of(const std::vector<RangePixel>& pixels) {
+  PixelBox box{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), 0, 0};
+  for (const RangePixel& pixel : pixels) {
+    box.left = std::min(box.left, pixel.x);
+    box.top = std::min(box.top, pixel.y);
+    box.right = std::max(box.right, pixel.x + 1);
+    box.bottom = std::max(box.bottom, pixel.y + 1);
+  }
+  return box;
+}
 
 enum EdgePixelState : std::uint8_t { Removed, Recovered, BehindStep };
 using EdgePixelStates = std::vector<std::uint8_t>;
@@ -72,7 +97,8 @@ std::vector<RangePixel> recover_edge_pixels(const RangeGrid& reliable,
                                             const std::vector<RangePixel>& removed,
                                             const EdgePixelOptions& options) {
   require(same_size(reliable.depth_mm, rays), "recover_edge_pixels: range and rays differ in size");
-  RangeGrid grid{reliable.depth_mm, reliable.sigma_mm};
+  const PixelBox box = grow(box_of(removed), kMargin, rays.width(), rays.height());
+  RangeGrid grid{copy_of(reliable.depth_mm, box), copy_of(reliable.sigma_mm, box)};
   const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
   const ReliablePixels seen{grid, rays, slope};
   EdgePixelStates states(removed.size(), Removed);

@@ -10,8 +10,9 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/range/internal/is_connected.h"
 #include "frangia/range/internal/is_depth_step.h"
+#include "frangia/range/internal/pixel_connections.h"
+#include "frangia/range/measured_box.h"
 
 namespace frangia {
 namespace {
@@ -19,18 +20,15 @@ namespace {
 struct Grid {
   const RangeGrid& range;
   const Image<Eigen::Vector2f>& rays;
-  float max_slope;  ///< change of depth per lateral distance
-  [[nodiscard]] bool connected(int x, int y, int u, int v) const {
-    return is_connected(range, rays, {x, y}, {u, v}, max_slope);
-  }
+  PixelBox box;  ///< holds all measured pixels
 };
 
-bool at_depth_step(const Grid& grid, int x, int y) {
-  const auto& depth = grid.range.depth_mm;
-  for (int v = std::max(0, y - 1); v <= std::min(depth.height() - 1, y + 1); ++v) {
-    for (int u = std::max(0, x - 1); u <= std::min(depth.width() - 1, x + 1); ++u) {
-      if (!std::isnan(depth(u, v)) && !grid.connected(x, y, u, v)) return true;
-    }
+/// Whether a neighbour of a measured pixel is measured, but not connected to it.
+bool at_depth_step(const PixelConnections& connections, int x, int y) {
+  for (int i = 0; i < PixelConnections::SideCount; ++i) {
+    const auto side = static_cast<PixelConnections::Side>(i);
+    const auto [dx, dy] = PixelConnections::kOffsets[static_cast<std::size_t>(i)];
+    if (connections.broken(x, y, side) || connections.broken(x - dx, y - dy, side)) return true;
   }
   return false;
 }
@@ -72,27 +70,31 @@ struct Pixel {
 };
 
 /// Marks the pixels of connected patches with fewer than `min_px` pixels.
-void mark_small_patches(const Grid& grid, int min_px, Image<std::uint8_t>& remove) {
-  const auto& depth = grid.range.depth_mm;
+void mark_small_patches(const Grid& grid,
+                        const PixelConnections& connections,
+                        int min_px,
+                        Image<std::uint8_t>& remove) {
+  constexpr auto kRight = PixelConnections::Right;
+  constexpr auto kDown = PixelConnections::Down;
+  const PixelBox& box = grid.box;
   Image<std::uint8_t> seen = remove;
   std::vector<Pixel> patch;
-  for (int y = 0; y < depth.height(); ++y) {
-    for (int x = 0; x < depth.width(); ++x) {
-      if (seen(x, y) != 0 || std::isnan(depth(x, y))) continue;
+  for (int y = box.top; y < box.bottom; ++y) {
+    for (int x = box.left; x < box.right; ++x) {
+      if (seen(x, y) != 0 || std::isnan(grid.range.depth_mm(x, y))) continue;
       patch.assign(1, {x, y});
       seen(x, y) = 1;
       for (std::size_t head = 0; head < patch.size(); ++head) {
         const Pixel p = patch[head];
-        const auto visit = [&](int u, int v) {
-          if (u < 0 || v < 0 || u >= depth.width() || v >= depth.height()) return;
-          if (seen(u, v) != 0 || !grid.connected(p.x, p.y, u, v)) return;
+        const auto visit = [&](bool connected, int u, int v) {
+          if (!connected || seen(u, v) != 0) return;
           seen(u, v) = 1;
           patch.push_back({u, v});
         };
-        visit(p.x - 1, p.y);
-        visit(p.x + 1, p.y);
-        visit(p.x, p.y - 1);
-        visit(p.x, p.y + 1);
+        visit(connections.connected(p.x - 1, p.y, kRight), p.x - 1, p.y);
+        visit(connections.connected(p.x, p.y, kRight), p.x + 1, p.y);
+        visit(connections.connected(p.x, p.y - 1, kDown), p.x, p.y - 1);
+        visit(connections.connected(p.x, p.y, kDown), p.x, p.y + 1);
       }
       if (patch.size() >= static_cast<std::size_t>(min_px)) continue;
       for (const Pixel& p : patch)
@@ -106,21 +108,25 @@ void mark_low_steps(const Grid& grid,
                     const MixedPixelOptions& options,
                     Image<std::uint8_t>& remove) {
   enum Step : std::uint8_t { Across = 1, Down = 2 };
+  const PixelBox& box = grid.box;
   const int width = remove.width();
   const int height = remove.height();
   Image<std::uint8_t> steps(width, height, 0);
-  parallel_rows(height, [&](int y) {
+  parallel_rows(box.height(), [&](int row) {
+    const int y = box.top + row;
     const bool within = y > 0 && y + 1 < height;
-    for (int x = 0; x < width; ++x) {
+    for (int x = box.left; x < box.right; ++x) {
+      if (std::isnan(grid.range.depth_mm(x, y))) continue;  // its sigma is missing, too
       const bool across = x > 0 && x + 1 < width && is_low_step(grid, options, x, y, {1, 0});
       const bool down = within && is_low_step(grid, options, x, y, {0, 1});
       steps(x, y) = static_cast<std::uint8_t>((across ? Across : 0) | (down ? Down : 0));
     }
   });
-  parallel_rows(height, [&](int y) {
+  parallel_rows(box.height(), [&](int row) {
+    const int y = box.top + row;
     const int above = std::max(0, y - 1);
     const int below = std::min(height - 1, y + 1);
-    for (int x = 0; x < width; ++x) {
+    for (int x = box.left; x < box.right; ++x) {
       const int left = std::max(0, x - 1);
       const int right = std::min(width - 1, x + 1);
       const int across = steps(left, y) | steps(x, y) | steps(right, y);
@@ -139,21 +145,24 @@ std::vector<RangePixel> remove_mixed_pixels(RangeGrid& range,
   require(same_size(range.depth_mm, rays) && same_size(range.depth_mm, status),
           "remove_mixed_pixels: range, rays and status differ in size");
   const auto slope = static_cast<float>(std::tan(rad_from_deg(options.max_incidence_deg)));
-  const Grid grid{range, rays, slope};
+  const PixelBox box = measured_box(range.depth_mm);
+  const Grid grid{range, rays, box};
+  const PixelConnections connections = connect_pixels(range, rays, box, slope);
   Image<std::uint8_t> remove(rays.width(), rays.height(), 0);
-  parallel_rows(rays.height(), [&](int y) {
-    for (int x = 0; x < rays.width(); ++x) {
+  parallel_rows(box.height(), [&](int row) {
+    const int y = box.top + row;
+    for (int x = box.left; x < box.right; ++x) {
       if (std::isnan(range.depth_mm(x, y))) continue;
-      const bool mixed =
-          at_depth_step(grid, x, y) || at_silhouette(status, options.min_dark_neighbors, x, y);
+      const bool mixed = at_depth_step(connections, x, y) ||
+                         at_silhouette(status, options.min_dark_neighbors, x, y);
       remove(x, y) = mixed ? 1 : 0;
     }
   });
   mark_low_steps(grid, options, remove);
-  mark_small_patches(grid, options.min_patch_px, remove);
+  mark_small_patches(grid, connections, options.min_patch_px, remove);
   std::vector<RangePixel> removed;
-  for (int y = 0; y < remove.height(); ++y) {
-    for (int x = 0; x < remove.width(); ++x) {
+  for (int y = box.top; y < box.bottom; ++y) {
+    for (int x = box.left; x < box.right; ++x) {
       if (remove(x, y) == 0 || std::isnan(range.depth_mm(x, y))) continue;
       removed.push_back(range.pixel(x, y));
       range.remove(x, y);

@@ -1,5 +1,6 @@
 #include "frangia/range/triangulate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "frangia/core/error.h"
@@ -13,11 +14,13 @@ namespace frangia {
 RangeGrid triangulate(AbsolutePhase& phase, const Rig& rig, const Image<Eigen::Vector2f>& rays) {
   require(same_size(phase.phase_rad, rays), "triangulate: phase and rays differ in size");
   const int width = rays.width();
-  RangeGrid out{Image<float>(width, rays.height(), kMissing),
-                Image<float>(width, rays.height(), kMissing),
-                Image<float>(width, rays.height(), kMissing)};
+  RangeGrid out{Image<float>(width, rays.height(), Uninitialized{}),
+                Image<float>(width, rays.height(), Uninitialized{}),
+                Image<float>(width, rays.height(), Uninitialized{})};
   const PhaseRange lit = phase_range(phase.pattern, rig.projector);
   parallel_rows(rays.height(), [&](int y) {
+    for (Image<float>* image : {&out.depth_mm, &out.sigma_mm, &out.phase_rad})
+      std::fill_n(&(*image)(0, y), width, kMissing);
     for (int x = 0; x < width; ++x) {
       const float measured_rad = phase.phase_rad(x, y);
       const double phi = measured_rad;

@@ -55,7 +55,8 @@ std::size_t clip_views(ViewStore& views,
                        const CameraModel& camera,
                        const Clip& clip,
                        const Run& run) {
-  const auto rays = rays_of(camera);
+  const auto shared_rays = views.rays(camera);
+  const Image<Eigen::Vector2f>& rays = *shared_rays;
   Count all;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));

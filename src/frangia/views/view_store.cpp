@@ -8,11 +8,13 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <unistd.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/range/measured_box.h"
 
 namespace frangia {
 namespace {
@@ -63,22 +65,65 @@ class Cursor {
     }
   }
   void skip(std::size_t bytes) { offset_ += static_cast<std::int64_t>(bytes); }
-  [[nodiscard]] std::int64_t offset() const { return offset_; }
 
  private:
   int descriptor_;
   std::int64_t offset_;
 };
 
+bool are_equal(const CameraModel& a, const CameraModel& b) {
+  return a.width_px == b.width_px && a.height_px == b.height_px && a.focal_px == b.focal_px &&
+         a.principal_point_px == b.principal_point_px && a.distortion == b.distortion;
+}
+
+std::size_t pixels_in(const PixelBox& box) {
+  return static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
+}
+
+/// Writes the pixels of a box, row by row; `buffer` lends its memory.
+void write_box(const Image<float>& image,
+               const PixelBox& box,
+               std::vector<float>& buffer,
+               Cursor& cursor) {
+  if (image.empty() || box.empty()) return;
+  buffer.resize(pixels_in(box));
+  float* to = buffer.data();
+  for (int y = box.top; y < box.bottom; ++y)
+    to = std::copy_n(&image(box.left, y), box.width(), to);
+  cursor.write(std::as_bytes(std::span(buffer)));
+}
+
+/// Reads an image of which the file holds the pixels of a box.
+Image<float> read_box(
+    int width, int height, const PixelBox& box, std::vector<float>& buffer, Cursor& cursor) {
+  if (box.empty()) return {width, height, kMissing};
+  Image<float> image(width, height, Uninitialized{});
+  buffer.resize(pixels_in(box));
+  cursor.read(std::as_writable_bytes(std::span(buffer)));
+  float* to = image.pixels().data();
+  const float* from = buffer.data();
+  for (int y = 0; y < height; ++y) {
+    const bool within = y >= box.top && y < box.bottom;
+    to = std::fill_n(to, within ? box.left : width, kMissing);
+    if (!within) continue;
+    to = std::copy_n(from, box.width(), to);
+    from += box.width();
+    to = std::fill_n(to, width - box.right, kMissing);
+  }
+  return image;
+}
+
 }  // namespace
 
 ViewStore::ViewStore() : file_(open_unnamed()) {}
 ViewStore::ViewStore(ViewStore&& other) noexcept
     : entries_(std::move(other.entries_)),
+      rays_(std::move(other.rays_)),
       file_(std::exchange(other.file_, nullptr)),
       end_(other.end_) {}
 ViewStore& ViewStore::operator=(ViewStore&& other) noexcept {
   std::swap(entries_, other.entries_);
+  std::swap(rays_, other.rays_);
   std::swap(file_, other.file_);
   std::swap(end_, other.end_);
   return *this;
@@ -87,29 +132,36 @@ ViewStore::~ViewStore() {
   if (file_ != nullptr) static_cast<void>(std::fclose(file_));  // NOLINT(*-owning-memory)
 }
 
-std::int64_t ViewStore::write(const View& view, std::int64_t offset) {
+void ViewStore::write(const View& view, Entry& entry) {
   const RangeGrid& range = view.range;
   require(same_size(range.depth_mm, range.sigma_mm) &&
               (range.phase_rad.empty() || same_size(range.depth_mm, range.phase_rad)),
           "ViewStore: the images of the range grid differ in size");
-  Cursor cursor(file_, offset);
-  cursor.write(std::as_bytes(range.depth_mm.pixels()));
-  cursor.write(std::as_bytes(range.sigma_mm.pixels()));
-  cursor.write(std::as_bytes(range.phase_rad.pixels()));
+  entry.box = measured_box(range.depth_mm);
+  entry.edge_pixels = view.edge_pixels.size();
+  const std::size_t images = range.phase_rad.empty() ? 2 : 3;
+  const auto bytes = static_cast<std::int64_t>(images * sizeof(float) * pixels_in(entry.box) +
+                                               std::span(view.edge_pixels).size_bytes());
+  if (bytes > entry.reserved) {
+    entry.offset = end_;
+    entry.reserved = bytes;
+    end_ += bytes;
+  }
+  Cursor cursor(file_, entry.offset);
+  std::vector<float> buffer;
+  for (const Image<float>* image : {&range.depth_mm, &range.sigma_mm, &range.phase_rad})
+    write_box(*image, entry.box, buffer, cursor);
   cursor.write(std::as_bytes(std::span(view.edge_pixels)));
-  return cursor.offset();
 }
 
 void ViewStore::add(const View& view) {
   const Image<float>& depth = view.range.depth_mm;
-  const bool has_phase = !view.range.phase_rad.empty();
-  const Entry entry{view.rig_from_object,
-                    depth.width(),
-                    depth.height(),
-                    has_phase,
-                    view.edge_pixels.size(),
-                    end_};
-  end_ = write(view, end_);
+  Entry entry;
+  entry.rig_from_object = view.rig_from_object;
+  entry.width = depth.width();
+  entry.height = depth.height();
+  entry.has_phase = !view.range.phase_rad.empty();
+  write(view, entry);
   entries_.push_back(entry);
 }
 
@@ -122,9 +174,8 @@ void ViewStore::replace(std::size_t index, const View& view) {
           "ViewStore::replace: the grid must have a phase image exactly when it had one before");
   require(view.edge_pixels.size() <= entry.edge_pixels,
           "ViewStore::replace: the view has more edge pixels than before");
-  write(view, entry.offset);
+  write(view, entry);
   entry.rig_from_object = view.rig_from_object;
-  entry.edge_pixels = view.edge_pixels.size();
 }
 
 void ViewStore::clear(std::size_t index) {
@@ -143,11 +194,19 @@ View ViewStore::load_points(std::size_t index) const {
   return read(index, false);
 }
 
+std::shared_ptr<const Image<Eigen::Vector2f>> ViewStore::rays(const CameraModel& camera) const {
+  if (rays_.of_pixels == nullptr || !are_equal(rays_.camera, camera)) {
+    rays_ = {camera, nullptr};  // frees the memory of the other camera's rays first
+    rays_.of_pixels = std::make_shared<const Image<Eigen::Vector2f>>(rays_of(camera));
+  }
+  return rays_.of_pixels;
+}
+
 Image<float> ViewStore::load_depth_mm(std::size_t index) const {
   const Entry& entry = entries_.at(index);
-  Image<float> depth(entry.width, entry.height, Uninitialized{});
-  Cursor(file_, entry.offset).read(std::as_writable_bytes(depth.pixels()));
-  return depth;
+  Cursor cursor(file_, entry.offset);
+  std::vector<float> buffer;
+  return read_box(entry.width, entry.height, entry.box, buffer, cursor);
 }
 
 View ViewStore::read(std::size_t index, bool with_phase) const {
@@ -155,16 +214,17 @@ View ViewStore::read(std::size_t index, bool with_phase) const {
   View view;
   view.rig_from_object = entry.rig_from_object;
   view.edge_pixels.resize(entry.edge_pixels);
-  view.range.depth_mm = Image<float>(entry.width, entry.height, Uninitialized{});
-  view.range.sigma_mm = Image<float>(entry.width, entry.height, Uninitialized{});
   Cursor cursor(file_, entry.offset);
-  cursor.read(std::as_writable_bytes(view.range.depth_mm.pixels()));
-  cursor.read(std::as_writable_bytes(view.range.sigma_mm.pixels()));
+  std::vector<float> buffer;
+  const auto next_image = [&] {
+    return read_box(entry.width, entry.height, entry.box, buffer, cursor);
+  };
+  view.range.depth_mm = next_image();
+  view.range.sigma_mm = next_image();
   if (entry.has_phase && with_phase) {
-    view.range.phase_rad = Image<float>(entry.width, entry.height, Uninitialized{});
-    cursor.read(std::as_writable_bytes(view.range.phase_rad.pixels()));
+    view.range.phase_rad = next_image();
   } else if (entry.has_phase) {
-    cursor.skip(view.range.depth_mm.pixels().size_bytes());
+    cursor.skip(sizeof(float) * pixels_in(entry.box));
   }
   cursor.read(std::as_writable_bytes(std::span(view.edge_pixels)));
   return view;

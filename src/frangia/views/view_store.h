@@ -3,14 +3,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/core/pixel_box.h"
+#include "frangia/rig/camera_model.h"
 #include "frangia/views/view.h"
 
 namespace frangia {
 
-/// Stores views in an unnamed temporary file, so that memory holds one view at a time.
+/// Stores views in an unnamed temporary file, so that memory holds one view at a time. The file
+/// holds of each grid the smallest box with all pixels that have a depth.
 ///
+/// @missing  a pixel without a depth is loaded as NaN in all images of the grid
 /// @errors   Error(File) when the temporary folder cannot hold the views
 class ViewStore {
  public:
@@ -37,6 +45,10 @@ class ViewStore {
   [[nodiscard]] View load_points(std::size_t index) const;
   /// Loads the depth image alone.
   [[nodiscard]] Image<float> load_depth_mm(std::size_t index) const;
+  /// Returns `rays_of(camera)`. The store keeps them, because several stages need them and their
+  /// computation takes as long as that of all points of a view. Not to be called by several threads
+  /// at once.
+  [[nodiscard]] std::shared_ptr<const Image<Eigen::Vector2f>> rays(const CameraModel& camera) const;
   /// The pose of a view, without reading its grid.
   [[nodiscard]] const Eigen::Isometry3d& rig_from_object(std::size_t index) const {
     return entries_[index].rig_from_object;
@@ -54,12 +66,20 @@ class ViewStore {
     bool has_phase = false;
     std::size_t edge_pixels = 0;  ///< pixels
     std::int64_t offset = 0;
+    std::int64_t reserved = 0;  ///< bytes of the file from `offset` on
+    PixelBox box;               ///< of the grid; the file holds its pixels only
   };
   [[nodiscard]] View read(std::size_t index, bool with_phase) const;
-  /// Returns the end of the view in the file.
-  std::int64_t write(const View& view, std::int64_t offset);
+  /// Writes a view to the place of its entry, or to the end of the file if the place is too small.
+  void write(const View& view, Entry& entry);
+
+  struct Rays {
+    CameraModel camera;
+    std::shared_ptr<const Image<Eigen::Vector2f>> of_pixels;
+  };
 
   std::vector<Entry> entries_;
+  mutable Rays rays_;  ///< of the camera that `rays` was last called with
   std::FILE* file_ = nullptr;
   std::int64_t end_ = 0;
 };

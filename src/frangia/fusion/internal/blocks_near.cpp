@@ -82,9 +82,12 @@ void add_segment(KeySet& keys, const Eigen::Array3f& from, const Eigen::Array3f&
 
 /// Pixel step at which the margins of neighbouring points still cover every cell between them.
 int pixel_stride(const LocalPlanes& view, const CameraRays& camera, const TruncationBand& band) {
+  const PixelBox box = view.box.within(view.inverse_depth.width(), view.inverse_depth.height());
   float nearest = 0.0F;
-  for (const float q : view.inverse_depth.pixels())
-    nearest = std::max(nearest, q);  // ignores NaN
+  for (int y = box.top; y < box.bottom; ++y) {
+    for (int x = box.left; x < box.right; ++x)
+      nearest = std::max(nearest, view.inverse_depth(x, y));  // ignores NaN
+  }
   const double voxel_px =
       band.voxel_mm * static_cast<double>(nearest) * camera.model.focal_px.minCoeff();
   return std::clamp(static_cast<int>(std::lround(kStep * voxel_px)), 1, 8);
@@ -103,13 +106,16 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
   const int stride = pixel_stride(view, camera, band);
 
   constexpr std::size_t kRows = 16;
-  const std::size_t rows = static_cast<std::size_t>((view.quads.height() + stride - 1) / stride);
+  const PixelBox box = view.box.within(view.quads.width(), view.quads.height());
+  const int left = (box.left + stride - 1) / stride * stride;
+  const int top = (box.top + stride - 1) / stride * stride;
+  const auto rows = static_cast<std::size_t>(std::max(0, (box.bottom - top + stride - 1) / stride));
   std::vector<std::vector<std::uint64_t>> parts((rows + kRows - 1) / kRows);
   parallel_chunks(rows, kRows, [&](std::size_t begin, std::size_t end) {
     KeySet keys;
-    for (int y = static_cast<int>(begin) * stride; y < static_cast<int>(end) * stride;
-         y += stride) {
-      for (int x = 0; x < view.quads.width(); x += stride) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const int y = top + static_cast<int>(row) * stride;
+      for (int x = left; x < box.right; x += stride) {
         const LocalPlanes::Quad& quad = view.quads(x, y);
         if (quad.kind <= LocalPlanes::Kind::Extrapolated) continue;
         const float depth = 1.0F / view.inverse_depth(x, y);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frangia/core/median.h"
+#include "frangia/views/load_each_view.h"
 
 namespace frangia {
 Sampling measure_sampling(const ViewStore& views, const CameraRays& camera, const Run& run) {
@@ -11,9 +12,9 @@ Sampling measure_sampling(const ViewStore& views, const CameraRays& camera, cons
   std::vector<float> gaps;
   std::vector<float> sigmas;
   Sampling sampling;
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  load_each_view(views, [&](std::size_t /*index*/, const View& view) {
     run.check();
-    const RangeGrid range = views.load_points(i).range;
+    const RangeGrid& range = view.range;
     require(same_size(range.depth_mm, camera.rays),
             "the size of a view differs from that of the rig's camera");
     const auto point = [&](int x, int y) -> Eigen::Vector3f {
@@ -27,7 +28,7 @@ Sampling measure_sampling(const ViewStore& views, const CameraRays& camera, cons
         if (range.depth_mm(x + 1, y) > 0.0F) gaps.push_back((point(x + 1, y) - point(x, y)).norm());
       }
     }
-  }
+  });
   sampling.points *= kRows;
   sampling.spacing_mm = median_in_place(std::span(gaps));
   sampling.sigma_mm = median_in_place(std::span(sigmas));

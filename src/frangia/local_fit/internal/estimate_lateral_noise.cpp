@@ -40,12 +40,16 @@ std::vector<Slope> slopes_of_row(const Image<float>& image, const Image<float>& 
   return slopes;
 }
 
-std::vector<Slope> slopes_of(const Image<float>& image, const Image<float>& noise) {
-  const int every = std::max(kEvery, image.height() / kMaxRows);
-  const int rows = std::max(0, image.height() - 2 * kRadius + every - 1) / every;
+std::vector<Slope> slopes_of(const Image<float>& image,
+                             const Image<float>& noise,
+                             const ImageStrip& strip) {
+  const int every = std::max(kEvery, strip.full_height / kMaxRows);
+  const int rows = std::max(0, strip.full_height - 2 * kRadius + every - 1) / every;
   std::vector<std::vector<Slope>> parts(static_cast<std::size_t>(rows));
   parallel_rows(rows, [&](int row) {
-    parts[static_cast<std::size_t>(row)] = slopes_of_row(image, noise, kRadius + row * every);
+    const int y = kRadius + row * every - strip.top;
+    if (y < 0 || y >= image.height()) return;
+    parts[static_cast<std::size_t>(row)] = slopes_of_row(image, noise, y);
   });
   std::vector<Slope> slopes;
   for (const auto& part : parts)
@@ -55,8 +59,11 @@ std::vector<Slope> slopes_of(const Image<float>& image, const Image<float>& nois
 
 }  // namespace
 
-float estimate_lateral_noise(const Image<float>& image, const Image<float>& noise) {
-  std::vector<Slope> slopes = slopes_of(image, noise);
+float estimate_lateral_noise(const Image<float>& image,
+                             const Image<float>& noise,
+                             const std::optional<ImageStrip>& strip) {
+  std::vector<Slope> slopes =
+      slopes_of(image, noise, strip.value_or(ImageStrip{0, image.height()}));
   if (slopes.size() < kMinWindows) return 0.0F;
   const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(
                                           (1.0F - kSteepest) * static_cast<float>(slopes.size()));

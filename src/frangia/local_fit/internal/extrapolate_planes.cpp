@@ -12,13 +12,15 @@ namespace {
 
 /// Pixels without a plane that have a four-neighbour with one, row by row.
 std::vector<Eigen::Vector2i> boundary_of(const LocalPlanes& view) {
-  std::vector<std::vector<Eigen::Vector2i>> rows(static_cast<std::size_t>(view.planes.height()));
-  parallel_rows(view.planes.height(), [&](int y) {
-    for (int x = 0; x < view.planes.width(); ++x) {
+  const PixelBox box = view.box.within(view.planes.width(), view.planes.height());
+  std::vector<std::vector<Eigen::Vector2i>> rows(static_cast<std::size_t>(box.height()));
+  parallel_rows(box.height(), [&](int row) {
+    const int y = box.top + row;
+    for (int x = box.left; x < box.right; ++x) {
       if (view.has_plane(x, y)) continue;
       const bool beside = view.has_plane(x - 1, y) || view.has_plane(x + 1, y) ||
                           view.has_plane(x, y - 1) || view.has_plane(x, y + 1);
-      if (beside) rows[static_cast<std::size_t>(y)].emplace_back(x, y);
+      if (beside) rows[static_cast<std::size_t>(row)].emplace_back(x, y);
     }
   });
   std::vector<Eigen::Vector2i> boundary;
@@ -57,8 +59,10 @@ void extrapolate(LocalPlanes& view, int extrapolate_px) {
 
 /// Marks unseen quads that have a plane at a corner.
 void mark_extrapolated(LocalPlanes& view) {
-  parallel_rows(view.quads.height(), [&](int y) {
-    for (int x = 0; x < view.quads.width(); ++x) {
+  const PixelBox box = view.box.within(view.quads.width(), view.quads.height());
+  parallel_rows(box.height(), [&](int row) {
+    const int y = box.top + row;
+    for (int x = box.left; x < box.right; ++x) {
       if (view.quads(x, y).kind != LocalPlanes::Kind::Unseen) continue;
       const bool beside = view.has_plane(x, y) || view.has_plane(x + 1, y) ||
                           view.has_plane(x, y + 1) || view.has_plane(x + 1, y + 1);

@@ -44,22 +44,39 @@ FRANGIA_VECTORIZED void link_row(const GridRow& from,
   }
 }
 
+/// A row of depths and their standard deviations.
+struct DepthRow {
+  const float* depth_mm;
+  const float* sigma_mm;
+};
+
+/// Computes the inverse depths of a row and their noise.
+FRANGIA_VECTORIZED void invert_row(const DepthRow& row, int count, float* q, float* noise) {
+  const auto [depths_mm, sigmas_mm] = row;
+#pragma GCC ivdep
+  for (int x = 0; x < count; ++x) {
+    const float depth = depths_mm[x];
+    const float sigma = std::max(sigmas_mm[x], kSmallestSigma * depth);
+    const bool seen = depth > 0.0F && sigma >= 0.0F;
+    q[x] = seen ? 1.0F / depth : kMissing;
+    noise[x] = sigma / (depth * depth);
+  }
+}
+
 }  // namespace
 
-LinkedPixels link_pixels(const RangeGrid& range, const CameraModel& camera) {
-  const int width = range.depth_mm.width();
-  const int height = range.depth_mm.height();
+LinkedPixels link_pixels(const RangeGrid& range, const CameraModel& camera, const PixelBox& box) {
+  const PixelBox part = box.within(range.depth_mm.width(), range.depth_mm.height());
+  const int width = part.width();
+  const int height = part.height();
   LinkedPixels grid{Image<float>(width, height, Uninitialized{}),
                     Image<float>(width, height, Uninitialized{}),
                     Image<std::uint8_t>(width, height)};
   parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float depth = range.depth_mm(x, y);
-      const float sigma = std::max(range.sigma_mm(x, y), kSmallestSigma * depth);
-      const bool seen = depth > 0.0F && sigma >= 0.0F;
-      grid.q(x, y) = seen ? 1.0F / depth : kMissing;
-      grid.noise(x, y) = sigma / (depth * depth);
-    }
+    invert_row({&range.depth_mm(part.left, part.top + y), &range.sigma_mm(part.left, part.top + y)},
+               width,
+               &grid.q(0, y),
+               &grid.noise(0, y));
   });
   const auto steepest = static_cast<float>(kSteepest / camera.focal_px.mean());
   parallel_rows(height, [&](int y) {

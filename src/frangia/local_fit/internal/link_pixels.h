@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "frangia/core/image.h"
+#include "frangia/core/pixel_box.h"
 #include "frangia/range/range_grid.h"
 #include "frangia/rig/camera_model.h"
 
@@ -22,8 +23,12 @@ struct LinkedPixels {
   [[nodiscard]] bool has(int x, int y, Link link) const { return (links(x, y) & link) != 0; }
 };
 
-/// Links neighbouring pixels unless the line that joins their points is within 8 degrees of the
-/// viewing ray by more than 4 sigmas of their noise.
-[[nodiscard]] LinkedPixels link_pixels(const RangeGrid& range, const CameraModel& camera);
+/// Links neighbouring pixels in a box unless the line that joins their points is within 8 degrees
+/// of the viewing ray by more than 4 sigmas of their noise.
+///
+/// @shape    that of the part of `box` inside of the grid; (0, 0) is its upper left pixel
+[[nodiscard]] LinkedPixels link_pixels(const RangeGrid& range,
+                                       const CameraModel& camera,
+                                       const PixelBox& box = {});
 
 }  // namespace frangia

@@ -83,8 +83,9 @@ FRANGIA_VECTORIZED_WIDE void fit_planes(const PlaneRowData& rows,
 
 }  // namespace
 
-PlaneRow::PlaneRow(int width, const LocalPlanesOptions& options)
+PlaneRow::PlaneRow(int left, int width, const LocalPlanesOptions& options)
     : options_(options),
+      left_(left),
       width_(width),
       kind_(static_cast<std::size_t>(width)),
       wide_(kind_.size()),
@@ -171,6 +172,7 @@ void PlaneRow::choose(const LinkedPixels& grid,
   for (std::size_t i = begin_; i < end_; ++i) {
     const auto x = static_cast<int>(i);
     if (good[i] != 0 || wide_[i] != 0 || std::isnan(measured_[i])) continue;
+    if (!is_corner_of_needed_quad(left_ + x, options_.every)) continue;
     const ChosenWindow chosen =
         choose_window(grid.q, windows, {x, y}, {noise[x], lateral_noise_px}, options_.windows);
     kind_[i] = chosen.kind;

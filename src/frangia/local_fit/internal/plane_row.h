@@ -12,12 +12,17 @@
 
 namespace frangia {
 
+/// Whether the pixels in a row or column are corners of the quads at multiples of `every`.
+[[nodiscard]] constexpr bool is_corner_of_needed_quad(int position, int every) {
+  return position % every <= 1;
+}
+
 /// Computes the local planes of a row of pixels. Each quantity is stored in a row of its own, so
 /// that loops vectorize.
 class PlaneRow {
  public:
-  /// The options must outlive the row.
-  PlaneRow(int width, const LocalPlanesOptions& options);
+  /// A row of `width` pixels from column `left` of the image on. The options must outlive the row.
+  PlaneRow(int left, int width, const LocalPlanesOptions& options);
 
   /// Chooses the window of each pixel of row `y`: the centered one where it is flat to within the
   /// noise, which is nearly everywhere, else the result of `choose_window`. Where the residuals of
@@ -39,6 +44,7 @@ class PlaneRow {
   void widen(const LinkedPixels& grid, const WindowRows& wider, int y, float lateral_noise_px);
 
   const LocalPlanesOptions& options_;
+  int left_;
   int width_;
   std::size_t begin_ = 0;  ///< measured pixels lie in [begin_, end_)
   std::size_t end_ = 0;

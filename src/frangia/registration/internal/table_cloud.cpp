@@ -5,20 +5,23 @@
 
 #include "frangia/core/median.h"
 #include "frangia/local_fit/surfel_map.h"
+#include "frangia/views/load_each_view.h"
 
 namespace frangia {
 
 TableCloud gather_table_cloud(const ViewStore& views, const CameraModel& camera, const Run& run) {
   constexpr std::size_t kSurfels = 20000;
   constexpr std::size_t kMapPixels = 16 * kSurfels;  // denser than the surfels that are picked
-  const CameraRays rays(camera);
+  const CameraRays rays(views, camera);
+  const LocalPlanesOptions options{
+      .every = surfel_stride(camera.width_px, camera.height_px, kMapPixels)};
   TableCloud cloud;
   std::vector<float> sigmas_mm;
   std::vector<float> distances_mm;
   LocalPlanes planes;
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  load_each_view(views, [&](std::size_t i, const View& view) {
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));
-    planes = local_planes(views.load_points(i), rays, {}, std::move(planes));
+    planes = local_planes(view, rays, options, std::move(planes));
     const Eigen::Isometry3d object_from_rig = views.rig_from_object(i).inverse();
     for (const auto& surfel : pick_surfels(make_surfel_map(planes, rays, kMapPixels), kSurfels)) {
       cloud.points.emplace_back(object_from_rig * surfel.point_mm.cast<double>());
@@ -26,7 +29,7 @@ TableCloud gather_table_cloud(const ViewStore& views, const CameraModel& camera,
       sigmas_mm.push_back(surfel.sigma_mm);
       distances_mm.push_back(surfel.point_mm.norm());
     }
-  }
+  });
   cloud.sigma_mm = static_cast<double>(median(std::move(sigmas_mm)));
   cloud.working_distance_mm = static_cast<double>(median(std::move(distances_mm)));
   return cloud;
