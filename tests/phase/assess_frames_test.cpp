@@ -18,23 +18,25 @@ using testing::render_frames;
 using testing::Scene;
 using testing::tilted_plane;
 
-const NoiseModel kNoise{.floor_counts2 = 200.0 * 200.0};
+const NoiseModel kAssessedNoise{.floor_counts2 = 200.0 * 200.0};
 
-struct Fringes {
+struct AssessedFringes {
   FrameStack stack;
   FittedAlgorithm fitted;
   WrappedPhase map;
 
-  explicit Fringes(int frames, int height = 100) {
+  explicit AssessedFringes(int frames, int height = 100) {
     Pattern pattern{.name = "fringe", .period_px = 20.0};
     pattern.shifts_rad = equal_shifts(frames, kTwoPi / frames);
     stack = render_frames({.height = height, .modulation_counts = 9000.0, .noise_counts = 200.0},
                           pattern,
                           tilted_plane);
-    fitted = fit_algorithm("auto", stack, kNoise);
-    map = wrap_phase(stack, fitted.algorithm, kNoise);
+    fitted = fit_algorithm("auto", stack, kAssessedNoise);
+    map = wrap_phase(stack, fitted.algorithm, kAssessedNoise);
   }
-  [[nodiscard]] FrameAssessment assess() const { return assess_frames(stack, fitted, map, kNoise); }
+  [[nodiscard]] FrameAssessment assess() const {
+    return assess_frames(stack, fitted, map, kAssessedNoise);
+  }
   /// Shortest time of three assessments, in seconds.
   [[nodiscard]] double seconds() const {
     double shortest_s = std::numeric_limits<double>::infinity();
@@ -50,11 +52,11 @@ struct Fringes {
 
 TEST(AssessFrames, FindsTheResidualOfNoiseToBeOne) {
   for (const int frames : {4, 5, 9, 64})
-    EXPECT_NEAR(Fringes(frames).assess().residual_ratio, 1.0, 0.03) << frames;
+    EXPECT_NEAR(AssessedFringes(frames).assess().residual_ratio, 1.0, 0.03) << frames;
 }
 
 TEST(AssessFrames, TheResidualOfFourQuarterStepsIsTheirAlternatingSum) {
-  const Fringes fringes(4, 20);
+  const AssessedFringes fringes(4, 20);
   double sum = 0.0;
   const auto counts = [&](std::size_t frame, std::size_t pixel) {
     return std::visit([&](const auto& image) { return static_cast<double>(image.pixels()[pixel]); },
@@ -63,14 +65,14 @@ TEST(AssessFrames, TheResidualOfFourQuarterStepsIsTheirAlternatingSum) {
   const std::size_t pixels = fringes.map.status.pixels().size();
   for (std::size_t i = 0; i < pixels; ++i) {
     const double residual = counts(0, i) - counts(1, i) + counts(2, i) - counts(3, i);
-    sum += std::min(0.25 * residual * residual / kNoise.floor_counts2, 25.0);
+    sum += std::min(0.25 * residual * residual / kAssessedNoise.floor_counts2, 25.0);
   }
   EXPECT_NEAR(fringes.assess().residual_ratio, sum / static_cast<double>(pixels), 1e-6);
 }
 
 TEST(AssessFrames, TakesTimeLinearInTheFrames) {
   // 8 times the frames; 64 times the time, as before, would be their square.
-  EXPECT_LT(Fringes(256).seconds(), 24.0 * Fringes(32).seconds());
+  EXPECT_LT(AssessedFringes(256).seconds(), 24.0 * AssessedFringes(32).seconds());
 }
 
 }  // namespace
