@@ -114,7 +114,7 @@ void run_case(DemoCase& demo_case, const std::filesystem::path& folder, const Ru
   run.stage("simulate");
   const Scan plan = plan_of(demo_case, folder);
   std::filesystem::remove_all(plan.folder);  // from an earlier demo; see claim_folder
-  const Mesh truth = make_part(demo_case.part);
+  const Mesh truth = make_part(demo_case.part, run);
   const Scan scan = simulate_scan(truth, plan, {.samples_per_px = 4}, run);
   demo_case.result = reconstruct(scan, {}, run);
   run.stage("files");

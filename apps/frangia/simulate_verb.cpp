@@ -200,11 +200,11 @@ void add_turntable_faults(CLI::App& verb, SimulateArguments& arguments) {
       ->transform(length_zero_or_more());
 }
 
-Mesh part_of(const std::string& name) {
+Mesh part_of(const std::string& name, const Run& run) {
   for (const std::string& known : part_names()) {
-    if (known == name) return make_part(name);
+    if (known == name) return make_part(name, run);
   }
-  if (std::filesystem::path(name).has_extension()) return read_mesh(name);
+  if (std::filesystem::path(name).has_extension()) return read_mesh(name, run);
   throw Error(ErrorKind::Input,
               fmt::format("there is no part \"{}\"; choose one of {}, or a .stl, .ply or .obj file",
                           name,
@@ -250,7 +250,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
                 "`periods`");
   }
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
-  const Mesh part = part_of(arguments.part);
+  const Mesh part = part_of(arguments.part, run);
   add_setups(plan, part, arguments);
   run.stage("render");
   const Scan scan = simulate_scan(part, plan, options, run);

@@ -31,6 +31,14 @@ TEST(MakeSurfelMaps, MakesTheMapOfEachView) {
   }
 }
 
+TEST(SurfelBudget, BoundsTheSurfelsOfAllViews) {
+  EXPECT_EQ(surfel_budget(250000, 1), 250000U);
+  EXPECT_EQ(surfel_budget(250000, 24), 250000U);
+  for (const std::size_t views : {48U, 96U, 360U})
+    EXPECT_LE(views * surfel_budget(250000, views), 24U * 250000U) << views;
+  EXPECT_EQ(surfel_budget(40000, 96), 40000U);
+}
+
 TEST(MakeSurfelMaps, RefusesACameraOfAnotherSize) {
   const ViewStore views = testing::snapshots(testing::sphere(40.0),
                                              testing::small_camera_model(120, 600.0),

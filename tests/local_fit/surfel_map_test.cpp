@@ -47,6 +47,24 @@ TEST(SurfelMap, HoldsNoMoreSurfelsThanRequested) {
   EXPECT_LE(sphere.map.surfels.pixels().size(), 1000U);
 }
 
+TEST(SurfelMap, CoversOnlyThePartOfTheViewThatHasSurfels) {
+  const CameraRays camera(testing::small_camera_model(200, 1000.0));
+  const View view = testing::snapshot(
+      testing::sphere(10.0, {20.0, 0.0, 15.0}), camera.model, testing::look_from(0.0, 0.0, 650.0));
+  const SurfelMap map = make_surfel_map(local_planes(view, camera), camera, 10000);
+  EXPECT_LT(map.surfels.width(), 20);  // a ball of 31 px, at every second pixel
+  EXPECT_LT(map.surfels.height(), 20);
+  for (int y = 0; y < map.surfels.height(); ++y) {
+    for (int x = 0; x < map.surfels.width(); ++x) {
+      if (!(map.surfels(x, y).sigma_mm > 0.0F)) continue;
+      const Eigen::Vector2d pixel = camera.model.project(map.surfels(x, y).point_mm.cast<double>());
+      EXPECT_NEAR(pixel.x(), (map.first_column + x) * map.stride, 1e-3);
+      EXPECT_NEAR(pixel.y(), (map.first_row + y) * map.stride, 1e-3);
+    }
+  }
+  EXPECT_GT(pick_surfels(map, 1000000).size(), 50U);
+}
+
 TEST(PickSurfels, SpreadsThemEvenly) {
   const SphereMap sphere(10000);
   const auto picked = pick_surfels(sphere.map, 100);

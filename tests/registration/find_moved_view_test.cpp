@@ -53,7 +53,8 @@ Bundle bundle_of(const std::vector<std::size_t>& pushed_views, const Eigen::Vect
                 0.1,
                 0.002,
                 0,
-                {}};
+                {},
+                all_view_pairs(kViews)};
   bundle.state.table.point_mm += Eigen::Vector3d(0.3, 0.1, 0.0);
   return bundle;
 }

@@ -23,10 +23,11 @@ using testing::small_camera_model;
 /// Views of a part, all but the first displaced by a millimetre and half a degree.
 struct DisplacedViews {
   CameraModel camera = small_camera_model(200, 1000.0);
-  std::vector<Eigen::Isometry3d> truth = around_table(5, 0.4, 650.0);
-  ViewStore views = testing::snapshots(lumpy, camera, truth);
+  std::vector<Eigen::Isometry3d> truth;
+  ViewStore views;
 
-  DisplacedViews() {
+  explicit DisplacedViews(int count = 5)
+      : truth(around_table(count, 0.4, 650.0)), views(testing::snapshots(lumpy, camera, truth)) {
     for (std::size_t i = 1; i < truth.size(); ++i) {
       const Eigen::Vector3d way(
           std::cos(2.0 * static_cast<double>(i)), std::sin(2.0 * static_cast<double>(i)), 0.3);
@@ -55,6 +56,14 @@ TEST(RegisterPoses, FindsDisplacedPoses) {
   EXPECT_LT(displaced.farthest_mm(), 0.02);
   EXPECT_GT(report.rms_before_mm, 0.2);
   EXPECT_LT(report.rms_after_mm, 0.035);  // of two points with 0.02 mm each
+  EXPECT_GT(report.overlap, 0.5);
+}
+
+TEST(RegisterPoses, FindsDisplacedPosesOfManyViews) {
+  DisplacedViews displaced(30);  // more than are compared with each other
+  const PosesReport report = displaced.refine();
+  EXPECT_LT(displaced.farthest_mm(), 0.03);
+  EXPECT_LT(report.rms_after_mm, 0.035);
   EXPECT_GT(report.overlap, 0.5);
 }
 

@@ -44,6 +44,35 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   EXPECT_GT(std::abs(report.closure_before_rad), 3.0 * std::abs(report.closure_after_rad));
 }
 
+TEST(RegisterViews, FindsTheAxisAndTheAnglesOfManyViews) {
+  constexpr int kViews = 40;  // more than are compared with each other
+  const CameraModel camera = small_camera_model(120, 600.0);
+  const Table table(kViews);
+  ViewStore views = table.take(knobbly, camera);
+  const auto report = register_views(views, camera, {table.given, table.stations()});
+  EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
+  EXPECT_LT(shift_mm(report.table, table.truth), 0.01);
+  for (std::size_t i = 0; i < report.angles_rad.size(); ++i)
+    EXPECT_NEAR(report.angles_rad[i], table.true_angles_rad[i], rad_from_deg(0.03)) << i;
+  EXPECT_LT(std::abs(report.closure_after_rad), rad_from_deg(0.02));
+  EXPECT_TRUE(report.outliers.empty());
+  EXPECT_TRUE(report.trustworthy);
+}
+
+TEST(RegisterViews, LeavesOutAMovedViewOfMany) {
+  constexpr int kViews = 30;
+  const CameraModel camera = small_camera_model(120, 600.0);
+  const Table table(kViews);
+  ViewStore views = table.take(knobbly, camera);
+  View moved = views.load(17);
+  for (float& depth : moved.range.depth_mm.pixels())
+    depth -= 2.0F;
+  views.replace(17, moved);
+  const auto report = register_views(views, camera, {table.given, table.stations()});
+  EXPECT_EQ(report.outliers, std::vector<std::size_t>{17});
+  EXPECT_LT(shift_mm(report.table, table.truth), 0.02);
+}
+
 TEST(RegisterViews, KeepsAGivenRigThatFitsAsWell) {
   Table table(6, 0.0);
   table.given = table.truth;

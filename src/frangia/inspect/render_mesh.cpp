@@ -150,6 +150,7 @@ Image<Rgb> render_mesh(const Mesh& mesh, const RenderOptions& options, const Run
 
   const auto paint_row = [&](int y) {
     for (int x = 0; x < options.width_px; ++x) {
+      if (run.stop.stop_requested()) return;
       Vector3d sum = Vector3d::Zero();
       for (int sample = 0; sample < across * across; ++sample) {
         const int row = sample / across;
@@ -163,7 +164,7 @@ Image<Rgb> render_mesh(const Mesh& mesh, const RenderOptions& options, const Run
       picture(x, y) = screen_color(sum / (across * across));
     }
   };
-  constexpr int kBand = 32;  // rows between checks for cancellation
+  constexpr int kBand = 32;  // rows between two reports of progress
   for (int done = 0; done < options.height_px; done += kBand) {
     const int size = std::min(kBand, options.height_px - done);
     parallel_rows(size, [&](int row) { paint_row(done + row); });

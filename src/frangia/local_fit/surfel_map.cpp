@@ -2,10 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
 
 namespace frangia {
+namespace {
+
+bool is_seen(const SurfelMap::Surfel& surfel) {
+  return surfel.sigma_mm > 0.0F;
+}
+
+/// Reduces a map to the smallest rectangle that holds its surfels: a part seldom fills the view.
+void crop(SurfelMap& map) {
+  Eigen::AlignedBox2i box;
+  for (int y = 0; y < map.surfels.height(); ++y) {
+    for (int x = 0; x < map.surfels.width(); ++x)
+      if (is_seen(map.surfels(x, y))) box.extend(Eigen::Vector2i(x, y));
+  }
+  if (box.isEmpty()) {
+    map.surfels = {};
+    return;
+  }
+  const Eigen::Vector2i size = box.sizes() + Eigen::Vector2i::Ones();
+  Image<SurfelMap::Surfel> cropped(size.x(), size.y());
+  for (int y = 0; y < size.y(); ++y)
+    std::copy_n(&map.surfels(box.min().x(), box.min().y() + y), size.x(), &cropped(0, y));
+  map.first_column = box.min().x();
+  map.first_row = box.min().y();
+  map.surfels = std::move(cropped);
+}
+
+}  // namespace
 
 int surfel_stride(int width, int height, std::size_t pixels) {
   const double all = static_cast<double>(width) * height;
@@ -31,18 +61,18 @@ SurfelMap make_surfel_map(const LocalPlanes& view, const CameraRays& camera, std
       map.surfels(column, row) = {point, plane.normal, cosine * cosine / std::sqrt(quad.weight)};
     }
   });
+  crop(map);
   return map;
 }
 
 std::vector<SurfelMap::Surfel> pick_surfels(const SurfelMap& map, std::size_t count) {
-  const auto seen = [](const SurfelMap::Surfel& surfel) { return surfel.sigma_mm > 0.0F; };
   const auto surfels = map.surfels.pixels();
-  const auto all = static_cast<std::size_t>(std::count_if(surfels.begin(), surfels.end(), seen));
+  const auto all = static_cast<std::size_t>(std::count_if(surfels.begin(), surfels.end(), is_seen));
   std::vector<SurfelMap::Surfel> picked;
   picked.reserve(std::min(all, count));
   std::size_t rank = 0;
   for (const SurfelMap::Surfel& surfel : surfels) {
-    if (!seen(surfel)) continue;
+    if (!is_seen(surfel)) continue;
     // Picks every (all / count)-th surfel; over many rows this is as even as a grid.
     if (all <= count || rank * count / all != (rank + 1) * count / all) picked.push_back(surfel);
     ++rank;

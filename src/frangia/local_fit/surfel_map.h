@@ -25,14 +25,18 @@ struct SurfelMap {
   };
 
   int stride = 1;         ///< distance of neighbouring surfels in pixels
-  Image<Surfel> surfels;  ///< surfel (x, y) is pixel (x stride, y stride)
+  int first_column = 0;   ///< of `surfels`, in strides from the left edge of the view
+  int first_row = 0;      ///< of `surfels`, in strides from the top edge of the view
+  Image<Surfel> surfels;  ///< surfel (x, y) is pixel ((first_column + x) stride,
+                          ///< (first_row + y) stride)
 };
 
 /// The smallest distance of neighbouring surfels, in pixels, with which a map of an image holds at
 /// most about `pixels` surfels.
 [[nodiscard]] int surfel_stride(int width, int height, std::size_t pixels);
 
-/// Builds a surfel map of at most about `pixels` surfels.
+/// Builds a surfel map of at most about `pixels` surfels. It covers the part of the view that has
+/// surfels.
 ///
 /// @units    mm, rig frame
 /// @shape    `view` needs the planes of every `surfel_stride`-th pixel, see `LocalPlanesOptions`

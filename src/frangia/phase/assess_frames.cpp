@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
@@ -13,20 +14,22 @@
 namespace frangia {
 namespace {
 
-/// Weights that give each frame's residual from the least-squares fringe of `shifts`; one row per
-/// frame.
-std::vector<std::vector<double>> residual_weights(const std::vector<double>& shifts) {
-  const PhaseAlgorithm fit = least_squares(shifts);
-  std::vector<std::vector<double>> rows;
-  for (std::size_t k = 0; k < shifts.size(); ++k) {
-    std::vector<double> row;
-    for (std::size_t j = 0; j < shifts.size(); ++j) {
-      row.push_back((j == k ? 1.0 : 0.0) - fit.mean[j] - std::cos(shifts[k]) * fit.cosine[j] +
-                    std::sin(shifts[k]) * fit.sine[j]);
-    }
-    rows.push_back(row);
+/// Sum of the squared residuals of a pixel from its least-squares fringe; linear in the frames.
+double squared_residual(const PhaseAlgorithm& fit,
+                        const std::vector<Eigen::Vector2d>& directions,
+                        const std::vector<double>& counts) {
+  double mean = 0.0;
+  Eigen::Vector2d wave = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    mean += fit.mean[k] * counts[k];
+    wave += Eigen::Vector2d(fit.cosine[k], fit.sine[k]) * counts[k];
   }
-  return rows;
+  double square = 0.0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const double residual = counts[k] - mean - directions[k].dot(wave);
+    square += residual * residual;
+  }
+  return square;
 }
 
 /// Mean over the measured pixels of the squared residual over its expectation; 1 for camera noise
@@ -37,7 +40,11 @@ double residual_ratio(const FrameStack& stack,
                       const NoiseModel& noise,
                       const AssessmentOptions& options) {
   if (shifts.size() < 4) return 0.0;
-  const auto rows = residual_weights(shifts);
+  const PhaseAlgorithm fit = least_squares(shifts);
+  std::vector<Eigen::Vector2d> directions;  // of the wave in the frames
+  for (const double shift : shifts)
+    directions.emplace_back(std::cos(shift), -std::sin(shift));
+  std::vector<double> counts(shifts.size());
   const auto freedom = static_cast<double>(shifts.size() - 3);
   const std::size_t pixels = map.status.pixels().size();
   const std::size_t stride = std::max<std::size_t>(1, pixels / options.samples);
@@ -45,18 +52,12 @@ double residual_ratio(const FrameStack& stack,
   double count = 0.0;
   for (std::size_t i = 0; i < pixels; i += stride) {
     if (map.status.pixels()[i] != PixelStatus::Measured) continue;
-    std::vector<double> counts;
-    for (const Frame& frame : stack.frames) {
-      counts.push_back(std::visit(
-          [&](const auto& image) { return static_cast<double>(image.pixels()[i]); }, frame));
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      counts[k] =
+          std::visit([&](const auto& image) { return static_cast<double>(image.pixels()[i]); },
+                     stack.frames[k]);
     }
-    double square = 0.0;
-    for (const auto& row : rows) {
-      double residual = 0.0;
-      for (std::size_t k = 0; k < counts.size(); ++k)
-        residual += row[k] * counts[k];
-      square += residual * residual;
-    }
+    const double square = squared_residual(fit, directions, counts);
     const double expected =
         freedom * noise.variance(static_cast<double>(map.mean_counts.pixels()[i]));
     ratio += std::min(square / expected, options.max_pixel_ratio);

@@ -42,7 +42,8 @@ struct AssessmentOptions {
   std::size_t samples = 100'000;
 };
 
-/// Assesses the frames of a pattern from its fitted algorithm and wrapped phase.
+/// Assesses the frames of a pattern from its fitted algorithm and wrapped phase. The number of
+/// operations is linear in pixels and frames.
 ///
 /// @shape    `stack` and `map` have the same size
 [[nodiscard]] FrameAssessment assess_frames(const FrameStack& stack,

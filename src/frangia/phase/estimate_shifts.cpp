@@ -23,45 +23,78 @@ constexpr double kConverged_rad = 1e-9;    ///< largest change of a shift, far b
 /// Largest ratio of residual to noise variance; the noise model is no more accurate than that.
 constexpr double kMaxExcess = 1.5;
 
-/// Residuals of the fringe model with these shifts. `root * root^T` are the inner products of the
-/// frames over all pixels, so an iteration does not depend on the number of pixels.
-Eigen::VectorXd residuals_of(const Eigen::MatrixXd& root, const std::vector<double>& shifts) {
-  const PhaseAlgorithm fit = least_squares(shifts);
-  const auto frames = static_cast<Eigen::Index>(shifts.size());
-  const auto column = [&](const std::vector<double>& weights) {
-    return Eigen::Map<const Eigen::VectorXd>(weights.data(), frames);
-  };
-  Eigen::MatrixXd residual = root;
-  for (Eigen::Index k = 0; k < frames; ++k) {
-    const double shift = shifts[static_cast<std::size_t>(k)];
-    const Eigen::VectorXd weights = column(fit.mean) + std::cos(shift) * column(fit.cosine) -
-                                    std::sin(shift) * column(fit.sine);
-    residual.row(k) -= weights.transpose() * root;
+/// The least-squares fit of the fringe model to the frames, given their shifts. With n frames it
+/// takes n^2 operations.
+struct FringeFit {
+  Eigen::MatrixX3d model;    ///< one row a frame: 1, cos(shift), -sin(shift)
+  Eigen::Matrix3Xd inverse;  ///< its pseudoinverse
+  Eigen::Matrix3Xd fringes;  ///< mean, cosine and sine: `inverse * root`
+  Eigen::MatrixXd residual;  ///< `root - model * fringes`
+
+  /// `root * root^T` are the inner products of the frames over all pixels, so that an iteration
+  /// does not depend on the number of pixels.
+  FringeFit(const Eigen::MatrixXd& root, const std::vector<double>& shifts)
+      : model(std::ssize(shifts), 3), inverse(3, std::ssize(shifts)) {
+    const PhaseAlgorithm fit = least_squares(shifts);
+    for (Eigen::Index k = 0; k < model.rows(); ++k) {
+      const auto frame = static_cast<std::size_t>(k);
+      model.row(k) << 1.0, std::cos(shifts[frame]), -std::sin(shifts[frame]);
+      inverse.col(k) << fit.mean[frame], fit.cosine[frame], fit.sine[frame];
+    }
+    fringes = inverse * root;
+    residual = root - model * fringes;
   }
-  return residual.reshaped();
+  [[nodiscard]] double cost() const { return residual.squaredNorm(); }
+};
+
+/// Normal equations of the residuals in all shifts.
+struct ShiftEquations {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd gradient;
+};
+
+/// The derivatives of the residuals by the shifts, multiplied out: each derivative is the sum of
+/// two matrices of rank one that are perpendicular to each other, so that no matrix of all
+/// derivatives is needed.
+///
+/// @source   variable projection: Golub and Pereyra 1973
+ShiftEquations equations_of(const FringeFit& fit, const Eigen::MatrixXd& products) {
+  const Eigen::Index frames = fit.model.rows();
+  Eigen::MatrixX3d slope = Eigen::MatrixX3d::Zero(frames, 3);  // of the model's rows, by the shift
+  slope.col(1) = fit.model.col(2);
+  slope.col(2) = -fit.model.col(1);
+  const Eigen::Matrix3d fringe_products = fit.fringes * fit.fringes.transpose();
+  const Eigen::Matrix3d covariance = fit.inverse * fit.inverse.transpose();
+  // P = I - model * inverse projects on the residuals.
+  Eigen::MatrixXd projection = -fit.model * fit.inverse;
+  projection.diagonal().array() += 1.0;
+  const Eigen::Matrix3Xd half = fit.inverse * products;
+  Eigen::MatrixXd residual_products = products;
+  residual_products -= fit.model * half;
+  residual_products -= (residual_products * fit.inverse.transpose()) * fit.model.transpose();
+  const Eigen::MatrixXd fringe_term = slope * fringe_products * slope.transpose();
+  const Eigen::MatrixXd shift_term = slope * covariance * slope.transpose();
+  const Eigen::MatrixX3d by_fringe = fit.residual * fit.fringes.transpose();
+  return {fringe_term.cwiseProduct(projection) + shift_term.cwiseProduct(residual_products),
+          -by_fringe.cwiseProduct(slope).rowwise().sum()};
 }
 
 /// One Levenberg-Marquardt step in all shifts but the first. The published alternation between
 /// phases and shifts converges too slowly.
 std::vector<double> levenberg_marquardt_step(const Eigen::MatrixXd& root,
+                                             const Eigen::MatrixXd& products,
                                              const std::vector<double>& shifts,
                                              double& damping) {
-  constexpr double kProbe_rad = 1e-6;  // step of the numerical derivative
-  const Eigen::VectorXd residual = residuals_of(root, shifts);
-  Eigen::MatrixXd slopes(residual.size(), std::ssize(shifts) - 1);
-  for (std::size_t k = 1; k < shifts.size(); ++k) {
-    std::vector<double> probe = shifts;
-    probe[k] += kProbe_rad;
-    slopes.col(static_cast<Eigen::Index>(k) - 1) =
-        (residuals_of(root, probe) - residual) / kProbe_rad;
-  }
-  Eigen::MatrixXd normal = slopes.transpose() * slopes;
+  const FringeFit fit(root, shifts);
+  const ShiftEquations equations = equations_of(fit, products);
+  const Eigen::Index free = std::ssize(shifts) - 1;
+  Eigen::MatrixXd normal = equations.normal.bottomRightCorner(free, free);
   normal.diagonal() *= 1.0 + damping;
-  const Eigen::VectorXd change = solve_symmetric(normal, slopes.transpose() * residual);
+  const Eigen::VectorXd change = solve_symmetric(normal, equations.gradient.tail(free));
   std::vector<double> trial = shifts;
   for (std::size_t k = 1; k < shifts.size(); ++k)
     trial[k] -= change(static_cast<Eigen::Index>(k) - 1);
-  const bool better = residuals_of(root, trial).squaredNorm() <= residual.squaredNorm();
+  const bool better = FringeFit(root, trial).cost() <= fit.cost();
   damping *= better ? 0.2 : 10.0;
   return better ? trial : shifts;
 }
@@ -102,18 +135,19 @@ ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) 
   ShiftEstimate out{.shifts_rad = nominal};
   const Eigen::ArrayXXd counts = sample_frames(stack, kSamples).cast<double>();
   if (counts.rows() < kMinSamples) return out;
-  const Eigen::MatrixXd root = (counts.matrix().transpose() * counts.matrix()).llt().matrixL();
+  const Eigen::MatrixXd products = counts.matrix().transpose() * counts.matrix();
+  const Eigen::MatrixXd root = products.llt().matrixL();
   std::vector<double> shifts = nominal;
   double damping = 1e-3;
   bool converged = false;
   for (int i = 0; i < kIterations && !converged; ++i) {
-    const std::vector<double> better = levenberg_marquardt_step(root, shifts, damping);
+    const std::vector<double> better = levenberg_marquardt_step(root, products, shifts, damping);
     const double change = largest_change(better, shifts);
     converged = change < kConverged_rad && (change > 0.0 || damping > 1e6);
     shifts = better;
   }
   align_to_nominal(nominal, shifts);
-  const double residual = residuals_of(root, shifts).squaredNorm();
+  const double residual = FringeFit(root, shifts).cost();
   const auto n = static_cast<double>(counts.rows());
   out.residual_counts2 = residual / (n * static_cast<double>(counts.cols() - 3));
   out.expected_counts2 = noise.variance(counts.mean());

@@ -22,6 +22,9 @@ struct ShiftEstimate {
 /// matter. Only differences of shifts are observable; the common offset is chosen such that the
 /// scaled nominal shifts fit best, which is exact for a phase shifter with a gain error.
 ///
+/// With n frames it takes n^2 operations for each of up to 20000 sampled pixels, and n^3 / 6 for
+/// each iteration, which is less for the 360 frames of the longest sequence.
+///
 /// @errors   Error(Input) for fewer than six frames
 /// @source   AIA, Wang and Han 2004; a Levenberg-Marquardt iteration replaces the alternation
 [[nodiscard]] ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/registration/internal/view_pairs.h"
 #include "frangia/registration/join_by_shape.h"
 
 namespace frangia {
@@ -107,8 +108,13 @@ bool are_poses_plausible(const ViewStore& views,
   const auto groups = groups_of(members, maps, spacing_mm);
   const double gate_mm = std::min(reach_mm, kWidest * spacing_mm);
   const FastCameraModel model(camera);
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    poses.push_back(views.rig_from_object(i));
+  const ViewPairs pairs = choose_view_pairs(maps, model, poses);
   for (std::size_t a = 0; a < groups.size(); ++a) {
-    for (std::size_t b = a + 1; b < groups.size(); ++b) {
+    for (const std::size_t b : pairs[a]) {
+      if (b < a) continue;
       const GroupFit fit = compare_groups(
           groups[a], groups[b], Eigen::Isometry3d::Identity(), {maps, model}, gate_mm);
       const double smaller =

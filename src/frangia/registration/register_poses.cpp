@@ -31,12 +31,13 @@ double matched_share(const FreePoseSums& sums) {
 FreePoseBundle make_free_pose_bundle(const ViewStore& views,
                                      std::vector<SurfelMap> maps,
                                      const CameraModel& camera) {
-  constexpr std::size_t kSurfels = 3000;  // of a view
-  FreePoseBundle bundle{std::move(maps), {}, {}, FastCameraModel(camera)};
+  const std::size_t surfels = surfels_per_view(3000, views.size());
+  FreePoseBundle bundle{std::move(maps), {}, {}, FastCameraModel(camera), {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
-    bundle.surfels.push_back(pick_surfels(bundle.maps[i], kSurfels));
+    bundle.surfels.push_back(pick_surfels(bundle.maps[i], surfels));
     bundle.rig_from_world.push_back(views.rig_from_object(i));
   }
+  bundle.pairs = choose_view_pairs(bundle.maps, bundle.model, bundle.rig_from_world);
   return bundle;
 }
 

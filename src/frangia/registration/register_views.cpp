@@ -152,8 +152,9 @@ RegistrationReport register_views(ViewStore& views,
                                   const TurntableStations& given,
                                   const RegisterOptions& options,
                                   const Run& run) {
-  constexpr std::size_t kFewSurfels = 2500;    // of a view, to find outliers and moved views
-  constexpr std::size_t kManySurfels = 20000;  // of a view, for the final poses
+  // Of a view, to find outliers and moved views, and for the final poses.
+  const std::size_t few_surfels = surfels_per_view(2500, views.size());
+  const std::size_t many_surfels = surfels_per_view(20000, views.size());
   options.check();
   require(given.stations.size() == views.size(),
           "register_views: the number of stations differs from the number of views");
@@ -171,7 +172,7 @@ RegistrationReport register_views(ViewStore& views,
   Registration work{std::move(made), {}, reach_mm, views, given.stations, options, run};
   Bundle& bundle = work.bundle;
   SurfelLists& surfels = work.surfels;
-  surfels = pick_all_surfels(bundle.maps, kFewSurfels);
+  surfels = pick_all_surfels(bundle.maps, few_surfels);
   const BundleSums before = sum(bundle, surfels);
   report.rms_before_mm = rms_of(before.distances_mm);
   report.closure_before_rad = closure_rad(before);
@@ -195,7 +196,7 @@ RegistrationReport register_views(ViewStore& views,
   }
   if (!report.outliers.empty()) work.optimize_again();
   leave_out_moved(report, work);
-  surfels = pick_all_surfels(bundle.maps, kManySurfels);
+  surfels = pick_all_surfels(bundle.maps, many_surfels);
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.9);
   const BundleSums after = sum(bundle, surfels);

@@ -11,14 +11,21 @@
 namespace frangia {
 namespace {
 
-using Maker = Mesh (*)();
+using Maker = Mesh (*)(const Run&);
 
-constexpr std::array<std::pair<std::string_view, Maker>, 6> kParts{{{"shaft", make_shaft},
-                                                                    {"blade", make_blade},
-                                                                    {"bust", make_bust},
-                                                                    {"ball-bar", make_ball_bar},
-                                                                    {"plate", make_plate},
-                                                                    {"bracket", make_bracket}}};
+/// A maker that is too fast to be cancelled.
+template <Mesh (*make)()>
+Mesh make_at_once(const Run& /*run*/) {
+  return make();
+}
+
+constexpr std::array<std::pair<std::string_view, Maker>, 6> kParts{
+    {{"shaft", make_at_once<make_shaft>},
+     {"blade", make_at_once<make_blade>},
+     {"bust", make_bust},
+     {"ball-bar", make_at_once<make_ball_bar>},
+     {"plate", make_at_once<make_plate>},
+     {"bracket", make_at_once<make_bracket>}}};
 
 }  // namespace
 
@@ -30,9 +37,9 @@ std::vector<std::string> part_names() {
   return names;
 }
 
-Mesh make_part(std::string_view name) {
+Mesh make_part(std::string_view name, const Run& run) {
   for (const auto& part : kParts) {
-    if (part.first == name) return part.second();
+    if (part.first == name) return part.second(run);
   }
   throw Error(ErrorKind::Input,
               fmt::format("there is no built-in part \"{}\"; choose one of {}",

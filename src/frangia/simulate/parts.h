@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -23,11 +24,12 @@ namespace frangia {
 ///
 /// @units    mm, object frame; round faces have chord errors below 0.002 mm
 /// @errors   Error(Input) that lists the names for an unknown name
-[[nodiscard]] Mesh make_part(std::string_view name);
+[[nodiscard]] Mesh make_part(std::string_view name, const Run& run = {});
 
-[[nodiscard]] Mesh make_shaft();     ///< the part "shaft" of `make_part`
-[[nodiscard]] Mesh make_blade();     ///< the part "blade" of `make_part`
-[[nodiscard]] Mesh make_bust();      ///< the part "bust" of `make_part`
+[[nodiscard]] Mesh make_shaft();  ///< the part "shaft" of `make_part`
+[[nodiscard]] Mesh make_blade();  ///< the part "blade" of `make_part`
+/// The part "bust" of `make_part`; it takes a second.
+[[nodiscard]] Mesh make_bust(const Run& run = {});
 [[nodiscard]] Mesh make_ball_bar();  ///< the part "ball-bar" of `make_part`
 [[nodiscard]] Mesh make_plate();     ///< the part "plate" of `make_part`
 [[nodiscard]] Mesh make_bracket();   ///< the part "bracket" of `make_part`

@@ -72,7 +72,8 @@ struct SimulatedSetup {
 
 std::vector<SimulatedSetup> make_setups(const Mesh& part,
                                         const Scan& plan,
-                                        const SimulateOptions& options) {
+                                        const SimulateOptions& options,
+                                        const Run& run) {
   std::map<int, std::vector<SimulatedView>> views;
   for (std::size_t i = 0; i < plan.views.size(); ++i)
     views[plan.views[i].setup].push_back({i, plan.views[i].angle_rad});
@@ -81,7 +82,7 @@ std::vector<SimulatedSetup> make_setups(const Mesh& part,
     const auto part_pose = plan.part_poses.find(setup);
     const Mesh posed_part =
         part_pose == plan.part_poses.end() ? part : transform_mesh(part, part_pose->second);
-    SimulatedScene scene = make_simulated_scene(posed_part, plan.rig, stations, options);
+    SimulatedScene scene = make_simulated_scene(posed_part, plan.rig, stations, options, run);
     setups.push_back({std::move(stations), std::move(scene)});
   }
   return setups;
@@ -120,7 +121,7 @@ Scan simulate_scan(const Mesh& part,
                    const Run& run) {
   require(!plan.patterns.empty() && !plan.views.empty(),
           "a scan needs at least one pattern and one view; add them to the plan");
-  const std::vector<SimulatedSetup> setups = make_setups(part, plan, options);
+  const std::vector<SimulatedSetup> setups = make_setups(part, plan, options, run);
   const std::filesystem::path mark = claim(plan.folder);
   for (const SimulatedSetup& setup : setups)
     render_setup(setup, plan, run);

@@ -22,6 +22,9 @@ struct SetAssessment {
 ///
 /// `camera` is the camera's noise model. Without it `moved` is false, because noise estimated from
 /// the frames includes motion.
+///
+/// With n frames it takes at most n^2 operations for each sampled pixel, see `estimate_shifts`; all
+/// other steps are linear in pixels and frames.
 /// @errors   as fit_algorithm and wrap_phase
 [[nodiscard]] SetAssessment assess_set(std::span<const FrameStack> exposures,
                                        const std::optional<NoiseModel>& camera,

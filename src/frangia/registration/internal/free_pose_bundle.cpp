@@ -11,32 +11,32 @@
 namespace frangia {
 namespace {
 
-FreePoseSums empty_sums(std::size_t views) {
-  const auto unknowns = static_cast<Eigen::Index>(6 * (views - 1));
+/// Sums with `blocks` poses as unknowns.
+FreePoseSums empty_sums(std::size_t blocks) {
+  const auto unknowns = static_cast<Eigen::Index>(6 * blocks);
   return {Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns), {}, 0, 0};
 }
 
-/// Adds an equation in the poses of two views; that of view 0 is held.
+/// Adds an equation in the poses of two views, given by their blocks of unknowns.
 void add_equation(FreePoseSums& sums,
-                  const std::array<std::size_t, 2>& views,
+                  const std::array<std::size_t, 2>& blocks,
                   const Eigen::Matrix<double, 12, 1>& row,
                   double weight,
                   double distance) {
   for (std::size_t a = 0; a < 2; ++a) {
-    if (views.at(a) == 0) continue;
-    const auto at = static_cast<Eigen::Index>(6 * (views.at(a) - 1));
+    const auto at = static_cast<Eigen::Index>(6 * blocks.at(a));
     const auto part = row.segment<6>(static_cast<Eigen::Index>(6 * a));
     sums.gradient.segment<6>(at) += weight * distance * part;
     for (std::size_t b = 0; b < 2; ++b) {
-      if (views.at(b) == 0) continue;
-      const auto to = static_cast<Eigen::Index>(6 * (views.at(b) - 1));
+      const auto to = static_cast<Eigen::Index>(6 * blocks.at(b));
       sums.hessian.block<6, 6>(at, to) +=
           weight * part * row.segment<6>(static_cast<Eigen::Index>(6 * b)).transpose();
     }
   }
 }
 
-/// A view's surfels against all other views.
+/// A view's surfels against its paired views. Their sums have a block for the view itself, and one
+/// for each paired view after it.
 class FreePoseComparison {
  public:
   FreePoseComparison(const FreePoseBundle& bundle, std::size_t from, double gate_mm)
@@ -45,8 +45,10 @@ class FreePoseComparison {
         gate_mm_(gate_mm),
         world_from_(bundle.rig_from_world[from].inverse()) {}
 
-  /// Adds the pair of a surfel and view `to`, if the surfel lies on a surface that `to` measured.
-  bool add_pair(FreePoseSums& sums, const SurfelMap::Surfel& surfel, std::size_t to) const {
+  /// Adds the pair of a surfel and paired view `index`, if the surfel lies on a surface that this
+  /// view measured.
+  bool add_pair(FreePoseSums& sums, const SurfelMap::Surfel& surfel, std::size_t index) const {
+    const std::size_t to = bundle_.pairs[from_][index];
     const Eigen::Isometry3d& rig_from_world = bundle_.rig_from_world[to];
     const Eigen::Vector3d point = world_from_ * surfel.point_mm.cast<double>();
     const Eigen::Vector3d seen = rig_from_world * point;
@@ -64,7 +66,7 @@ class FreePoseComparison {
     const Eigen::Vector3d foot = rig_from_world.inverse() * target->point_mm.cast<double>();
     Eigen::Matrix<double, 12, 1> row;
     row << point_to_plane_jacobian(normal, point), -point_to_plane_jacobian(normal, foot);
-    add_equation(sums, {from_, to}, row, weight, distance);
+    add_equation(sums, {0, index + 1}, row, weight, distance);
     sums.distances_mm.push_back(std::abs(distance));
     return true;
   }
@@ -75,6 +77,25 @@ class FreePoseComparison {
   double gate_mm_;
   Eigen::Isometry3d world_from_;
 };
+
+/// Adds a view's normal equations to those of all views. The pose of view 0 is held.
+void add_blocks(FreePoseSums& all,
+                std::size_t from,
+                const std::vector<std::size_t>& others,
+                const FreePoseSums& part) {
+  const auto view_of = [&](std::size_t block) { return block == 0 ? from : others[block - 1]; };
+  for (std::size_t a = 0; a <= others.size(); ++a) {
+    if (view_of(a) == 0) continue;
+    const auto own = static_cast<Eigen::Index>(6 * a);
+    const auto at = static_cast<Eigen::Index>(6 * (view_of(a) - 1));
+    all.gradient.segment<6>(at) += part.gradient.segment<6>(own);
+    for (std::size_t b = 0; b <= others.size(); ++b) {
+      if (view_of(b) == 0) continue;
+      all.hessian.block<6, 6>(at, static_cast<Eigen::Index>(6 * (view_of(b) - 1))) +=
+          part.hessian.block<6, 6>(own, static_cast<Eigen::Index>(6 * b));
+    }
+  }
+}
 
 }  // namespace
 
@@ -89,22 +110,24 @@ FreePoseSums sum_free_poses(const FreePoseBundle& bundle, double gate_mm) {
   const std::size_t views = bundle.maps.size();
   std::vector<FreePoseSums> parts(views);
   parallel_chunks(views, 1, [&](std::size_t from, std::size_t /*end*/) {
-    FreePoseSums& part = parts[from] = empty_sums(views);
+    const std::size_t others = bundle.pairs[from].size();
+    FreePoseSums& part = parts[from] = empty_sums(others + 1);
     const FreePoseComparison comparison(bundle, from, gate_mm);
     for (const SurfelMap::Surfel& surfel : bundle.surfels[from]) {
       bool matched = false;
-      for (std::size_t to = 0; to < views; ++to)
-        matched = (to != from && comparison.add_pair(part, surfel, to)) || matched;
+      for (std::size_t i = 0; i < others; ++i)
+        matched = comparison.add_pair(part, surfel, i) || matched;
       part.matched += matched ? 1U : 0U;
       ++part.surfels;
     }
   });
-  FreePoseSums all = empty_sums(views);
-  for (const FreePoseSums& part : parts) {
-    all.hessian += part.hessian;
-    all.gradient += part.gradient;
+  FreePoseSums all = empty_sums(views - 1);
+  for (std::size_t from = 0; from < views; ++from) {
+    FreePoseSums& part = parts[from];
+    add_blocks(all, from, bundle.pairs[from], part);
     all.distances_mm.insert(
         all.distances_mm.end(), part.distances_mm.begin(), part.distances_mm.end());
+    part.distances_mm = {};
     all.matched += part.matched;
     all.surfels += part.surfels;
   }

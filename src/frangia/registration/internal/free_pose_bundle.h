@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/local_fit/surfel_map.h"
+#include "frangia/registration/internal/view_pairs.h"
 #include "frangia/rig/fast_camera_model.h"
 
 namespace frangia {
@@ -16,6 +17,7 @@ struct FreePoseBundle {
   std::vector<std::vector<SurfelMap::Surfel>> surfels;  ///< those that are compared, by view
   std::vector<Eigen::Isometry3d> rig_from_world;
   FastCameraModel model;
+  ViewPairs pairs{};  ///< the views that are compared
 };
 
 /// Normal equations of all point-to-plane distances between views.
@@ -35,7 +37,7 @@ struct FreePoseSums {
 [[nodiscard]] Eigen::Matrix<double, 6, 1> point_to_plane_jacobian(const Eigen::Vector3d& normal,
                                                                   const Eigen::Vector3d& point);
 
-/// Compares the surfels of each view with those of every other view, within `gate_mm`.
+/// Compares the surfels of each view with those of its paired views, within `gate_mm`.
 [[nodiscard]] FreePoseSums sum_free_poses(const FreePoseBundle& bundle, double gate_mm);
 
 /// Moves the views 1, 2, ... in the world by a step in the unknowns.

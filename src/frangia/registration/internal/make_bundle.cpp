@@ -27,6 +27,17 @@ Eigen::VectorXd prior_sigmas(const TableState& state,
   return sigma;
 }
 
+/// Pose of the part in each view, relative to the first setup at angle 0.
+std::vector<Eigen::Isometry3d> poses_of(const TableState& state) {
+  std::vector<Eigen::Isometry3d> poses;
+  const Eigen::Isometry3d table_from_rig = state.table.rig_from_object(0.0).inverse();
+  for (std::size_t view = 0; view < state.angles_rad.size(); ++view) {
+    poses.push_back(state.table.rig_from_object(state.angles_rad[view]) * table_from_rig *
+                    state.part_pose(state.setup_of(view)));
+  }
+  return poses;
+}
+
 }  // namespace
 
 TableState given_state(const TurntableStations& given, const RegisterOptions& options) {
@@ -54,6 +65,8 @@ Bundle make_bundle(const ViewStore& views,
   constexpr double kGateSigmas = 6.0;
   Bundle bundle{
       make_surfel_maps(views, camera, kPixels, run), FastCameraModel(camera), given, given, {}};
+  bundle.pairs = choose_view_pairs(bundle.maps, bundle.model, poses_of(given));
+  if (bundle.maps.size() > 1) add_view_pair(bundle.pairs, 0, given.closing_view());
   std::vector<float> sigmas_mm;
   std::vector<float> distances_mm;
   for (const SurfelMap& map : bundle.maps) {
@@ -76,12 +89,9 @@ PartScale measure_part_scale(const Bundle& bundle,
   std::vector<Eigen::Vector3d> points;
   std::vector<double> depths_mm;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const std::vector<Eigen::Isometry3d> poses = poses_of(bundle.state);
   for (std::size_t view = 0; view < surfels.size(); ++view) {
-    const Turntable& table = bundle.state.table;
-    const Eigen::Isometry3d turn =
-        table.rig_from_object(bundle.state.angles_rad[view]) * table.rig_from_object(0.0).inverse();
-    const Eigen::Isometry3d part_from_rig =
-        (turn * bundle.state.part_pose(bundle.state.setup_of(view))).inverse();
+    const Eigen::Isometry3d part_from_rig = poses[view].inverse();
     for (const SurfelMap::Surfel& surfel : surfels[view]) {
       points.emplace_back(part_from_rig * surfel.point_mm.cast<double>());
       depths_mm.push_back(static_cast<double>(surfel.point_mm.z()));

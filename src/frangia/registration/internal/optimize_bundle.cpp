@@ -28,7 +28,7 @@ Eigen::VectorXd deviation_from_prior(const Bundle& bundle) {
 double effective_weight(const Bundle& bundle, const BundleSums& sums) {
   constexpr double kSigmaFromMedian = 1.4826;  // of the absolute values of normal residuals
   const double pairs = static_cast<double>(std::max<std::size_t>(1, sums.distances_mm.size()));
-  const double view_pairs = static_cast<double>(bundle.maps.size() * (bundle.maps.size() - 1));
+  const double view_pairs = static_cast<double>(count_pairs(bundle.pairs));
   const double scatter = kSigmaFromMedian * static_cast<double>(median(sums.distances_mm));
   const double independent = view_pairs * std::pow(scatter / bundle.systematic_mm, 2);
   return std::min(1.0, independent / pairs);
@@ -51,6 +51,7 @@ BundleSums sum(const Bundle& bundle, const SurfelLists& surfels) {
                     bundle.maps,
                     bundle.model,
                     bundle.state,
+                    bundle.pairs,
                     {bundle.gate_mm, free_space_margin_mm, bundle.left_out});
 }
 

@@ -9,6 +9,7 @@
 #include "frangia/core/run.h"
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/internal/turntable_bundle.h"
+#include "frangia/registration/internal/view_pairs.h"
 #include "frangia/rig/fast_camera_model.h"
 
 namespace frangia {
@@ -25,6 +26,7 @@ struct Bundle {
   double systematic_mm = 0.0;             ///< error that all pairs of two views have in common
   int iterations = 0;                     ///< of all optimizations
   std::optional<std::size_t> left_out{};  ///< a view that is not compared
+  ViewPairs pairs{};                      ///< the views that are compared
 };
 
 /// One list of surfels a view.

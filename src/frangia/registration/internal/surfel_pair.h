@@ -29,8 +29,8 @@ inline constexpr double kMinNormalCosine = 0.7;
   float v = 0.0F;
   model.project(point.x(), point.y(), point.z(), u, v);
   const auto stride = static_cast<float>(map.stride);
-  const float column = std::round(u / stride);
-  const float row = std::round(v / stride);
+  const float column = std::round(u / stride) - static_cast<float>(map.first_column);
+  const float row = std::round(v / stride) - static_cast<float>(map.first_row);
   const bool within = column >= 0.0F && row >= 0.0F &&
                       column < static_cast<float>(map.surfels.width()) &&
                       row < static_cast<float>(map.surfels.height());

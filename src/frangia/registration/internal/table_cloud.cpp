@@ -5,16 +5,17 @@
 
 #include "frangia/core/median.h"
 #include "frangia/local_fit/surfel_map.h"
+#include "frangia/registration/internal/view_pairs.h"
 #include "frangia/views/load_each_view.h"
 
 namespace frangia {
 
 TableCloud gather_table_cloud(const ViewStore& views, const CameraModel& camera, const Run& run) {
-  constexpr std::size_t kSurfels = 20000;
-  constexpr std::size_t kMapPixels = 16 * kSurfels;  // denser than the surfels that are picked
+  const std::size_t surfels = surfels_per_view(20000, views.size());
+  const std::size_t map_pixels = 16 * surfels;  // denser than the surfels that are picked
   const CameraRays rays(views, camera);
   const LocalPlanesOptions options{
-      .every = surfel_stride(camera.width_px, camera.height_px, kMapPixels)};
+      .every = surfel_stride(camera.width_px, camera.height_px, map_pixels)};
   TableCloud cloud;
   std::vector<float> sigmas_mm;
   std::vector<float> distances_mm;
@@ -23,7 +24,7 @@ TableCloud gather_table_cloud(const ViewStore& views, const CameraModel& camera,
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));
     planes = local_planes(view, rays, options, std::move(planes));
     const Eigen::Isometry3d object_from_rig = views.rig_from_object(i).inverse();
-    for (const auto& surfel : pick_surfels(make_surfel_map(planes, rays, kMapPixels), kSurfels)) {
+    for (const auto& surfel : pick_surfels(make_surfel_map(planes, rays, map_pixels), surfels)) {
       cloud.points.emplace_back(object_from_rig * surfel.point_mm.cast<double>());
       cloud.normals.emplace_back(object_from_rig.linear() * surfel.normal.cast<double>());
       sigmas_mm.push_back(surfel.sigma_mm);

@@ -20,7 +20,7 @@ struct TableCloud {
   double working_distance_mm = 0.0;      ///< median distance of the points from the camera
 };
 
-/// About 20000 points of each view.
+/// About 20000 points of each view, or fewer of more than 24 views.
 [[nodiscard]] TableCloud gather_table_cloud(const ViewStore& views,
                                             const CameraModel& camera,
                                             const Run& run);

@@ -14,67 +14,105 @@ namespace {
 
 constexpr std::size_t kChunk = 512;  // surfels; fixed, so that sums do not depend on threads
 
-/// Sums one chunk of a view's surfels over all other views.
-struct BundleAccumulator {
+/// The views that are compared, in one state.
+struct BundleViews {
   std::span<const SurfelMap> maps;
   const FastCameraModel& model;
   const TableState& state;
-  BundleOptions options;
-  std::size_t closing;
-  BundleSums sums;
-  std::vector<PairTally> tallies;  ///< by other view, of the view whose surfels are added
+  const ViewPairs& pairs;
+};
 
-  BundleAccumulator(std::span<const SurfelMap> all,
-                    const FastCameraModel& camera,
-                    const TableState& now,
-                    const BundleOptions& how)
-      : maps(all), model(camera), state(now), options(how), closing(now.closing_view()) {
-    const Eigen::Index unknowns = now.unknowns();
-    sums.hessian = Eigen::MatrixXd::Zero(unknowns, unknowns);
-    sums.gradient = Eigen::VectorXd::Zero(unknowns);
-    sums.matched.assign(all.size(), 0);
-    sums.observed.assign(all.size(), 0);
-    tallies.resize(all.size());
+/// Sums over one chunk of a view's surfels.
+struct ChunkSums {
+  std::vector<Eigen::Index> unknowns;  ///< that these surfels depend on, ascending
+  Eigen::MatrixXd hessian;             ///< of these unknowns alone
+  Eigen::VectorXd gradient;
+  double closing_weight = 0.0;
+  double closing_gradient = 0.0;
+  std::vector<float> distances_mm;
+  std::size_t matched = 0;
+  std::size_t observed = 0;
+  std::vector<PairTally> tallies;  ///< by paired view
+};
+
+/// The unknowns that the pairs of a view depend on, in ascending order.
+std::vector<Eigen::Index> unknowns_of(const BundleViews& views, std::size_t from) {
+  std::vector<Eigen::Index> unknowns{0, 1, 2, 3};
+  const auto add_view = [&](std::size_t view) {
+    if (view != 0) unknowns.push_back(static_cast<Eigen::Index>(view) + 3);
+    const std::size_t setup = views.state.setup_of(view);
+    if (setup == 0) return;
+    for (Eigen::Index i = 0; i < 6; ++i)
+      unknowns.push_back(views.state.index_of_setup(setup) + i);
+  };
+  add_view(from);
+  for (const std::size_t to : views.pairs[from])
+    add_view(to);
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  return unknowns;
+}
+
+/// Sums one chunk of a view's surfels over its paired views.
+struct BundleAccumulator {
+  const BundleViews& views;
+  BundleOptions options;
+  std::size_t from;
+  std::size_t closing;
+  ChunkSums sums;
+  std::vector<Eigen::Index> column_of;  ///< by unknown: its column in `sums`
+
+  BundleAccumulator(const BundleViews& all, const BundleOptions& how, std::size_t view)
+      : views(all), options(how), from(view), closing(all.state.closing_view()) {
+    sums.unknowns = unknowns_of(all, view);
+    const auto count = static_cast<Eigen::Index>(sums.unknowns.size());
+    sums.hessian = Eigen::MatrixXd::Zero(count, count);
+    sums.gradient = Eigen::VectorXd::Zero(count);
+    sums.tallies.resize(all.pairs[view].size());
+    column_of.resize(static_cast<std::size_t>(all.state.unknowns()));
+    for (Eigen::Index i = 0; i < count; ++i)
+      column_of[static_cast<std::size_t>(sums.unknowns[static_cast<std::size_t>(i)])] = i;
   }
 
-  void add(std::size_t from, std::span<const SurfelMap::Surfel> surfels) {
+  void add(std::span<const SurfelMap::Surfel> surfels) {
+    const std::vector<std::size_t>& others = views.pairs[from];
     std::vector<ViewTransfer> transfers;
-    for (std::size_t to = 0; to < maps.size(); ++to)
-      transfers.emplace_back(state, from, to);
+    for (const std::size_t to : others)
+      transfers.emplace_back(views.state, from, to);
     for (const SurfelMap::Surfel& surfel : surfels) {
       bool observed = false;
       bool matched = false;
-      for (std::size_t to = 0; to < maps.size(); ++to) {
-        if (to == from || to == options.left_out) continue;
-        const double distance = add_pair(surfel, transfers[to], from, to);
+      for (std::size_t i = 0; i < others.size(); ++i) {
+        if (others[i] == options.left_out) continue;
+        const double distance = add_pair(surfel, transfers[i], others[i], sums.tallies[i]);
         observed = observed || !std::isnan(distance);
         matched = matched || distance < options.gate_mm;
       }
-      sums.observed[from] += observed ? 1 : 0;
-      sums.matched[from] += matched ? 1 : 0;
+      sums.observed += observed ? 1 : 0;
+      sums.matched += matched ? 1 : 0;
     }
   }
 
   /// Returns the absolute distance of a pair; NaN when the other view measured nothing there.
   double add_pair(const SurfelMap::Surfel& surfel,
                   const ViewTransfer& transfer,
-                  std::size_t from,
-                  std::size_t to) {
+                  std::size_t to,
+                  PairTally& tally) {
     const Eigen::Vector3d point = transfer.apply(surfel.point_mm.cast<double>());
-    const SurfelMap::Surfel* target = surfel_at(maps[to], model, point);
+    const SurfelMap::Surfel* target = surfel_at(views.maps[to], views.model, point);
     if (target == nullptr) return std::nan("");
     const Eigen::Vector3d facing = transfer.rotation() * surfel.normal.cast<double>();
     const SurfelPair pair(point, facing, *target);
-    tallies[to].violations += pair.violates_free_space(options.free_space_margin_mm) ? 1U : 0U;
+    tally.violations += pair.violates_free_space(options.free_space_margin_mm) ? 1U : 0U;
     if (facing.dot(point) >= 0.0 || !pair.faces_alike()) return std::nan("");
     const double distance = pair.distance_mm();
     if (!(std::abs(distance) < options.gate_mm)) return std::abs(distance);
-    ++tallies[to].agree;
+    ++tally.agree;
     const double weight = tukey_weight(distance, options.gate_mm) /
                           (std::pow(static_cast<double>(surfel.sigma_mm), 2) +
                            std::pow(static_cast<double>(target->sigma_mm), 2));
     const PairJacobian jacobian = transfer.jacobian(pair.normal, surfel.point_mm.cast<double>());
-    add_row(jacobian, weight, distance, from, to);
+    add_row(jacobian, weight, distance, to);
     if (closing > 1 && std::min(from, to) == 0 && std::max(from, to) == closing) {
       const double by_last = to == closing ? jacobian.angle_to : jacobian.angle_from;
       sums.closing_weight += weight * by_last * by_last;
@@ -84,39 +122,42 @@ struct BundleAccumulator {
     return std::abs(distance);
   }
 
-  /// The unknowns that a pair depends on.
+  /// The columns that a pair depends on.
   struct Row {
     std::array<Eigen::Index, 18> indices{};
     std::array<double, 18> values{};
     std::size_t count = 0;
 
-    void add(Eigen::Index index, double value) {
-      indices.at(count) = index;
+    void add(Eigen::Index column, double value) {
+      indices.at(count) = column;
       values.at(count++) = value;
     }
   };
 
-  [[nodiscard]] Row row_of(const PairJacobian& by, std::size_t from, std::size_t to) const {
+  [[nodiscard]] Row row_of(const PairJacobian& by, std::size_t to) const {
+    const TableState& state = views.state;
+    const auto column = [&](Eigen::Index unknown) {
+      return column_of[static_cast<std::size_t>(unknown)];
+    };
     Row row;
     for (Eigen::Index i = 0; i < 2; ++i) {
       row.add(i, by.tilt[i]);
       row.add(i + 2, by.shift[i]);
     }
-    if (to != 0) row.add(static_cast<Eigen::Index>(to) + 3, by.angle_to);
-    if (from != 0) row.add(static_cast<Eigen::Index>(from) + 3, by.angle_from);
+    if (to != 0) row.add(column(static_cast<Eigen::Index>(to) + 3), by.angle_to);
+    if (from != 0) row.add(column(static_cast<Eigen::Index>(from) + 3), by.angle_from);
     const std::size_t setup_to = state.setup_of(to);
     const std::size_t setup_from = state.setup_of(from);
     if (setup_to == setup_from) return row;
     for (Eigen::Index i = 0; i < 6; ++i) {
-      if (setup_to != 0) row.add(state.index_of_setup(setup_to) + i, by.setup_to[i]);
-      if (setup_from != 0) row.add(state.index_of_setup(setup_from) + i, by.setup_from[i]);
+      if (setup_to != 0) row.add(column(state.index_of_setup(setup_to) + i), by.setup_to[i]);
+      if (setup_from != 0) row.add(column(state.index_of_setup(setup_from) + i), by.setup_from[i]);
     }
     return row;
   }
 
-  void add_row(
-      const PairJacobian& by, double weight, double distance, std::size_t from, std::size_t to) {
-    const Row row = row_of(by, from, to);
+  void add_row(const PairJacobian& by, double weight, double distance, std::size_t to) {
+    const Row row = row_of(by, to);
     for (std::size_t i = 0; i < row.count; ++i) {
       sums.gradient[row.indices[i]] += weight * row.values[i] * distance;
       for (std::size_t j = 0; j < row.count; ++j)
@@ -125,55 +166,71 @@ struct BundleAccumulator {
   }
 };
 
+/// Adds the sums of a chunk of view `from`, and releases its distances.
+void add_chunk(BundleSums& all,
+               std::size_t from,
+               const std::vector<std::size_t>& others,
+               ChunkSums& part) {
+  const auto count = static_cast<Eigen::Index>(part.unknowns.size());
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Eigen::Index column = part.unknowns[static_cast<std::size_t>(j)];
+    all.gradient[column] += part.gradient[j];
+    for (Eigen::Index i = 0; i < count; ++i)
+      all.hessian(part.unknowns[static_cast<std::size_t>(i)], column) += part.hessian(i, j);
+  }
+  all.closing_weight += part.closing_weight;
+  all.closing_gradient += part.closing_gradient;
+  all.distances_mm.insert(
+      all.distances_mm.end(), part.distances_mm.begin(), part.distances_mm.end());
+  part.distances_mm = {};
+  all.matched[from] += part.matched;
+  all.observed[from] += part.observed;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    PairTally& pair = all.pairs[from * all.matched.size() + others[i]];
+    pair.agree += part.tallies[i].agree;
+    pair.violations += part.tallies[i].violations;
+  }
+}
+
 }  // namespace
 
 BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
                       std::span<const SurfelMap> maps,
                       const FastCameraModel& model,
                       const TableState& state,
+                      const ViewPairs& pairs,
                       const BundleOptions& options) {
   struct Chunk {
     std::size_t view;
     std::size_t first;
   };
+  const BundleViews views{maps, model, state, pairs};
   std::vector<Chunk> chunks;
   for (std::size_t view = 0; view < surfels.size(); ++view) {
     if (view == options.left_out) continue;
     for (std::size_t first = 0; first < surfels[view].size(); first += kChunk)
       chunks.push_back({view, first});
   }
-  std::vector<BundleSums> parts(chunks.size());
-  std::vector<std::vector<PairTally>> tallies(chunks.size());
+  std::vector<ChunkSums> parts(chunks.size());
   parallel_chunks(chunks.size(), 1, [&](std::size_t begin, std::size_t /*end*/) {
     const Chunk& chunk = chunks[begin];
-    BundleAccumulator accumulator(maps, model, state, options);
+    BundleAccumulator accumulator(views, options, chunk.view);
     const std::span<const SurfelMap::Surfel> own(surfels[chunk.view]);
-    accumulator.add(chunk.view,
-                    own.subspan(chunk.first, std::min(kChunk, own.size() - chunk.first)));
+    accumulator.add(own.subspan(chunk.first, std::min(kChunk, own.size() - chunk.first)));
     parts[begin] = std::move(accumulator.sums);
-    tallies[begin] = std::move(accumulator.tallies);
   });
-  BundleSums all = BundleAccumulator(maps, model, state, options).sums;
+  BundleSums all;
+  all.hessian = Eigen::MatrixXd::Zero(state.unknowns(), state.unknowns());
+  all.gradient = Eigen::VectorXd::Zero(state.unknowns());
+  all.matched.assign(maps.size(), 0);
+  all.observed.assign(maps.size(), 0);
   all.pairs.resize(maps.size() * maps.size());
-  for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
-    for (std::size_t to = 0; to < maps.size(); ++to) {
-      PairTally& pair = all.pairs[chunks[chunk].view * maps.size() + to];
-      pair.agree += tallies[chunk][to].agree;
-      pair.violations += tallies[chunk][to].violations;
-    }
-  }
-  for (const BundleSums& part : parts) {
-    all.hessian += part.hessian;
-    all.gradient += part.gradient;
-    all.closing_weight += part.closing_weight;
-    all.closing_gradient += part.closing_gradient;
-    all.distances_mm.insert(
-        all.distances_mm.end(), part.distances_mm.begin(), part.distances_mm.end());
-    for (std::size_t view = 0; view < maps.size(); ++view) {
-      all.matched[view] += part.matched[view];
-      all.observed[view] += part.observed[view];
-    }
-  }
+  std::size_t distances = 0;
+  for (const ChunkSums& part : parts)
+    distances += part.distances_mm.size();
+  all.distances_mm.reserve(distances);
+  for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
+    add_chunk(all, chunks[chunk].view, pairs[chunks[chunk].view], parts[chunk]);
   return all;
 }
 

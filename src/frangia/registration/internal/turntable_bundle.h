@@ -9,6 +9,7 @@
 
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/internal/table_state.h"
+#include "frangia/registration/internal/view_pairs.h"
 #include "frangia/rig/fast_camera_model.h"
 
 namespace frangia {
@@ -45,15 +46,16 @@ struct BundleOptions {
   std::optional<std::size_t> left_out = std::nullopt;  ///< a view that is not compared
 };
 
-/// Compares the surfels of each view with the surfels of every other view that they project onto.
+/// Compares the surfels of each view with the surfels of its paired views that they project onto.
 ///
-/// @shape    `surfels` and `maps`: one a view
+/// @shape    `surfels`, `maps` and `pairs`: one a view
 /// @source   projective association: Blais & Levine 1995; symmetric point-to-plane distance:
 ///          Rusinkiewicz 2019; weights: Tukey's biweight over the variance of the pair
 [[nodiscard]] BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
                                     std::span<const SurfelMap> maps,
                                     const FastCameraModel& model,
                                     const TableState& state,
+                                    const ViewPairs& pairs,
                                     const BundleOptions& options);
 
 }  // namespace frangia

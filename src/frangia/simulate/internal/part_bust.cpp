@@ -96,9 +96,9 @@ double bust(const Position& place) {
 
 }  // namespace
 
-Mesh make_bust() {
+Mesh make_bust(const Run& run) {
   const Eigen::AlignedBox3d box(Position(-32.0, -44.0, -1.3), Position(32.0, 44.0, 112.0));
-  return polygonize_field(bust, box, 0.55);
+  return polygonize_field(bust, box, 0.55, run);
 }
 
 }  // namespace frangia

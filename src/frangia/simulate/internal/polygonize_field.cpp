@@ -34,7 +34,7 @@ struct Grid {
   }
 };
 
-Grid sample(const Field& field, const Eigen::AlignedBox3d& box, double cell_mm) {
+Grid sample(const Field& field, const Eigen::AlignedBox3d& box, double cell_mm, const Run& run) {
   Grid grid{box.min(), cell_mm, {}, {}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double length = box.sizes()[static_cast<Eigen::Index>(axis)];
@@ -42,12 +42,14 @@ Grid sample(const Field& field, const Eigen::AlignedBox3d& box, double cell_mm) 
   }
   grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
   parallel_chunks(grid.size[2], 1, [&](std::size_t z, std::size_t) {
+    if (run.stop.stop_requested()) return;
     for (std::size_t y = 0; y < grid.size[1]; ++y) {
       for (std::size_t x = 0; x < grid.size[0]; ++x) {
         grid.values[grid.index(x, y, z)] = static_cast<float>(field(grid.corner(x, y, z)));
       }
     }
   });
+  run.check();
   return grid;
 }
 
@@ -129,8 +131,11 @@ void add_quads_of(Mesh& mesh,
 
 }  // namespace
 
-Mesh polygonize_field(const Field& field, const Eigen::AlignedBox3d& box_mm, double cell_mm) {
-  const Grid grid = sample(field, box_mm, cell_mm);
+Mesh polygonize_field(const Field& field,
+                      const Eigen::AlignedBox3d& box_mm,
+                      double cell_mm,
+                      const Run& run) {
+  const Grid grid = sample(field, box_mm, cell_mm, run);
   const auto on_border = [&](std::size_t x, std::size_t y, std::size_t z) {
     return x == 0 || y == 0 || z == 0 || x + 1 == grid.size[0] || y + 1 == grid.size[1] ||
            z + 1 == grid.size[2];
@@ -139,6 +144,7 @@ Mesh polygonize_field(const Field& field, const Eigen::AlignedBox3d& box_mm, dou
   std::vector<std::uint32_t> vertex_of(grid.values.size(), kNone);
   std::vector<Eigen::Vector3d> starts;
   for (std::size_t z = 0; z + 1 < grid.size[2]; ++z) {
+    run.check();
     for (std::size_t y = 0; y + 1 < grid.size[1]; ++y) {
       for (std::size_t x = 0; x + 1 < grid.size[0]; ++x) {
         Eigen::Vector3d mean;
@@ -150,10 +156,12 @@ Mesh polygonize_field(const Field& field, const Eigen::AlignedBox3d& box_mm, dou
   }
   mesh.vertices_mm.resize(starts.size());
   parallel_chunks(starts.size(), 256, [&](std::size_t begin, std::size_t end) {
+    if (run.stop.stop_requested()) return;
     for (std::size_t i = begin; i < end; ++i)
       mesh.vertices_mm[i] = project_to_surface(field, starts[i], cell_mm).cast<float>();
   });
   for (std::size_t z = 0; z < grid.size[2]; ++z) {
+    run.check();
     for (std::size_t y = 0; y < grid.size[1]; ++y) {
       for (std::size_t x = 0; x < grid.size[0]; ++x) {
         const std::size_t corner = grid.index(x, y, z);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -15,10 +16,11 @@ using Field = std::function<double(const Eigen::Vector3d&)>;
 ///
 /// Every cell that the surface passes gets one vertex, moved onto the zero by Newton's method.
 /// @units    mm
-/// @errors   Error(Input) when the solid reaches the border of the box
+/// @errors   Error(Input) when the solid reaches the border of the box; Error(Cancelled)
 /// @source   surface nets, Gibson 1998
 [[nodiscard]] Mesh polygonize_field(const Field& field,
                                     const Eigen::AlignedBox3d& box_mm,
-                                    double cell_mm);
+                                    double cell_mm,
+                                    const Run& run = {});
 
 }  // namespace frangia

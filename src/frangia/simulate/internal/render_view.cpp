@@ -87,10 +87,11 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
     }
   }
   const ViewRenderer renderer(scene, true_pose(scene, view), view.index);
-  constexpr int kBand = 64;  // rows between two checks for cancellation
+  constexpr int kBand = 64;  // rows between two reports of progress
   for (int done = 0; done < scene.rays.height(); done += kBand) {
     const int size = std::min(kBand, scene.rays.height() - done);
     parallel_rows(size, [&](int row) {
+      if (run.stop.stop_requested()) return;
       const int y = done + row;
       const std::vector<LightSample> samples = renderer.sample_row(y);
       for (std::size_t i = 0; i < stacks.size(); ++i) {

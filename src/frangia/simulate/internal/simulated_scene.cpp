@@ -135,7 +135,8 @@ Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& vi
 SimulatedScene make_simulated_scene(const Mesh& part,
                                     const Rig& rig,
                                     std::span<const SimulatedView> views,
-                                    const SimulateOptions& options) {
+                                    const SimulateOptions& options,
+                                    const Run& run) {
   require(!part.empty(), "the part has no triangles; give a surface, not points alone");
   check(options, rig);
   Mesh surface = with_turntable_top(part, options.turntable_top_radius_mm);
@@ -157,8 +158,10 @@ SimulatedScene make_simulated_scene(const Mesh& part,
       (scene.rig.projector.position_mm - scene.rig.turntable->point_mm).norm();
 
   double brightest = 0.0;
-  for (const SimulatedView& view : views)
+  for (const SimulatedView& view : views) {
+    run.check();
     brightest = std::max(brightest, brightest_of(scene, view));
+  }
   const double headroom = std::max(kBrightest - options.ambient, 0.1);
   scene.exposure =
       options.exposure * headroom / (1.0 + options.contrast) / (brightest > 0.0 ? brightest : 1.0);

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/image.h"
+#include "frangia/core/run.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/rig/rig.h"
 #include "frangia/simulate/simulate_options.h"
@@ -40,7 +41,8 @@ struct SimulatedView {
 [[nodiscard]] SimulatedScene make_simulated_scene(const Mesh& part,
                                                   const Rig& rig,
                                                   std::span<const SimulatedView> views,
-                                                  const SimulateOptions& options = {});
+                                                  const SimulateOptions& options = {},
+                                                  const Run& run = {});
 
 /// The true pose of the object in a view, with the turntable's faults.
 [[nodiscard]] Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view);
