@@ -15,6 +15,7 @@
 #include "frangia/range/triangulate.h"
 
 #include "option_values.h"
+#include "print_text.h"
 #include "reconstruct_options.h"
 #include "verbs.h"
 
@@ -43,18 +44,18 @@ void print_result(const DecodedView& decoded,
   }
   for (const FrameAssessment& assessment : decoded.assessments) {
     json["assessments"].push_back(describe(assessment));
-    if (!terminal.json && !terminal.quiet) fmt::print("{}\n", describe(assessment));
+    if (!terminal.json && !terminal.quiet) print_text("{}\n", describe(assessment));
   }
   for (const StageFile& file : files) {
     json["files"].push_back(file.name);
     json["captions"][file.name] = file.caption;
     const bool picture = std::filesystem::path(file.name).extension() == ".png";
     if (picture && !terminal.json && !terminal.quiet)
-      fmt::print("{:<24} {}\n", file.name, file.caption);
+      print_text("{:<24} {}\n", file.name, file.caption);
   }
-  if (terminal.json) fmt::print("{}\n", json.dump(2));
+  if (terminal.json) print_json(json);
   if (!terminal.json && !terminal.quiet) {
-    fmt::print("wrote {} files to {}; index.html shows all pictures\n",
+    print_text("wrote {} files to {}; index.html shows all pictures\n",
                files.size(),
                arguments.folder.string());
   }

@@ -22,6 +22,7 @@
 #include "edit_findings.h"
 #include "edit_session.h"
 #include "picture_file.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -84,7 +85,7 @@ void report(const Mesh& mesh,
     if (counts) json["preview"] = {{"removed", counts->removed}, {"added", counts->added}};
     for (const auto& stage : terminal.stage_seconds())
       json["seconds"][stage.first] = stage.second;
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
   } else if (arguments.list) {
     const MeshFindings found = mesh_findings(mesh, run);
     terminal.finish();
@@ -101,8 +102,9 @@ void report(const Mesh& mesh,
   }
 }
 
-Mesh read_triangles(const std::filesystem::path& path, const Run& run) {
-  Mesh mesh = read_mesh(path, run);
+Mesh read_triangles(const EditArguments& arguments, const Run& run) {
+  const std::filesystem::path& path = arguments.mesh;
+  Mesh mesh = read_mesh(path, run, arguments.read);
   if (mesh.empty()) {
     const std::size_t points = mesh.vertices_mm.size();
     throw Error(
@@ -119,7 +121,7 @@ void edit(const EditArguments& arguments, Terminal& terminal) {
   const std::vector<EditScript> scripts = checked_scripts(arguments);
   const Run run = terminal.run();
   run.stage("read");
-  Mesh mesh = read_triangles(arguments.mesh, run);
+  Mesh mesh = read_triangles(arguments, run);
   const Mesh before = arguments.preview.empty() ? Mesh() : mesh;
   EditSession session(std::move(mesh), needs_history(arguments));
   auto script = scripts.begin();

@@ -18,8 +18,10 @@
 #include "frangia/inspect/surface_error.h"
 #include "frangia/inspect/surface_validity.h"
 
+#include "allow_memory.h"
 #include "option_values.h"
 #include "picture_file.h"
+#include "print_text.h"
 #include "read_surface.h"
 #include "verbs.h"
 
@@ -37,6 +39,7 @@ struct InspectArguments {
   double within_mm = 0.2;
   double max_angle_deg = 75.0;
   bool legend = true;
+  ReadOptions read;
 };
 
 SurfaceCompleteness completeness_of(const InspectArguments& arguments,
@@ -127,7 +130,7 @@ void print_result(const SurfaceError& error,
         {"inward_triangles", validity.inward_triangles},
         {"completeness", completeness.share},
         {"completeness_within_mm", arguments.within_mm}};
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
     return;
   }
   fmt::print(
@@ -150,10 +153,11 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
   require(!arguments.reference.empty() || !arguments.picture.empty(),
           "nothing to do: give a --reference to measure against or a --picture to draw");
   if (!arguments.picture.empty()) check_picture_output(arguments.picture);
-  const Mesh mesh = read_surface(arguments.mesh, run);
+  const Mesh mesh = read_surface(arguments.mesh, run, arguments.read);
   if (!arguments.picture.empty()) check_shown(arguments, mesh);
   std::optional<RayScene> reference;
-  if (!arguments.reference.empty()) reference.emplace(read_surface(arguments.reference, run));
+  if (!arguments.reference.empty())
+    reference.emplace(read_surface(arguments.reference, run, arguments.read));
   if (!arguments.picture.empty()) draw(arguments, mesh, reference, run);
   if (!reference) return;
   const RayScene mesh_scene(mesh);
@@ -206,6 +210,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       ->check(above_zero())
       ->capture_default_str();
   verb->add_flag("!--no-legend", arguments->legend, "leave out the color scale");
+  add_allow_memory(*verb, arguments->read);
   verb->callback([arguments, &terminal] { inspect(*arguments, terminal); });
 }
 

@@ -2,6 +2,8 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -11,6 +13,7 @@
 #include "merge_verb.h"
 #include "option_names.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "shell_quoted.h"
 #include "usage.h"
 #include "verbs.h"
@@ -38,7 +41,7 @@ int exit_code_of(ErrorKind kind) {
 int print_error(Terminal& terminal, const std::string& sentence, int code) {
   terminal.release();
   terminal.finish();
-  fmt::print(stderr, "frangia: {}\n", with_flags(sentence));
+  fmt::print(stderr, "frangia: {}\n", printable(with_flags(sentence)));
   return code;
 }
 
@@ -89,6 +92,8 @@ int run_program(int argc, char** argv) {
     return print_error(terminal, usage_sentence(program, error), Usage);
   } catch (const Error& error) {
     return print_error(terminal, error.what(), exit_code_of(error.kind()));
+  } catch (const std::system_error& error) {  // of fmt::print to standard output
+    return print_error(terminal, error.what(), BadInput);
   } catch (const std::bad_alloc&) {
     return print_error(terminal,
                        "this does not fit into the memory of the machine; set a larger `voxel`",
@@ -100,14 +105,26 @@ int run_program(int argc, char** argv) {
   return terminal.exit_code;
 }
 
+/// Fails where the result could not be written: a full disk, or a pipe that was closed.
+int check_output(int code) {
+  try {
+    flush_output();
+  } catch (const Error& error) {
+    fmt::print(stderr, "frangia: {}\n", error.what());
+    if (code == 0) return exit_code_of(error.kind());
+  }
+  return code;
+}
+
 }  // namespace
 }  // namespace frangia
 
 int main(int argc, char** argv) {
   try {
-    return frangia::run_program(argc, argv);
+    return frangia::check_output(frangia::run_program(argc, argv));
   } catch (const std::exception& error) {  // before the parse, or while printing a result
-    static_cast<void>(std::fprintf(stderr, "frangia: %s\n", error.what()));  // NOLINT(*-vararg)
+    const std::string sentence = frangia::printable(error.what());
+    static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
     return frangia::NumericFault;
   }
 }

@@ -14,6 +14,7 @@
 
 #include "counted.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -49,7 +50,7 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
   if (terminal.json) {
     const nlohmann::ordered_json json{
         {"fringes", found.fringes}, {key, values}, {"wrong_order", found.wrong_order}};
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
     return;
   }
   fmt::print(

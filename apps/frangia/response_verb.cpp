@@ -12,6 +12,7 @@
 #include "frangia/phase/measure_response.h"
 #include "frangia/rig/read_rig.h"
 
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -44,9 +45,9 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   write_rig(arguments.output, rig);
   terminal.finish();
   if (terminal.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"light", response->light}}.dump(2));
+    print_json({{"light", response->light}});
   } else if (!terminal.quiet) {
-    fmt::print("half of full drive gives {:.1f} % of full light\nwrote {}\n",
+    print_text("half of full drive gives {:.1f} % of full light\nwrote {}\n",
                100.0 * response->light_of(0.5),
                arguments.output.string());
   }

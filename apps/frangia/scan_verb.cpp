@@ -15,6 +15,7 @@
 #include "counted.h"
 #include "drivers.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -125,7 +126,7 @@ void print(const ScanArguments& arguments, const CaptureReport& report, Terminal
                                   {"disk_s", report.disk_s},
                                   {"overhead_ms_per_frame", report.overhead_ms()},
                                   {"warnings", terminal.warnings()}};
-    fmt::print("{}\n", result.dump(2));
+    print_json(result);
     return;
   }
   terminal.run().note(
