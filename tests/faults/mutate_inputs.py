@@ -103,12 +103,23 @@ def mutate(data, chance):
     return data[:9_000_000]
 
 
+def sheet_ply(side):
+    """A wavy sheet of side x side points as an ascii PLY."""
+    header = ("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face {}\nproperty list uchar int vertex_indices\nend_header\n")
+    points = [f"{x} {y} {x * y % 7 / 10}\n" for y in range(side) for x in range(side)]
+    corners = [y * side + x for y in range(side - 1) for x in range(side - 1)]
+    faces = [f"3 {i} {i + 1} {i + side}\n3 {i + 1} {i + side + 1} {i + side}\n" for i in corners]
+    return header.format(len(points), 2 * len(faces)) + "".join(points) + "".join(faces)
+
+
 def sample_files(program, folder):
     """Meshes of every format and a scan, written by the program."""
     def run(*arguments):
         subprocess.run([program, "--quiet", *arguments], check=True, stdout=subprocess.DEVNULL)
-    run("simulate", "ball-bar", "--rig", str(SMALL_RIG), "--views", "2", "-o", str(folder / "scan"))
-    run("edit", str(folder / "scan" / "truth.ply"), "--decimate", "400", "-o", str(folder / "a.ply"))
+    run("simulate", "plate", "--rig", str(SMALL_RIG), "--views", "2", "-o", str(folder / "scan"))
+    (folder / "scan" / "truth.ply").unlink()
+    (folder / "a.ply").write_text(sheet_ply(12))
     outputs = [argument for kind in MESHES if kind != "ply"
                for argument in ("-o", str(folder / f"a.{kind}"))]
     run("edit", str(folder / "a.ply"), *outputs)
@@ -119,7 +130,7 @@ def all_cases(program, folder):
     cases = []
     mesh_commands = [["edit", "FILE", "--list"],
                      ["edit", "FILE", "--fill-holes", "10", "--orient", "-o", "out.stl"],
-                     ["inspect", "FILE", "--picture", "out.png", "--show", "shape"]]
+                     ["inspect", "FILE", "--reference", "FILE"]]
     for kind in MESHES:
         files = [folder / f"a.{kind}", *sorted((SEEDS / kind).iterdir())]
         cases += [Case(kind, file.read_bytes(), f"in.{kind}", mesh_commands) for file in files]
