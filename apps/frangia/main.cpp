@@ -41,7 +41,7 @@ int exit_code_of(ErrorKind kind) {
 int print_error(Terminal& terminal, const std::string& sentence, int code) {
   terminal.release();
   terminal.finish();
-  fmt::print(stderr, "frangia: {}\n", printable(with_flags(sentence)));
+  fmt::print(stderr, "frangia: {}\n", terminal_text(with_flags(sentence)));
   return code;
 }
 
@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
   try {
     return frangia::check_output(frangia::run_program(argc, argv));
   } catch (const std::exception& error) {  // before the parse, or while printing a result
-    const std::string sentence = frangia::printable(error.what());
+    const std::string sentence = frangia::terminal_text(error.what());
     static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
     return frangia::NumericFault;
   }

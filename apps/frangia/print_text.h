@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json_fwd.hpp>
 
-#include "printable.h"
+#include "terminal_text.h"
 
 namespace frangia {
 
@@ -27,11 +27,12 @@ void flush_output();
 /// errors   as write_output
 void print_json(const nlohmann::ordered_json& json);
 
-/// A value as `print_text` formats it: text as `printable` returns it, other values as they are.
+/// A value as `print_text` formats it: text as `terminal_text` returns it, other values as they
+/// are.
 template <typename T>
-[[nodiscard]] decltype(auto) printable_value(const T& value) {
+[[nodiscard]] decltype(auto) terminal_value(const T& value) {
   if constexpr (std::is_convertible_v<const T&, std::string_view>) {
-    return printable(value);
+    return terminal_text(value);
   } else {
     return (value);
   }
@@ -42,10 +43,9 @@ template <typename T>
 ///
 /// errors   as write_output
 template <typename... Args>
-void print_text(
-    fmt::format_string<decltype(printable_value(std::declval<const Args&>()))...> format,
-    const Args&... arguments) {
-  write_output(fmt::format(format, printable_value(arguments)...));
+void print_text(fmt::format_string<decltype(terminal_value(std::declval<const Args&>()))...> format,
+                const Args&... arguments) {
+  write_output(fmt::format(format, terminal_value(arguments)...));
 }
 
 }  // namespace frangia

@@ -9,6 +9,6 @@ namespace frangia {
 /// not UTF-8, and the invisible characters that reorder a line are replaced by their codes: \n,
 /// \x1b, \u202e. All text that may come from a file, a device or the command line is printed
 /// through this function.
-[[nodiscard]] std::string printable(std::string_view text);
+[[nodiscard]] std::string terminal_text(std::string_view text);
 
 }  // namespace frangia

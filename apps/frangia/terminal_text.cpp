@@ -1,4 +1,4 @@
-#include "printable.h"
+#include "terminal_text.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +61,7 @@ std::string escape_of(char32_t code) {
 
 }  // namespace
 
-std::string printable(std::string_view text) {
+std::string terminal_text(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
   while (!text.empty()) {
