@@ -6,6 +6,7 @@
 #include "frangia/phase/algorithm_errors.h"
 #include "frangia/phase/published_algorithms.h"
 
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -62,7 +63,7 @@ void print_algorithms(const Terminal& terminal) {
                published.source);
   }
   if (terminal.json) {
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
     return;
   }
   fmt::print(

@@ -18,6 +18,7 @@
 #include "check_can_write.h"
 #include "drivers.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -77,7 +78,7 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
     const nlohmann::ordered_json result{{"curve_commands", sweep.curve.commands},
                                         {"curve_phases_deg", degrees(sweep.curve.phases_rad)},
                                         {"residual_ratio", sweep.residual_ratio}};
-    fmt::print("{}\n", result.dump(2));
+    print_json(result);
   } else if (!terminal.quiet) {
     fmt::print("# for [devices.fringes], instead of command_per_turn\n{}", lines_of(sweep.curve));
     if (!arguments.output.empty()) terminal.print_written(arguments.output.string());

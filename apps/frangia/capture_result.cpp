@@ -9,6 +9,7 @@
 #include "frangia/core/angles.h"
 
 #include "counted.h"
+#include "print_text.h"
 
 namespace frangia {
 namespace {
@@ -53,7 +54,7 @@ void print_capture(const std::filesystem::path& output,
                                   {"disk_s", report.disk_s},
                                   {"overhead_ms_per_frame", report.overhead_ms()},
                                   {"warnings", terminal.warnings()}};
-    fmt::print("{}\n", result.dump(2));
+    print_json(result);
     return;
   }
   terminal.run().note(

@@ -18,6 +18,7 @@
 #include "check_can_write.h"
 #include "counted.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "reconstruct_options.h"
 #include "verbs.h"
 
@@ -50,18 +51,18 @@ void print_result(const DecodedView& decoded,
   }
   for (const FrameAssessment& assessment : decoded.assessments) {
     json["assessments"].push_back(describe(assessment));
-    if (!terminal.json && !terminal.quiet) fmt::print("{}\n", describe(assessment));
+    if (!terminal.json && !terminal.quiet) print_text("{}\n", describe(assessment));
   }
   for (const StageFile& file : files) {
     json["files"].push_back(file.name);
     json["captions"][file.name] = file.caption;
     const bool picture = std::filesystem::path(file.name).extension() == ".png";
     if (picture && !terminal.json && !terminal.quiet)
-      fmt::print("{:<24} {}\n", file.name, file.caption);
+      print_text("{:<24} {}\n", file.name, file.caption);
   }
-  if (terminal.json) fmt::print("{}\n", json.dump(2));
+  if (terminal.json) print_json(json);
   if (!terminal.json && !terminal.quiet) {
-    fmt::print("wrote {} to {}; index.html shows all pictures\n",
+    print_text("wrote {} to {}; index.html shows all pictures\n",
                counted(files.size(), "file"),
                arguments.folder.string());
   }

@@ -23,6 +23,7 @@
 #include "frangia/simulate/simulate_scan.h"
 
 #include "counted.h"
+#include "print_text.h"
 #include "show_file.h"
 #include "verbs.h"
 
@@ -126,7 +127,7 @@ void run_case(DemoCase& demo_case, const std::filesystem::path& folder, const Ru
   write_png(folder / (demo_case.part + ".png"), demo_case.pictures[2]);
 }
 
-void print_json(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
+void print_cases(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
   nlohmann::ordered_json json;
   for (const DemoCase& demo_case : demo_cases) {
     json["parts"].push_back({{"part", demo_case.part},
@@ -141,7 +142,7 @@ void print_json(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
   for (const auto& stage : terminal.stage_seconds())
     json["seconds"][stage.first] = stage.second;
   json["warnings"] = terminal.warnings();
-  fmt::print("{}\n", json.dump(2));
+  print_json(json);
 }
 
 void print_table(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
@@ -212,10 +213,10 @@ void demo(const DemoArguments& arguments, Terminal& terminal) {
   write_png(sheet, contact_sheet(rows, 420));
   terminal.finish();
   if (terminal.json) {
-    print_json(demo_cases, terminal);
+    print_cases(demo_cases, terminal);
   } else if (!terminal.quiet) {
     print_table(demo_cases, terminal);
-    fmt::print("wrote meshes and pictures to {}; {} shows them all\n",
+    print_text("wrote meshes and pictures to {}; {} shows them all\n",
                arguments.folder.string(),
                sheet.string());
   }

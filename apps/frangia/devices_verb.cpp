@@ -10,6 +10,7 @@
 #include "frangia/rig/read_rig.h"
 
 #include "drivers.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -83,32 +84,32 @@ Json test_devices(const std::filesystem::path& rig_file,
 }
 
 void print(const Json& drivers, const Json& found, const Json& tested) {
-  fmt::print("Drivers\n");
+  print_text("Drivers\n");
   for (const Json& driver : drivers) {
-    fmt::print("  [devices.{}]{:{}} driver = {:<20} {}\n",
+    print_text("  [devices.{}]{:{}} driver = {:<20} {}\n",
                driver["table"].get<std::string>(),
                "",
                10 - driver["table"].get<std::string>().size(),
                "\"" + driver["driver"].get<std::string>() + "\"",
                driver["description"].get<std::string>());
   }
-  fmt::print("\nConnected{}\n", found.empty() ? ": no device was found" : "");
+  print_text("\nConnected{}\n", found.empty() ? ": no device was found" : "");
   for (const Json& device : found) {
-    fmt::print("  {}\n    [devices.{}]\n",
+    print_text("  {}\n    [devices.{}]\n",
                device["name"].get<std::string>(),
                device["table"].get<std::string>());
     std::string settings = device["settings"];
     for (std::size_t at = 0; !settings.empty();) {
       at = settings.find('\n');
-      fmt::print("    {}\n", settings.substr(0, at));
+      print_text("    {}\n", settings.substr(0, at));
       settings.erase(0, at == std::string::npos ? at : at + 1);
     }
   }
   if (tested.empty()) return;
-  fmt::print("\nThis rig\n");
+  print_text("\nThis rig\n");
   for (const Json& device : tested) {
     const bool well = device.contains("answer");
-    fmt::print("  [devices.{}] {}\n",
+    print_text("  [devices.{}] {}\n",
                device["table"].get<std::string>(),
                well ? fmt::format("works: {}: {}",
                                   device["name"].get<std::string>(),
@@ -125,7 +126,7 @@ void list(const std::filesystem::path& rig, bool search, Terminal& terminal) {
   terminal.finish();
   if (terminal.json) {
     const Json all{{"drivers", list_drivers(drivers)}, {"connected", found}, {"rig", tested}};
-    fmt::print("{}\n", all.dump(2));
+    print_json(all);
   } else {
     print(list_drivers(drivers), found, tested);
   }

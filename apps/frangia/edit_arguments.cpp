@@ -6,6 +6,7 @@
 
 #include "frangia/files/mesh_formats.h"
 
+#include "allow_memory.h"
 #include "option_names.h"
 #include "write_options.h"
 
@@ -70,6 +71,7 @@ void add_edit_arguments(CLI::App& verb, EditArguments& arguments) {
       ->required();
   verb.add_option("-o,--output", arguments.outputs, output_help())->allow_extra_args(false);
   add_write_options(verb, arguments.write);
+  add_allow_memory(verb, arguments.read);
   verb.add_flag("--list", arguments.list, "list the components, holes and faults of the result");
   verb.add_option("--preview",
                   arguments.preview,

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "frangia/editor/edit_operation.h"
+#include "frangia/files/read_options.h"
 #include "frangia/files/write_mesh.h"
 
 namespace frangia {
@@ -22,6 +23,7 @@ struct EditArguments {
   std::filesystem::path save_script;
   std::filesystem::path preview;
   WriteOptions write;
+  ReadOptions read;
   bool list = false;
 };
 

@@ -24,6 +24,7 @@
 #include "edit_findings.h"
 #include "edit_session.h"
 #include "picture_file.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -96,7 +97,7 @@ void report(const Mesh& mesh,
     json["outputs"] = nlohmann::ordered_json::array();
     for (const auto& path : written_files(arguments))
       json["outputs"].push_back(path.string());
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
   } else if (arguments.list) {
     const MeshFindings found = mesh_findings(mesh, run);
     terminal.finish();
@@ -114,8 +115,9 @@ void report(const Mesh& mesh,
     terminal.print_written(path.string());
 }
 
-Mesh read_triangles(const std::filesystem::path& path, const Run& run) {
-  Mesh mesh = read_mesh(path, run);
+Mesh read_triangles(const EditArguments& arguments, const Run& run) {
+  const std::filesystem::path& path = arguments.mesh;
+  Mesh mesh = read_mesh(path, run, arguments.read);
   if (mesh.empty()) {
     const std::size_t points = mesh.vertices_mm.size();
     throw Error(ErrorKind::Input,
@@ -130,7 +132,7 @@ void edit(const EditArguments& arguments, Terminal& terminal) {
   const std::vector<EditScript> scripts = checked_scripts(arguments);
   const Run run = terminal.run();
   run.stage("read");
-  Mesh mesh = read_triangles(arguments.mesh, run);
+  Mesh mesh = read_triangles(arguments, run);
   const Mesh before = arguments.preview.empty() ? Mesh() : mesh;
   EditSession session(std::move(mesh), needs_history(arguments));
   auto script = scripts.begin();

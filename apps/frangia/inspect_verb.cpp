@@ -18,9 +18,11 @@
 #include "frangia/inspect/surface_error.h"
 #include "frangia/inspect/surface_validity.h"
 
+#include "allow_memory.h"
 #include "fixed_text.h"
 #include "option_values.h"
 #include "picture_file.h"
+#include "print_text.h"
 #include "read_surface.h"
 #include "verbs.h"
 
@@ -38,6 +40,7 @@ struct InspectArguments {
   double within_mm = 0.2;
   double max_angle_deg = 75.0;
   bool legend = true;
+  ReadOptions read;
 };
 
 SurfaceCompleteness completeness_of(const InspectArguments& arguments,
@@ -129,7 +132,7 @@ void print_result(const SurfaceError& error,
         {"completeness", completeness.share},
         {"completeness_within_mm", arguments.within_mm}};
     if (!arguments.picture.empty()) json["picture"] = arguments.picture.string();
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
     return;
   }
   fmt::print(
@@ -152,14 +155,15 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
   require(!arguments.reference.empty() || !arguments.picture.empty(),
           "nothing to do: give a --reference to measure against or a --picture to draw");
   if (!arguments.picture.empty()) check_picture_output(arguments.picture);
-  const Mesh mesh = read_surface(arguments.mesh, run);
+  const Mesh mesh = read_surface(arguments.mesh, run, arguments.read);
   if (!arguments.picture.empty()) check_shown(arguments, mesh);
   std::optional<RayScene> reference;
-  if (!arguments.reference.empty()) reference.emplace(read_surface(arguments.reference, run));
+  if (!arguments.reference.empty())
+    reference.emplace(read_surface(arguments.reference, run, arguments.read));
   if (!arguments.picture.empty()) draw(arguments, mesh, reference, run);
   if (!reference) {
     if (terminal.json) {
-      fmt::print("{}\n", nlohmann::ordered_json{{"picture", arguments.picture.string()}}.dump(2));
+      print_json(nlohmann::ordered_json{{"picture", arguments.picture.string()}});
     }
     terminal.print_written(arguments.picture.string());
     return;
@@ -215,6 +219,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       ->transform(length_above_zero())
       ->capture_default_str();
   verb->add_flag("!--no-legend", arguments->legend, "leave out the color scale");
+  add_allow_memory(*verb, arguments->read);
   verb->callback([arguments, &terminal] { inspect(*arguments, terminal); });
 }
 

@@ -1,10 +1,10 @@
-#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -18,6 +18,7 @@
 #include "merge_verb.h"
 #include "option_names.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "shell_quoted.h"
 #include "usage.h"
 #include "verbs.h"
@@ -45,7 +46,7 @@ int exit_code_of(ErrorKind kind) {
 int print_error(Terminal& terminal, const std::string& sentence, int code) {
   terminal.release();
   terminal.finish();
-  fmt::print(stderr, "frangia: {}\n", with_flags(sentence));
+  fmt::print(stderr, "frangia: {}\n", terminal_text(with_flags(sentence)));
   return code;
 }
 
@@ -102,8 +103,8 @@ int run_program(int argc, char** argv) {
                        NumericFault);
   } catch (const std::filesystem::filesystem_error& error) {
     return print_error(terminal, error.what(), BadInput);
-  } catch (const std::system_error&) {
-    throw;  // of the output; a message may fail as well
+  } catch (const std::system_error& error) {  // of fmt::print to standard output
+    return print_error(terminal, error.what(), BadInput);
   } catch (const std::exception& error) {
     return print_error(terminal, error.what(), NumericFault);
   }
@@ -111,23 +112,25 @@ int run_program(int argc, char** argv) {
   return terminal.exit_code;
 }
 
-/// Ends the output. A reader that has ended stops the program, as it does other programs.
+/// Ends the output, which fails where the result could not be written. A reader that has ended
+/// stops the program, as it does other programs.
 int finish_output(int code) {
-  errno = 0;
-  std::cout.flush();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  try {
+    std::cout.flush();
+    flush_output();
+  } catch (const Error& error) {
+    if (reader_has_ended()) end_by_sigpipe();
+    fmt::print(stderr, "frangia: {}\n", error.what());
+    return code == 0 ? exit_code_of(error.kind()) : code;
+  }
   if (reader_has_ended()) end_by_sigpipe();
-  throw std::system_error(errno, std::generic_category());
-}
-
-int fail(const std::string& sentence, int code) {
-  static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
   return code;
 }
 
-std::string output_sentence(const std::system_error& error) {
-  const bool output = std::ferror(stdout) != 0;
-  return output ? "cannot write to the standard output: " + error.code().message() : error.what();
+int fail(const std::string& message, int code) {
+  const std::string sentence = terminal_text(message);
+  static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
+  return code;
 }
 
 }  // namespace
@@ -141,10 +144,8 @@ int main(int argc, char** argv) {
   try {
     frangia::handle_signals();
     return frangia::finish_output(frangia::run_program(argc, argv));
-  } catch (const std::system_error& error) {  // while printing
+  } catch (const std::exception& error) {  // before the parse, or while printing a result
     if (frangia::reader_has_ended()) frangia::end_by_sigpipe();
-    return frangia::fail(frangia::output_sentence(error), frangia::BadInput);
-  } catch (const std::exception& error) {  // before the parse
     return frangia::fail(error.what(), frangia::NumericFault);
   }
 }

@@ -13,6 +13,7 @@
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/pipeline/merge_scans.h"
 
+#include "allow_memory.h"
 #include "counted.h"
 #include "mesh_result.h"
 #include "option_values.h"
@@ -27,13 +28,15 @@ struct MergeArguments {
   MeshOutputs outputs;
   bool no_register = false;
   MergeScansOptions options;
+  ReadOptions read;
 };
 
-std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths) {
+std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
+                                const ReadOptions& options) {
   std::vector<RangeScan> scans;
   for (const auto& path : paths) {
     if (lowercase_extension(path) == ".conf") {
-      for (RangeScan& scan : read_posed_scans(path))
+      for (RangeScan& scan : read_posed_scans(path, options))
         scans.push_back(std::move(scan));
     } else {
       scans.push_back(read_range_scan(path));
@@ -105,7 +108,7 @@ void merge(MergeArguments& arguments, Terminal& terminal) {
   arguments.options.register_poses = !arguments.no_register;
   const Run run = terminal.run();
   run.stage("files");
-  const std::vector<RangeScan> scans = read_all(arguments.scans);
+  const std::vector<RangeScan> scans = read_all(arguments.scans, arguments.read);
   terminal.hold();
   const MergedScans result = merge_scans(scans, arguments.options, run);
   run.stage("files");
@@ -155,6 +158,7 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
                    arguments->options.finish.tolerance_mm,
                    "simplify the mesh within this distance, mm")
       ->transform(length_above_zero());
+  add_allow_memory(*verb, arguments->read);
   verb->callback([arguments, &terminal] { merge(*arguments, terminal); });
 }
 

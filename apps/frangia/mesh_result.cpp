@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "print_text.h"
+
 namespace frangia {
 namespace {
 
@@ -27,17 +29,17 @@ void print_mesh_result(nlohmann::ordered_json result,
   result["warnings"] = terminal.warnings();
   for (const auto& path : outputs)
     result["outputs"].push_back(path.string());
-  fmt::print("{}\n", result.dump(2));
+  print_json(result);
 }
 
 void print_mesh_summary(Terminal& terminal, const std::vector<std::filesystem::path>& outputs) {
   if (terminal.verbose) {
     for (const auto& [stage, seconds] : terminal.stage_seconds())
-      fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
+      print_text("  {:<10}{:7.2f} s\n", stage, seconds);
     fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
   }
   for (const auto& path : outputs)
-    fmt::print("wrote {}\n", path.string());
+    print_text("wrote {}\n", path.string());
 }
 
 }  // namespace frangia

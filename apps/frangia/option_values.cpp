@@ -1,8 +1,10 @@
 #include "option_values.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/ranges.h>
 
@@ -62,6 +64,29 @@ CLI::Validator length_above_zero() {
 
 CLI::Validator length_zero_or_more() {
   return length_that([](double length_mm) { return length_mm >= 0.0; }, "a length of 0 or more");
+}
+
+CLI::Validator size_above_zero() {
+  return {[](std::string& input) {
+            constexpr std::array<std::pair<const char*, double>, 4> kUnits{
+                {{"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}}};
+            constexpr double kMax = 1e18;
+            double unit = 1.0;
+            std::string digits = input;
+            for (const auto& [name, bytes] : kUnits) {
+              if (!input.ends_with(name)) continue;
+              unit = bytes;
+              digits = input.substr(0, input.size() - 2);
+              digits.erase(digits.find_last_not_of(' ') + 1);
+            }
+            const double bytes = unit * finite(digits).value_or(0.0);
+            if (!(bytes >= 1.0 && bytes <= kMax)) {
+              return fmt::format("{} is not a size above 0, such as 500MB or 4GB", input);
+            }
+            input = fmt::format("{:.0f}", bytes);
+            return std::string();
+          },
+          "SIZE"};
 }
 
 CLI::Validator a_number() {

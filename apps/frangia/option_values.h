@@ -34,6 +34,10 @@ namespace frangia {
 [[nodiscard]] CLI::Validator length_above_zero();
 [[nodiscard]] CLI::Validator length_zero_or_more();
 
+/// A size of memory: "2GB", "500 MB", or a number of bytes. For CLI::Option::transform: the
+/// option's variable receives bytes.
+[[nodiscard]] CLI::Validator size_above_zero();
+
 /// The name of an enum's value, one of the keys of `values`; for CLI::Option::transform.
 template <typename Enum>
 [[nodiscard]] CLI::Validator named(const std::map<std::string, Enum>& values) {

@@ -12,6 +12,7 @@
 #include "frangia/inspect/contact_sheet.h"
 #include "frangia/inspect/render_mesh.h"
 
+#include "allow_memory.h"
 #include "option_values.h"
 #include "picture_file.h"
 #include "read_surface.h"
@@ -26,6 +27,7 @@ struct PictureArguments {
   double azimuth_deg = 35.0;
   double elevation_deg = 20.0;
   RenderOptions shade;
+  ReadOptions read;
 };
 
 void draw(PictureArguments arguments, Terminal& terminal) {
@@ -36,7 +38,7 @@ void draw(PictureArguments arguments, Terminal& terminal) {
   std::vector<Image<Rgb>> pictures;
   for (const auto& path : arguments.meshes) {
     run.stage(path.filename().string());
-    pictures.push_back(render_mesh(read_surface(path, run), arguments.shade, run));
+    pictures.push_back(render_mesh(read_surface(path, run, arguments.read), arguments.shade, run));
   }
   if (pictures.size() == 1) {
     write_png(arguments.output, pictures.front());
@@ -75,6 +77,7 @@ void add_picture_verb(CLI::App& program, Terminal& terminal) {
                  "color what was displaced yellow, what was synthesized blue");
   verb->add_flag("!--no-ground", arguments->shade.ground, "leave out the shadow on the ground");
   verb->add_flag("!--no-legend", arguments->shade.legend, "leave out the meaning of the colors");
+  add_allow_memory(*verb, arguments->read);
   verb->callback([arguments, &terminal] { draw(*arguments, terminal); });
 }
 

@@ -16,6 +16,7 @@
 
 #include "counted.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -65,7 +66,7 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
   if (terminal.json) {
     const nlohmann::ordered_json json{
         {"fringes", found.fringes}, {key, values}, {"wrong_order", found.wrong_order}};
-    fmt::print("{}\n", json.dump(2));
+    print_json(json);
     return;
   }
   fmt::print(

@@ -15,8 +15,10 @@ namespace frangia {
 /// Reads a mesh that must have triangles.
 ///
 /// errors   Error(Input) as read_mesh, and when the file holds points alone
-inline Mesh read_surface(const std::filesystem::path& path, const Run& run = {}) {
-  Mesh mesh = read_mesh(path, run);
+inline Mesh read_surface(const std::filesystem::path& path,
+                         const Run& run = {},
+                         const ReadOptions& options = {}) {
+  Mesh mesh = read_mesh(path, run, options);
   if (mesh.triangles.empty()) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: it has {} and no triangles; name a mesh with a surface",

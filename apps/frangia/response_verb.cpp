@@ -13,6 +13,7 @@
 #include "frangia/rig/read_rig.h"
 
 #include "check_can_write.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -46,9 +47,9 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   write_rig(arguments.output, rig);
   terminal.finish();
   if (terminal.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"light", response->light}}.dump(2));
+    print_json({{"light", response->light}});
   } else if (!terminal.quiet) {
-    fmt::print("half of full drive gives {:.1f} % of full light\n",
+    print_text("half of full drive gives {:.1f} % of full light\n",
                100.0 * response->light_of(0.5));
     terminal.print_written(arguments.output.string());
   }

@@ -16,6 +16,7 @@
 #include "capture_result.h"
 #include "drivers.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {

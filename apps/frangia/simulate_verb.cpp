@@ -18,8 +18,10 @@
 #include "frangia/simulate/rig_presets.h"
 #include "frangia/simulate/simulate_scan.h"
 
+#include "allow_memory.h"
 #include "counted.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -39,6 +41,7 @@ struct SimulateArguments {
   double angle_error_deg = 0.0;
   double axis_tilt_deg = 0.0;
   const CLI::Option* fringes_per_degree = nullptr;
+  ReadOptions read;
 };
 
 void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
@@ -200,11 +203,11 @@ void add_turntable_faults(CLI::App& verb, SimulateArguments& arguments) {
       ->transform(length_zero_or_more());
 }
 
-Mesh part_of(const std::string& name, const Run& run) {
+Mesh part_of(const std::string& name, const ReadOptions& options, const Run& run) {
   for (const std::string& known : part_names()) {
     if (known == name) return make_part(name, run);
   }
-  if (std::filesystem::path(name).has_extension()) return read_mesh(name, run);
+  if (std::filesystem::path(name).has_extension()) return read_mesh(name, run, options);
   throw Error(ErrorKind::Input,
               fmt::format("there is no part \"{}\"; choose one of {}, or a .stl, .ply or .obj file",
                           name,
@@ -250,7 +253,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
                 "`periods`");
   }
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
-  const Mesh part = part_of(arguments.part, run);
+  const Mesh part = part_of(arguments.part, arguments.read, run);
   add_setups(plan, part, arguments);
   run.stage("render");
   const Scan scan = simulate_scan(part, plan, options, run);
@@ -264,7 +267,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
     for (const auto& stage : seconds)
       result["seconds"][stage.first] = stage.second;
     result["warnings"] = terminal.warnings();
-    fmt::print("{}\n", result.dump(2));
+    print_json(result);
     return;
   }
   terminal.print_written(fmt::format("{}: {} of {}, and truth.ply",
@@ -288,6 +291,7 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
   add_projector_faults(*verb, *arguments);
   add_part_faults(*verb, *arguments);
   add_turntable_faults(*verb, *arguments);
+  add_allow_memory(*verb, arguments->read);
   verb->callback([arguments, &terminal] { simulate(*arguments, terminal); });
 }
 

@@ -11,6 +11,7 @@
 
 #include "interrupt.h"
 #include "option_names.h"
+#include "print_text.h"
 
 namespace frangia {
 namespace {
@@ -102,19 +103,19 @@ void Terminal::draw(double done) {
   constexpr auto kRedraw = std::chrono::milliseconds(50);
   if (now - last_drawn_ < kRedraw) return;
   last_drawn_ = now;
-  fmt::print(stderr, "\r\x1b[K{}", progress_.text(now));
+  fmt::print(stderr, "\r\x1b[K{}", terminal_text(progress_.text(now)));
   static_cast<void>(std::fflush(stderr));
   line_open_ = true;
 }
 
 void Terminal::print_line(const std::string& text) {
   finish();
-  fmt::print(stderr, "{}\n", text);
+  fmt::print(stderr, "{}\n", terminal_text(text));
 }
 
 void Terminal::print_written(const std::string& path) {
   finish();
-  if (!json && !quiet) fmt::print("wrote {}\n", path);
+  if (!json && !quiet) print_text("wrote {}\n", path);
 }
 
 void Terminal::finish() {

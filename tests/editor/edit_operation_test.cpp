@@ -14,6 +14,7 @@
 #include "frangia/editor/edit_script.h"
 #include "frangia/geometry/selection.h"
 
+#include "support/error_of.h"
 #include "support/temporary_folder.h"
 #include "support/test_meshes.h"
 
@@ -186,6 +187,27 @@ TEST(ApplyStep, GrowsAndShrinksTheSelectionByWholeRings) {
   EXPECT_EQ(count_selected(state.selection), kSectors);
   ASSERT_EQ(error_of(state, {"grow", "1000000000"}), "");
   EXPECT_EQ(count_selected(state.selection), disk.triangles.size());
+}
+
+TEST(ReadEditScript, RefusesNumbersThatAreNoCountsAndDeepOrLargeFiles) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "h.json";
+  const auto fault_of = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return testing::error_of([&] { return read_edit_script(path); });
+  };
+  const std::string head = R"({"format": "frangia-edits", "version": )";
+  for (const char* number : {"1e300", "1.5", "true", "null", "-1e300"}) {
+    EXPECT_NE(fault_of(head + number + R"(, "steps": []})").find("version"), std::string::npos);
+    EXPECT_NE(fault_of(head + R"(1, "steps": [], "done": )" + number + "}").find("done"),
+              std::string::npos);
+  }
+  EXPECT_NE(fault_of(head + R"(18446744073709551615, "steps": []})").find("newer"),
+            std::string::npos);
+  EXPECT_NE(fault_of(head + std::string(1'000'000, '[')).find("nested"), std::string::npos);
+  std::filesystem::resize_file(path, 100'000'000'000);
+  EXPECT_NE(testing::error_of([&] { return read_edit_script(path); }).find("bytes"),
+            std::string::npos);
 }
 
 TEST(ReadEditScript, RefusesMoreStepsDoneThanItHas) {

@@ -148,9 +148,9 @@ TEST_F(EveryFormat, ThreeMfBuildsAModelEvenWhenOpen) {
   for (const Mesh& mesh : {marked_box(), testing::marked_sheet(30)}) {
     write_mesh(at("a.3mf"), mesh);
     std::string model;
-    EXPECT_TRUE(ZipReader(at("a.3mf")).read("3D/3dmodel.model", [&](std::string_view piece) {
-      model += piece;
-    }));
+    EXPECT_TRUE(ZipReader(at("a.3mf"))
+                    .read("3D/3dmodel.model",
+                          [&](std::string_view piece, double /*done*/) { model += piece; }));
     EXPECT_NE(model.find("<object id=\"2\" type=\"model\""), std::string::npos);
     EXPECT_EQ(model.find("surface"), std::string::npos);
     EXPECT_EQ(counts_of_marks(read_mesh(at("a.3mf"))), counts_of_marks(mesh));

@@ -7,6 +7,7 @@
 
 #include "frangia/core/error.h"
 
+#include "support/error_of.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -61,6 +62,58 @@ TEST(RangeScan, RotatesByTheConjugateOfTheQuaternionInAConf) {
   ASSERT_EQ(scans.size(), 1U);
   const Eigen::Vector3d turned = scans[0].world_from_scan * Eigen::Vector3d::UnitX();
   EXPECT_TRUE(turned.isApprox(Eigen::Vector3d(1.0, 1.0, 3.0), 1e-6)) << turned.transpose();
+}
+
+std::string fault_of(const std::string& text) {
+  const TemporaryFolder folder;
+  write(folder.path() / "grid.ply", text);
+  return testing::error_of([&] { return read_range_scan(folder.path() / "grid.ply"); });
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(RangeScan, RefusesSizesWhoseProductOverflows) {
+  std::string text = with(small_grid(3), "num_cols 3", "num_cols 9223372036854775807");
+  text = with(text, "num_rows 3", "num_rows 9223372036854775799");  // their product is 9 in 64 bits
+  EXPECT_NE(fault_of(text).find("its range_grid has 9 cells"), std::string::npos);
+  EXPECT_NE(fault_of(with(small_grid(3), "num_cols 3", "num_cols -3")).find("9 cells"),
+            std::string::npos);
+}
+
+TEST(RangeScan, SkipsAnElementWithoutPropertiesWhateverItsCount) {
+  const std::string other = with(
+      small_grid(3), "element range_grid", "element other 9000000000000000000\nelement range_grid");
+  EXPECT_EQ(fault_of(other), "");
+  const std::string grid =
+      "ply\nformat ascii 1.0\nobj_info num_cols 3\nobj_info num_rows 3\n"
+      "element vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nelement range_grid 9000000000000000000\n"
+      "end_header\n0 0 0\n";
+  EXPECT_LT(grid.size(), 203U);
+  EXPECT_NE(fault_of(grid).find("its range_grid has 0 cells"), std::string::npos);
+}
+
+TEST(RangeScan, RefusesIndicesAndLengthsThatAreNoWholeNumbers) {
+  const std::string real = with(small_grid(3), "list uchar int", "list uchar double");
+  EXPECT_EQ(fault_of(real), "");
+  for (const char* wrong : {"1 1e300\n", "1 nan\n", "1 inf\n", "1 0.5\n", "1 5e9\n"})
+    EXPECT_NE(fault_of(with(real, "1 7\n", wrong)).find("not a valid index"), std::string::npos)
+        << wrong;
+  const std::string length = with(small_grid(3), "list uchar int", "list double int");
+  for (const char* wrong : {"1e300 7\n", "nan 7\n", "inf 7\n", "-1 7\n", "0.5 7\n"})
+    EXPECT_NE(fault_of(with(length, "1 7\n", wrong)).find("states"), std::string::npos) << wrong;
+}
+
+TEST(RangeScan, RefusesAPoseThatIsNotFinite) {
+  const TemporaryFolder folder;
+  write(folder.path() / "grid.ply", small_grid(3));
+  write(folder.path() / "all.conf", "bmesh grid.ply 0 0 0 1e200 1e200 0 1e200\n");
+  EXPECT_NE(testing::error_of([&] {
+              return read_posed_scans(folder.path() / "all.conf");
+            }).find("line 1"),
+            std::string::npos);
 }
 
 TEST(RangeScan, NamesTheInvalidLineOfAConf) {

@@ -210,5 +210,55 @@ TEST(MergeScans, RefusesAScanWithoutASurface) {
   EXPECT_THROW(static_cast<void>(merge_scans({empty})), Error);
 }
 
+/// A grid of `side` x `side` points, 1 mm apart, with or without triangles.
+RangeScan small_scan(std::uint32_t side, bool joined) {
+  RangeScan scan;
+  scan.path = "small.ply";
+  for (std::uint32_t y = 0; y < side; ++y) {
+    for (std::uint32_t x = 0; x < side; ++x) {
+      scan.mesh.vertices_mm.emplace_back(
+          static_cast<float>(x), static_cast<float>(y), 0.01F * static_cast<float>(x * y));
+    }
+  }
+  for (std::uint32_t i = 0; joined && i + side < side * side; ++i) {
+    if (i % side + 1 == side) continue;
+    scan.mesh.triangles.push_back({i, i + 1, i + side});
+    scan.mesh.triangles.push_back({i + 1, i + side + 1, i + side});
+  }
+  return scan;
+}
+
+/// Merges, which gives a mesh or an Error.
+std::string fault_of(const std::vector<RangeScan>& scans) {
+  try {
+    EXPECT_FALSE(merge_scans(scans).mesh.empty());
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(MergeScans, RefusesScansOfFewPointsInOneSentence) {
+  for (const bool joined : {false, true})
+    EXPECT_NE(fault_of({small_scan(3, joined), small_scan(3, joined)}), "");
+}
+
+TEST(MergeScans, RefusesPointsThatCoincide) {
+  RangeScan scan = small_scan(3, false);
+  for (auto& point : scan.mesh.vertices_mm)
+    point.setConstant(1.0F);
+  EXPECT_NE(fault_of({scan}).find("small.ply: holds no surface"), std::string::npos);
+}
+
+TEST(MergeScans, TakesAPointThatLiesFarAway) {
+  for (const bool joined : {false, true}) {
+    for (const float far_mm : {60'000.0F, 1e15F, 1e30F}) {
+      RangeScan scan = small_scan(40, joined);
+      scan.mesh.vertices_mm.back().x() = far_mm;
+      static_cast<void>(fault_of({scan, small_scan(40, joined)}));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace frangia

@@ -9,6 +9,7 @@
 
 #include "frangia/rig/paper_rig.h"
 
+#include "support/error_of.h"
 #include "support/temporary_folder.h"
 #include "support/text_of.h"
 
@@ -152,6 +153,21 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"version = 1", "version = 2", "version"},
         Fault{"\"frangia-rig\"", "\"frangia-scan\"", "format"},
         Fault{"[line]", "[line", "line 14"}));
+
+TEST(ReadRig, RefusesKeysAndListsThatWouldOverflowTheStack) {
+  const TemporaryFolder folder;
+  const auto fault_of = [&](const std::string& end) {
+    const auto path = save(folder, kRig);
+    std::ofstream(path, std::ios::app) << '\n' << end << '\n';
+    return testing::error_of([&] { return read_rig(path); });
+  };
+  std::string key = "a";
+  for (int i = 0; i < 100'000; ++i)
+    key += ".a";
+  EXPECT_NE(fault_of(key + " = 1").find("a key has more than"), std::string::npos);
+  EXPECT_NE(fault_of("[" + key + "]").find("a key has more than"), std::string::npos);
+  EXPECT_NE(fault_of("b = " + std::string(100'000, '[')).find("nested"), std::string::npos);
+}
 
 TEST(ReadRig, NamesAMissingFile) {
   try {

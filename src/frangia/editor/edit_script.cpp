@@ -1,14 +1,15 @@
 #include "frangia/editor/edit_script.h"
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/atomic_file.h"
+#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
 
 namespace frangia {
 namespace {
@@ -23,7 +24,9 @@ constexpr int kVersion = 1;
 EditScript script_from(const nlohmann::json& json, const std::filesystem::path& path) {
   if (json.value("format", "") != kFormat)
     fail(path, "the file is not an edit script (format frangia-edits)");
-  if (json.at("version").get<int>() > kVersion) {
+  const nlohmann::json& version = json.at("version");
+  if (!version.is_number_integer()) fail(path, "version is not a whole number; correct the file");
+  if (version.is_number_unsigned() && version.get<std::uint64_t>() > kVersion) {
     fail(path, "a newer version of frangia wrote the script; update frangia");
   }
   EditScript script;
@@ -35,24 +38,24 @@ EditScript script_from(const nlohmann::json& json, const std::filesystem::path& 
       fail(path, fmt::format("step {}: {}", script.steps.size(), error.what()));
     }
   }
-  const auto done = json.value("done", static_cast<std::int64_t>(script.steps.size()));
-  if (done < 0 || done > static_cast<std::int64_t>(script.steps.size())) {
+  const nlohmann::json done = json.value("done", nlohmann::json(script.steps.size()));
+  if (!done.is_number_unsigned() || done.get<std::uint64_t>() > script.steps.size()) {
     fail(path,
          fmt::format("done is {}, but the script has {} step{}; correct the file",
-                     done,
+                     done.is_number() ? done.dump() : done.type_name(),
                      script.steps.size(),
                      script.steps.size() == 1 ? "" : "s"));
   }
-  script.done = static_cast<std::size_t>(done);
+  script.done = done.get<std::size_t>();
   return script;
 }
 
 }  // namespace
 
 EditScript read_edit_script(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(path, "the script cannot be opened; check its name");
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  const std::string text = read_text_file(path);
+  check_json_nesting(text, path);
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) fail(path, "the file is not valid JSON");
   try {
     return script_from(json, path);

@@ -22,36 +22,39 @@ using Path = std::filesystem::path;
 template <Mesh (*Read)(const Path&), void (*Write)(const Path&, const Mesh&)>
 MeshFormat silent_format(const char* extension) {
   return {extension,
-          [](const Path& path, const Run&) { return Read(path); },
+          [](const Path& path, const ReadOptions&, const Run&) { return Read(path); },
           [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run&) {
             Write(path, mesh);
           }};
 }
 
-/// Formats whose reader may warn.
-template <Mesh (*Read)(const Path&, const Run&), void (*Write)(const Path&, const Mesh&)>
-MeshFormat warning_format(const char* extension) {
-  return {extension, Read, [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run&) {
-            Write(path, mesh);
-          }};
+/// A reader that may warn and whose files take memory in proportion to their size.
+template <Mesh (*Read)(const Path&, const Run&)>
+Mesh read_with_warnings(const Path& path, const ReadOptions& /*options*/, const Run& run) {
+  return Read(path, run);
+}
+
+template <void (*Write)(const Path&, const Mesh&)>
+void write_silently(const Path& path, const Mesh& mesh, const WriteOptions&, const Run&) {
+  Write(path, mesh);
 }
 
 const std::vector<MeshFormat>& formats() {
   static const std::vector<MeshFormat> kAll{
       {".dxf",
-       read_dxf,
+       read_with_warnings<read_dxf>,
        [](const Path& path, const Mesh& mesh, const WriteOptions& options, const Run&) {
          write_dxf(path, mesh, options.dxf);
        }},
       {".stl",
-       [](const Path& path, const Run&) { return read_stl(path); },
+       [](const Path& path, const ReadOptions&, const Run&) { return read_stl(path); },
        [](const Path& path, const Mesh& mesh, const WriteOptions& options, const Run&) {
          write_stl(path, mesh, options.stl);
        }},
       silent_format<read_ply, write_ply>(".ply"),
       silent_format<read_obj, write_obj>(".obj"),
-      warning_format<read_gltf, write_gltf>(".glb"),
-      warning_format<read_gltf, write_gltf>(".gltf"),
+      {".glb", read_gltf, write_silently<write_gltf>},
+      {".gltf", read_gltf, write_silently<write_gltf>},
       {".3mf",
        read_3mf,
        [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run& run) {
@@ -59,7 +62,7 @@ const std::vector<MeshFormat>& formats() {
        }},
       silent_format<read_off, write_off>(".off"),
       silent_format<read_xyz, write_xyz>(".xyz"),
-      warning_format<read_pcd, write_pcd>(".pcd"),
+      {".pcd", read_with_warnings<read_pcd>, write_silently<write_pcd>},
   };
   return kAll;
 }

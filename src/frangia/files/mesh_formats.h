@@ -4,6 +4,7 @@
 #include <string>
 
 #include "frangia/core/run.h"
+#include "frangia/files/read_options.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/mesh.h"
 
@@ -11,8 +12,9 @@ namespace frangia {
 
 /// Reader and writer of one file format.
 struct MeshFormat {
-  std::string extension;                                   ///< lower case, with its dot
-  Mesh (*read)(const std::filesystem::path&, const Run&);  ///< reads a file of this format
+  std::string extension;  ///< lower case, with its dot
+  /// Reads a file of this format.
+  Mesh (*read)(const std::filesystem::path&, const ReadOptions&, const Run&);
   /// Writes a file of this format.
   void (*write)(const std::filesystem::path&, const Mesh&, const WriteOptions&, const Run&);
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <sstream>
 #include <string>
@@ -12,8 +13,12 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
+#include "frangia/core/memory_budget.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/files/internal/mesh_memory.h"
 #include "frangia/files/internal/ply_source.h"
 #include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/internal/text_reader.h"
 #include "frangia/files/ply.h"
 
 namespace frangia {
@@ -28,24 +33,27 @@ struct Grid {
   std::vector<std::int64_t> points;  ///< row-major; kNoPoint in an empty cell
 };
 
-/// The number after "obj_info KEY" in the header; 0 when the header has no such line.
+/// The number after "obj_info KEY" in the header; 0 when the header has no such number.
 std::size_t read_obj_info(std::string_view header, const std::string& key) {
   const auto found = header.find("obj_info " + key + " ");
   if (found == std::string_view::npos) return 0;
-  std::istringstream rest(std::string(header.substr(found + key.size() + 10, 20)));
-  std::size_t number = 0;
-  rest >> number;
-  return number;
+  TextReader rest({}, header.substr(found + key.size() + 10, 20));
+  const auto number = parse_integer(rest.word_on_line());
+  return number && *number > 0 ? static_cast<std::size_t>(*number) : 0;
 }
 
-/// Reads a property and returns the last value of a list, or kNoPoint for an empty list.
+/// Reads a property and returns the last value of a list, or kNoPoint for an empty list and for a
+/// negative index.
 template <typename Source>
 std::int64_t last_of(Source& source, const PlyProperty& property) {
-  std::int64_t last = kNoPoint;
-  const double count = property.count_type ? source.value(*property.count_type) : 1.0;
-  for (std::uint64_t i = 0; static_cast<double>(i) < count; ++i)
-    last = static_cast<std::int64_t>(source.value(property.type));
-  return last;
+  constexpr double kMax = 4'294'967'295.0;
+  double last = -1.0;
+  const std::uint64_t count = property.count_type ? read_list_length(source, property) : 1;
+  for (std::uint64_t i = 0; i < count; ++i)
+    last = source.value(property.type);
+  if (!(last <= kMax) || last != std::floor(last))
+    source.fail(fmt::format("its range_grid refers to point {}, which is not a valid index", last));
+  return last < 0.0 ? kNoPoint : static_cast<std::int64_t>(last);
 }
 
 template <typename Source>
@@ -53,6 +61,7 @@ std::vector<std::int64_t> read_grid(Source source, const PlyHeader& header) {
   std::vector<std::int64_t> points;
   for (const PlyElement& element : header.elements) {
     const bool grid = element.name == "range_grid";
+    if (element.properties.empty()) continue;  // it occupies no bytes, whatever its count
     for (std::uint64_t i = 0; i < element.count; ++i) {
       std::int64_t point = kNoPoint;
       for (const PlyProperty& property : element.properties)
@@ -80,7 +89,8 @@ Grid read_range_grid(const std::filesystem::path& path) {
       header.format == PlyFormat::Ascii
           ? read_grid(AsciiPlySource(path, bytes, header.body), header)
           : read_grid(BinaryPlySource(path, all.substr(header.body), header.format), header);
-  if (grid.columns == 0 || grid.points.size() != grid.columns * grid.rows) {
+  if (grid.columns == 0 || grid.points.size() % grid.columns != 0 ||
+      grid.points.size() / grid.columns != grid.rows) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: its range_grid has {} cells, but obj_info states {} columns and "
                             "{} rows; export it again",
@@ -148,19 +158,9 @@ void triangulate_grid(Mesh& mesh, const Grid& grid, const std::filesystem::path&
   }
 }
 
-}  // namespace
-
-RangeScan read_range_scan(const std::filesystem::path& path) {
-  RangeScan scan;
-  scan.path = path;
-  scan.mesh = read_ply(path);
-  const Grid grid = read_range_grid(path);
-  if (!grid.points.empty()) triangulate_grid(scan.mesh, grid, path);
-  return scan;
-}
-
-std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path) {
-  std::istringstream lines(read_bytes(path));
+/// The files and poses of a .conf file, without the scans.
+std::vector<RangeScan> read_conf(const std::filesystem::path& path) {
+  std::istringstream lines(read_text_file(path));
   std::vector<RangeScan> scans;
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
@@ -175,24 +175,56 @@ std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path) {
       words >> value;
     for (double& value : quaternion)
       words >> value;
-    if (!words || !(quaternion.norm() > 0.0)) {
+    const double length = quaternion.norm();
+    if (!words || !translation.allFinite() || !(length > 0.0) || !std::isfinite(length)) {
       throw Error(
           ErrorKind::Input,
           fmt::format(
               "{}, line {}: write \"bmesh FILE tx ty tz qx qy qz qw\"", path.string(), number));
     }
-    RangeScan scan = read_range_scan(path.parent_path() / file);
+    RangeScan& scan = scans.emplace_back();
+    scan.path = path.parent_path() / file;
     const Eigen::Quaterniond scan_from_world(
         quaternion[3], quaternion[0], quaternion[1], quaternion[2]);
     scan.world_from_scan.linear() = scan_from_world.normalized().conjugate().toRotationMatrix();
     scan.world_from_scan.translation() = translation;
-    scan.posed = true;
-    scans.push_back(std::move(scan));
   }
-  if (scans.empty()) {
+  return scans;
+}
+
+}  // namespace
+
+RangeScan read_range_scan(const std::filesystem::path& path) {
+  RangeScan scan;
+  scan.path = path;
+  scan.mesh = read_ply(path);
+  const Grid grid = read_range_grid(path);
+  if (!grid.points.empty()) triangulate_grid(scan.mesh, grid, path);
+  return scan;
+}
+
+std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path,
+                                        const ReadOptions& options) {
+  const std::vector<RangeScan> listed = read_conf(path);
+  if (listed.empty()) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: it lists no scan; add a line \"bmesh FILE tx ty tz qx qy qz qw\"",
                             path.string()));
+  }
+  std::uint64_t file_bytes = std::filesystem::file_size(path);
+  std::set<std::filesystem::path> files;
+  std::vector<RangeScan> scans;
+  double used_bytes = 0.0;
+  for (const RangeScan& posed : listed) {
+    RangeScan& scan = scans.emplace_back(read_range_scan(posed.path));
+    scan.world_from_scan = posed.world_from_scan;
+    scan.posed = true;
+    if (files.insert(scan.path).second) file_bytes += std::filesystem::file_size(scan.path);
+    used_bytes += mesh_memory_bytes(static_cast<double>(scan.mesh.vertices_mm.size()),
+                                    static_cast<double>(scan.mesh.triangles.size()));
+    const double share = static_cast<double>(scans.size()) / static_cast<double>(listed.size());
+    MemoryBudget(path, file_bytes, options.allow_memory_bytes)
+        .check(used_bytes, used_bytes / share);
   }
   return scans;
 }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -32,7 +33,9 @@ struct RangeScan {
 /// tx ty tz qx qy qz qw`, whose quaternion is the conjugate of the scan's rotation.
 ///
 /// @units    translations as in the scans, assumed to be mm
-/// @errors   Error(Input) that names the file and the line
-[[nodiscard]] std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path);
+/// @errors   Error(Input) that names the file and the line, or the memory that the scans need when
+///          `options` allow less
+[[nodiscard]] std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path,
+                                                      const ReadOptions& options = {});
 
 }  // namespace frangia

@@ -7,7 +7,7 @@
 
 namespace frangia {
 
-Mesh read_mesh(const std::filesystem::path& path, const Run& run) {
+Mesh read_mesh(const std::filesystem::path& path, const Run& run, const ReadOptions& options) {
   const MeshFormat* format = find_mesh_format(path);
   if (format == nullptr) {
     throw Error(ErrorKind::Input,
@@ -15,7 +15,7 @@ Mesh read_mesh(const std::filesystem::path& path, const Run& run) {
                             path.string(),
                             mesh_extensions()));
   }
-  return format->read(path, run);
+  return format->read(path, options, run);
 }
 
 }  // namespace frangia

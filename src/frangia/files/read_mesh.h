@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "frangia/core/run.h"
+#include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -11,7 +12,10 @@ namespace frangia {
 ///
 /// @units    mm: converted where the file states its unit, otherwise assumed
 /// @missing  the reader reports what it skips through `run`
-/// @errors   Error(Input) for an unknown extension; otherwise as the reader of the format
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const Run& run = {});
+/// @errors   Error(Input) for an unknown extension, and for a file that would take more memory than
+///          `options` allow, with the size that it needs; otherwise as the reader of the format
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path,
+                             const Run& run = {},
+                             const ReadOptions& options = {});
 
 }  // namespace frangia

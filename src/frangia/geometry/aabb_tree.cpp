@@ -28,7 +28,8 @@ std::uint64_t morton_code(const Eigen::Vector3f& position, const Eigen::AlignedB
   std::uint64_t code = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const float cell = (position[axis] - all.min()[axis]) / side * kCells;
-    const float inside = std::clamp(cell, 0.0F, kCells - 1.0F);
+    // Coordinates near the largest float give NaN.
+    const float inside = cell > 0.0F ? std::min(cell, kCells - 1.0F) : 0.0F;
     code |= spread_bits(static_cast<std::uint64_t>(inside)) << static_cast<unsigned>(axis);
   }
   return code;

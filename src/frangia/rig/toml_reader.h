@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
 #include "frangia/core/run.h"
 
 namespace frangia {
@@ -161,12 +163,11 @@ class TomlReader {
 [[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
                                             const std::string& format,
                                             int newest_version = 1) {
-  if (!std::filesystem::is_regular_file(file)) {
-    throw Error(ErrorKind::Input, fmt::format("{}: there is no such file", file.string()));
-  }
+  const std::string text = read_text_file(file);
+  check_toml_nesting(text, file);
   toml::table table;
   try {
-    table = toml::parse_file(file.string());
+    table = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: line {}: {}",

@@ -14,16 +14,11 @@ void append_transformed(Mesh& mesh,
                         const Mesh& part,
                         const Eigen::Affine3d& mesh_from_part,
                         const std::filesystem::path& path) {
-  constexpr std::size_t kMaxCount = 50'000'000;
   const auto fail = [&](const char* why) {
     throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
   };
   if (!mesh_from_part.matrix().allFinite())
     fail("the transform of a part is not finite; export it again");
-  if (!mesh.empty() && (mesh.vertices_mm.size() + part.vertices_mm.size() > kMaxCount ||
-                        mesh.triangles.size() + part.triangles.size() > kMaxCount)) {
-    fail("its repeated parts exceed 50 million vertices or triangles; export fewer copies");
-  }
   const std::size_t first_vertex = mesh.vertices_mm.size();
   const std::size_t first_triangle = mesh.triangles.size();
   append_mesh(mesh, part);

@@ -11,9 +11,7 @@ namespace frangia {
 /// Appends a transformed part. A mirroring transform reverses the triangles, so the part keeps its
 /// orientation.
 ///
-/// @errors   Error(Input) that names the file when the transform is not finite, or when the result
-///          exceeds 50 million vertices or triangles: a small file that repeats its parts could
-///          otherwise exhaust the memory
+/// @errors   Error(Input) that names the file when the transform is not finite
 void append_transformed(Mesh& mesh,
                         const Mesh& part,
                         const Eigen::Affine3d& mesh_from_part,

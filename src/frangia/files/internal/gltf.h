@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "frangia/core/run.h"
+#include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -16,11 +17,13 @@ namespace frangia {
 /// @missing  points, lines, skins and morph targets are skipped; points and lines with a warning
 ///          through `run`
 /// @errors   Error(Input) that names the file and the fault: invalid JSON, lengths and counts
-/// larger
-///          than the file, a vertex index out of range, a cycle of nodes, a buffer elsewhere,
-///          sparse or compressed data, triangle strips
+///          larger than the file, a vertex index out of range, a cycle of nodes, a buffer
+///          elsewhere, sparse or compressed data, triangle strips, parts that repeat beyond the
+///          allowed memory
 /// @source   Khronos Group, glTF 2.0 specification
-[[nodiscard]] Mesh read_gltf(const std::filesystem::path& path, const Run& run = {});
+[[nodiscard]] Mesh read_gltf(const std::filesystem::path& path,
+                             const ReadOptions& options = {},
+                             const Run& run = {});
 
 /// Writes one node with the mesh: .glb in binary, .gltf as JSON with the buffer embedded. There is
 /// one primitive per mark, with material "measured", "displaced" (yellow) or "synthesized" (blue).

@@ -1,5 +1,6 @@
 #include "frangia/files/internal/gltf_document.h"
 
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -7,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 #include "frangia/files/internal/base64.h"
 #include "frangia/files/internal/read_bytes.h"
@@ -60,28 +62,34 @@ std::string outside_buffer(const GltfDocument& document, const std::string& uri)
   return read_bytes(document.path.parent_path() / name);
 }
 
-std::string buffer_of(const GltfDocument& document, const json& buffer, std::string_view binary) {
-  const auto length = buffer.at("byteLength").get<std::uint64_t>();
+/// The bytes of a uri; a uri that occurs again refers to the same bytes.
+std::string_view bytes_of_uri(GltfDocument& document, const std::string& uri) {
+  const auto known = document.files.find(uri);
+  if (known != document.files.end()) return known->second;
   std::string bytes;
-  if (!buffer.contains("uri")) {
-    bytes = std::string(binary);
+  const std::size_t comma = uri.find(";base64,");
+  if (uri.starts_with("data:") && comma != std::string::npos) {
+    auto decoded = decode_base64(std::string_view(uri).substr(comma + 8));
+    if (!decoded) document.fail("an embedded buffer is not base64; export it again");
+    bytes = std::move(*decoded);
   } else {
-    const auto& uri = buffer.at("uri").get_ref<const std::string&>();
-    const std::size_t comma = uri.find(";base64,");
-    if (uri.starts_with("data:") && comma != std::string::npos) {
-      auto decoded = decode_base64(std::string_view(uri).substr(comma + 8));
-      if (!decoded) document.fail("an embedded buffer is not base64; export it again");
-      bytes = std::move(*decoded);
-    } else {
-      bytes = outside_buffer(document, uri);
-    }
+    bytes = outside_buffer(document, uri);
+    document.total_bytes += bytes.size();
   }
+  return document.files.emplace(uri, std::move(bytes)).first->second;
+}
+
+std::string_view buffer_of(GltfDocument& document, const json& buffer, std::string_view binary) {
+  const std::uint64_t length = document.whole(buffer.at("byteLength"));
+  const std::string_view bytes =
+      buffer.contains("uri")
+          ? bytes_of_uri(document, buffer.at("uri").get_ref<const std::string&>())
+          : binary;
   if (length > bytes.size()) {
     document.fail(fmt::format(
         "a buffer of {} bytes holds only {}; the file is truncated", length, bytes.size()));
   }
-  bytes.resize(length);
-  return bytes;
+  return bytes.substr(0, length);
 }
 
 std::size_t bytes_of_component(std::uint64_t type) {
@@ -101,13 +109,13 @@ std::size_t bytes_of_component(std::uint64_t type) {
 }
 
 template <typename Number>
-double number_at(const std::string& bytes, std::size_t place) {
+double number_at(std::string_view bytes, std::size_t place) {
   Number number{};
   std::memcpy(&number, bytes.data() + place, sizeof number);
   return static_cast<double>(number);
 }
 
-double component_at(const std::string& bytes, std::size_t place, std::uint64_t type) {
+double component_at(std::string_view bytes, std::size_t place, std::uint64_t type) {
   switch (type) {
     case 5120:
       return number_at<std::int8_t>(bytes, place);
@@ -155,27 +163,57 @@ const json& GltfDocument::item(const char* list, std::uint64_t index) const {
   return (*found)[index];
 }
 
-std::vector<double> GltfDocument::numbers(std::uint64_t accessor, std::size_t width) const {
+std::uint64_t GltfDocument::whole(const nlohmann::json& number) const {
+  constexpr double kMax = 9'007'199'254'740'992.0;  // 2^53, up to which a double is exact
+  if (number.is_number()) {
+    const auto value = number.get<double>();
+    if (value >= 0.0 && value <= kMax && value == std::floor(value))
+      return static_cast<std::uint64_t>(value);
+  }
+  fail(fmt::format("{} is not a valid count or index; export it again",
+                   in_quotes(number.is_primitive() ? number.dump() : number.type_name())));
+}
+
+std::uint64_t GltfDocument::whole_or(const nlohmann::json& object,
+                                     const char* key,
+                                     std::uint64_t fallback) const {
+  const auto found = object.find(key);
+  return found == object.end() ? fallback : whole(*found);
+}
+
+std::vector<std::uint64_t> GltfDocument::whole_list(const nlohmann::json& object,
+                                                    const char* key) const {
+  std::vector<std::uint64_t> numbers;
+  const auto found = object.find(key);
+  if (found == object.end()) return numbers;
+  if (!found->is_array()) fail(fmt::format("its {} are not a list; export it again", key));
+  numbers.reserve(found->size());
+  for (const auto& number : *found)
+    numbers.push_back(whole(number));
+  return numbers;
+}
+
+GltfNumbers GltfDocument::locate(std::uint64_t accessor, std::size_t width) const {
   const nlohmann::json& a = item("accessors", accessor);
   if (a.contains("sparse") || !a.contains("bufferView")) {
     fail("sparse and compressed data are not supported; export it without them");
   }
-  const auto type = a.at("componentType").get<std::uint64_t>();
+  const std::uint64_t type = whole(a.at("componentType"));
   const std::size_t size = bytes_of_component(type);
-  const auto count = a.at("count").get<std::uint64_t>();
+  const std::uint64_t count = whole(a.at("count"));
   const std::string shape = a.at("type").get<std::string>();
   const std::size_t has = shape == "SCALAR" ? 1 : shape == "VEC3" ? 3 : 0;
   if (size == 0 || has != width)
     fail(fmt::format("accessor {} has the wrong type; export it again", accessor));
-  const nlohmann::json& view = item("bufferViews", a.at("bufferView").get<std::uint64_t>());
-  const auto buffer = view.at("buffer").get<std::uint64_t>();
+  const nlohmann::json& view = item("bufferViews", whole(a.at("bufferView")));
+  const std::uint64_t buffer = whole(view.at("buffer"));
   if (buffer >= buffers.size()) fail("it refers to a buffer that does not exist; export it again");
-  const std::string& bytes = buffers[buffer];
-  const auto begin = view.value("byteOffset", std::uint64_t{0});
-  const auto length = view.at("byteLength").get<std::uint64_t>();
-  const auto offset = a.value("byteOffset", std::uint64_t{0});
-  const auto stride = view.value("byteStride", std::uint64_t{size * width});
-  const bool in_buffer = begin <= bytes.size() && length <= bytes.size() - begin;
+  const std::string_view in = buffers[buffer];
+  const std::uint64_t begin = whole_or(view, "byteOffset", 0);
+  const std::uint64_t length = whole(view.at("byteLength"));
+  const std::uint64_t offset = whole_or(a, "byteOffset", 0);
+  const std::uint64_t stride = whole_or(view, "byteStride", size * width);
+  const bool in_buffer = begin <= in.size() && length <= in.size() - begin;
   const bool fits = in_buffer && offset <= length && stride >= size * width && stride <= 252 &&
                     count <= (length - offset + stride - size * width) / stride;
   if (!fits) {
@@ -185,28 +223,40 @@ std::vector<double> GltfDocument::numbers(std::uint64_t accessor, std::size_t wi
                     count));
   }
   const double unit = a.value("normalized", false) ? full_scale(type) : 1.0;
+  return {.bytes = in.substr(begin + offset, length - offset),
+          .count = count,
+          .stride = stride,
+          .type = type,
+          .unit = unit};
+}
+
+std::vector<double> GltfDocument::numbers(std::uint64_t accessor, std::size_t width) const {
+  const GltfNumbers place = locate(accessor, width);
+  const std::size_t size = bytes_of_component(place.type);
   std::vector<double> found;
-  found.reserve(count * width);
-  for (std::uint64_t i = 0; i < count; ++i) {
+  found.reserve(place.count * width);
+  for (std::uint64_t i = 0; i < place.count; ++i) {
     for (std::size_t k = 0; k < width; ++k)
-      found.push_back(component_at(bytes, begin + offset + i * stride + k * size, type) / unit);
+      found.push_back(component_at(place.bytes, i * place.stride + k * size, place.type) /
+                      place.unit);
   }
   return found;
 }
 
-GltfDocument read_gltf_document(const std::filesystem::path& path) {
-  GltfDocument document{.path = path, .json = {}, .buffers = {}};
-  const std::string bytes = read_bytes(path);
-  std::string_view text = bytes;
+void read_gltf_document(const std::filesystem::path& path, GltfDocument& document) {
+  document.path = path;
+  document.bytes = read_bytes(path);
+  document.total_bytes = document.bytes.size();
+  std::string_view text = document.bytes;
   std::string_view binary;
-  if (text.starts_with("glTF")) std::tie(text, binary) = chunks_of(document, bytes);
+  if (text.starts_with("glTF")) std::tie(text, binary) = chunks_of(document, document.bytes);
+  check_json_nesting(text, path);
   document.json = nlohmann::json::parse(text, nullptr, false);
   if (!document.json.is_object()) document.fail("its JSON is invalid; export it again");
   if (const auto found = document.json.find("buffers"); found != document.json.end()) {
     for (const auto& buffer : *found)
       document.buffers.push_back(buffer_of(document, buffer, binary));
   }
-  return document;
 }
 
 }  // namespace frangia

@@ -2,39 +2,75 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace frangia {
 
+/// The place of the numbers of an accessor in its buffer.
+struct GltfNumbers {
+  std::string_view bytes;    ///< from the first number on
+  std::uint64_t count = 0;   ///< of elements
+  std::uint64_t stride = 0;  ///< from one element to the next, bytes
+  std::uint64_t type = 0;    ///< of a component, as the file states it
+  double unit = 1.0;         ///< divisor of the stored numbers
+};
+
 /// The JSON of a glTF file and its buffers, in memory.
 struct GltfDocument {
   std::filesystem::path path;
+  std::string bytes;  ///< of the file; of a .glb it includes the binary chunk
   nlohmann::json json;
-  std::vector<std::string> buffers;
+  std::map<std::string, std::string> files;  ///< contents of the files and embedded buffers by uri
+  std::vector<std::string_view> buffers;     ///< into `bytes` or `files`
+  std::uint64_t total_bytes = 0;             ///< of the file and the files beside it
+
+  GltfDocument() = default;
+  GltfDocument(const GltfDocument&) = delete;  // the views of a copy refer to the original
+  GltfDocument& operator=(const GltfDocument&) = delete;
+  GltfDocument(GltfDocument&&) = delete;
+  GltfDocument& operator=(GltfDocument&&) = delete;
+  ~GltfDocument() = default;
 
   /// @errors   Error(Input) that names the file
   [[noreturn]] void fail(const std::string& why) const;
 
-  /// The numbers of an accessor with `width` components per element.
+  /// Where the numbers of an accessor with `width` components per element are.
   ///
   /// @errors   Error(Input) for an accessor that does not exist, has another width, is sparse, or
   ///          exceeds its buffer
+  [[nodiscard]] GltfNumbers locate(std::uint64_t accessor, std::size_t width) const;
+  /// The numbers of an accessor with `width` components per element.
+  ///
+  /// @errors   Error(Input) as `locate`
   [[nodiscard]] std::vector<double> numbers(std::uint64_t accessor, std::size_t width) const;
 
   /// Element `index` of a list of the document.
   ///
   /// @errors   Error(Input) when it does not exist
   [[nodiscard]] const nlohmann::json& item(const char* list, std::uint64_t index) const;
+
+  /// A number of the document that counts or refers to something.
+  ///
+  /// @errors   Error(Input) unless it is whole, not negative and at most 2^53
+  [[nodiscard]] std::uint64_t whole(const nlohmann::json& number) const;
+  /// As `whole` for the value of a key, or `fallback` when the object has no such key.
+  [[nodiscard]] std::uint64_t whole_or(const nlohmann::json& object,
+                                       const char* key,
+                                       std::uint64_t fallback) const;
+  /// The numbers of a list, which is empty when the object has no such key.
+  [[nodiscard]] std::vector<std::uint64_t> whole_list(const nlohmann::json& object,
+                                                      const char* key) const;
 };
 
-/// Reads a .gltf or .glb with all of its buffers.
+/// Reads a .gltf or .glb with all of its buffers. A file that several buffers name is read once.
 ///
 /// @errors   Error(Input) that names the file: invalid JSON, chunks or buffers that are truncated,
-/// a
-///          buffer that is neither embedded nor in a file beside it
-[[nodiscard]] GltfDocument read_gltf_document(const std::filesystem::path& path);
+///          a buffer that is neither embedded nor in a file beside it
+void read_gltf_document(const std::filesystem::path& path, GltfDocument& document);
 
 }  // namespace frangia

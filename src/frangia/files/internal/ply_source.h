@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -95,5 +96,16 @@ class BinaryPlySource {
   std::string_view left_;
   bool swapped_;
 };
+
+/// Reads the length of a list.
+template <typename Source>
+std::uint64_t read_list_length(Source& source, const PlyProperty& property) {
+  constexpr double kMax = 4'294'967'295.0;
+  const double length = source.value(property.count_type.value_or(PlyType::Uint8));
+  if (!(length >= 0.0 && length <= kMax) || length != std::floor(length)) {
+    source.fail(fmt::format("a list '{}' states {} values", property.name, length));
+  }
+  return static_cast<std::uint64_t>(length);
+}
 
 }  // namespace frangia

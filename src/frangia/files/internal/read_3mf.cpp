@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/memory_budget.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/three_mf.h"
@@ -26,14 +27,15 @@ std::string model_name(const ZipReader& zip) {
         if (name.starts_with('/')) name.erase(0, 1);
       },
       [](std::string_view) {});
-  if (zip.read("_rels/.rels", [&](std::string_view piece) { elements.feed(piece); })) {
+  if (zip.read("_rels/.rels", [&](std::string_view piece, double) { elements.feed(piece); })) {
     elements.finish();
   }
   return name;
 }
 
-Mesh read_package(const std::filesystem::path& path, const Run& run) {
+Mesh read_package(const std::filesystem::path& path, const ReadOptions& options, const Run& run) {
   const ZipReader zip(path);
+  const MemoryBudget budget(path, std::filesystem::file_size(path), options.allow_memory_bytes);
   const std::string name = model_name(zip);
   ThreeMfModel model;
   bool has_further_models = false;
@@ -45,7 +47,11 @@ Mesh read_package(const std::filesystem::path& path, const Run& run) {
         has_further_models = has_further_models || !attributes.value(kPath).empty();
       },
       [](std::string_view) {});
-  if (!zip.read(name, [&](std::string_view piece) { elements.feed(piece); })) {
+  const auto feed = [&](std::string_view piece, double done) {
+    elements.feed(piece);
+    budget.check(model.collected_bytes(), model.collected_bytes() / done);
+  };
+  if (!zip.read(name, feed)) {
     throw Error(ErrorKind::Input,
                 fmt::format("not a 3MF package: it has no model {}", in_quotes(name)));
   }
@@ -53,15 +59,15 @@ Mesh read_package(const std::filesystem::path& path, const Run& run) {
   if (has_further_models) {
     run.warn(fmt::format("{}: models in further files of the package are skipped", path.string()));
   }
-  return model.build(path);
+  return model.build(path, budget);
 }
 
 }  // namespace
 
-Mesh read_3mf(const std::filesystem::path& path, const Run& run) {
+Mesh read_3mf(const std::filesystem::path& path, const ReadOptions& options, const Run& run) {
   Mesh mesh;
   try {
-    mesh = read_package(path, run);
+    mesh = read_package(path, options, run);
   } catch (const Error& error) {
     const std::string why = error.what();
     if (error.kind() != ErrorKind::Input || why.starts_with(path.string())) throw;

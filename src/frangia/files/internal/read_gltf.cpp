@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -8,11 +9,13 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/memory_budget.h"
 #include "frangia/files/internal/append_transformed.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/gltf_document.h"
 #include "frangia/files/internal/mark_names.h"
+#include "frangia/files/internal/mesh_memory.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -56,7 +59,8 @@ std::vector<Eigen::Vector3f> vectors_of(const std::vector<double>& numbers) {
 
 class GltfReader {
  public:
-  GltfReader(const GltfDocument& document, const Run& run) : document_(document), run_(run) {}
+  GltfReader(const GltfDocument& document, const ReadOptions& options, const Run& run)
+      : document_(document), options_(options), run_(run) {}
 
   Mesh read() {
     // Metres with y up to mm with z up.
@@ -64,18 +68,21 @@ class GltfReader {
     mm_from_scene.linear() << 1000, 0, 0, 0, 0, -1000, 0, 1000, 0;
     const json& all = document_.json;
     if (all.contains("scenes")) {
-      const json& scene = document_.item("scenes", all.value("scene", std::uint64_t{0}));
-      for (const auto& node : scene.value("nodes", std::vector<std::uint64_t>()))
+      const json& scene = document_.item("scenes", document_.whole_or(all, "scene", 0));
+      for (const std::uint64_t node : document_.whole_list(scene, "nodes"))
         visit(node, mm_from_scene);
     } else if (all.contains("nodes")) {
       std::set<std::uint64_t> children;
       for (const auto& node : all.at("nodes")) {
-        for (const auto& child : node.value("children", std::vector<std::uint64_t>()))
+        for (const std::uint64_t child : document_.whole_list(node, "children"))
           children.insert(child);
       }
       for (std::uint64_t node = 0; node < all.at("nodes").size(); ++node)
         if (!children.contains(node)) visit(node, mm_from_scene);
     }
+    check_memory();
+    for (const Instance& instance : instances_)
+      add_primitives(document_.item("meshes", instance.mesh), instance.mm_from_mesh);
     if (skipped_ > 0) {
       run_.warn(fmt::format("{}: skipped {} primitive{} of points or lines",
                             document_.path.string(),
@@ -88,6 +95,12 @@ class GltfReader {
   }
 
  private:
+  /// A mesh that a node of the scene shows.
+  struct Instance {
+    std::uint64_t mesh = 0;
+    Eigen::Affine3d mm_from_mesh;
+  };
+
   /// glTF requires a strict tree, so a node that is visited twice is an error. The depth is limited
   /// because the traversal is recursive.
   void visit(std::uint64_t number, const Eigen::Affine3d& parent, int depth = 0) {
@@ -99,12 +112,41 @@ class GltfReader {
           "again");
     }
     const Eigen::Affine3d mm_from_node = parent * transform_of(document_, node);
-    if (node.contains("mesh")) {
-      const json& mesh = document_.item("meshes", node.at("mesh").get<std::uint64_t>());
-      add_primitives(mesh, mm_from_node);
-    }
-    for (const auto& child : node.value("children", std::vector<std::uint64_t>()))
+    if (node.contains("mesh"))
+      instances_.push_back({document_.whole(node.at("mesh")), mm_from_node});
+    for (const std::uint64_t child : document_.whole_list(node, "children"))
       visit(child, mm_from_node, depth + 1);
+  }
+
+  /// Refuses a file whose meshes and primitives, repeated as it says, exceed the allowed memory.
+  void check_memory() const {
+    std::map<std::uint64_t, double> memory_of_mesh;
+    double bytes = static_cast<double>(document_.total_bytes);
+    for (const Instance& instance : instances_) {
+      const auto [known, inserted] = memory_of_mesh.try_emplace(instance.mesh, 0.0);
+      if (inserted) known->second = memory_of(document_.item("meshes", instance.mesh));
+      bytes += known->second;
+    }
+    MemoryBudget(document_.path, document_.total_bytes, options_.allow_memory_bytes).check(bytes);
+  }
+
+  [[nodiscard]] double memory_of(const json& mesh) const {
+    const auto count_of = [&](const json& accessor, std::size_t width) {
+      return static_cast<double>(document_.locate(document_.whole(accessor), width).count);
+    };
+    double bytes = 0.0;
+    const json* attributes = nullptr;
+    for (const auto& primitive : mesh.at("primitives")) {
+      if (document_.whole_or(primitive, "mode", kTriangles) != kTriangles) continue;
+      const json& own = primitive.at("attributes");
+      const double vertices = count_of(own.at("POSITION"), 3);
+      const double corners =
+          primitive.contains("indices") ? count_of(primitive.at("indices"), 1) : vertices;
+      const bool shared = attributes != nullptr && *attributes == own;
+      bytes += mesh_memory_bytes(shared ? 0.0 : vertices, corners / 3.0);
+      attributes = &own;
+    }
+    return bytes;
   }
 
   /// Adds the primitives of a mesh. Consecutive primitives with the same attributes share vertices.
@@ -112,7 +154,7 @@ class GltfReader {
     Mesh part;
     json attributes;
     for (const auto& primitive : mesh.at("primitives")) {
-      const auto mode = primitive.value("mode", kTriangles);
+      const std::uint64_t mode = document_.whole_or(primitive, "mode", kTriangles);
       if (mode < kTriangles) {
         ++skipped_;
         continue;
@@ -135,13 +177,12 @@ class GltfReader {
 
   Mesh vertices_of(const json& attributes) {
     Mesh part;
-    part.vertices_mm =
-        vectors_of(document_.numbers(attributes.at("POSITION").get<std::uint64_t>(), 3));
+    part.vertices_mm = vectors_of(document_.numbers(document_.whole(attributes.at("POSITION")), 3));
     const std::size_t count = part.vertices_mm.size();
     const auto read = [&](const char* name, std::size_t width) {
       std::vector<double> found;
       if (attributes.contains(name)) {
-        found = document_.numbers(attributes.at(name).get<std::uint64_t>(), width);
+        found = document_.numbers(document_.whole(attributes.at(name)), width);
         if (found.size() != width * count) {
           document_.fail(
               fmt::format("its {} values are not one per vertex; export it again", name));
@@ -167,8 +208,7 @@ class GltfReader {
 
   [[nodiscard]] Mark mark_of_material(const json& primitive) const {
     if (!primitive.contains("material")) return Mark::Measured;
-    const json& material =
-        document_.item("materials", primitive.at("material").get<std::uint64_t>());
+    const json& material = document_.item("materials", document_.whole(primitive.at("material")));
     return mark_of_name(material.value("name", ""));
   }
 
@@ -176,7 +216,7 @@ class GltfReader {
     const std::size_t count = part.vertices_mm.size();
     std::vector<double> corners;
     if (primitive.contains("indices")) {
-      corners = document_.numbers(primitive.at("indices").get<std::uint64_t>(), 1);
+      corners = document_.numbers(document_.whole(primitive.at("indices")), 1);
     } else {
       for (std::size_t i = 0; i < count; ++i)
         corners.push_back(static_cast<double>(i));
@@ -201,7 +241,9 @@ class GltfReader {
   }
 
   const GltfDocument& document_;
+  const ReadOptions& options_;
   const Run& run_;
+  std::vector<Instance> instances_;
   Mesh mesh_;
   std::set<std::uint64_t> seen_;
   std::size_t skipped_ = 0;
@@ -210,10 +252,11 @@ class GltfReader {
 
 }  // namespace
 
-Mesh read_gltf(const std::filesystem::path& path, const Run& run) {
+Mesh read_gltf(const std::filesystem::path& path, const ReadOptions& options, const Run& run) {
   try {
-    const GltfDocument document = read_gltf_document(path);
-    Mesh mesh = GltfReader(document, run).read();
+    GltfDocument document;
+    read_gltf_document(path, document);
+    Mesh mesh = GltfReader(document, options, run).read();
     check_mesh(mesh, path);
     return mesh;
   } catch (const json::exception& error) {

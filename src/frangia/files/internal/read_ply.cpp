@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -44,17 +45,8 @@ bool has(const std::vector<std::size_t>& slots, std::size_t first, std::size_t c
 }
 
 template <typename Source>
-std::uint64_t list_length(Source& source, const PlyProperty& property) {
-  const double length = source.value(property.count_type.value_or(PlyType::Uint8));
-  if (!(length >= 0.0) || length != std::floor(length)) {
-    source.fail(fmt::format("a list '{}' states {} values", property.name, length));
-  }
-  return static_cast<std::uint64_t>(length);
-}
-
-template <typename Source>
 void skip(Source& source, const PlyProperty& property) {
-  const std::uint64_t count = property.count_type ? list_length(source, property) : 1;
+  const std::uint64_t count = property.count_type ? read_list_length(source, property) : 1;
   for (std::uint64_t i = 0; i < count; ++i)
     static_cast<void>(source.value(property.type));
 }
@@ -84,7 +76,8 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
     }
     mesh.vertices_mm.emplace_back(kept[0], kept[1], kept[2]);
     if (has_sigma) mesh.sigma_mm.push_back(kept[6]);
-    if (has_views) mesh.views.push_back(static_cast<std::uint16_t>(kept[kViews]));
+    if (has_views)
+      mesh.views.push_back(static_cast<std::uint16_t>(std::clamp(kept[kViews], 0.0F, 65'535.0F)));
     if (has_marks) mesh.vertex_marks.push_back(mark_from(static_cast<double>(kept[kMark])));
     if (!has_normals) continue;
     const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
@@ -97,7 +90,7 @@ void read_polygon(Source& source,
                   const PlyProperty& list,
                   std::vector<std::uint32_t>& corners,
                   Mesh& mesh) {
-  const std::uint64_t count = list_length(source, list);
+  const std::uint64_t count = read_list_length(source, list);
   if (count < 3)
     source.fail(
         fmt::format("a face has {} corner{}; it needs three", count, count == 1 ? "" : "s"));

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "frangia/core/run.h"
+#include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -15,9 +16,12 @@ namespace frangia {
 ///          are models in further files of the package, with a warning through `run`
 /// @errors   Error(Input) that names the file and the fault: not a zip archive, damaged, invalid
 ///          XML, XML with entities, an invalid number, an index out of range, an object that does
-///          not exist or contains itself, an entry that expands to far more than a mesh
+///          not exist or contains itself, an entry that expands to far more than a mesh, parts
+///          that repeat beyond the allowed memory
 /// @source   3MF Consortium, 3D Manufacturing Format, Core Specification 1.3
-[[nodiscard]] Mesh read_3mf(const std::filesystem::path& path, const Run& run = {});
+[[nodiscard]] Mesh read_3mf(const std::filesystem::path& path,
+                            const ReadOptions& options = {},
+                            const Run& run = {});
 
 /// Writes one object of type "model" and one build item; triangles of each mark have a base
 /// material named "measured", "displaced" (yellow) or "synthesized" (blue).

@@ -7,6 +7,7 @@
 #include "frangia/core/error.h"
 #include "frangia/files/internal/append_transformed.h"
 #include "frangia/files/internal/mark_names.h"
+#include "frangia/files/internal/mesh_memory.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/geometry/vertex_data.h"
 
@@ -55,20 +56,31 @@ float coordinate(const XmlAttributes& attributes, std::string_view name) {
 }  // namespace
 
 void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes) {
+  constexpr double kGrowth = 2.0;       // of a vector: its capacity is up to twice its size
+  constexpr double kMapNode = 64.0;     // bytes that a map adds to an entry
+  constexpr double kCorners = 3.0 * 4;  // bytes of a vertex or triangle
   if (!name.starts_with(kCore)) return;
   name.remove_prefix(kCore.size());
   if (name == "vertex") {
     vertex(attributes);
+    collected_bytes_ += kGrowth * kCorners;
   } else if (name == "triangle") {
     triangle(attributes);
+    collected_bytes_ += kGrowth * kCorners;
   } else if (name == "object") {
     begin_object(attributes);
+    collected_bytes_ += sizeof(Object) + kMapNode;
   } else if (name == "component") {
     object().components.push_back(read_reference(attributes));
+    collected_bytes_ += kGrowth * sizeof(Reference);
   } else if (name == "item") {
     items_.push_back(read_reference(attributes));
+    collected_bytes_ += kGrowth * sizeof(Reference);
   } else if (name == "base") {
-    materials_[material_].emplace_back(attributes.value("name"));
+    const std::string_view material = attributes.value("name");
+    materials_[material_].emplace_back(material);
+    collected_bytes_ +=
+        kGrowth * sizeof(std::string) + kMapNode + static_cast<double>(material.size());
   } else if (name == "basematerials") {
     material_ = attributes.value("id");
   } else if (name == "model") {
@@ -76,7 +88,12 @@ void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes)
   }
 }
 
-Mesh ThreeMfModel::build(const std::filesystem::path& path) const {
+Mesh ThreeMfModel::build(const std::filesystem::path& path, const MemoryBudget& budget) const {
+  std::map<std::uint32_t, double> memory_of_object;
+  double needed_bytes = collected_bytes_;
+  for (const Reference& item : items_)
+    needed_bytes += memory_of(item, memory_of_object, 0);
+  budget.check(needed_bytes);
   Mesh mesh;
   Eigen::Affine3d mm_from_model = Eigen::Affine3d::Identity();
   mm_from_model.scale(mm_per_unit_);
@@ -150,24 +167,45 @@ Mark ThreeMfModel::mark_of_material(std::string_view id, std::string_view index)
   return mark_of_name(group->second[static_cast<std::size_t>(*number)]);
 }
 
+const ThreeMfModel::Object& ThreeMfModel::object_of(const Reference& reference, int depth) const {
+  constexpr int kMaxDepth = 64;
+  const auto found = objects_.find(reference.object);
+  if (found == objects_.end()) {
+    fail_3mf(fmt::format("object {} is built but not defined; export it again", reference.object));
+  }
+  if (depth > kMaxDepth) {
+    fail_3mf("an object contains itself, or components are nested too deeply; export it again");
+  }
+  return found->second;
+}
+
+/// Memory of an object with its components. Each object is visited once, however often it is
+/// repeated.
+double ThreeMfModel::memory_of(const Reference& reference,
+                               std::map<std::uint32_t, double>& known,
+                               int depth) const {
+  constexpr double kPerInstance = 1000.0;  // bytes; bounds the time for instances without triangles
+  const auto found = known.find(reference.object);
+  if (found != known.end()) return found->second;
+  const Object& object = object_of(reference, depth);
+  double bytes =
+      kPerInstance + mesh_memory_bytes(static_cast<double>(object.mesh.vertices_mm.size()),
+                                       static_cast<double>(object.mesh.triangles.size()));
+  for (const Reference& component : object.components)
+    bytes += memory_of(component, known, depth + 1);
+  known[reference.object] = bytes;
+  return bytes;
+}
+
 void ThreeMfModel::add(Mesh& mesh,
                        const Reference& reference,
                        const Eigen::Affine3d& parent,
                        const std::filesystem::path& path,
                        int depth) const {
-  constexpr int kMaxDepth = 64;
-  constexpr std::size_t kMaxInstances = 100'000;
-  const auto found = objects_.find(reference.object);
-  if (found == objects_.end()) {
-    fail_3mf(fmt::format("object {} is built but not defined; export it again", reference.object));
-  }
-  if (depth > kMaxDepth || ++instances_ > kMaxInstances) {
-    fail_3mf(
-        "an object contains itself, or components are nested too deeply or repeated too often");
-  }
+  const Object& object = object_of(reference, depth);
   const Eigen::Affine3d transform = parent * reference.transform;
-  if (!found->second.mesh.empty()) append_transformed(mesh, found->second.mesh, transform, path);
-  for (const Reference& component : found->second.components)
+  if (!object.mesh.empty()) append_transformed(mesh, object.mesh, transform, path);
+  for (const Reference& component : object.components)
     add(mesh, component, transform, path, depth + 1);
 }
 

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/memory_budget.h"
 #include "frangia/files/internal/xml_parser.h"
 #include "frangia/geometry/mesh.h"
 
@@ -21,8 +22,12 @@ class ThreeMfModel {
  public:
   /// Handles the start of an element; `name` is "namespace|name".
   void begin(std::string_view name, const XmlAttributes& attributes);
+  /// Memory of what has been collected, bytes.
+  [[nodiscard]] double collected_bytes() const { return collected_bytes_; }
   /// The mesh of all build items, in mm. `path` is for messages.
-  [[nodiscard]] Mesh build(const std::filesystem::path& path) const;
+  ///
+  /// @errors   Error(Input) also when the repeated objects exceed the budget
+  [[nodiscard]] Mesh build(const std::filesystem::path& path, const MemoryBudget& budget) const;
 
  private:
   struct Reference {
@@ -41,6 +46,10 @@ class ThreeMfModel {
   void vertex(const XmlAttributes& attributes);
   void triangle(const XmlAttributes& attributes);
   [[nodiscard]] Mark mark_of_material(std::string_view id, std::string_view index) const;
+  [[nodiscard]] const Object& object_of(const Reference& reference, int depth) const;
+  [[nodiscard]] double memory_of(const Reference& reference,
+                                 std::map<std::uint32_t, double>& known,
+                                 int depth) const;
   void add(Mesh& mesh,
            const Reference& reference,
            const Eigen::Affine3d& parent,
@@ -53,7 +62,7 @@ class ThreeMfModel {
   std::uint32_t current_ = 0xFFFFFFFF;
   std::string material_;
   double mm_per_unit_ = 1.0;
-  mutable std::size_t instances_ = 0;
+  double collected_bytes_ = 0.0;
 };
 
 }  // namespace frangia

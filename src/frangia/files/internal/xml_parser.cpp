@@ -1,5 +1,6 @@
 #include "frangia/files/internal/xml_parser.h"
 
+#include <cstdint>
 #include <exception>
 #include <new>
 
@@ -15,6 +16,7 @@ struct XmlParser::Parser {
   OnBegin on_begin;
   OnEnd on_end;
   std::exception_ptr thrown;
+  std::int64_t fed = 0;  ///< bytes
 
   /// Keeps exceptions from unwinding through the C library.
   template <typename Work>
@@ -45,10 +47,22 @@ struct XmlParser::Parser {
     });
   }
 
+  /// An element that is longer than this is not XML of a mesh. Expat would parse it from its start
+  /// again with each piece.
+  static constexpr std::int64_t kMaxElementBytes = 4'000'000;
+
   void feed(std::string_view piece, bool last) {
     const XML_Status status =
         XML_Parse(parser, piece.data(), static_cast<int>(piece.size()), last ? 1 : 0);
     if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+    fed += static_cast<std::int64_t>(piece.size());
+    if (status == XML_STATUS_OK && fed - XML_GetCurrentByteIndex(parser) > kMaxElementBytes) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("its XML has an element of more than {} bytes in line {}; export it "
+                              "again",
+                              kMaxElementBytes,
+                              XML_GetCurrentLineNumber(parser)));
+    }
     if (status == XML_STATUS_OK) return;
     throw Error(ErrorKind::Input,
                 fmt::format("its XML is invalid in line {}: {}",

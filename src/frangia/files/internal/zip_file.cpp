@@ -44,7 +44,7 @@ ZipReader::~ZipReader() {
 }
 
 bool ZipReader::read(const std::string& name,
-                     const std::function<void(std::string_view)>& consume) const {
+                     const std::function<void(std::string_view, double)>& consume) const {
   if (unzLocateFile(archive_->file, name.c_str(), 1) != UNZ_OK) return false;
   unz_file_info64 info{};
   std::array<char, 4096> ignored{};
@@ -79,7 +79,8 @@ bool ZipReader::read(const std::string& name,
     if (unpacked > info.uncompressed_size) {
       fail(path_, fmt::format("entry {} is longer than its stated size; it is refused", name));
     }
-    consume({block.data(), static_cast<std::size_t>(got)});
+    consume({block.data(), static_cast<std::size_t>(got)},
+            static_cast<double>(unpacked) / static_cast<double>(info.uncompressed_size));
   }
   if (unzCloseCurrentFile(archive_->file) != UNZ_OK || unpacked != info.uncompressed_size) {
     fail(path_, fmt::format("entry {} is damaged; copy the file again", name));

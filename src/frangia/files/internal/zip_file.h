@@ -23,8 +23,10 @@ class ZipReader {
   ZipReader& operator=(ZipReader&&) = delete;
   ~ZipReader();
 
-  /// Passes an entry to `consume` in pieces; false when no entry has this name (case-sensitive).
-  bool read(const std::string& name, const std::function<void(std::string_view)>& consume) const;
+  /// Passes an entry to `consume` in pieces, each with the share of the entry that it completes, 0
+  /// to 1; false when no entry has this name (case-sensitive).
+  bool read(const std::string& name,
+            const std::function<void(std::string_view, double)>& consume) const;
 
  private:
   struct Archive;

@@ -77,9 +77,11 @@ void splat(const Mesh& mesh,
   for (const auto& point : mesh.vertices_mm) {
     const Eigen::Vector3d seen = camera.rig_from_scan * point.cast<double>();
     const Eigen::Vector2d pixel = model.project(seen);
+    const bool inside = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < depth.width() - 0.5 &&
+                        pixel.y() < depth.height() - 0.5;
+    if (!inside) continue;
     const auto x = static_cast<int>(std::lround(pixel.x()));
     const auto y = static_cast<int>(std::lround(pixel.y()));
-    if (x < 0 || y < 0 || x >= depth.width() || y >= depth.height()) continue;
     const auto z = static_cast<float>(seen.z());
     if (!(depth(x, y) <= z)) depth(x, y) = z;
   }
@@ -113,6 +115,14 @@ VirtualCamera virtual_camera_of(const RangeScan& scan) {
   VirtualCamera camera;
   camera.radius_mm = 0.5 * static_cast<double>(box.diagonal().norm());
   camera.spacing_mm = spacing_of(scan.mesh);
+  const bool measurable = camera.spacing_mm > 0.0 && camera.radius_mm > 0.0 &&
+                          std::isfinite(camera.spacing_mm) && std::isfinite(camera.radius_mm);
+  if (!measurable) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: holds no surface: its points coincide or lie out of all "
+                            "proportion; remove the stray points",
+                            scan.path.string()));
+  }
   const Eigen::Vector3d towards = mean_normal(scan.mesh);
   const Eigen::Vector3d right = towards.unitOrthogonal();
   camera.rig_from_scan.linear() << right.transpose(), -towards.cross(right).transpose(),
@@ -135,7 +145,8 @@ CameraModel common_camera_model(std::vector<VirtualCamera>& cameras, bool points
   const double distance_mm = kFar * radius_mm;
   const double across = 2.0 * distance_mm * radius_mm / (distance_mm - radius_mm) / spacing_mm;
   CameraModel model;
-  model.width_px = model.height_px = std::min(kMax_px, static_cast<int>(std::ceil(across)) + 8);
+  model.width_px = model.height_px =
+      static_cast<int>(std::min<double>(kMax_px, std::ceil(across) + 8.0));
   const double focal = std::min(1.0, kMax_px / across) * distance_mm / spacing_mm;
   model.focal_px = {focal, focal};
   model.principal_point_px = {0.5 * (model.width_px - 1), 0.5 * (model.height_px - 1)};
