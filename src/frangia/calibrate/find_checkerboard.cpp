@@ -8,30 +8,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "frangia/calibrate/internal/opencv_image.h"
+
 namespace frangia {
 namespace {
-
-/// The image as OpenCV has it, without a copy.
-cv::Mat view_of(const Image<float>& counts) {
-  return {counts.height(),
-          counts.width(),
-          CV_32F,
-          const_cast<float*>(counts.pixels().data())};  // NOLINT(*-const-cast) it is only read
-}
-
-/// 8 bits with the contrast equalized locally.
-cv::Mat equalized(const cv::Mat& counts) {
-  double brightest = 0.0;
-  cv::minMaxLoc(counts, nullptr, &brightest);
-  constexpr double kGamma = 0.6;  // as a display has it: dark squares keep some levels
-  cv::Mat bright;
-  cv::pow(cv::max(counts, 0.0) / std::max(brightest, 1.0), kGamma, bright);
-  cv::Mat bytes;
-  bright.convertTo(bytes, CV_8U, 255.0);
-  constexpr double kClipLimit = 4.0;
-  cv::createCLAHE(kClipLimit, cv::Size(8, 8))->apply(bytes, bytes);
-  return bytes;
-}
 
 /// Shortest distance between a corner and its neighbors in row and column.
 double spacing_px(const std::vector<cv::Point2f>& corners, int columns) {
@@ -50,7 +30,7 @@ double spacing_px(const std::vector<cv::Point2f>& corners, int columns) {
 std::optional<std::vector<Eigen::Vector2d>> find_checkerboard(const Image<float>& counts,
                                                               const Board& board) {
   check_board(board);
-  const cv::Mat linear = view_of(counts);
+  const cv::Mat linear = opencv_view(counts);
   const cv::Mat bytes = equalized(linear);
   const cv::Size size(board.columns, board.rows);
   constexpr std::array kScales = {0.5, 1.0, 0.7, 0.35};

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "frangia/calibrate/board.h"
 #include "frangia/core/image.h"
+#include "frangia/rig/board.h"
 
 namespace frangia {
 

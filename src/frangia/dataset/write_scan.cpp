@@ -19,6 +19,7 @@ namespace {
 /// Writes keys in the order of the calls; a toml::table would sort them.
 class TomlWriter {
  public:
+  void begin_table(const std::string& name) { text_ << "\n[" << name << "]\n"; }
   void begin_table_of_list(const std::string& name) { text_ << "\n[[" << name << "]]\n"; }
   template <typename T>
   void put(const std::string& key, const T& value) {
@@ -49,7 +50,7 @@ double rounded(double value) {
 }
 
 void put_pattern(TomlWriter& writer, const Pattern& pattern) {
-  static constexpr std::array kKinds = {"fringe", "line", "gray", "ramp"};
+  static constexpr std::array kKinds = {"fringe", "line", "gray", "ramp", "white"};
   writer.begin_table_of_list("pattern");
   writer.put("name", pattern.name);
   writer.put("kind", std::string(kKinds.at(static_cast<std::size_t>(pattern.kind))));
@@ -93,6 +94,18 @@ void put_part_poses(TomlWriter& writer, const std::map<int, Eigen::Isometry3d>& 
   }
 }
 
+void put_board(TomlWriter& writer, const Board& board) {
+  writer.begin_table("board");
+  writer.put("kind", name_of(board.kind));
+  const bool circles = board.kind == BoardKind::Circles;
+  writer.put(circles ? "circles" : "corners", toml::array{board.columns, board.rows});
+  writer.put(circles ? "spacing_mm" : "square_mm", board.square_mm);
+  if (board.kind != BoardKind::Charuco) return;
+  writer.put("dictionary", board.dictionary);
+  writer.put("marker_mm", board.marker_mm);
+  if (board.legacy_layout) writer.put("legacy_layout", true);
+}
+
 }  // namespace
 
 void write_scan(const Scan& scan) {
@@ -101,6 +114,7 @@ void write_scan(const Scan& scan) {
   writer.put("format", std::string("frangia-scan"));
   writer.put("version", kScanVersion);
   writer.put("name", scan.name);
+  if (scan.board) put_board(writer, *scan.board);
   for (const Pattern& pattern : scan.patterns)
     put_pattern(writer, pattern);
   for (const ScanView& view : scan.views) {

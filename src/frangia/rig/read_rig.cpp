@@ -1,5 +1,6 @@
 #include "frangia/rig/read_rig.h"
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
+#include "frangia/rig/internal/calibration_table.h"
 #include "frangia/rig/toml_reader.h"
 
 namespace frangia {
@@ -54,7 +56,7 @@ Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
   return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
 }
 
-CameraModel read_camera_model(TomlReader& reader) {
+CameraModel read_camera_model(TomlReader& reader, RigContent content) {
   CameraModel model;
   const auto size = reader.numbers("size_px", 2);
   for (const double side : size) {
@@ -64,9 +66,14 @@ CameraModel read_camera_model(TomlReader& reader) {
   }
   model.width_px = static_cast<int>(size[0]);
   model.height_px = static_cast<int>(size[1]);
-  model.focal_px = vector2(reader, "focal_px");
-  if (model.focal_px.minCoeff() <= 0.0) reader.fail("focal_px", "must be two numbers above 0");
-  model.principal_point_px = vector2(reader, "principal_point_px");
+  model.focal_px = model.principal_point_px = Eigen::Vector2d::Constant(std::nan(""));
+  const bool complete = content == RigContent::Complete;
+  if (complete || reader.has("focal_px")) {
+    model.focal_px = vector2(reader, "focal_px");
+    if (model.focal_px.minCoeff() <= 0.0) reader.fail("focal_px", "must be two numbers above 0");
+  }
+  if (complete || reader.has("principal_point_px"))
+    model.principal_point_px = vector2(reader, "principal_point_px");
   if (reader.has("distortion")) {
     const auto values = reader.numbers("distortion", 5);
     std::copy(values.begin(), values.end(), model.distortion.begin());
@@ -74,9 +81,9 @@ CameraModel read_camera_model(TomlReader& reader) {
   return model;
 }
 
-Camera read_camera(TomlReader reader, const Run& run) {
+Camera read_camera(TomlReader reader, RigContent content, const Run& run) {
   Camera camera;
-  camera.model = read_camera_model(reader);
+  camera.model = read_camera_model(reader, content);
   camera.white_level = reader.has("white_level") ? reader.integer("white_level", 1, 65535) : 255;
   if (reader.has("noise")) {
     TomlReader noise = reader.table("noise");
@@ -90,10 +97,13 @@ Camera read_camera(TomlReader reader, const Run& run) {
   return camera;
 }
 
-Projector read_projector(TomlReader reader, const Run& run) {
+Projector read_projector(TomlReader reader, RigContent content, const Run& run) {
   Projector projector;
-  projector.position_mm = vector3(reader, "position_mm");
-  projector.rotation = rotation(reader, "rotation");
+  projector.position_mm.setConstant(std::nan(""));
+  projector.rotation.setConstant(std::nan(""));
+  const bool complete = content == RigContent::Complete;
+  if (complete || reader.has("position_mm")) projector.position_mm = vector3(reader, "position_mm");
+  if (complete || reader.has("rotation")) projector.rotation = rotation(reader, "rotation");
   const std::string model = reader.text("model");
   if (model == "angular") {
     const auto field = reader.numbers("field_deg", 2);
@@ -102,7 +112,7 @@ Projector read_projector(TomlReader reader, const Run& run) {
     }
     projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1])};
   } else if (model == "pinhole") {
-    projector.model = read_camera_model(reader);
+    projector.model = read_camera_model(reader, content);
   } else {
     reader.fail("model", fmt::format(R"(is "{}"; it must be "angular" or "pinhole")", model));
   }
@@ -122,17 +132,16 @@ Projector read_projector(TomlReader reader, const Run& run) {
   return projector;
 }
 
+/// A key with its value; nothing for a value that is not known.
+std::string line_of(const char* key, const Eigen::Vector2d& value) {
+  return value.allFinite() ? fmt::format("{} = [{}, {}]\n", key, value.x(), value.y()) : "";
+}
+
 std::string toml_of(const CameraModel& model) {
-  return fmt::format(
-      "size_px = [{}, {}]\nfocal_px = [{}, {}]\nprincipal_point_px = [{}, {}]\n"
-      "distortion = [{}]\n",
-      model.width_px,
-      model.height_px,
-      model.focal_px.x(),
-      model.focal_px.y(),
-      model.principal_point_px.x(),
-      model.principal_point_px.y(),
-      fmt::join(model.distortion, ", "));
+  return fmt::format("size_px = [{}, {}]\n", model.width_px, model.height_px) +
+         line_of("focal_px", model.focal_px) +
+         line_of("principal_point_px", model.principal_point_px) +
+         fmt::format("distortion = [{}]\n", fmt::join(model.distortion, ", "));
 }
 
 std::string toml_of(const Eigen::Vector3d& v) {
@@ -141,13 +150,16 @@ std::string toml_of(const Eigen::Vector3d& v) {
 
 std::string toml_of(const Projector& projector) {
   const Eigen::Matrix3d& r = projector.rotation;
-  std::string text =
-      fmt::format("\n[projector]\nmodel = \"{}\"\nposition_mm = {}\nrotation = [{}, {}, {}]\n",
-                  projector.is_angular() ? "angular" : "pinhole",
-                  toml_of(projector.position_mm),
-                  toml_of(Eigen::Vector3d(r.row(0))),
-                  toml_of(Eigen::Vector3d(r.row(1))),
-                  toml_of(Eigen::Vector3d(r.row(2))));
+  std::string text = fmt::format("\n[projector]\nmodel = \"{}\"\n",
+                                 projector.is_angular() ? "angular" : "pinhole");
+  if (projector.position_mm.allFinite())
+    text += fmt::format("position_mm = {}\n", toml_of(projector.position_mm));
+  if (r.allFinite()) {
+    text += fmt::format("rotation = [{}, {}, {}]\n",
+                        toml_of(Eigen::Vector3d(r.row(0))),
+                        toml_of(Eigen::Vector3d(r.row(1))),
+                        toml_of(Eigen::Vector3d(r.row(2))));
+  }
   if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
     text += fmt::format("field_deg = [{}, {}]\n",
                         deg_from_rad(angular->field_min_rad),
@@ -162,16 +174,26 @@ std::string toml_of(const Projector& projector) {
   return text;
 }
 
+/// The tables of [devices] in a rig.toml, as text.
+std::string devices_of(const std::filesystem::path& path) {
+  const toml::table table = parse_toml(path, "frangia-rig");
+  const toml::table* devices = table["devices"].as_table();
+  if (devices == nullptr) return "";
+  std::ostringstream text;
+  text << "\n" << toml::table{{"devices", *devices}} << "\n";
+  return text.str();
+}
+
 }  // namespace
 
-Rig read_rig(const std::filesystem::path& path, const Run& run) {
+Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent content) {
   const toml::table table = parse_toml(path, "frangia-rig");
   TomlReader reader(path, "", table);
   for (const auto* known : {"format", "version", "devices"})
     reader.ignore(known);
   Rig rig;
-  rig.camera = read_camera(reader.table("camera"), run);
-  rig.projector = read_projector(reader.table("projector"), run);
+  rig.camera = read_camera(reader.table("camera"), content, run);
+  rig.projector = read_projector(reader.table("projector"), content, run);
   if (reader.has("line")) {
     TomlReader line = reader.table("line");
     rig.laser_sheet = LaserSheet{direction(line, "normal"), line.number("offset_mm")};
@@ -182,11 +204,15 @@ Rig read_rig(const std::filesystem::path& path, const Run& run) {
     rig.turntable = Turntable{vector3(turntable, "point_mm"), direction(turntable, "axis")};
     turntable.warn_of_unused_keys(run);
   }
+  if (reader.has("calibration"))
+    rig.calibration = read_calibration(reader.table("calibration"), run);
   reader.warn_of_unused_keys(run);
   return rig;
 }
 
-void write_rig(const std::filesystem::path& path, const Rig& rig) {
+void write_rig(const std::filesystem::path& path,
+               const Rig& rig,
+               const std::filesystem::path& devices_from) {
   std::string text = "format = \"frangia-rig\"\nversion = 1\n\n[camera]\n";
   text += toml_of(rig.camera.model);
   text += fmt::format("white_level = {}\n", rig.camera.white_level);
@@ -207,6 +233,8 @@ void write_rig(const std::filesystem::path& path, const Rig& rig) {
                         toml_of(rig.turntable->point_mm),
                         toml_of(rig.turntable->axis));
   }
+  if (rig.calibration) text += toml_of(*rig.calibration);
+  if (!devices_from.empty()) text += devices_of(devices_from);
   AtomicFile file(path);
   file.stream() << text;
   file.commit();
