@@ -135,7 +135,8 @@ Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& vi
 SimulatedScene make_simulated_scene(const Mesh& part,
                                     const Rig& rig,
                                     std::span<const SimulatedView> views,
-                                    const SimulateOptions& options) {
+                                    const SimulateOptions& options,
+                                    const Eigen::Isometry3d& part_pose) {
   require(!part.empty(), "the part has no triangles; give a surface, not points alone");
   check(options, rig);
   Mesh surface = with_turntable_top(part, options.turntable_top_radius_mm);
@@ -145,6 +146,7 @@ SimulatedScene make_simulated_scene(const Mesh& part,
                        .rig = rig,
                        .known_rig = rig,
                        .rays = rays_of(rig.camera.model),
+                       .part_from_object = part_pose.inverse(),
                        .options = options};
   scene.known_rig.camera.white_level = (1 << options.bits) - 1;
   scene.known_rig.camera.noise.reset();
