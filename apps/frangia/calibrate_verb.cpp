@@ -16,6 +16,7 @@
 #include "frangia/rig/read_rig.h"
 
 #ifdef FRANGIA_WITH_CALIBRATION
+#include "calibrate_board_verb.h"
 #include "calibrate_rig_verb.h"
 #endif
 #include "drivers.h"
@@ -93,6 +94,7 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
   auto* verb = program.add_subcommand("calibrate", "calibrate a rig and its devices");
   verb->require_subcommand(1);
 #ifdef FRANGIA_WITH_CALIBRATION
+  add_calibrate_board_verb(*verb, terminal);
   add_calibrate_rig_verb(*verb, terminal);
 #endif
   auto* piezo = verb->add_subcommand(

@@ -20,7 +20,7 @@ namespace {
 
 using testing::TemporaryFolder;
 
-const std::string kSizes = R"(format = "frangia-rig"
+const std::string kSizesOnly = R"(format = "frangia-rig"
 version = 1
 [camera]
 size_px = [1280, 1024]
@@ -34,7 +34,7 @@ exposure_ms = 12.5
 driver = "grbl"
 )";
 
-std::filesystem::path save(const TemporaryFolder& folder, const std::string& text) {
+std::filesystem::path save_known(const TemporaryFolder& folder, const std::string& text) {
   auto path = folder.path() / "known.toml";
   std::ofstream(path) << text;
   return path;
@@ -42,9 +42,10 @@ std::filesystem::path save(const TemporaryFolder& folder, const std::string& tex
 
 TEST(Calibration, OfAWrittenRigIsReadBack) {
   const TemporaryFolder folder;
-  Rig rig = read_rig(save(folder, kSizes + "[line]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 3\n"),
-                     {},
-                     RigContent::StartValues);
+  Rig rig =
+      read_rig(save_known(folder, kSizesOnly + "[line]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 3\n"),
+               {},
+               RigContent::StartValues);
   rig.camera.model.focal_px = rig.camera.model.principal_point_px = {640.0, 512.0};
   rig.projector.model = rig.camera.model;
   rig.projector.position_mm = {100.0, 0.0, 0.0};
@@ -72,7 +73,7 @@ TEST(Calibration, OfAWrittenRigIsReadBack) {
 
 TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {
   const TemporaryFolder folder;
-  const auto known = save(folder, kSizes);
+  const auto known = save_known(folder, kSizesOnly);
   const auto path = folder.path() / "rig.toml";
   Rig rig = read_rig(known, {}, RigContent::StartValues);
   write_rig(path, rig, known);
@@ -86,7 +87,7 @@ TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {
 
 TEST(ReadRig, TakesStartValuesFromAFileThatHoldsSizesOnly) {
   const TemporaryFolder folder;
-  const Rig rig = read_rig(save(folder, kSizes), {}, RigContent::StartValues);
+  const Rig rig = read_rig(save_known(folder, kSizesOnly), {}, RigContent::StartValues);
   EXPECT_EQ(rig.camera.model.width_px, 1280);
   EXPECT_TRUE(std::isnan(rig.camera.model.focal_px.x()));
   EXPECT_EQ(std::get<PinholeModel>(rig.projector.model).height_px, 800);
@@ -95,7 +96,7 @@ TEST(ReadRig, TakesStartValuesFromAFileThatHoldsSizesOnly) {
 
 TEST(ReadRig, NamesWhatACalibratedRigLacks) {
   const TemporaryFolder folder;
-  const auto path = save(folder, kSizes);
+  const auto path = save_known(folder, kSizesOnly);
   const std::string message = testing::error_of([&] { static_cast<void>(read_rig(path)); });
   EXPECT_NE(message.find("camera.focal_px is missing"), std::string::npos) << message;
 }
