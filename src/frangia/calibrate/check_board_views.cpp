@@ -124,7 +124,7 @@ void check_handedness(std::span<const PoseCapture> poses) {
   if (2 * exchanged > mirrored) {
     fail(
         "rows and columns of the projector are exchanged: exchange the values \"vertical\" and "
-        "\"horizontal\" of `direction` in scan.toml");
+        "\"horizontal\" of the key direction in scan.toml");
   }
   fail(
       "one fringe direction runs backwards, so that the projector's image is mirrored: switch "

@@ -43,7 +43,7 @@ void require_direction(const Scan& scan, FringeDirection direction) {
   if (has_absolute_phase(patterns, scan.rig.projector)) return;
   fail_calibration(
       fmt::format("{}: the {} fringes have no absolute phase; add one with a period of the "
-                  "projector's {}, and check that `direction` is right",
+                  "projector's {}, and check the key direction of each pattern",
                   (scan.folder / "scan.toml").string(),
                   name,
                   vertical ? "width" : "height"));
