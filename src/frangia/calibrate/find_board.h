@@ -11,9 +11,8 @@ namespace frangia {
 /// Finds the points of a board in an image; `BoardPoint::camera_px` is set, nothing of the
 /// projector.
 ///
-/// @shape    all points of a checkerboard or a grid of circles, or those of a ChArUco board that
-/// are
-///           seen; empty when the board is not found
+/// @shape    all points of the board in the order of `board_points_mm`; empty when the board is not
+///           seen whole
 /// @units    counts; pixels, (0, 0) at the center of the top-left one
 [[nodiscard]] std::vector<BoardPoint> find_board(const Image<float>& counts, const Board& board);
 

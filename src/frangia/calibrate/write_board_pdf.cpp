@@ -33,10 +33,6 @@ Eigen::Vector2i cells_of(const Board& board) {
 
 void check_cells(const Board& board) {
   const Eigen::Vector2i cells = cells_of(board);
-  if (board.kind == BoardKind::Charuco) {
-    throw Error(ErrorKind::Input,
-                "board.kind is \"charuco\", which this program cannot draw; use \"checkerboard\"");
-  }
   if (board.kind == BoardKind::Circles || cells.sum() % 2 == 1) return;
   throw Error(ErrorKind::Input,
               fmt::format("a board of {} x {} squares looks the same upside down; let one number "

@@ -18,8 +18,9 @@ struct PaperSize {
 /// A board must not look the same turned by 180 degrees, so that it cannot be taken upside down:
 /// one of its numbers of squares is odd and one even.
 /// @units    mm
-/// @errors   Error(Input) when the board is symmetric, does not fit on the paper, or is of a kind
-///           that cannot be drawn; Error(File) when the file cannot be written
+/// @errors   Error(Input) when the board is symmetric or does not fit on the paper; Error(File)
+/// when
+///           the file cannot be written
 Board write_board_pdf(const std::filesystem::path& path,
                       const Board& board,
                       const PaperSize& paper = {});

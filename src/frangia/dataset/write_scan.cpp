@@ -100,10 +100,6 @@ void put_board(TomlWriter& writer, const Board& board) {
   const bool circles = board.kind == BoardKind::Circles;
   writer.put(circles ? "circles" : "corners", toml::array{board.columns, board.rows});
   writer.put(circles ? "spacing_mm" : "square_mm", board.square_mm);
-  if (board.kind != BoardKind::Charuco) return;
-  writer.put("dictionary", board.dictionary);
-  writer.put("marker_mm", board.marker_mm);
-  if (board.legacy_layout) writer.put("legacy_layout", true);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace frangia {
 
 std::string name_of(BoardKind kind) {
-  constexpr std::array kNames = {"checkerboard", "charuco", "circles"};
+  constexpr std::array kNames = {"checkerboard", "circles"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 
@@ -41,13 +41,6 @@ void check_board(const Board& board) {
                             circles ? "spacing_mm" : "square_mm",
                             board.square_mm,
                             circles ? "distance between two circles" : "side of a square"));
-  }
-  if (board.kind == BoardKind::Charuco &&
-      !(board.marker_mm > 0.0 && board.marker_mm < board.square_mm)) {
-    throw Error(ErrorKind::Input,
-                fmt::format("board.marker_mm is {}; it must be above 0 and below square_mm = {}",
-                            board.marker_mm,
-                            board.square_mm));
   }
 }
 

@@ -10,7 +10,6 @@ namespace frangia {
 /// Kinds of boards whose points are found in images.
 enum class BoardKind {
   Checkerboard,  ///< inner corners of a checkerboard
-  Charuco,       ///< inner corners of a checkerboard with ArUco markers in its white squares
   Circles        ///< centers of the dark circles of a rectangular grid
 };
 
@@ -20,13 +19,9 @@ struct Board {
   int columns = 0;                           ///< points along the board's x
   int rows = 0;                              ///< points along the board's y
   double square_mm = 0.0;                    ///< distance between neighboring points
-  std::string dictionary;                    ///< ChArUco: OpenCV's name without prefix: "5X5_100"
-  double marker_mm = 0.0;                    ///< ChArUco: side of a marker
-  /// ChArUco: the layout of OpenCV before 4.6, which differs for an even number of rows of squares.
-  bool legacy_layout = false;
 };
 
-/// Name of a kind as scan.toml has it: "checkerboard", "charuco" or "circles".
+/// Name of a kind as scan.toml has it: "checkerboard" or "circles".
 [[nodiscard]] std::string name_of(BoardKind kind);
 
 /// Nominal positions of the board's points in its own plane, row by row.
@@ -37,8 +32,8 @@ struct Board {
 
 /// Checks the numbers of a board.
 ///
-/// @errors   Error(Input) when a board has fewer than 3 x 3 points, no positive distance between
-///           points, or a marker that is not smaller than its square
+/// @errors   Error(Input) when a board has fewer than 3 x 3 points or no positive distance between
+///           points
 void check_board(const Board& board);
 
 }  // namespace frangia

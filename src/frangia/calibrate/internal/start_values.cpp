@@ -162,12 +162,10 @@ void require_enough_points(const BoardView& view, const SeenPoints& by_camera) {
                           by_camera.pixels.size()));
 }
 
-}  // namespace
-
-RigParameters start_values(const Board& board,
-                           std::span<const BoardView> views,
-                           const CameraModel& camera_model,
-                           const CameraModel& projector_model) {
+RigParameters start_by_opencv(const Board& board,
+                              std::span<const BoardView> views,
+                              const CameraModel& camera_model,
+                              const CameraModel& projector_model) {
   std::vector<SeenPoints> by_camera;
   std::vector<SeenPoints> by_projector;
   for (const BoardView& view : views) {
@@ -191,6 +189,22 @@ RigParameters start_values(const Board& board,
   }
   parameters.projector_from_camera = median_pose(relative);
   return parameters;
+}
+
+}  // namespace
+
+RigParameters start_values(const Board& board,
+                           std::span<const BoardView> views,
+                           const CameraModel& camera_model,
+                           const CameraModel& projector_model) {
+  try {
+    return start_by_opencv(board, views, camera_model, projector_model);
+  } catch (const cv::Exception& error) {
+    throw Error(ErrorKind::Input,
+                fmt::format("the points of the board do not give a pose; check board.corners and "
+                            "capture the poses again (OpenCV: {})",
+                            error.err));
+  }
 }
 
 }  // namespace frangia

@@ -24,7 +24,7 @@ void read_grid(TomlReader& reader, const char* key, Board& board) {
 Board read_board(TomlReader reader, const Run& run) {
   Board board;
   const std::string kind = reader.text("kind");
-  if (kind == "checkerboard" || kind == "charuco") {
+  if (kind == "checkerboard") {
     read_grid(reader, "corners", board);
     board.square_mm = reader.positive("square_mm");
   } else if (kind == "circles") {
@@ -32,19 +32,7 @@ Board read_board(TomlReader reader, const Run& run) {
     read_grid(reader, "circles", board);
     board.square_mm = reader.positive("spacing_mm");
   } else {
-    reader.fail("kind",
-                fmt::format(R"(is "{}"; it must be "checkerboard", "charuco" or "circles")", kind));
-  }
-  if (kind == "charuco") {
-    board.kind = BoardKind::Charuco;
-    board.dictionary = reader.text("dictionary");
-    board.marker_mm = reader.positive("marker_mm");
-    if (!(board.marker_mm < board.square_mm)) {
-      reader.fail(
-          "marker_mm",
-          fmt::format("is {}; it must be below square_mm = {}", board.marker_mm, board.square_mm));
-    }
-    if (reader.has("legacy_layout")) board.legacy_layout = reader.boolean("legacy_layout");
+    reader.fail("kind", fmt::format(R"(is "{}"; it must be "checkerboard" or "circles")", kind));
   }
   reader.warn_of_unused_keys(run);
   return board;
