@@ -29,12 +29,12 @@ TEST(CalibrateProgram, WritesABoardAtTrueScale) {
   const auto file = folder.path() / "board.pdf";
   const Answer answer = run_program("calibrate board -o " + file.string());
   EXPECT_EQ(answer.exit_code, 0) << answer.output;
-  EXPECT_NE(answer.output.find("square_mm = 21"), std::string::npos) << answer.output;
+  EXPECT_NE(answer.output.find("square_mm = 22"), std::string::npos) << answer.output;
   const std::string pdf = text_in(file);
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
-  // A4 in points, and squares of 21 mm = 59.53 points.
+  // A4 in points, and squares of 22 mm = 62.36 points.
   EXPECT_NE(pdf.find("841.88"), std::string::npos);
-  EXPECT_NE(pdf.find("59.52756 59.52756 re"), std::string::npos) << pdf.substr(0, 3000);
+  EXPECT_NE(pdf.find("62.36221 62.36221 re"), std::string::npos) << pdf.substr(0, 3000);
   const Answer even = run_program("calibrate board --corners 9,7 -o " + file.string());
   EXPECT_EQ(even.exit_code, 3);
   EXPECT_NE(even.output.find("looks the same upside down"), std::string::npos) << even.output;
