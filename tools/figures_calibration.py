@@ -101,26 +101,27 @@ def vertices_of(path):
     return raw[:, :12].copy().view("<f4").astype(float)
 
 
-def distance_to(reference, points):
-    """Distances from a sample of the reference's vertices to points: the nearest after the best similarity."""
+def distance_to(reference, points, scale):
+    """Distances of the reference's vertices from points, in mm of the reference, after the best similarity.
+
+    `scale` is mm of points per mm of the reference, as the baselines of the two rigs have it.
+    """
     from scipy.spatial import cKDTree
     rng = np.random.default_rng(1)
-    moving = points[rng.permutation(len(points))[:40000]].copy()
-    tree = cKDTree(reference)
-    scale_all = 1.0
-    for _ in range(60):
+    moving = scale * reference[rng.permutation(len(reference))[:30000]]
+    tree = cKDTree(points)
+    for _ in range(40):
         distance, index = tree.query(moving)
         near = distance <= np.quantile(distance, 0.8)
-        a, b = moving[near], reference[index[near]]
+        a, b = moving[near], points[index[near]]
         ca, cb = a.mean(0), b.mean(0)
         u, s, vt = np.linalg.svd((a - ca).T @ (b - cb))
         sign = np.diag([1, 1, np.sign(np.linalg.det(vt.T @ u.T))])
-        rotation = vt.T @ sign @ u.T
-        scale = np.trace(np.diag(s) @ sign) / np.sum((a - ca) ** 2)
-        moving = scale * (moving - ca) @ rotation.T + cb
-        scale_all *= scale
+        step = np.trace(np.diag(s) @ sign) / np.sum((a - ca) ** 2)
+        moving = step * (moving - ca) @ (vt.T @ sign @ u.T).T + cb
+        scale *= step
     distance, _ = tree.query(moving)
-    return np.median(distance), np.quantile(distance, 0.9), scale_all
+    return np.median(distance) / scale, np.quantile(distance, 0.9) / scale, scale
 
 
 def run_reconstruct(program, scan, mesh):
@@ -205,11 +206,13 @@ def measure_real(program, scans, out):
     print("| solved by | camera RMS, px | projector RMS, px | baseline, mm |\n|---|---|---|---|")
     for name, camera, projector, length in rows:
         print(f"| {name} | {camera:.3f} | {projector:.3f} | {'' if length is None else format(length, '.2f')} |")
+    given = np.linalg.norm(tomllib.loads((scans / "skull" / "rig.toml").read_text())["projector"]["position_mm"])
     reference = vertices_of(scans / "skull" / "reference.ply")
     print("\n| rig | median distance to reference.ply, mm | 90 %, mm | scale |\n|---|---|---|---|")
     for name, file in (("given", None), ("found", rig), ("found, flat board", out / "rig-flat.toml")):
         points = reconstruct(program, scans / "skull", file, out / "skull")
-        median, high, scale = distance_to(reference, points)
+        found = tomllib.loads((out / "skull" / "rig.toml").read_text())["projector"]["position_mm"]
+        median, high, scale = distance_to(reference, points, np.linalg.norm(found) / given)
         print(f"| {name} | {median:.3f} | {high:.3f} | {scale:.4f} |")
 
 

@@ -9,7 +9,7 @@ namespace frangia {
 std::optional<std::vector<Eigen::Vector2d>> find_circles(const Image<float>& counts,
                                                          const Board& board) {
   check_board(board);
-  const cv::Mat bytes = equalized(opencv_view(counts));
+  const cv::Mat bytes = display_bytes(opencv_view(counts));
   cv::SimpleBlobDetector::Params blobs;
   // A circle spans at least eight pixels and at most a quarter of the image.
   constexpr float kLeastArea = 50.0F;
