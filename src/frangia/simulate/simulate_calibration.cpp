@@ -189,8 +189,9 @@ Scan simulate_calibration(const CalibrationPlan& given,
                                                   camera.height_px / camera.focal_px.y());
   if (plan.board.square_mm == 0.0) {
     constexpr double kShare = 0.6;  // of the field
+    // Half millimetres, which text and binary numbers hold exactly.
     plan.board.square_mm =
-        std::max(0.1, std::floor(10.0 * kShare * field_mm / (plan.board.rows + 2.0)) / 10.0);
+        std::max(0.5, std::floor(2.0 * kShare * field_mm / (plan.board.rows + 2.0)) / 2.0);
   }
   check_board(plan.board);
   if (!plan.rig.turntable) plan.rig.turntable = Turntable{.point_mm = crossing};
