@@ -26,7 +26,7 @@ TEST(SolveRig, FindsTheRigThatOpenCvProjectedWith) {
   EXPECT_NEAR(found.camera.distortion[0], -0.09, 1e-3);
   EXPECT_NEAR(found.camera.distortion[2], 4e-4, 1e-5);
   EXPECT_NEAR(found.projector.focal_px.x(), 1800.0, 0.05);
-  EXPECT_NEAR(found.projector.principal_point_px.y(), 780.0, 0.1);
+  EXPECT_NEAR(found.projector.principal_point_px.y(), 420.0, 0.1);
   EXPECT_NEAR(found.projector_from_camera.translation().x(), -190.0, 0.01);
   EXPECT_NEAR(found.projector_from_camera.translation().z(), 40.0, 0.02);
   EXPECT_LT(found.camera_residuals.rms_px, 2e-4);

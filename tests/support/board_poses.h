@@ -34,7 +34,7 @@ struct TrueRig {
       (cv::Mat_<double>(3, 3) << 2400.0, 0.0, 646.8, 0.0, 2400.0, 507.4, 0.0, 0.0, 1.0);
   cv::Mat camera_distortion = (cv::Mat_<double>(1, 5) << -0.09, 0.05, 4e-4, -3e-4, 0.0);
   cv::Mat projector =
-      (cv::Mat_<double>(3, 3) << 1800.0, 0.0, 632.0, 0.0, 1800.0, 780.0, 0.0, 0.0, 1.0);
+      (cv::Mat_<double>(3, 3) << 1800.0, 0.0, 632.0, 0.0, 1800.0, 420.0, 0.0, 0.0, 1.0);
   cv::Mat projector_distortion = (cv::Mat_<double>(1, 5) << -0.03, 0.0, 0.0, 0.0, 0.0);
   cv::Mat rotation = (cv::Mat_<double>(3, 1) << 0.02, 0.38, -0.01);  // projector_from_camera
   cv::Mat translation = (cv::Mat_<double>(3, 1) << -190.0, 4.0, 40.0);
