@@ -43,11 +43,12 @@ void check_counts(std::span<const PoseCapture> poses, const Board& board) {
       shorter == std::min(board.columns, board.rows))
     return;
   fail(
-      fmt::format("board.corners in scan.toml is [{}, {}], but {} show a checkerboard of {} x {} "
+      fmt::format("board.corners in scan.toml is [{}, {}], but {} {} a checkerboard of {} x {} "
                   "inner corners; set corners = [{}, {}]",
                   board.columns,
                   board.rows,
                   views(most->second),
+                  most->second == 1 ? "shows" : "show",
                   longer,
                   shorter,
                   longer,

@@ -200,7 +200,7 @@ RigSolution solve_rig(const Board& board,
   out.projector_residuals.sigma_px = fit.noise.projector;
   out.iterations = fit.iterations;
   add_covariance(observations, fit.freedom, fit.noise, fit.parameters, out);
-  add_point_sigma(board, fit.freedom, fit.parameters, out);
+  add_point_sigma(board, fit.parameters, out);
   return out;
 }
 

@@ -55,10 +55,12 @@ struct RigSolution {
   /// is no observation.
   std::vector<std::vector<Eigen::Vector2d>> camera_residuals_px;
   std::vector<std::vector<Eigen::Vector2d>> projector_residuals_px;  ///< likewise, of the projector
-  std::vector<std::string> terms;         ///< model terms that the data supports, in words
-  std::vector<std::string> held;          ///< optional terms that the data does not support
-  std::vector<std::string> parameters;    ///< names of the rows of `covariance`: "camera.fx", ...
-  Eigen::MatrixXd covariance;             ///< of the free parameters of camera, projector and pose
+  std::vector<std::string> terms;       ///< model terms that the data supports, in words
+  std::vector<std::string> held;        ///< optional terms that the data does not support
+  std::vector<std::string> parameters;  ///< names of the rows of `covariance`: "camera.fx", ...
+  /// Of all parameters of camera, projector and relative pose. A held term has the uncertainty that
+  /// ordinary lenses leave and its correlation with the parameters that would compensate it.
+  Eigen::MatrixXd covariance;
   std::vector<std::string> undetermined;  ///< parameters that the poses do not determine
   /// Standard uncertainty of a triangulated point that the uncertainty of the estimated parameters
   /// causes: length of the error vector, root mean square over the poses of the board.

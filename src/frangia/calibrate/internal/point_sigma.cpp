@@ -18,13 +18,13 @@ Eigen::Vector3d coordinates_of(const RigParameters& parameters, const Eigen::Vec
   return {camera.x(), camera.y(), project_point(parameters.projector.data(), moved).x()};
 }
 
-/// The free parameters of camera, projector and relative pose, in the order of the covariance.
-std::vector<double*> free_parameters(const RigFreedom& freedom, RigParameters& parameters) {
+/// The parameters of camera, projector and relative pose, in the order of the covariance.
+std::vector<double*> all_parameters(RigParameters& parameters) {
   std::vector<double*> values;
-  for (std::size_t i = 0; i < parameters.camera.size(); ++i)
-    if (freedom.camera.at(i)) values.push_back(&parameters.camera.at(i));
-  for (std::size_t i = 0; i < parameters.projector.size(); ++i)
-    if (freedom.projector.at(i)) values.push_back(&parameters.projector.at(i));
+  for (double& value : parameters.camera)
+    values.push_back(&value);
+  for (double& value : parameters.projector)
+    values.push_back(&value);
   for (double& value : parameters.projector_from_camera)
     values.push_back(&value);
   return values;
@@ -32,7 +32,6 @@ std::vector<double*> free_parameters(const RigFreedom& freedom, RigParameters& p
 
 /// Variance of the position of one point, summed over its coordinates, mm².
 double variance_at(const Eigen::Vector3d& point,
-                   const RigFreedom& freedom,
                    const RigParameters& parameters,
                    const Eigen::MatrixXd& covariance) {
   Eigen::Matrix3d by_point;
@@ -44,7 +43,7 @@ double variance_at(const Eigen::Vector3d& point,
         (2.0 * step_mm);
   }
   RigParameters changed = parameters;
-  const std::vector<double*> values = free_parameters(freedom, changed);
+  const std::vector<double*> values = all_parameters(changed);
   Eigen::MatrixXd by_parameter(3, covariance.cols());
   for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
     double& value = *values[static_cast<std::size_t>(i)];
@@ -62,10 +61,7 @@ double variance_at(const Eigen::Vector3d& point,
 
 }  // namespace
 
-void add_point_sigma(const Board& board,
-                     const RigFreedom& freedom,
-                     const RigParameters& parameters,
-                     RigSolution& solution) {
+void add_point_sigma(const Board& board, const RigParameters& parameters, RigSolution& solution) {
   if (!solution.undetermined.empty()) return;
   const double half_x = 0.5 * (board.columns - 1) * board.square_mm;
   const double half_y = 0.5 * (board.rows - 1) * board.square_mm;
@@ -76,7 +72,7 @@ void add_point_sigma(const Board& board,
     for (const double x : {-half_x, 0.0, half_x}) {
       for (const double y : {-half_y, 0.0, half_y}) {
         const Eigen::Vector3d point = camera_from_board * Eigen::Vector3d(x, y, 0.0);
-        variance += variance_at(point, freedom, parameters, solution.covariance);
+        variance += variance_at(point, parameters, solution.covariance);
         distance += point.norm();
         count += 1.0;
       }

@@ -11,7 +11,6 @@ namespace frangia {
 /// light
 ///           of one projector column
 void add_point_sigma(const Board& board,
-                     const RigFreedom& freedom,
                      const RigParameters& parameters,
                      RigSolution& solution);
 
