@@ -10,8 +10,6 @@ namespace frangia {
 /// @source   linear propagation: a point is where the ray of a camera pixel meets the sheet of
 /// light
 ///           of one projector column
-void add_point_sigma(const Board& board,
-                     const RigParameters& parameters,
-                     RigSolution& solution);
+void add_point_sigma(const Board& board, const RigParameters& parameters, RigSolution& solution);
 
 }  // namespace frangia
