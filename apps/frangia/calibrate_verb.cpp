@@ -15,6 +15,10 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/rig/read_rig.h"
 
+#ifdef FRANGIA_WITH_CALIBRATION
+#include "calibrate_board_verb.h"
+#include "calibrate_rig_verb.h"
+#endif
 #include "check_can_write.h"
 #include "drivers.h"
 #include "option_values.h"
@@ -88,8 +92,12 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
 }  // namespace
 
 void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
-  auto* verb = program.add_subcommand("calibrate", "calibrate the devices of a rig");
+  auto* verb = program.add_subcommand("calibrate", "calibrate a rig and its devices");
   verb->require_subcommand(1);
+#ifdef FRANGIA_WITH_CALIBRATION
+  add_calibrate_board_verb(*verb, terminal);
+  add_calibrate_rig_verb(*verb, terminal);
+#endif
   auto* piezo = verb->add_subcommand(
       "piezo", "measure the phase shift of each command of a phase shifter, from the frames alone");
   piezo->footer(

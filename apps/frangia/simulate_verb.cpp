@@ -16,6 +16,7 @@
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
+#include "frangia/simulate/simulate_calibration.h"
 #include "frangia/simulate/simulate_scan.h"
 
 #include "allow_memory.h"
@@ -40,18 +41,20 @@ struct SimulateArguments {
   double step_jitter_deg = 0.0;
   double angle_error_deg = 0.0;
   double axis_tilt_deg = 0.0;
+  std::string calibration;
+  std::vector<int> corners = {10, 7};
+  double square_mm = 0.0;
   const CLI::Option* fringes_per_degree = nullptr;
   ReadOptions read;
 };
 
 void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
   verb.add_option(
-          "part",
-          arguments.part,
-          fmt::format("{}; or a .stl, .ply or .obj file in mm, standing on z = 0 around the "
-                      "z axis",
-                      fmt::join(part_names(), ", ")))
-      ->required();
+      "part",
+      arguments.part,
+      fmt::format("{}; or a .stl, .ply or .obj file in mm, standing on z = 0 around the "
+                  "z axis",
+                  fmt::join(part_names(), ", ")));
   verb.add_option("-o,--output", arguments.output, "scan folder to write")->required();
   verb.add_option("--rig",
                   arguments.rig,
@@ -106,6 +109,28 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                   "rays per pixel; with 4 a pixel at an edge mixes two surfaces")
       ->check(from_to(1, 64))
       ->capture_default_str();
+}
+
+void add_calibration_options(CLI::App& verb, SimulateArguments& arguments) {
+  constexpr const char* kGroup = "Calibration";
+  auto* calibration = verb.add_option("--calibration",
+                                      arguments.calibration,
+                                      "instead of a part, as many poses of a board as --views: "
+                                      "checkerboard or circles")
+                          ->check(one_of({"checkerboard", "circles"}))
+                          ->group(kGroup);
+  verb.add_option("--corners", arguments.corners, "points of the board along x and y")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(from_to(3, 100))
+      ->needs(calibration)
+      ->capture_default_str()
+      ->group(kGroup);
+  verb.add_option(
+          "--square", arguments.square_mm, "side of a square; by default, it fits the field")
+      ->transform(length_above_zero())
+      ->needs(calibration)
+      ->group(kGroup);
 }
 
 /// Adds one option to `group`. The caller adds the check of its values.
@@ -234,6 +259,46 @@ void add_setups(Scan& plan, const Mesh& part, const SimulateArguments& arguments
   }
 }
 
+void print_result(const Scan& scan, const char* truth, Terminal& terminal) {
+  const auto seconds = terminal.stage_seconds();
+  terminal.finish();
+  if (terminal.json) {
+    nlohmann::ordered_json result{{"scan", scan.folder.string()},
+                                  {"truth", (scan.folder / truth).string()},
+                                  {"views", scan.views.size()},
+                                  {"patterns", scan.patterns.size()}};
+    for (const auto& stage : seconds)
+      result["seconds"][stage.first] = stage.second;
+    result["warnings"] = terminal.warnings();
+    print_json(result);
+    return;
+  }
+  terminal.run().note(fmt::format("wrote {}: {} of {}, and {}",
+                                  scan.folder.string(),
+                                  counted(scan.views.size(), "view"),
+                                  counted(scan.patterns.size(), "pattern"),
+                                  truth));
+}
+
+/// Renders poses of a board instead of a part.
+void simulate_poses(const SimulateArguments& arguments,
+                    const SimulateOptions& options,
+                    const Run& run,
+                    Terminal& terminal) {
+  CalibrationPlan plan;
+  plan.folder = arguments.output;
+  plan.rig = rig_of(arguments.rig, run);
+  plan.board.kind =
+      arguments.calibration == "circles" ? BoardKind::Circles : BoardKind::Checkerboard;
+  plan.board.columns = arguments.corners.at(0);
+  plan.board.rows = arguments.corners.at(1);
+  plan.board.square_mm = arguments.square_mm;
+  plan.poses = arguments.views;
+  plan.patterns = arguments.patterns;
+  run.stage("render");
+  print_result(simulate_calibration(plan, options, run), "truth-rig.toml", terminal);
+}
+
 void simulate(SimulateArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
   SimulateOptions& options = arguments.options;
@@ -242,6 +307,12 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   options.angle_error_rad = rad_from_deg(arguments.angle_error_deg);
   options.axis_tilt_rad = rad_from_deg(arguments.axis_tilt_deg);
 
+  if (!arguments.calibration.empty()) {
+    simulate_poses(arguments, options, run, terminal);
+    return;
+  }
+  if (arguments.part.empty())
+    throw Error(ErrorKind::Input, "name a part, or set `calibration` to render poses of a board");
   run.stage("part");
   Scan plan;
   plan.folder = arguments.output;
@@ -256,24 +327,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   const Mesh part = part_of(arguments.part, arguments.read, run);
   add_setups(plan, part, arguments);
   run.stage("render");
-  const Scan scan = simulate_scan(part, plan, options, run);
-  const auto seconds = terminal.stage_seconds();
-  terminal.finish();
-  if (terminal.json) {
-    nlohmann::ordered_json result{{"scan", scan.folder.string()},
-                                  {"truth", (scan.folder / "truth.ply").string()},
-                                  {"views", scan.views.size()},
-                                  {"patterns", scan.patterns.size()}};
-    for (const auto& stage : seconds)
-      result["seconds"][stage.first] = stage.second;
-    result["warnings"] = terminal.warnings();
-    print_json(result);
-    return;
-  }
-  terminal.print_written(fmt::format("{}: {} of {}, and truth.ply",
-                                     scan.folder.string(),
-                                     counted(scan.views.size(), "view"),
-                                     counted(scan.patterns.size(), "pattern")));
+  print_result(simulate_scan(part, plan, options, run), "truth.ply", terminal);
 }
 
 }  // namespace
@@ -284,9 +338,11 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
       "Example:\n"
       "  frangia simulate bust --rig carducci -o bust-scan\n"
       "  frangia simulate bracket --setups 90 -o bracket-two-setups\n"
-      "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5mm -o bracket-scan");
+      "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5mm -o bracket-scan\n"
+      "  frangia simulate --calibration checkerboard --views 12 -o poses");
   auto arguments = std::make_shared<SimulateArguments>();
   add_scan_options(*verb, *arguments);
+  add_calibration_options(*verb, *arguments);
   add_camera_faults(*verb, *arguments);
   add_projector_faults(*verb, *arguments);
   add_part_faults(*verb, *arguments);

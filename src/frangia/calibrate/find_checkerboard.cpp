@@ -8,30 +8,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "frangia/calibrate/internal/opencv_image.h"
+
 namespace frangia {
 namespace {
-
-/// The image as OpenCV has it, without a copy.
-cv::Mat view_of(const Image<float>& counts) {
-  return {counts.height(),
-          counts.width(),
-          CV_32F,
-          const_cast<float*>(counts.pixels().data())};  // NOLINT(*-const-cast) it is only read
-}
-
-/// 8 bits with the contrast equalized locally.
-cv::Mat equalized(const cv::Mat& counts) {
-  double brightest = 0.0;
-  cv::minMaxLoc(counts, nullptr, &brightest);
-  constexpr double kGamma = 0.6;  // as a display has it: dark squares keep some levels
-  cv::Mat bright;
-  cv::pow(cv::max(counts, 0.0) / std::max(brightest, 1.0), kGamma, bright);
-  cv::Mat bytes;
-  bright.convertTo(bytes, CV_8U, 255.0);
-  constexpr double kClipLimit = 4.0;
-  cv::createCLAHE(kClipLimit, cv::Size(8, 8))->apply(bytes, bytes);
-  return bytes;
-}
 
 /// Shortest distance between a corner and its neighbors in row and column.
 double spacing_px(const std::vector<cv::Point2f>& corners, int columns) {
@@ -45,41 +25,57 @@ double spacing_px(const std::vector<cv::Point2f>& corners, int columns) {
   return least;
 }
 
+/// Corners to a pixel or better. Which treatment of the image succeeds depends on it: a board in
+/// the dark is found without equalization, one in shadow with it.
+std::optional<std::vector<cv::Point2f>> search(const cv::Mat& linear, const cv::Size& size) {
+  struct Treatment {
+    cv::Mat bytes;
+    int flags;
+  };
+  const cv::Mat local = equalized(linear);
+  const std::array<Treatment, 3> treatments{{{display_bytes(linear), cv::CALIB_CB_NORMALIZE_IMAGE},
+                                             {local, 0},
+                                             {local, cv::CALIB_CB_NORMALIZE_IMAGE}}};
+  constexpr std::array kScales = {0.5, 1.0, 0.7, 0.35};
+  for (const double scale : kScales) {
+    for (const Treatment& treatment : treatments) {
+      cv::Mat scaled;
+      cv::resize(treatment.bytes, scaled, {}, scale, scale, cv::INTER_AREA);
+      std::vector<cv::Point2f> corners;
+      if (!cv::findChessboardCornersSB(scaled, size, corners, treatment.flags)) continue;
+      for (cv::Point2f& corner : corners) {
+        corner.x = static_cast<float>((corner.x + 0.5) / scale - 0.5);
+        corner.y = static_cast<float>((corner.y + 0.5) / scale - 0.5);
+      }
+      return corners;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::vector<Eigen::Vector2d>> find_checkerboard(const Image<float>& counts,
                                                               const Board& board) {
   check_board(board);
-  const cv::Mat linear = view_of(counts);
-  const cv::Mat bytes = equalized(linear);
-  const cv::Size size(board.columns, board.rows);
-  constexpr std::array kScales = {0.5, 1.0, 0.7, 0.35};
-  for (const double scale : kScales) {
-    cv::Mat scaled;
-    cv::resize(bytes, scaled, {}, scale, scale, cv::INTER_AREA);
-    std::vector<cv::Point2f> corners;
-    if (!cv::findChessboardCornersSB(scaled, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE)) continue;
-    for (cv::Point2f& corner : corners) {
-      corner.x = static_cast<float>((corner.x + 0.5) / scale - 0.5);
-      corner.y = static_cast<float>((corner.y + 0.5) / scale - 0.5);
-    }
-    // A window that reaches almost to the next edges, where the gradients of others begin.
-    constexpr double kReach = 0.3;
-    const int reach =
-        static_cast<int>(std::clamp(kReach * spacing_px(corners, board.columns), 2.0, 20.0));
-    cv::Mat smooth;
-    cv::GaussianBlur(linear, smooth, {}, 1.0);
-    cv::cornerSubPix(smooth,
-                     corners,
-                     cv::Size(reach, reach),
-                     cv::Size(-1, -1),
-                     cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-5));
-    std::vector<Eigen::Vector2d> found;
-    for (const cv::Point2f& corner : corners)
-      found.emplace_back(corner.x, corner.y);
-    return found;
-  }
-  return std::nullopt;
+  const cv::Mat linear = opencv_view(counts);
+  auto corners = search(linear, cv::Size(board.columns, board.rows));
+  if (!corners) return std::nullopt;
+  // A window that reaches almost to the next edges, where the gradients of others begin.
+  constexpr double kReach = 0.3;
+  const int reach =
+      static_cast<int>(std::clamp(kReach * spacing_px(*corners, board.columns), 2.0, 20.0));
+  cv::Mat smooth;
+  cv::GaussianBlur(linear, smooth, {}, 1.0);
+  cv::cornerSubPix(smooth,
+                   *corners,
+                   cv::Size(reach, reach),
+                   cv::Size(-1, -1),
+                   cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-5));
+  std::vector<Eigen::Vector2d> found;
+  for (const cv::Point2f& corner : *corners)
+    found.emplace_back(corner.x, corner.y);
+  return found;
 }
 
 }  // namespace frangia

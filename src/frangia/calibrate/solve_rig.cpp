@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
+#include "frangia/calibrate/internal/point_sigma.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/calibrate/internal/rig_covariance.h"
 #include "frangia/calibrate/internal/rig_model.h"
@@ -155,11 +157,14 @@ void summarize(std::span<const RigObservation> observations,
 
 RigSolution solve_rig(const Board& board,
                       std::span<const BoardView> views,
-                      const RigSizes& sizes,
+                      const Rig& known,
                       const RigSolveOptions& options,
                       const Run& run) {
   constexpr std::size_t kFewestViews = 3;
   check_board(board);
+  const auto* projector = std::get_if<PinholeModel>(&known.projector.model);
+  require(projector != nullptr,
+          "projector.model is \"angular\", but a board calibrates a digital projector only");
   if (views.size() < kFewestViews) {
     throw Error(ErrorKind::Input,
                 fmt::format("the board is found in {} of at least {} poses; capture more, each "
@@ -173,14 +178,16 @@ RigSolution solve_rig(const Board& board,
   require(projected, "no point of the board has a phase in both fringe directions; capture both");
 
   Fit fit;
-  fit.parameters = start_values(board, views, sizes);
+  fit.parameters = start_values(board, views, known.camera.model, *projector);
   adjust(observations, options, fit, run);
   RigSolution out;
   out.terms = select_terms(observations, options, fit, run);
 
-  out.camera = model_of(fit.parameters.camera, sizes.camera_width_px, sizes.camera_height_px);
-  out.projector =
-      model_of(fit.parameters.projector, sizes.projector_width_px, sizes.projector_height_px);
+  for (const ModelTerm& term : optional_terms(options.release_board))
+    if (!is_free(term, fit.freedom)) out.held.push_back(term.name);
+  out.camera =
+      model_of(fit.parameters.camera, known.camera.model.width_px, known.camera.model.height_px);
+  out.projector = model_of(fit.parameters.projector, projector->width_px, projector->height_px);
   out.projector_from_camera = isometry(fit.parameters.projector_from_camera);
   for (const RigParameters::Pose& pose : fit.parameters.camera_from_board)
     out.camera_from_board.push_back(isometry(pose));
@@ -193,6 +200,7 @@ RigSolution solve_rig(const Board& board,
   out.projector_residuals.sigma_px = fit.noise.projector;
   out.iterations = fit.iterations;
   add_covariance(observations, fit.freedom, fit.noise, fit.parameters, out);
+  add_point_sigma(board, fit.parameters, out);
   return out;
 }
 

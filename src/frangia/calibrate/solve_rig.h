@@ -8,20 +8,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "frangia/calibrate/board.h"
 #include "frangia/calibrate/board_view.h"
 #include "frangia/core/run.h"
+#include "frangia/rig/board.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
-
-/// Sizes of the images that the rig is calibrated for.
-struct RigSizes {
-  int camera_width_px = 0;      ///< columns of a camera image
-  int camera_height_px = 0;     ///< rows of a camera image
-  int projector_width_px = 0;   ///< columns of the projector
-  int projector_height_px = 0;  ///< rows of the projector
-};
 
 /// Deviation of the real board from the nominal one: a printed board is scaled unevenly and bulges.
 struct BoardShape {
@@ -63,26 +55,35 @@ struct RigSolution {
   /// is no observation.
   std::vector<std::vector<Eigen::Vector2d>> camera_residuals_px;
   std::vector<std::vector<Eigen::Vector2d>> projector_residuals_px;  ///< likewise, of the projector
-  std::vector<std::string> terms;         ///< model terms that the data supports, in words
-  std::vector<std::string> parameters;    ///< names of the rows of `covariance`: "camera.fx", ...
-  Eigen::MatrixXd covariance;             ///< of the free parameters of camera, projector and pose
+  std::vector<std::string> terms;       ///< model terms that the data supports, in words
+  std::vector<std::string> held;        ///< optional terms that the data does not support
+  std::vector<std::string> parameters;  ///< names of the rows of `covariance`: "camera.fx", ...
+  /// Of all parameters of camera, projector and relative pose. A held term has the uncertainty that
+  /// ordinary lenses leave and its correlation with the parameters that would compensate it.
+  Eigen::MatrixXd covariance;
   std::vector<std::string> undetermined;  ///< parameters that the poses do not determine
-  int iterations = 0;                     ///< of the solver, all rounds together
+  /// Standard uncertainty of a triangulated point that the uncertainty of the estimated parameters
+  /// causes: length of the error vector, root mean square over the poses of the board.
+  double point_sigma_mm = 0.0;
+  double distance_mm = 0.0;  ///< mean distance of the board from the camera
+  int iterations = 0;        ///< of the solver, all rounds together
 };
 
 /// Estimates camera, projector and their relative pose from views of a board in one bundle
 /// adjustment over all views. The order of the distortion models and of the board's shape is chosen
-/// by evidence; the standard deviations of corners and phases are scaled to what they leave over.
+/// by evidence; the standard deviations of corners and phases are scaled to the residuals. Of
+/// `known` the sizes are used, and focal lengths and principal points as starting values where they
+/// are finite.
 ///
 /// @units    mm, px, rad
 /// @missing  points whose `projector_px` is NaN enter by their camera pixel alone
-/// @errors   Error(Input) for fewer than three views or none with a projector pixel;
-///           Error(Numeric) when the adjustment fails
+/// @errors   Error(Input) for fewer than three views, none with a projector pixel, or an angular
+///           projector; Error(Numeric) when the adjustment fails
 /// @source   Zhang 2000, A Flexible New Technique for Camera Calibration; Zhang & Huang 2006, Novel
 ///           method for structured light system calibration; Akaike 1974 for the order of the model
 [[nodiscard]] RigSolution solve_rig(const Board& board,
                                     std::span<const BoardView> views,
-                                    const RigSizes& sizes,
+                                    const Rig& known,
                                     const RigSolveOptions& options = {},
                                     const Run& run = {});
 

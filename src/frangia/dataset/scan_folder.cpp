@@ -10,6 +10,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/dataset/internal/leads_outside.h"
+#include "frangia/dataset/internal/read_board.h"
 #include "frangia/dataset/internal/read_pattern.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/toml_reader.h"
@@ -36,8 +37,9 @@ void refuse_renamed(const TomlReader& reader, std::initializer_list<RenamedKey> 
 ScanView read_view(TomlReader reader, const Scan& scan, const Run& run) {
   refuse_renamed(reader, {{"round", "setup"}});
   ScanView view;
-  view.angle_rad = rad_from_deg(scan.rig.turntable ? reader.number("angle_deg")
-                                                   : reader.number_or("angle_deg", 0.0));
+  const bool needs_angle = scan.rig.turntable && !scan.board;
+  view.angle_rad =
+      rad_from_deg(needs_angle ? reader.number("angle_deg") : reader.number_or("angle_deg", 0.0));
   view.folder = reader.text("folder");
   if (leads_outside(scan.folder, view.folder)) {
     reader.fail("folder",
@@ -114,7 +116,7 @@ std::string frame_file_name(const Pattern& pattern, int frame, int exposure) {
   return fmt::format("{}-{}.png", pattern.name, frame);
 }
 
-Scan read_scan(const std::filesystem::path& folder, const Run& run) {
+Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent content) {
   if (!std::filesystem::is_directory(folder)) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: is not a folder; name a scan, a folder that holds scan.toml",
@@ -129,7 +131,8 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run) {
   refuse_renamed(reader, {{"round", "[[setup]]"}});
   Scan scan;
   scan.folder = folder;
-  scan.rig = read_rig(folder / "rig.toml", run);
+  scan.rig = read_rig(folder / "rig.toml", run, content);
+  if (reader.has("board")) scan.board = read_board(reader.table("board"), run);
   if (reader.has("name")) scan.name = reader.text("name");
   for (const TomlReader& pattern : reader.tables("pattern"))
     scan.patterns.push_back(read_pattern(pattern, scan.rig, run));

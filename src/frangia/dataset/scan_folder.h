@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 
 #include "frangia/core/run.h"
 #include "frangia/pattern/pattern.h"
+#include "frangia/rig/board.h"
+#include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
@@ -34,15 +37,18 @@ struct Scan {
   /// Approximate part poses of setups, where known: part pose · (point of setup 0) = point of this
   /// setup, both in the object frame.
   std::map<int, Eigen::Isometry3d> part_poses{};
+  std::optional<Board> board{};  ///< of a scan whose views are poses for calibration
 };
 
 /// Reads scan.toml and rig.toml of a scan folder, see docs/scan-format.md. Unknown keys are warned
-/// of by name and ignored.
+/// of by name and ignored. `content` states how much rig.toml must hold.
 ///
 /// @errors   Error(Input) that names the file and the key: a missing or wrong value, a key of
 ///          version 1 that was renamed, a newer version, a view's folder outside of the scan;
 ///          or the folder, when its capture or simulation is not complete
-[[nodiscard]] Scan read_scan(const std::filesystem::path& folder, const Run& run = {});
+[[nodiscard]] Scan read_scan(const std::filesystem::path& folder,
+                             const Run& run = {},
+                             RigContent content = RigContent::Complete);
 
 /// PATTERN-FRAME.png, or PATTERN-FRAME@EXPOSURE.png for a pattern with several exposures.
 [[nodiscard]] std::string frame_file_name(const Pattern& pattern, int frame, int exposure = 0);

@@ -17,7 +17,7 @@ double rounded(double value) {
 }
 
 void put_pattern(TomlWriter& writer, const Pattern& pattern) {
-  static constexpr std::array kKinds = {"fringe", "line", "gray", "ramp"};
+  static constexpr std::array kKinds = {"fringe", "line", "gray", "ramp", "white"};
   writer.begin_table_of_list("pattern");
   writer.put("name", pattern.name);
   writer.put("kind", std::string(kKinds.at(static_cast<std::size_t>(pattern.kind))));
@@ -65,11 +65,20 @@ void put_part_poses(TomlWriter& writer, const std::map<int, Eigen::Isometry3d>& 
   }
 }
 
+void put_board(TomlWriter& writer, const Board& board) {
+  writer.begin_table("board");
+  writer.put("kind", std::string(name_of(board.kind)));
+  const bool circles = board.kind == BoardKind::Circles;
+  writer.put(circles ? "circles" : "corners", std::vector<int>{board.columns, board.rows});
+  writer.put(circles ? "spacing_mm" : "square_mm", board.square_mm);
+}
+
 TomlWriter composed(const Scan& scan) {
   TomlWriter writer;
   writer.put("format", std::string("frangia-scan"));
   writer.put("version", kScanVersion);
   writer.put("name", scan.name);
+  if (scan.board) put_board(writer, *scan.board);
   for (const Pattern& pattern : scan.patterns)
     put_pattern(writer, pattern);
   for (const ScanView& view : scan.views) {

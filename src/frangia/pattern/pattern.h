@@ -10,7 +10,8 @@ enum class PatternKind {
   Fringe,  ///< sinusoidal fringes, one frame per shift
   Line,    ///< the laser sheet, one frame
   Gray,    ///< Gray code of the projector's columns or rows, one frame per bit
-  Ramp     ///< a uniformly lit field, one frame per level
+  Ramp,    ///< a uniformly lit field, one frame per level
+  White    ///< full light over the whole field, one frame
 };
 
 /// Orientation of the fringes.
@@ -57,6 +58,7 @@ struct Pattern {
   [[nodiscard]] int frame_count() const {
     switch (kind) {
       case PatternKind::Line:
+      case PatternKind::White:
         return 1;
       case PatternKind::Gray:
         return inverted == InvertedFrames::None ? bits : 2 * bits;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/atomic_file.h"
+#include "frangia/rig/internal/calibration_table.h"
 #include "frangia/rig/toml_reader.h"
 #include "frangia/rig/toml_writer.h"
 
@@ -56,7 +59,7 @@ Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
   return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
 }
 
-CameraModel read_camera_model(TomlReader& reader) {
+CameraModel read_camera_model(TomlReader& reader, RigContent content) {
   CameraModel model;
   const auto size = reader.numbers("size_px", 2);
   for (const double side : size) {
@@ -66,9 +69,14 @@ CameraModel read_camera_model(TomlReader& reader) {
   }
   model.width_px = static_cast<int>(size[0]);
   model.height_px = static_cast<int>(size[1]);
-  model.focal_px = vector2(reader, "focal_px");
-  if (model.focal_px.minCoeff() <= 0.0) reader.fail("focal_px", "must be two numbers above 0");
-  model.principal_point_px = vector2(reader, "principal_point_px");
+  model.focal_px = model.principal_point_px = Eigen::Vector2d::Constant(std::nan(""));
+  const bool complete = content == RigContent::Complete;
+  if (complete || reader.has("focal_px")) {
+    model.focal_px = vector2(reader, "focal_px");
+    if (model.focal_px.minCoeff() <= 0.0) reader.fail("focal_px", "must be two numbers above 0");
+  }
+  if (complete || reader.has("principal_point_px"))
+    model.principal_point_px = vector2(reader, "principal_point_px");
   if (reader.has("distortion")) {
     const auto values = reader.numbers("distortion", 5);
     std::copy(values.begin(), values.end(), model.distortion.begin());
@@ -76,9 +84,9 @@ CameraModel read_camera_model(TomlReader& reader) {
   return model;
 }
 
-Camera read_camera(TomlReader reader, const Run& run) {
+Camera read_camera(TomlReader reader, RigContent content, const Run& run) {
   Camera camera;
-  camera.model = read_camera_model(reader);
+  camera.model = read_camera_model(reader, content);
   camera.white_level = reader.has("white_level") ? reader.integer("white_level", 1, 65535) : 255;
   if (reader.has("noise")) {
     TomlReader noise = reader.table("noise");
@@ -92,10 +100,13 @@ Camera read_camera(TomlReader reader, const Run& run) {
   return camera;
 }
 
-Projector read_projector(TomlReader reader, const Run& run) {
+Projector read_projector(TomlReader reader, RigContent content, const Run& run) {
   Projector projector;
-  projector.position_mm = vector3(reader, "position_mm");
-  projector.rotation = rotation(reader, "rotation");
+  projector.position_mm.setConstant(std::nan(""));
+  projector.rotation.setConstant(std::nan(""));
+  const bool complete = content == RigContent::Complete;
+  if (complete || reader.has("position_mm")) projector.position_mm = vector3(reader, "position_mm");
+  if (complete || reader.has("rotation")) projector.rotation = rotation(reader, "rotation");
   const std::string model = reader.text("model");
   if (model == "angular") {
     const auto field = reader.numbers("field_deg", 2);
@@ -104,7 +115,7 @@ Projector read_projector(TomlReader reader, const Run& run) {
     }
     projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1])};
   } else if (model == "pinhole") {
-    projector.model = read_camera_model(reader);
+    projector.model = read_camera_model(reader, content);
   } else {
     reader.fail("model", fmt::format(R"(is "{}"; it must be "angular" or "pinhole")", model));
   }
@@ -130,9 +141,12 @@ std::vector<double> list_of(const Eigen::Vector3d& v) {
 
 void put_camera_model(TomlWriter& writer, const CameraModel& model) {
   writer.put("size_px", std::vector<int>{model.width_px, model.height_px});
-  writer.put("focal_px", std::vector{model.focal_px.x(), model.focal_px.y()});
-  writer.put("principal_point_px",
-             std::vector{model.principal_point_px.x(), model.principal_point_px.y()});
+  if (model.focal_px.allFinite())
+    writer.put("focal_px", std::vector{model.focal_px.x(), model.focal_px.y()});
+  if (model.principal_point_px.allFinite()) {
+    writer.put("principal_point_px",
+               std::vector{model.principal_point_px.x(), model.principal_point_px.y()});
+  }
   writer.put("distortion", std::vector<double>(model.distortion.begin(), model.distortion.end()));
 }
 
@@ -152,11 +166,13 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
   const Eigen::Matrix3d& r = projector.rotation;
   writer.begin_table("projector");
   writer.put("model", std::string(projector.is_angular() ? "angular" : "pinhole"));
-  writer.put("position_mm", list_of(projector.position_mm));
-  writer.put("rotation",
-             std::vector{list_of(r.row(0).transpose()),
-                         list_of(r.row(1).transpose()),
-                         list_of(r.row(2).transpose())});
+  if (projector.position_mm.allFinite()) writer.put("position_mm", list_of(projector.position_mm));
+  if (r.allFinite()) {
+    writer.put("rotation",
+               std::vector{list_of(r.row(0).transpose()),
+                           list_of(r.row(1).transpose()),
+                           list_of(r.row(2).transpose())});
+  }
   if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
     writer.put(
         "field_deg",
@@ -189,19 +205,30 @@ TomlWriter composed_rig(const Rig& rig) {
     writer.put("point_mm", list_of(rig.turntable->point_mm));
     writer.put("axis", list_of(rig.turntable->axis));
   }
+  if (rig.calibration) put_calibration(writer, *rig.calibration);
   return writer;
+}
+
+/// The tables of [devices] in a rig.toml, as text.
+std::string devices_of(const std::filesystem::path& path) {
+  const toml::table table = parse_toml(path, "frangia-rig");
+  const toml::table* devices = table["devices"].as_table();
+  if (devices == nullptr) return "";
+  std::ostringstream text;
+  text << "\n" << toml::table{{"devices", *devices}} << "\n";
+  return text.str();
 }
 
 }  // namespace
 
-Rig read_rig(const std::filesystem::path& path, const Run& run) {
+Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent content) {
   const toml::table table = parse_toml(path, "frangia-rig");
   TomlReader reader(path, "", table);
   for (const auto* known : {"format", "version", "devices"})
     reader.ignore(known);
   Rig rig;
-  rig.camera = read_camera(reader.table("camera"), run);
-  rig.projector = read_projector(reader.table("projector"), run);
+  rig.camera = read_camera(reader.table("camera"), content, run);
+  rig.projector = read_projector(reader.table("projector"), content, run);
   if (reader.has("line")) {
     TomlReader line = reader.table("line");
     rig.laser_sheet = LaserSheet{direction(line, "normal"), line.number("offset_mm")};
@@ -212,6 +239,8 @@ Rig read_rig(const std::filesystem::path& path, const Run& run) {
     rig.turntable = Turntable{vector3(turntable, "point_mm"), direction(turntable, "axis")};
     turntable.warn_of_unused_keys(run);
   }
+  if (reader.has("calibration"))
+    rig.calibration = read_calibration(reader.table("calibration"), run);
   reader.warn_of_unused_keys(run);
   return rig;
 }
@@ -220,8 +249,14 @@ std::string rig_text(const Rig& rig) {
   return composed_rig(rig).text();
 }
 
-void write_rig(const std::filesystem::path& path, const Rig& rig, Durability durability) {
-  composed_rig(rig).save(path, durability);
+void write_rig(const std::filesystem::path& path,
+               const Rig& rig,
+               Durability durability,
+               const std::filesystem::path& devices_from) {
+  const std::string devices = devices_from.empty() ? "" : devices_of(devices_from);
+  AtomicFile file(path, durability);
+  file.stream() << rig_text(rig) << devices;
+  file.commit();
 }
 
 }  // namespace frangia

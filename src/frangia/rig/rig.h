@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/frames/noise_model.h"
+#include "frangia/rig/calibration.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/rig/projector.h"
 
@@ -39,6 +40,7 @@ struct Rig {
   Projector projector;                    ///< interferometer or digital projector
   std::optional<LaserSheet> laser_sheet;  ///< gives fringe orders; none: the rig has no such source
   std::optional<Turntable> turntable;     ///< none: the object stays where it is
+  std::optional<Calibration> calibration = std::nullopt;  ///< none: its origin is not known
 
   /// Returns `Turntable::rig_from_object`, or the identity for a rig without a turntable.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;

@@ -121,6 +121,13 @@ class TomlReader {
     }
     return readers;
   }
+  /// Keys of the table, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> keys() const {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : *table_)
+      names.emplace_back(key.str());
+    return names;
+  }
   /// Accepts a key without reading it, so that no warning follows.
   void ignore(std::string_view key) { used_.insert(std::string(key)); }
 

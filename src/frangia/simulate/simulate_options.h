@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+
+#include "frangia/rig/board.h"
 
 namespace frangia {
 
@@ -27,6 +30,7 @@ struct SimulateOptions {
 
   // The surface.
   double texture = 0.0;           ///< 0: white; 1: smooth patches from white to black
+  std::optional<Board> board;     ///< printed on the part's plane z = 0, in black on white
   double gloss = 0.0;             ///< strength of the highlight, relative to the diffuse white
   double shininess = 40.0;        ///< exponent of the highlight
   double speckle = 0.0;           ///< speckle contrast, 0 to 1, constant within a view

@@ -82,7 +82,13 @@ std::vector<SimulatedSetup> make_setups(const Mesh& part,
     const auto part_pose = plan.part_poses.find(setup);
     const Mesh posed_part =
         part_pose == plan.part_poses.end() ? part : transform_mesh(part, part_pose->second);
-    SimulatedScene scene = make_simulated_scene(posed_part, plan.rig, stations, options, run);
+    SimulatedScene scene = make_simulated_scene(
+        posed_part,
+        plan.rig,
+        stations,
+        options,
+        part_pose == plan.part_poses.end() ? Eigen::Isometry3d::Identity() : part_pose->second,
+        run);
     setups.push_back({std::move(stations), std::move(scene)});
   }
   return setups;

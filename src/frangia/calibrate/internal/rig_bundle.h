@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "frangia/calibrate/board.h"
 #include "frangia/calibrate/board_view.h"
 #include "frangia/calibrate/internal/rig_model.h"
 #include "frangia/core/run.h"
+#include "frangia/rig/board.h"
 
 namespace frangia {
 

@@ -15,15 +15,26 @@ constexpr std::array kIntrinsicNames = {
 constexpr std::array kPoseNames = {
     "rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "x_mm", "y_mm", "z_mm"};
 
-std::vector<std::string> free_names(const RigFreedom& freedom) {
+/// Standard deviations of terms that are held at their nominal values: ordinary lenses and square
+/// pixels. Zero: the parameter is always estimated.
+constexpr std::array kHeldSigma = {0.0, 2e-3, 0.0, 0.0, 0.0, 0.1, 1e-3, 1e-3, 0.1};
+
+std::vector<std::string> parameter_names() {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < kIntrinsicNames.size(); ++i)
-    if (freedom.camera.at(i)) names.push_back(std::string("camera.") + kIntrinsicNames.at(i));
-  for (std::size_t i = 0; i < kIntrinsicNames.size(); ++i)
-    if (freedom.projector.at(i)) names.push_back(std::string("projector.") + kIntrinsicNames.at(i));
+  for (const char* device : {"camera.", "projector."})
+    for (const char* name : kIntrinsicNames)
+      names.push_back(std::string(device) + name);
   for (const char* name : kPoseNames)
     names.push_back(std::string("projector.") + name);
   return names;
+}
+
+/// Adds what is known beforehand of the terms that are held.
+void add_priors(const std::array<bool, 9>& is_free, Eigen::Index first, Eigen::MatrixXd& normal) {
+  for (std::size_t i = 0; i < is_free.size(); ++i) {
+    const Eigen::Index row = first + static_cast<Eigen::Index>(i);
+    if (!is_free.at(i)) normal(row, row) += 1.0 / (kHeldSigma.at(i) * kHeldSigma.at(i));
+  }
 }
 
 }  // namespace
@@ -34,15 +45,20 @@ void add_covariance(std::span<const RigObservation> observations,
                     const RigParameters& parameters,
                     RigSolution& solution) {
   constexpr double kOpen = 1e-12;
-  const Eigen::MatrixXd jacobian = linearize_rig(observations, freedom, noise, parameters).jacobian;
-  const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  RigFreedom all = freedom;  // a held term is uncertain, too, and correlated with the others
+  all.camera.fill(true);
+  all.projector.fill(true);
+  const Eigen::MatrixXd jacobian = linearize_rig(observations, all, noise, parameters).jacobian;
+  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  add_priors(freedom.camera, 0, normal);
+  add_priors(freedom.projector, kIntrinsics, normal);
   const Eigen::VectorXd scale =
       normal.diagonal().cwiseSqrt().unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
   const auto eigen =
       symmetric_eigen(Eigen::MatrixXd(scale.asDiagonal() * normal * scale.asDiagonal()));
   const double least = kOpen * eigen.values.tail<1>()[0];
 
-  solution.parameters = free_names(freedom);
+  solution.parameters = parameter_names();
   const auto kept = static_cast<Eigen::Index>(solution.parameters.size());
   Eigen::VectorXd open = Eigen::VectorXd::Zero(normal.rows());
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(normal.rows(), normal.rows());

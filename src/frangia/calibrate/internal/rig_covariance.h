@@ -8,7 +8,9 @@
 namespace frangia {
 
 /// Adds the covariance of camera, projector and relative pose to a solution, with the poses and the
-/// board's shape marginalized, and names the parameters that the data leaves open.
+/// board's shape marginalized, and names the parameters that the data leaves open. Terms of the
+/// lenses that are held have the uncertainty that ordinary lenses leave, so that it enters the
+/// parameters that would compensate them.
 ///
 /// @units    focal lengths and principal points px, rotation rad, translation mm
 /// @missing  a parameter that is not determined has the variance of its prior: none, so infinite

@@ -79,6 +79,10 @@ void set_free(const ModelTerm& term, RigFreedom& freedom) {
     freedom.board.at(i) = true;
 }
 
+bool is_free(const ModelTerm& term, const RigFreedom& freedom) {
+  return new_columns(term, freedom).empty();
+}
+
 std::optional<std::size_t> best_term(std::span<const RigObservation> observations,
                                      std::span<const ModelTerm> terms,
                                      const RigFreedom& freedom,

@@ -21,6 +21,9 @@ struct ModelTerm {
 
 void set_free(const ModelTerm& term, RigFreedom& freedom);
 
+/// Whether all parameters of a term are estimated.
+[[nodiscard]] bool is_free(const ModelTerm& term, const RigFreedom& freedom);
+
 /// The term that lowers the weighted squares most beyond `min_gain` a parameter; none when there is
 /// no such term.
 ///

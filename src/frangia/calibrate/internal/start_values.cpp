@@ -88,6 +88,42 @@ RigParameters::Pose pose_of(const SeenPoints& seen, const cv::Mat& matrix) {
   return pose;
 }
 
+/// Mean squared reprojection error of the views with the poses that fit best, px².
+double mean_square(const std::vector<SeenPoints>& views, const cv::Mat& matrix) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const SeenPoints& seen : views) {
+    if (seen.pixels.size() < kFewestPoints) continue;
+    const RigParameters::Pose pose = pose_of(seen, matrix);
+    std::vector<cv::Point2f> projected;
+    cv::projectPoints(seen.board_mm,
+                      cv::Vec3d(pose[0], pose[1], pose[2]),
+                      cv::Vec3d(pose[3], pose[4], pose[5]),
+                      matrix,
+                      cv::noArray(),
+                      projected);
+    for (std::size_t i = 0; i < projected.size(); ++i) {
+      const cv::Point2f error = projected[i] - seen.pixels[i];
+      sum += static_cast<double>(error.dot(error));
+      count += 1.0;
+    }
+  }
+  return sum / count;
+}
+
+/// The start from the homographies or that of the given model, whichever fits better.
+cv::Mat better_matrix(const std::vector<SeenPoints>& views, const CameraModel& given) {
+  cv::Mat estimated = start_matrix(views, given.width_px, given.height_px);
+  if (!given.focal_px.allFinite()) return estimated;
+  cv::Mat known = estimated.clone();
+  known.at<double>(0, 0) = known.at<double>(1, 1) = given.focal_px.mean();
+  if (given.principal_point_px.allFinite()) {
+    known.at<double>(0, 2) = given.principal_point_px.x();
+    known.at<double>(1, 2) = given.principal_point_px.y();
+  }
+  return mean_square(views, known) < mean_square(views, estimated) ? known : estimated;
+}
+
 Eigen::Isometry3d isometry_of(const RigParameters::Pose& pose) {
   const Eigen::Vector3d rotation(pose[0], pose[1], pose[2]);
   Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
@@ -117,27 +153,29 @@ RigParameters::Pose median_pose(const std::vector<RigParameters::Pose>& poses) {
   return result;
 }
 
-}  // namespace
+/// Throws for a view whose points cannot fix its pose.
+void require_enough_points(const BoardView& view, const SeenPoints& by_camera) {
+  if (by_camera.pixels.size() >= kFewestPoints) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: only {} points of the board are seen; leave the view out",
+                          view.name,
+                          by_camera.pixels.size()));
+}
 
-RigParameters start_values(const Board& board,
-                           std::span<const BoardView> views,
-                           const RigSizes& sizes) {
+RigParameters start_by_opencv(const Board& board,
+                              std::span<const BoardView> views,
+                              const CameraModel& camera_model,
+                              const CameraModel& projector_model) {
   std::vector<SeenPoints> by_camera;
   std::vector<SeenPoints> by_projector;
   for (const BoardView& view : views) {
     by_camera.push_back(seen_points(board, view, false));
     by_projector.push_back(seen_points(board, view, true));
-    if (by_camera.back().pixels.size() < kFewestPoints) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("{}: only {} points of the board are seen; leave the view out",
-                              view.name,
-                              by_camera.back().pixels.size()));
-    }
+    require_enough_points(view, by_camera.back());
   }
   RigParameters parameters;
-  const cv::Mat camera = start_matrix(by_camera, sizes.camera_width_px, sizes.camera_height_px);
-  const cv::Mat projector =
-      start_matrix(by_projector, sizes.projector_width_px, sizes.projector_height_px);
+  const cv::Mat camera = better_matrix(by_camera, camera_model);
+  const cv::Mat projector = better_matrix(by_projector, projector_model);
   parameters.camera = intrinsics_of(camera);
   parameters.projector = intrinsics_of(projector);
   std::vector<RigParameters::Pose> relative;
@@ -151,6 +189,22 @@ RigParameters start_values(const Board& board,
   }
   parameters.projector_from_camera = median_pose(relative);
   return parameters;
+}
+
+}  // namespace
+
+RigParameters start_values(const Board& board,
+                           std::span<const BoardView> views,
+                           const CameraModel& camera_model,
+                           const CameraModel& projector_model) {
+  try {
+    return start_by_opencv(board, views, camera_model, projector_model);
+  } catch (const cv::Exception& error) {
+    throw Error(ErrorKind::Input,
+                fmt::format("the points of the board do not give a pose; check board.corners and "
+                            "capture the poses again (OpenCV: {})",
+                            error.err));
+  }
 }
 
 }  // namespace frangia

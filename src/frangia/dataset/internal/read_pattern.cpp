@@ -151,9 +151,12 @@ Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
     read_gray(reader, rig, pattern);
   } else if (kind == "ramp") {
     read_ramp(reader, pattern);
+  } else if (kind == "white") {
+    pattern.kind = PatternKind::White;
   } else {
-    reader.fail("kind",
-                fmt::format(R"(is "{}"; it must be "fringe", "line", "gray" or "ramp")", kind));
+    reader.fail(
+        "kind",
+        fmt::format(R"(is "{}"; it must be "fringe", "line", "gray", "ramp" or "white")", kind));
   }
   read_exposures(reader, pattern);
   reader.warn_of_unused_keys(run);

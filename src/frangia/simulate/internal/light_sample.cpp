@@ -6,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
+#include "frangia/simulate/internal/board_texture.h"
 
 namespace frangia {
 namespace {
@@ -39,7 +40,14 @@ double value_noise(const Vector3d& position_mm, double size_mm) {
   return value;
 }
 
-double albedo_at(const Vector3d& position_mm, double texture) {
+double albedo_at(const Vector3d& position_mm, const SimulatedScene& scene) {
+  if (scene.options.board) {
+    constexpr double kFace_mm = 0.01;
+    const Vector3d point = scene.part_from_object * position_mm;
+    return std::abs(point.z()) < kFace_mm ? board_albedo(*scene.options.board, point.head<2>())
+                                          : 1.0;
+  }
+  const double texture = scene.options.texture;
   if (texture == 0.0) return 1.0;
   return 1.0 -
          texture * (0.65 * value_noise(position_mm, 14.0) + 0.35 * value_noise(position_mm, 5.0));
@@ -84,7 +92,7 @@ LightSample sample_light(const SimulatedScene& scene,
   if (!hit) return sample;
   const Vector3d point = camera + hit->distance * direction;
   const Vector3d seen = hit->distance * ray.homogeneous();  // the same in the rig frame, exactly
-  sample.albedo = static_cast<float>(albedo_at(point, scene.options.texture));
+  sample.albedo = static_cast<float>(albedo_at(point, scene));
   if (!project_to_projector(scene.rig.projector, seen, sample)) return sample;
 
   // An open mesh is a thin shell: it shows the side that is looked at.

@@ -22,7 +22,7 @@ void check(const Pattern& pattern, const Rig& rig) {
     if (!rig.laser_sheet) fail("is a line, but the rig has no [line]");
     return;
   }
-  if (pattern.kind == PatternKind::Ramp) return;
+  if (pattern.kind == PatternKind::Ramp || pattern.kind == PatternKind::White) return;
   if (pattern.kind == PatternKind::Gray) {
     if (rig.projector.is_angular()) fail("is Gray code, which an angular projector cannot show");
     if (pattern.bits < 1 || !(pattern.stripe_px > 0.0)) fail("needs bits and stripes above 0");

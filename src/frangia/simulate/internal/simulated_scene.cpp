@@ -136,6 +136,7 @@ SimulatedScene make_simulated_scene(const Mesh& part,
                                     const Rig& rig,
                                     std::span<const SimulatedView> views,
                                     const SimulateOptions& options,
+                                    const Eigen::Isometry3d& part_pose,
                                     const Run& run) {
   require(!part.empty(), "the part has no triangles; give a surface, not points alone");
   check(options, rig);
@@ -146,6 +147,7 @@ SimulatedScene make_simulated_scene(const Mesh& part,
                        .rig = rig,
                        .known_rig = rig,
                        .rays = rays_of(rig.camera.model),
+                       .part_from_object = part_pose.inverse(),
                        .options = options};
   scene.known_rig.camera.white_level = (1 << options.bits) - 1;
   scene.known_rig.camera.noise.reset();

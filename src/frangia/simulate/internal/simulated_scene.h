@@ -22,6 +22,7 @@ struct SimulatedScene {
   Rig rig;                                              ///< with its faults
   Rig known_rig;                                        ///< without its faults, for rig.toml
   Image<Eigen::Vector2f> rays;
+  Eigen::Isometry3d part_from_object = Eigen::Isometry3d::Identity();  ///< of a printed board
   double working_distance_mm = 0.0;  ///< of the projector from the part
   double exposure = 1.0;             ///< white level per unit of light from a white surface
   SimulateOptions options = {};
@@ -33,16 +34,19 @@ struct SimulatedView {
   double angle_rad = 0.0;  ///< commanded
 };
 
-/// Places a part on a rig and sets the exposure by the brightest pixel of all views.
+/// Places a part on a rig and sets the exposure by the brightest pixel of all views. `part_pose` is
+/// the pose that `part` has already; a printed board needs it.
 ///
 /// @errors   Error(Input) when the part has no triangles, the rig has no turntable, or an option is
 /// out
 ///          of range
-[[nodiscard]] SimulatedScene make_simulated_scene(const Mesh& part,
-                                                  const Rig& rig,
-                                                  std::span<const SimulatedView> views,
-                                                  const SimulateOptions& options = {},
-                                                  const Run& run = {});
+[[nodiscard]] SimulatedScene make_simulated_scene(
+    const Mesh& part,
+    const Rig& rig,
+    std::span<const SimulatedView> views,
+    const SimulateOptions& options = {},
+    const Eigen::Isometry3d& part_pose = Eigen::Isometry3d::Identity(),
+    const Run& run = {});
 
 /// The true pose of the object in a view, with the turntable's faults.
 [[nodiscard]] Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view);

@@ -1,0 +1,85 @@
+#include "calibrate_board_verb.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/calibrate/write_board_pdf.h"
+
+#include "option_values.h"
+
+namespace frangia {
+namespace {
+
+struct BoardArguments {
+  std::filesystem::path output;
+  std::string kind = "checkerboard";
+  std::string paper = "a4";
+  std::vector<int> corners = {10, 7};
+  double square_mm = 0.0;
+};
+
+void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
+  const std::map<std::string, PaperSize> papers = {
+      {"a4", {297.0, 210.0}}, {"a3", {420.0, 297.0}}, {"letter", {279.4, 215.9}}};
+  const bool circles = arguments.kind == "circles";
+  const Board board =
+      write_board_pdf(arguments.output,
+                      {.kind = circles ? BoardKind::Circles : BoardKind::Checkerboard,
+                       .columns = arguments.corners.at(0),
+                       .rows = arguments.corners.at(1),
+                       .square_mm = arguments.square_mm},
+                      papers.at(arguments.paper));
+  if (terminal.json) {
+    const nlohmann::ordered_json result{{"file", arguments.output.string()},
+                                        {"kind", arguments.kind},
+                                        {"corners", {board.columns, board.rows}},
+                                        {"square_mm", board.square_mm}};
+    print_json(result);
+    return;
+  }
+  if (!terminal.quiet) {
+    print_text(
+        "# for scan.toml, once the ruler on the print measures 100 mm\n[board]\n"
+        "kind = \"{}\"\n{} = [{}, {}]\n{} = {:g}\n",
+        arguments.kind,
+        circles ? "circles" : "corners",
+        board.columns,
+        board.rows,
+        circles ? "spacing_mm" : "square_mm",
+        board.square_mm);
+  }
+  terminal.print_written(arguments.output.string());
+}
+
+}  // namespace
+
+void add_calibrate_board_verb(CLI::App& calibrate, Terminal& terminal) {
+  auto arguments = std::make_shared<BoardArguments>();
+  CLI::App* verb =
+      calibrate.add_subcommand("board", "write a board to print at true scale, with a ruler");
+  verb->footer("Example:\n  frangia calibrate board --paper a4 -o board.pdf");
+  verb->add_option("-o,--output", arguments->output, "PDF to write")->required();
+  verb->add_option("--kind", arguments->kind, "checkerboard or circles")
+      ->check(one_of({"checkerboard", "circles"}))
+      ->capture_default_str();
+  verb->add_option("--paper", arguments->paper, "a4, a3 or letter")
+      ->check(one_of({"a4", "a3", "letter"}))
+      ->capture_default_str();
+  verb->add_option("--corners", arguments->corners, "inner corners, or circles, along x and y")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(from_to(3, 100))
+      ->capture_default_str();
+  verb->add_option(
+          "--square", arguments->square_mm, "side of a square; by default, it fills the paper")
+      ->transform(length_above_zero());
+  verb->callback([arguments, &terminal] { calibrate_board_verb(*arguments, terminal); });
+}
+
+}  // namespace frangia

@@ -1,0 +1,236 @@
+#include "frangia/calibrate/check_board_views.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/calibrate/internal/start_values.h"
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+[[noreturn]] void fail(const std::string& sentence) {
+  throw Error(ErrorKind::Input, sentence);
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 6;
+  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format(
+      "{} and {} more", fmt::join(std::span(names).first(kMost), ", "), names.size() - kMost);
+}
+
+std::string views(std::size_t count) {
+  return fmt::format("{} {}", count, count == 1 ? "view" : "views");
+}
+
+/// Fails when most of the views without the board show a checkerboard of one other size.
+void check_counts(std::span<const PoseCapture> poses, const Board& board) {
+  std::map<std::array<int, 2>, std::size_t> seen;
+  for (const PoseCapture& pose : poses)
+    if (pose.counted) ++seen[*pose.counted];
+  const auto most = std::max_element(
+      seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == seen.end() || 2 * most->second <= poses.size()) return;
+  const auto [longer, shorter] = most->first;
+  if (longer == std::max(board.columns, board.rows) &&
+      shorter == std::min(board.columns, board.rows))
+    return;
+  fail(
+      fmt::format("board.corners in scan.toml is [{}, {}], but {} {} a checkerboard of {} x {} "
+                  "inner corners; set corners = [{}, {}]",
+                  board.columns,
+                  board.rows,
+                  views(most->second),
+                  most->second == 1 ? "shows" : "show",
+                  longer,
+                  shorter,
+                  longer,
+                  shorter));
+}
+
+/// Names of the poses for which `holds` is true.
+template <typename Condition>
+std::vector<std::string> names_of(std::span<const PoseCapture> poses, const Condition& holds) {
+  std::vector<std::string> names;
+  for (const PoseCapture& pose : poses)
+    if (holds(pose)) names.push_back(pose.view.name);
+  return names;
+}
+
+/// Fails when the light explains why a board is not found or has no phases.
+void check_light(std::span<const PoseCapture> poses, const PoseCheckOptions& options) {
+  const auto dark =
+      names_of(poses, [&](const PoseCapture& pose) { return pose.brightness < options.dim; });
+  if (!dark.empty()) {
+    fail(
+        fmt::format("the board is too dark in {}: its light squares reach less than {:.0f} % of "
+                    "white; expose longer or open the aperture",
+                    list_of(dark),
+                    100.0 * options.dim));
+  }
+  const auto bright =
+      names_of(poses, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
+  if (!bright.empty()) {
+    fail(
+        fmt::format("the board is overexposed in {}: more than {:.0f} % of its pixels are "
+                    "saturated; expose shorter",
+                    list_of(bright),
+                    100.0 * options.saturated));
+  }
+}
+
+std::size_t lit_points(const BoardView& view) {
+  return static_cast<std::size_t>(
+      std::count_if(view.points.begin(), view.points.end(), [](const BoardPoint& point) {
+        return point.projector_px.allFinite();
+      }));
+}
+
+/// The affine map from camera pixels to projector pixels over one board.
+Eigen::Matrix2d camera_to_projector(const BoardView& view) {
+  const auto count = static_cast<Eigen::Index>(lit_points(view));
+  Eigen::MatrixXd terms(count, 3);
+  Eigen::MatrixXd pixels(count, 2);
+  Eigen::Index row = 0;
+  for (const BoardPoint& point : view.points) {
+    if (!point.projector_px.allFinite()) continue;
+    terms.row(row) << 1.0, point.camera_px.x(), point.camera_px.y();
+    pixels.row(row) = point.projector_px.transpose();
+    ++row;
+  }
+  const Eigen::MatrixXd solution = terms.colPivHouseholderQr().solve(pixels);
+  return solution.bottomRows(2).transpose();
+}
+
+/// Fails when camera and projector see the board in opposite handedness.
+void check_handedness(std::span<const PoseCapture> poses) {
+  std::size_t mirrored = 0;
+  std::size_t exchanged = 0;
+  for (const PoseCapture& pose : poses) {
+    const Eigen::Matrix2d map = camera_to_projector(pose.view);
+    if (map.determinant() >= 0.0) continue;
+    ++mirrored;
+    const double along = std::abs(map(0, 0)) + std::abs(map(1, 1));
+    const double across = std::abs(map(0, 1)) + std::abs(map(1, 0));
+    if (across > along) ++exchanged;
+  }
+  if (2 * mirrored <= poses.size()) return;
+  if (2 * exchanged > mirrored) {
+    fail(
+        "rows and columns of the projector are exchanged: exchange the values \"vertical\" and "
+        "\"horizontal\" of the key direction in scan.toml");
+  }
+  fail(
+      "one fringe direction runs backwards, so that the projector's image is mirrored: switch "
+      "off the projector's mirroring, or reverse the sign of shifts_deg of that direction");
+}
+
+void check_range(std::span<const PoseCapture> poses, const CameraModel& projector) {
+  std::size_t outside = 0;
+  std::size_t all = 0;
+  constexpr double kMargin = 0.02;  // of the side; distortion of the fit at the edge
+  for (const PoseCapture& pose : poses) {
+    for (const BoardPoint& point : pose.view.points) {
+      if (!point.projector_px.allFinite()) continue;
+      const Eigen::Vector2d share(point.projector_px.x() / projector.width_px,
+                                  point.projector_px.y() / projector.height_px);
+      ++all;
+      if (share.minCoeff() < -kMargin || share.maxCoeff() > 1.0 + kMargin) ++outside;
+    }
+  }
+  if (10 * outside <= all) return;
+  fail(
+      fmt::format("{} of {} points of the board lie outside of the projector of {} x {} pixels; "
+                  "check projector.size_px and the periods and directions of the patterns",
+                  outside,
+                  all,
+                  projector.width_px,
+                  projector.height_px));
+}
+
+/// Largest angle between the normals of two poses.
+double largest_tilt_rad(std::span<const BoardView> found,
+                        const Board& board,
+                        const CameraModel& camera,
+                        const CameraModel& projector) {
+  const RigParameters start = start_values(board, found, camera, projector);
+  std::vector<Eigen::Vector3d> normals;
+  for (const RigParameters::Pose& pose : start.camera_from_board) {
+    const Eigen::Vector3d rotation(pose[0], pose[1], pose[2]);
+    normals.push_back(Eigen::AngleAxisd(rotation.norm(), rotation.normalized()) *
+                      Eigen::Vector3d::UnitZ());
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      largest = std::max(largest, std::acos(std::min(1.0, normals[i].dot(normals[k]))));
+  }
+  return largest;
+}
+
+}  // namespace
+
+void check_board_views(std::span<const PoseCapture> poses,
+                       const Board& board,
+                       const Rig& known,
+                       const PoseCheckOptions& options) {
+  const auto& projector = std::get<PinholeModel>(known.projector.model);
+  std::vector<PoseCapture> seen;
+  std::vector<BoardView> found;
+  for (const PoseCapture& pose : poses) {
+    if (pose.view.points.empty()) continue;
+    seen.push_back(pose);
+    found.push_back(pose.view);
+  }
+  if (found.size() < options.min_views) {
+    const auto unseen =
+        names_of(poses, [](const PoseCapture& pose) { return pose.view.points.empty(); });
+    if (!unseen.empty()) check_counts(poses, board);
+    check_light(poses, options);
+    if (unseen.empty()) {
+      fail(fmt::format("the scan has {}; capture at least {} poses, each tilted another way",
+                       views(found.size()),
+                       options.min_views));
+    }
+    fail(
+        fmt::format("the board is found in {} of {}, and {} are needed; it is not found in {}: "
+                    "show all of it, flat, sharp and lit",
+                    found.size(),
+                    views(poses.size()),
+                    options.min_views,
+                    list_of(unseen)));
+  }
+  const auto without_phase = names_of(seen, [&](const PoseCapture& pose) {
+    return static_cast<double>(lit_points(pose.view)) <
+           options.min_lit * static_cast<double>(pose.view.points.size());
+  });
+  if (seen.size() - without_phase.size() < options.min_views) {
+    check_light(seen, options);
+    fail(
+        fmt::format("the fringes cannot be measured on the board in {}: light the whole board by "
+                    "the projector, in focus and out of bright room light",
+                    list_of(without_phase)));
+  }
+  std::erase_if(seen, [&](const PoseCapture& pose) {
+    return std::find(without_phase.begin(), without_phase.end(), pose.view.name) !=
+           without_phase.end();
+  });
+  check_handedness(seen);
+  check_range(seen, projector);
+  const double tilt_rad = largest_tilt_rad(found, board, known.camera.model, projector);
+  if (deg_from_rad(tilt_rad) < options.min_tilt_deg) {
+    fail(
+        fmt::format("all poses of the board are parallel within {:.1f} degrees, which leaves the "
+                    "focal lengths open; tilt the board by 20 to 40 degrees, each time another way",
+                    deg_from_rad(tilt_rad)));
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,85 @@
+#include "frangia/calibrate/internal/point_sigma.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/LU>
+#include <ceres/rotation.h>
+
+namespace frangia {
+namespace {
+
+/// Camera pixel and projector column of a point in the camera frame.
+Eigen::Vector3d coordinates_of(const RigParameters& parameters, const Eigen::Vector3d& point) {
+  const Eigen::Vector2d camera = project_point(parameters.camera.data(), point);
+  Eigen::Vector3d moved;
+  ceres::AngleAxisRotatePoint(parameters.projector_from_camera.data(), point.data(), moved.data());
+  moved += Eigen::Vector3d::Map(parameters.projector_from_camera.data() + 3);
+  return {camera.x(), camera.y(), project_point(parameters.projector.data(), moved).x()};
+}
+
+/// The parameters of camera, projector and relative pose, in the order of the covariance.
+std::vector<double*> all_parameters(RigParameters& parameters) {
+  std::vector<double*> values;
+  for (double& value : parameters.camera)
+    values.push_back(&value);
+  for (double& value : parameters.projector)
+    values.push_back(&value);
+  for (double& value : parameters.projector_from_camera)
+    values.push_back(&value);
+  return values;
+}
+
+/// Variance of the position of one point, summed over its coordinates, mm².
+double variance_at(const Eigen::Vector3d& point,
+                   const RigParameters& parameters,
+                   const Eigen::MatrixXd& covariance) {
+  Eigen::Matrix3d by_point;
+  const double step_mm = 1e-4 * point.norm();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d step = step_mm * Eigen::Vector3d::Unit(i);
+    by_point.col(i) =
+        (coordinates_of(parameters, point + step) - coordinates_of(parameters, point - step)) /
+        (2.0 * step_mm);
+  }
+  RigParameters changed = parameters;
+  const std::vector<double*> values = all_parameters(changed);
+  Eigen::MatrixXd by_parameter(3, covariance.cols());
+  for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
+    double& value = *values[static_cast<std::size_t>(i)];
+    const double kept = value;
+    const double step = std::sqrt(covariance(i, i));
+    value = kept + step;
+    const Eigen::Vector3d above = coordinates_of(changed, point);
+    value = kept - step;
+    by_parameter.col(i) = (above - coordinates_of(changed, point)) / (2.0 * step);
+    value = kept;
+  }
+  const Eigen::MatrixXd response = by_point.partialPivLu().solve(by_parameter);
+  return (response * covariance * response.transpose()).trace();
+}
+
+}  // namespace
+
+void add_point_sigma(const Board& board, const RigParameters& parameters, RigSolution& solution) {
+  if (!solution.undetermined.empty()) return;
+  const double half_x = 0.5 * (board.columns - 1) * board.square_mm;
+  const double half_y = 0.5 * (board.rows - 1) * board.square_mm;
+  double variance = 0.0;
+  double distance = 0.0;
+  double count = 0.0;
+  for (const Eigen::Isometry3d& camera_from_board : solution.camera_from_board) {
+    for (const double x : {-half_x, 0.0, half_x}) {
+      for (const double y : {-half_y, 0.0, half_y}) {
+        const Eigen::Vector3d point = camera_from_board * Eigen::Vector3d(x, y, 0.0);
+        variance += variance_at(point, parameters, solution.covariance);
+        distance += point.norm();
+        count += 1.0;
+      }
+    }
+  }
+  solution.point_sigma_mm = std::sqrt(variance / count);
+  solution.distance_mm = distance / count;
+}
+
+}  // namespace frangia

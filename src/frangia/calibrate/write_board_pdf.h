@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+
+#include "frangia/rig/board.h"
+
+namespace frangia {
+
+/// Size of a sheet of paper, the longer side first.
+struct PaperSize {
+  double width_mm = 297.0;   ///< longer side; A4
+  double height_mm = 210.0;  ///< shorter side; A4
+};
+
+/// Writes a board to print at true scale as PDF, with a ruler to check the scale. Returns the board
+/// as drawn: a `square_mm` of 0 chooses the largest whole number of millimetres that fits.
+///
+/// A board must not look the same turned by 180 degrees, so that it cannot be taken upside down:
+/// one of its numbers of squares is odd and one even.
+/// @units    mm
+/// @errors   Error(Input) when the board is symmetric or does not fit on the paper; Error(File)
+/// when
+///           the file cannot be written
+Board write_board_pdf(const std::filesystem::path& path,
+                      const Board& board,
+                      const PaperSize& paper = {});
+
+}  // namespace frangia

@@ -1,0 +1,41 @@
+#include "frangia/dataset/internal/read_board.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace frangia {
+namespace {
+
+void read_grid(TomlReader& reader, const char* key, Board& board) {
+  constexpr double kMost = 1000.0;
+  const std::vector<double> counts = reader.numbers(key, 2);
+  for (const double count : counts) {
+    if (!(count >= 3.0 && count <= kMost) || count != std::floor(count))
+      reader.fail(key, "must be two whole numbers, along x and y, from 3 to 1000");
+  }
+  board.columns = static_cast<int>(counts[0]);
+  board.rows = static_cast<int>(counts[1]);
+}
+
+}  // namespace
+
+Board read_board(TomlReader reader, const Run& run) {
+  Board board;
+  const std::string kind = reader.text("kind");
+  if (kind == "checkerboard") {
+    read_grid(reader, "corners", board);
+    board.square_mm = reader.positive("square_mm");
+  } else if (kind == "circles") {
+    board.kind = BoardKind::Circles;
+    read_grid(reader, "circles", board);
+    board.square_mm = reader.positive("spacing_mm");
+  } else {
+    reader.fail("kind", fmt::format(R"(is "{}"; it must be "checkerboard" or "circles")", kind));
+  }
+  reader.warn_of_unused_keys(run);
+  return board;
+}
+
+}  // namespace frangia

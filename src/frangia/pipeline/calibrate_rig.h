@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "frangia/calibrate/check_board_views.h"
+#include "frangia/calibrate/solve_rig.h"
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/calibrate_measure_pose.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// Options of a calibration from captured poses of a board.
+struct CalibrateRigOptions {
+  PoseOptions pose;          ///< how each pose is measured
+  PoseCheckOptions check;    ///< limits of the checks before solving
+  RigSolveOptions solve;     ///< bundle adjustment and order of the models
+  double max_rms_px = 5.0;   ///< reprojection error above which the poses contradict each other
+  double outlier_rms = 3.0;  ///< poses whose error exceeds this multiple of the median are named
+};
+
+/// A calibrated rig and how it was found.
+struct RigCalibration {
+  Rig rig;                                 ///< calibrated, with `calibration` filled
+  RigSolution solution;                    ///< parameters, residuals and covariance
+  std::vector<BoardView> views;            ///< poses that were used
+  std::vector<std::string> without_board;  ///< folders of the views without the board
+};
+
+/// Calibrates camera, projector and their relative pose from a scan whose views are poses of a
+/// board, with fringes in both directions.
+///
+/// `scan` may be read with `RigContent::StartValues`.
+/// @errors   Error(Input) with the first fault found: no `[board]`, an angular projector, a fringe
+///           direction without absolute phase, or as `check_board_views`, or poses that do not
+///           determine a parameter or contradict each other; Error(Numeric) when the adjustment
+///           fails
+[[nodiscard]] RigCalibration calibrate_rig(const Scan& scan,
+                                           const CalibrateRigOptions& options = {},
+                                           const Run& run = {});
+
+}  // namespace frangia

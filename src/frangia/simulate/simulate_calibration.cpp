@@ -1,0 +1,224 @@
+#include "frangia/simulate/simulate_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/random.h"
+#include "frangia/dataset/write_scan.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/simulate/internal/solid_builder.h"
+#include "frangia/simulate/simulate_scan.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::uint64_t kPoseStream = 21;
+
+/// Half of the sides of the printed sheet, mm: the squares and half a square of margin.
+Eigen::Vector2d half_sheet(const Board& board) {
+  return 0.5 * board.square_mm * Eigen::Vector2d(board.columns + 2.0, board.rows + 2.0);
+}
+
+/// A plate whose face at z = 0 is the board; its body lies at z > 0.
+Mesh board_plate(const Board& board) {
+  constexpr double kThickness_mm = 3.0;
+  const Eigen::Vector2d half = half_sheet(board);
+  const auto outline = [&](double z) {
+    return Loop{{-half.x(), -half.y(), z},
+                {half.x(), -half.y(), z},
+                {half.x(), half.y(), z},
+                {-half.x(), half.y(), z}};
+  };
+  const Loop face = outline(0.0);
+  const Loop back = outline(kThickness_mm);
+  SolidBuilder solid;
+  solid.add_face(back);
+  solid.add_band(face, back);
+  solid.add_face({face.rbegin(), face.rend()});
+  return solid.build();
+}
+
+/// The point in the middle between the axes of camera and projector where they are nearest.
+Eigen::Vector3d crossing_of(const Rig& rig, const PinholeModel& projector) {
+  const auto axis_of = [](const CameraModel& model) {
+    const Eigen::Vector2d middle(0.5 * (model.width_px - 1), 0.5 * (model.height_px - 1));
+    return Eigen::Vector3d(model.ray(middle).homogeneous().normalized());
+  };
+  const Eigen::Vector3d camera = axis_of(rig.camera.model);
+  const Eigen::Vector3d light = rig.projector.rotation.transpose() * axis_of(projector);
+  Eigen::Matrix<double, 3, 2> directions;
+  directions << camera, -light;
+  const Eigen::Vector2d distances = (directions.transpose() * directions)
+                                        .ldlt()
+                                        .solve(directions.transpose() * rig.projector.position_mm);
+  return 0.5 * (distances[0] * camera + rig.projector.position_mm + distances[1] * light);
+}
+
+bool is_inside(const CameraModel& model, const Eigen::Vector3d& point) {
+  constexpr double kMargin = 0.02;  // of each side
+  if (point.z() <= 0.0) return false;
+  const Eigen::Vector2d pixel = model.project(point);
+  const Eigen::Vector2d share(pixel.x() / (model.width_px - 1), pixel.y() / (model.height_px - 1));
+  return share.minCoeff() > kMargin && share.maxCoeff() < 1.0 - kMargin;
+}
+
+/// Whether camera and projector see all of the sheet, and not too obliquely.
+bool is_visible(const Board& board,
+                const Eigen::Isometry3d& rig_from_board,
+                const Rig& rig,
+                const PinholeModel& projector) {
+  const Eigen::Vector2d half = half_sheet(board);
+  for (const double x : {-half.x(), half.x()}) {
+    for (const double y : {-half.y(), half.y()}) {
+      const Eigen::Vector3d corner = rig_from_board * Eigen::Vector3d(x, y, 0.0);
+      if (!is_inside(rig.camera.model, corner)) return false;
+      if (!is_inside(projector, rig.projector.from_rig(corner))) return false;
+    }
+  }
+  constexpr double kLeastCosine = 0.5;
+  const Eigen::Vector3d normal = -rig_from_board.linear().col(2);
+  const Eigen::Vector3d center = rig_from_board.translation();
+  const auto faces = [&](const Eigen::Vector3d& viewer) {
+    return normal.dot((viewer - center).normalized()) > kLeastCosine;
+  };
+  return faces(Eigen::Vector3d::Zero()) && faces(rig.projector.position_mm);
+}
+
+/// A pose with a random tilt, turn and place; `stream` chooses it.
+Eigen::Isometry3d random_pose(const Eigen::Vector3d& crossing,
+                              double field_mm,
+                              double max_tilt_rad,
+                              std::uint64_t stream) {
+  const auto even = [&](std::uint64_t index) {
+    return 2.0 * uniform_from(hash(stream, index)) - 1.0;
+  };
+  const double direction = kPi * even(1);
+  const double tilt = max_tilt_rad * std::sqrt(std::abs(even(2)));  // tilted poses tell most
+  constexpr double kMaxTurn_rad = 0.35;
+  constexpr double kSideways = 0.15;  // of the field
+  constexpr double kDepth = 0.3;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() =
+      (Eigen::AngleAxisd(tilt, Eigen::Vector3d(std::cos(direction), std::sin(direction), 0.0)) *
+       Eigen::AngleAxisd(kMaxTurn_rad * even(3), Eigen::Vector3d::UnitZ()))
+          .toRotationMatrix();
+  pose.translation() =
+      crossing +
+      field_mm * Eigen::Vector3d(kSideways * even(4), kSideways * even(5), kDepth * even(6));
+  return pose;
+}
+
+std::vector<Eigen::Isometry3d> choose_poses(const CalibrationPlan& plan,
+                                            const PinholeModel& projector,
+                                            double field_mm,
+                                            std::uint64_t seed) {
+  const Eigen::Vector3d crossing = crossing_of(plan.rig, projector);
+  constexpr int kTries = 10'000;
+  std::vector<Eigen::Isometry3d> poses;
+  for (int i = 0; i < kTries && static_cast<int>(poses.size()) < plan.poses; ++i) {
+    const Eigen::Isometry3d pose =
+        random_pose(crossing,
+                    field_mm,
+                    plan.max_tilt_rad,
+                    hash(hash(seed, kPoseStream), static_cast<std::uint64_t>(i)));
+    if (is_visible(plan.board, pose, plan.rig, projector)) poses.push_back(pose);
+  }
+  if (static_cast<int>(poses.size()) < plan.poses) {
+    throw Error(ErrorKind::Input,
+                fmt::format("no {} poses show the whole board to camera and projector; set a "
+                            "`square` below {:g} mm",
+                            plan.poses,
+                            plan.board.square_mm));
+  }
+  return poses;
+}
+
+/// The patterns of vertical fringes, the same in the other direction, and white light.
+std::vector<Pattern> both_directions(const CalibrationPlan& plan, const PinholeModel& projector) {
+  std::vector<Pattern> patterns = default_patterns(plan.rig, plan.patterns);
+  const double ratio = static_cast<double>(projector.height_px) / projector.width_px;
+  for (std::size_t i = 0, count = patterns.size(); i < count; ++i) {
+    Pattern across = patterns[i];
+    if (across.kind != PatternKind::Fringe) continue;
+    patterns[i].name = fmt::format("columns-{}", i);
+    across.name = fmt::format("rows-{}", i);
+    across.direction = FringeDirection::Horizontal;
+    across.period_px *= ratio;
+    patterns.push_back(across);
+  }
+  patterns.push_back({.name = "white", .kind = PatternKind::White});
+  return patterns;
+}
+
+/// What a user knows before a calibration: sizes.
+Rig sizes_of(const Rig& rig) {
+  const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
+  Rig known = rig;
+  auto& projector = std::get<PinholeModel>(known.projector.model);
+  for (CameraModel* model : {&known.camera.model, &projector}) {
+    model->focal_px = model->principal_point_px = unknown;
+    model->distortion = {};
+  }
+  known.projector.position_mm.setConstant(std::nan(""));
+  known.projector.rotation.setConstant(std::nan(""));
+  known.turntable.reset();
+  known.laser_sheet.reset();
+  return known;
+}
+
+}  // namespace
+
+Scan simulate_calibration(const CalibrationPlan& given,
+                          const SimulateOptions& options,
+                          const Run& run) {
+  CalibrationPlan plan = given;
+  const auto* projector = std::get_if<PinholeModel>(&plan.rig.projector.model);
+  require(projector != nullptr,
+          "the rig's projector is angular, but a board calibrates a digital projector only");
+  const Eigen::Vector3d crossing = crossing_of(plan.rig, *projector);
+  const CameraModel& camera = plan.rig.camera.model;
+  const double field_mm = crossing.z() * std::min(camera.width_px / camera.focal_px.x(),
+                                                  camera.height_px / camera.focal_px.y());
+  if (plan.board.square_mm == 0.0) {
+    constexpr double kShare = 0.6;  // of the field
+    // Half millimetres, which text and binary numbers hold exactly.
+    plan.board.square_mm =
+        std::max(0.5, std::floor(2.0 * kShare * field_mm / (plan.board.rows + 2.0)) / 2.0);
+  }
+  check_board(plan.board);
+  if (!plan.rig.turntable) plan.rig.turntable = Turntable{.point_mm = crossing};
+  const Eigen::Isometry3d object_from_rig = plan.rig.rig_from_object(0.0).inverse();
+  Scan scan;
+  scan.folder = plan.folder;
+  scan.name = name_of(plan.board.kind);
+  scan.rig = plan.rig;
+  scan.board = plan.board;
+  scan.patterns = both_directions(plan, *projector);
+  // Each pose is a setup of its own: a part pose with one view.
+  const auto poses = choose_poses(plan, *projector, field_mm, options.seed);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    scan.part_poses[static_cast<int>(i)] = object_from_rig * poses[i];
+    scan.views.push_back({0.0, fmt::format("views/{:03}", i), static_cast<int>(i)});
+  }
+  SimulateOptions printed = options;
+  printed.board = plan.board;
+  Scan written = simulate_scan(board_plate(plan.board), scan, printed, run);
+  Rig truth = written.rig;
+  truth.turntable = given.rig.turntable;
+  write_rig(plan.folder / "truth-rig.toml", truth);
+  written.rig = sizes_of(written.rig);
+  for (ScanView& view : written.views)
+    view.setup = 0;
+  write_scan(written);
+  return written;
+}
+
+}  // namespace frangia

@@ -1,0 +1,76 @@
+// The verbs calibrate board and calibrate rig: files, exit codes and one sentence.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "frangia/rig/read_rig.h"
+
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::Answer;
+using testing::run_program;
+using testing::TemporaryFolder;
+
+std::string text_in(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(CalibrateProgram, WritesABoardAtTrueScale) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "board.pdf";
+  const Answer answer = run_program("calibrate board -o " + file.string());
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_NE(answer.output.find("square_mm = 22"), std::string::npos) << answer.output;
+  const std::string pdf = text_in(file);
+  EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+  // A4 in points, and squares of 22 mm = 62.36 points.
+  EXPECT_NE(pdf.find("841.88"), std::string::npos);
+  EXPECT_NE(pdf.find("62.36221 62.36221 re"), std::string::npos) << pdf.substr(0, 3000);
+  const Answer even = run_program("calibrate board --corners 9,7 -o " + file.string());
+  EXPECT_EQ(even.exit_code, 3);
+  EXPECT_NE(even.output.find("looks the same upside down"), std::string::npos) << even.output;
+}
+
+TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
+  const TemporaryFolder folder;
+  const std::string poses = (folder.path() / "poses").string();
+  const auto rig = folder.path() / "rig.toml";
+  const Answer simulated =
+      run_program("simulate --calibration checkerboard --views 5 --samples 4 -o " + poses);
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.output;
+  std::ofstream(folder.path() / "poses/rig.toml", std::ios::app)
+      << "\n[devices.camera]\ndriver = \"simulated\"\n";
+  const Answer answer = run_program("calibrate rig " + poses + " -o " + rig.string());
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_NE(answer.output.find("calibrated by 5 poses of a checkerboard of 10 x 7 points"),
+            std::string::npos)
+      << answer.output;
+  EXPECT_TRUE(read_rig(rig).calibration);
+  EXPECT_NE(text_in(rig).find("[devices.camera]"), std::string::npos);
+  EXPECT_EQ(text_in(folder.path() / "rig-covariance.csv").substr(0, 26),
+            "parameter,camera.focal_px,");
+
+  std::ofstream(folder.path() / "poses/scan.toml", std::ios::app) << "\n# end\n";
+  std::string scan = text_in(folder.path() / "poses/scan.toml");
+  const std::string corners = "corners = [ 10, 7 ]";
+  ASSERT_NE(scan.find(corners), std::string::npos) << scan;
+  scan.replace(scan.find(corners), corners.size(), "corners = [ 8, 6 ]");
+  std::ofstream(folder.path() / "poses/scan.toml") << scan;
+  const auto other = folder.path() / "other.toml";
+  const Answer wrong = run_program("calibrate rig " + poses + " -o " + other.string());
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_NE(wrong.output.find("set corners = [10, 7]"), std::string::npos) << wrong.output;
+  EXPECT_FALSE(std::filesystem::exists(other));
+}
+
+}  // namespace
+}  // namespace frangia

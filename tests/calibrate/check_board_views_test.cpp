@@ -1,0 +1,107 @@
+#include "frangia/calibrate/check_board_views.h"
+
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "support/board_poses.h"
+#include "support/error_of.h"
+
+namespace frangia {
+namespace {
+
+using testing::kBoard;
+using testing::known_rig;
+using testing::make_views;
+
+std::vector<PoseCapture> captures(int count, double tilt = 0.5) {
+  std::vector<PoseCapture> poses;
+  for (BoardView& view : make_views({}, count, 0.05, 3, tilt))
+    poses.push_back({.view = std::move(view), .brightness = 0.6});
+  return poses;
+}
+
+/// The message of the fault that `change` makes in each of eight good poses; empty for none.
+std::string fault_of(const std::function<void(PoseCapture&)>& change) {
+  std::vector<PoseCapture> poses = captures(8);
+  for (PoseCapture& pose : poses)
+    change(pose);
+  return testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+}
+
+TEST(CheckBoardViews, AcceptsGoodPoses) {
+  EXPECT_NO_THROW(check_board_views(captures(8), kBoard, known_rig()));
+}
+
+TEST(CheckBoardViews, StatesHowManyPosesAreMissing) {
+  const std::string message =
+      testing::error_of([] { check_board_views(captures(2), kBoard, known_rig()); });
+  EXPECT_EQ(message, "the scan has 2 views; capture at least 3 poses, each tilted another way");
+}
+
+TEST(CheckBoardViews, NamesTheViewsWithoutTheBoard) {
+  std::vector<PoseCapture> poses = captures(4);
+  poses[1].view.points.clear();
+  poses[3].view.points.clear();
+  const std::string message =
+      testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+  EXPECT_NE(message.find("found in 2 of 4 views"), std::string::npos) << message;
+  EXPECT_NE(message.find("not found in pose 1, pose 3"), std::string::npos) << message;
+}
+
+TEST(CheckBoardViews, NamesTheCornersThatTheImagesShow) {
+  const std::string message = fault_of([](PoseCapture& pose) {
+    pose.view.points.clear();
+    pose.counted = {{9, 6}};
+  });
+  EXPECT_NE(message.find("set corners = [9, 6]"), std::string::npos) << message;
+}
+
+TEST(CheckBoardViews, NamesDarkAndOverexposedBoards) {
+  EXPECT_NE(fault_of([](PoseCapture& pose) {
+              pose.view.points.clear();
+              pose.brightness = 0.02;
+            }).find("too dark"),
+            std::string::npos);
+  EXPECT_NE(fault_of([](PoseCapture& pose) {
+              for (BoardPoint& point : pose.view.points)
+                point.projector_px.setConstant(std::nan(""));
+              pose.saturated = 0.4;
+            }).find("overexposed"),
+            std::string::npos);
+}
+
+TEST(CheckBoardViews, RecognizesExchangedRowsAndColumns) {
+  const std::string message = fault_of([](PoseCapture& pose) {
+    for (BoardPoint& point : pose.view.points)
+      point.projector_px = point.projector_px.reverse().eval();
+  });
+  EXPECT_NE(message.find("rows and columns of the projector are exchanged"), std::string::npos)
+      << message;
+}
+
+TEST(CheckBoardViews, RecognizesAMirroredProjector) {
+  const std::string message = fault_of([](PoseCapture& pose) {
+    for (BoardPoint& point : pose.view.points)
+      point.projector_px.x() = 1279.0 - point.projector_px.x();
+  });
+  EXPECT_NE(message.find("mirrored"), std::string::npos) << message;
+}
+
+TEST(CheckBoardViews, RecognizesPhasesBeyondTheProjector) {
+  const std::string message = fault_of([](PoseCapture& pose) {
+    for (BoardPoint& point : pose.view.points)
+      point.projector_px *= 3.0;
+  });
+  EXPECT_NE(message.find("outside of the projector of 1280 x 800"), std::string::npos) << message;
+}
+
+TEST(CheckBoardViews, RecognizesParallelPoses) {
+  const std::string message =
+      testing::error_of([] { check_board_views(captures(8, 0.01), kBoard, known_rig()); });
+  EXPECT_NE(message.find("parallel"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,126 @@
+#include "frangia/calibrate/find_board.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+
+#include "frangia/calibrate/board_image.h"
+#include "frangia/calibrate/count_corners.h"
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+/// A board seen obliquely: each pixel is traced back through a homography, 5 x 5 samples a pixel.
+template <typename Albedo>
+Image<float> picture_of(const Eigen::Matrix3d& px_from_mm, const Albedo& albedo) {
+  constexpr int kSamples = 5;
+  Image<float> image(800, 640);
+  const Eigen::Matrix3d mm_from_px = px_from_mm.inverse();
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      double sum = 0.0;
+      for (int i = 0; i < kSamples * kSamples; ++i) {
+        const Eigen::Vector3d pixel(x + (i % kSamples + 0.5) / kSamples - 0.5,
+                                    y + (i / kSamples + 0.5) / kSamples - 0.5,
+                                    1.0);
+        sum += albedo((mm_from_px * pixel).hnormalized());
+      }
+      image(x, y) = static_cast<float>(20.0 + 180.0 * sum / (kSamples * kSamples));
+    }
+  }
+  return image;
+}
+
+Eigen::Matrix3d oblique() {
+  Eigen::Matrix3d map;
+  map << 4.0, 0.5, 140.0,  //
+      -0.4, 3.8, 130.0,    //
+      4e-4, 6e-4, 1.0;
+  return map;
+}
+
+double checkerboard(const Eigen::Vector2d& mm) {
+  const int column = static_cast<int>(std::floor(mm.x() / 10.0)) + 1;
+  const int row = static_cast<int>(std::floor(mm.y() / 10.0)) + 1;
+  if (column < 0 || row < 0 || column > 10 || row > 7) return 1.0;
+  return (column + row) % 2 == 0 ? 0.0 : 1.0;
+}
+
+double circles(const Eigen::Vector2d& mm) {
+  const Eigen::Vector2d cell(std::round(mm.x() / 10.0), std::round(mm.y() / 10.0));
+  if (cell.minCoeff() < 0.0 || cell.x() > 9.0 || cell.y() > 6.0) return 1.0;
+  return (mm - 10.0 * cell).norm() < 3.0 ? 0.0 : 1.0;
+}
+
+/// Largest distance of the found points from their true pixels. The order may start at either end
+/// of a board that looks the same turned by 180 degrees.
+double error_px(const std::vector<BoardPoint>& found, const Board& board) {
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
+  double forward = 0.0;
+  double backward = 0.0;
+  for (const BoardPoint& point : found) {
+    const auto index = static_cast<std::size_t>(point.index);
+    const auto error = [&](const Eigen::Vector2d& mm) {
+      return ((oblique() * mm.homogeneous()).hnormalized() - point.camera_px).norm();
+    };
+    forward = std::max(forward, error(nominal[index]));
+    backward = std::max(backward, error(nominal[nominal.size() - 1 - index]));
+  }
+  return std::min(forward, backward);
+}
+
+TEST(FindBoard, FindsTheCornersOfACheckerboardWithinATwentiethOfAPixel) {
+  const Board board{.kind = BoardKind::Checkerboard, .columns = 10, .rows = 7, .square_mm = 10.0};
+  const auto found = find_board(picture_of(oblique(), checkerboard), board);
+  ASSERT_EQ(found.size(), 70U);
+  EXPECT_LT(error_px(found, board), 0.05);
+}
+
+TEST(FindBoard, FindsTheCentersOfCirclesWithinAFifthOfAPixel) {
+  const Board board{.kind = BoardKind::Circles, .columns = 10, .rows = 7, .square_mm = 10.0};
+  const auto found = find_board(picture_of(oblique(), circles), board);
+  ASSERT_EQ(found.size(), 70U);
+  EXPECT_LT(error_px(found, board), 0.2);
+}
+
+TEST(FindBoard, FindsNothingWhereTheBoardHasOtherCornersAndTheyAreCounted) {
+  const Image<float> image = picture_of(oblique(), checkerboard);
+  const Board board{.kind = BoardKind::Checkerboard, .columns = 9, .rows = 6, .square_mm = 10.0};
+  EXPECT_TRUE(find_board(image, board).empty());
+  const auto counted = count_corners(image);
+  ASSERT_TRUE(counted);
+  EXPECT_EQ((*counted)[0], 10);
+  EXPECT_EQ((*counted)[1], 7);
+  EXPECT_FALSE(count_corners(Image<float>(400, 300, 100.0F)));
+}
+
+TEST(BoardImage, IsFreeOfFringesOfUnevenShifts) {
+  FrameStack stack;
+  stack.pattern.period_px = 20.0;
+  stack.pattern.shifts_rad = {0.0, 1.2, 2.9, 4.0};
+  for (const double shift : stack.pattern.shifts_rad) {
+    Image<std::uint16_t> frame(100, 2);
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 100; ++x)
+        frame(x, y) = static_cast<std::uint16_t>(
+            std::lround(20000.0 + 10000.0 * std::cos(kTwoPi * x / 20.0 + shift)));
+    stack.frames.emplace_back(std::move(frame));
+  }
+  const std::vector stacks = {stack};
+  const Image<float> image = board_image(stacks);
+  for (int x = 0; x < 100; ++x)
+    EXPECT_NEAR(image(x, 1), 20000.0, 2.0) << x;
+}
+
+TEST(BoardImage, IsTheWhiteFrameWhereThereIsOne) {
+  FrameStack white;
+  white.pattern.kind = PatternKind::White;
+  white.frames.emplace_back(Image<std::uint8_t>(4, 4, 77));
+  const std::vector stacks = {white};
+  EXPECT_EQ(board_image(stacks)(2, 2), 77.0F);
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,111 @@
+// The truth is the rig through which the poses are rendered.
+#include "frangia/pipeline/calibrate_rig.h"
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/dataset/write_scan.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/simulate/rig_presets.h"
+#include "frangia/simulate/simulate_calibration.h"
+
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+/// Six poses of a checkerboard, rendered once for all tests.
+class CalibrateRig : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new testing::TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
+    CalibrationPlan plan;
+    plan.folder = folder_->path() / "poses";
+    plan.rig = rig_preset("digital");
+    plan.poses = 6;
+    static_cast<void>(simulate_calibration(plan, {.samples_per_px = 4}));
+  }
+  static void TearDownTestSuite() { delete folder_; }  // NOLINT(*-owning-memory)
+
+  [[nodiscard]] static Scan scan() {
+    return read_scan(folder_->path() / "poses", {}, RigContent::StartValues);
+  }
+  [[nodiscard]] static Rig truth() {
+    return read_rig(folder_->path() / "poses" / "truth-rig.toml");
+  }
+  static std::string fault_of(const Scan& scan) {
+    return testing::error_of([&] { static_cast<void>(calibrate_rig(scan)); });
+  }
+
+ private:
+  static testing::TemporaryFolder* folder_;
+};
+
+testing::TemporaryFolder* CalibrateRig::folder_ = nullptr;
+
+TEST_F(CalibrateRig, FindsTheRigThatRenderedThePoses) {
+  const RigCalibration found = calibrate_rig(scan());
+  const Rig rig = truth();
+  const auto& projector = std::get<PinholeModel>(found.rig.projector.model);
+  const auto& true_projector = std::get<PinholeModel>(rig.projector.model);
+  EXPECT_EQ(found.views.size(), 6U);
+  EXPECT_LT(found.solution.camera_residuals.rms_px, 0.1);
+  EXPECT_LT(found.solution.projector_residuals.rms_px, 0.1);
+  const double focal_px = rig.camera.model.focal_px.x();
+  EXPECT_NEAR(found.rig.camera.model.focal_px.x(), focal_px, 2e-3 * focal_px);
+  EXPECT_NEAR(projector.focal_px.x(), true_projector.focal_px.x(), 2e-3 * focal_px);
+  EXPECT_NEAR(found.rig.projector.position_mm.norm(), rig.projector.position_mm.norm(), 0.3);
+  EXPECT_GT(found.solution.point_sigma_mm, 0.0);
+  EXPECT_LT(found.solution.point_sigma_mm, 0.2);
+  ASSERT_TRUE(found.rig.calibration);
+  EXPECT_EQ(found.rig.calibration->poses, 6);
+  EXPECT_EQ(found.rig.calibration->sigma.size(), found.solution.parameters.size());
+}
+
+TEST_F(CalibrateRig, NamesAMissingDirection) {
+  Scan one = scan();
+  std::erase_if(one.patterns, [](const Pattern& pattern) {
+    return pattern.direction == FringeDirection::Horizontal;
+  });
+  EXPECT_NE(fault_of(one).find("there are no horizontal fringes"), std::string::npos)
+      << fault_of(one);
+}
+
+TEST_F(CalibrateRig, RecognizesExchangedDirections) {
+  Scan swapped = scan();
+  auto& projector = std::get<PinholeModel>(swapped.rig.projector.model);
+  projector.height_px = projector.width_px = 800;  // both directions are absolute either way
+  for (Pattern& pattern : swapped.patterns) {
+    if (pattern.kind != PatternKind::Fringe) continue;
+    pattern.direction = pattern.direction == FringeDirection::Vertical ? FringeDirection::Horizontal
+                                                                       : FringeDirection::Vertical;
+  }
+  EXPECT_NE(fault_of(swapped).find("rows and columns of the projector are exchanged"),
+            std::string::npos)
+      << fault_of(swapped);
+}
+
+TEST_F(CalibrateRig, StatesTheCornersThatTheImagesShow) {
+  Scan wrong = scan();
+  wrong.board->columns = 9;
+  EXPECT_NE(fault_of(wrong).find("set corners = [10, 7]"), std::string::npos) << fault_of(wrong);
+}
+
+TEST_F(CalibrateRig, NeedsABoardAndThreePoses) {
+  Scan none = scan();
+  none.board.reset();
+  EXPECT_NE(fault_of(none).find("[board] is missing"), std::string::npos) << fault_of(none);
+  Scan two = scan();
+  two.views.resize(2);
+  EXPECT_NE(fault_of(two).find("the scan has 2 views"), std::string::npos) << fault_of(two);
+}
+
+}  // namespace
+}  // namespace frangia

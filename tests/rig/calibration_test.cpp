@@ -1,0 +1,105 @@
+// The table [calibration] of rig.toml, and a rig.toml from before its calibration.
+#include "frangia/rig/calibration.h"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <variant>
+
+#include <gtest/gtest.h>
+
+#include "frangia/rig/read_rig.h"
+#include "frangia/rig/rig.h"
+
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::TemporaryFolder;
+
+const std::string kSizesOnly = R"(format = "frangia-rig"
+version = 1
+[camera]
+size_px = [1280, 1024]
+[projector]
+model = "pinhole"
+size_px = [1280, 800]
+[devices.camera]
+driver = "simulated"
+exposure_ms = 12.5
+[devices.turntable]
+driver = "grbl"
+)";
+
+std::filesystem::path save_known(const TemporaryFolder& folder, const std::string& text) {
+  auto path = folder.path() / "known.toml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(Calibration, OfAWrittenRigIsReadBack) {
+  const TemporaryFolder folder;
+  Rig rig =
+      read_rig(save_known(folder, kSizesOnly + "[line]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 3\n"),
+               {},
+               RigContent::StartValues);
+  rig.camera.model.focal_px = rig.camera.model.principal_point_px = {640.0, 512.0};
+  rig.projector.model = rig.camera.model;
+  rig.projector.position_mm = {100.0, 0.0, 0.0};
+  rig.projector.rotation.setIdentity();
+  rig.calibration = Calibration{.date = "2026-11-23",
+                                .board = "checkerboard",
+                                .poses = 12,
+                                .camera_rms_px = 0.171,
+                                .projector_rms_px = 0.324,
+                                .point_sigma_mm = 0.0125,
+                                .distance_mm = 480.0,
+                                .sigma = {{"camera.focal_px", 0.41}, {"projector.x_mm", 0.02}},
+                                .covariance_file = "rig-covariance.csv"};
+  const auto path = folder.path() / "rig.toml";
+  write_rig(path, rig, Durability::Buffered, folder.path() / "known.toml");
+  const Rig back = read_rig(path);
+  ASSERT_TRUE(back.calibration);
+  EXPECT_EQ(back.calibration->date, "2026-11-23");
+  EXPECT_EQ(back.calibration->poses, 12);
+  EXPECT_EQ(back.calibration->camera_rms_px, 0.171);
+  EXPECT_EQ(back.calibration->point_sigma_mm, 0.0125);
+  EXPECT_EQ(back.calibration->sigma, rig.calibration->sigma);
+  EXPECT_EQ(back.calibration->covariance_file, "rig-covariance.csv");
+}
+
+TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {
+  const TemporaryFolder folder;
+  const auto known = save_known(folder, kSizesOnly);
+  const auto path = folder.path() / "rig.toml";
+  Rig rig = read_rig(known, {}, RigContent::StartValues);
+  write_rig(path, rig, Durability::Buffered, known);
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  EXPECT_NE(text.str().find("[devices.camera]"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("exposure_ms = 12.5"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("[devices.turntable]"), std::string::npos) << text.str();
+}
+
+TEST(ReadRig, TakesStartValuesFromAFileThatHoldsSizesOnly) {
+  const TemporaryFolder folder;
+  const Rig rig = read_rig(save_known(folder, kSizesOnly), {}, RigContent::StartValues);
+  EXPECT_EQ(rig.camera.model.width_px, 1280);
+  EXPECT_TRUE(std::isnan(rig.camera.model.focal_px.x()));
+  EXPECT_EQ(std::get<PinholeModel>(rig.projector.model).height_px, 800);
+  EXPECT_TRUE(std::isnan(rig.projector.position_mm.x()));
+}
+
+TEST(ReadRig, NamesWhatACalibratedRigLacks) {
+  const TemporaryFolder folder;
+  const auto path = save_known(folder, kSizesOnly);
+  const std::string message = testing::error_of([&] { static_cast<void>(read_rig(path)); });
+  EXPECT_NE(message.find("camera.focal_px is missing"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace frangia
