@@ -12,6 +12,7 @@
 #include "frangia/calibrate/write_board_pdf.h"
 
 #include "option_values.h"
+#include "print_text.h"
 
 namespace frangia {
 namespace {

@@ -18,6 +18,7 @@
 #include "frangia/rig/read_rig.h"
 
 #include "counted.h"
+#include "print_text.h"
 
 namespace frangia {
 namespace {

@@ -273,11 +273,11 @@ void print_result(const Scan& scan, const char* truth, Terminal& terminal) {
     print_json(result);
     return;
   }
-  terminal.run().note(fmt::format("wrote {}: {} of {}, and {}",
-                                  scan.folder.string(),
-                                  counted(scan.views.size(), "view"),
-                                  counted(scan.patterns.size(), "pattern"),
-                                  truth));
+  terminal.print_written(fmt::format("{}: {} of {}, and {}",
+                                     scan.folder.string(),
+                                     counted(scan.views.size(), "view"),
+                                     counted(scan.patterns.size(), "pattern"),
+                                     truth));
 }
 
 /// Renders poses of a board instead of a part.
