@@ -13,7 +13,8 @@ namespace frangia {
 /// Reads a grey PNG. Depths up to 8 bits give an 8-bit frame, 16 bits a 16-bit frame.
 ///
 /// @errors   Error(Input) that names the file when it is missing, not a PNG, truncated, in colour,
-///          or larger than 65 535 pixels a side
+///          larger than 65 535 pixels a side or 250 million pixels, or of more pixels than its
+///          bytes can hold
 [[nodiscard]] Frame read_png(const std::filesystem::path& path);
 
 using Rgb = std::array<std::uint8_t, 3>;  ///< red, green and blue, 0 to 255
