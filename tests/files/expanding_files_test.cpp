@@ -101,8 +101,7 @@ TEST_F(ExpandingFiles, GltfThatRepeatsAMeshIsRefusedUntilTheMemoryIsAllowed) {
 TEST_F(ExpandingFiles, GltfWithNumbersThatAreNoIndexIsRefused) {
   const auto path = put_gltf(1, 1, 1, 3);
   const std::string good = bytes_in("a.gltf");
-  for (const char* wrong :
-       {"-1", "1e300", "0.5", "-1e300", "true", "null", "18446744073709551615"}) {
+  for (const char* wrong : {"-1", "1e300", "0.5", "-1e300", "true", "null"}) {
     for (const char* key : {R"("count":)", R"("byteLength":)", R"("bufferView":)", R"("mesh":)"}) {
       std::string text = good;
       const std::size_t begin = text.find(key) + std::strlen(key);

@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
 
 #include "support/temporary_folder.h"
@@ -65,6 +68,27 @@ TEST(Png, RefusesAFileTruncatedAtAnyLength) {
     std::filesystem::resize_file(path, size);
     EXPECT_NE(error_message(path), "accepted") << size;
   }
+}
+
+TEST(Png, RefusesASizeThatTheFileCannotHoldBeforeItAllocatesMemory) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "frame.png";
+  // Signature and header: the size is at byte 16, the CRC-32 of the header follows its 17 bytes.
+  const auto refusal_of = [&](std::uint32_t width, std::uint32_t height) {
+    std::vector<char> bytes = encode_png(Frame(Image<std::uint16_t>(8, 8, 7)));
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes[16 + i] = static_cast<char>(width >> (24 - 8 * i) & 0xFFU);
+      bytes[20 + i] = static_cast<char>(height >> (24 - 8 * i) & 0xFFU);
+    }
+    const std::uint32_t sum = crc32(std::span<const char>(bytes).subspan(12, 17));
+    for (std::size_t i = 0; i < 4; ++i)
+      bytes[29 + i] = static_cast<char>(sum >> (24 - 8 * i) & 0xFFU);
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return error_message(path);
+  };
+  EXPECT_NE(refusal_of(65'535, 65'535).find("65535 x 65535 pixels, more than"), std::string::npos);
+  EXPECT_NE(refusal_of(9'000, 9'000).find("cannot hold 9000 x 9000 pixels"), std::string::npos);
 }
 
 TEST(Png, RefusesMissingEmptyAndForeignFiles) {

@@ -48,6 +48,30 @@ spng_ihdr read_header(spng_ctx* context,
   return header;
 }
 
+/// Refuses a size that the file cannot hold or that no camera has, before memory is allocated.
+void require_plausible_size(const spng_ihdr& header,
+                            std::size_t file_bytes,
+                            const std::filesystem::path& path) {
+  constexpr std::uint64_t kMaxPixels = 250'000'000;
+  constexpr std::uint64_t kMaxRatio = 1032;  // of deflate; zlib, "Maximum Compression Factor"
+  const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
+  if (pixels > kMaxPixels) {
+    fail(path,
+         fmt::format("has {} x {} pixels, more than the {} million of the largest frame",
+                     header.width,
+                     header.height,
+                     kMaxPixels / 1'000'000));
+  }
+  if (pixels * header.bit_depth / 8 > kMaxRatio * file_bytes) {
+    fail(path,
+         fmt::format("is truncated or damaged: its {} bytes cannot hold {} x {} pixels; copy or "
+                     "capture it again",
+                     file_bytes,
+                     header.width,
+                     header.height));
+  }
+}
+
 template <typename T>
 Image<T> decode(spng_ctx* context,
                 const spng_ihdr& header,
@@ -112,6 +136,7 @@ Frame read_png(const std::filesystem::path& path, const PngSizeCheck& check_size
   const Context context(spng_ctx_new(0));
   const spng_ihdr header = read_header(context.get(), bytes, path);
   if (check_size) check_size(static_cast<int>(header.width), static_cast<int>(header.height));
+  require_plausible_size(header, bytes.size(), path);
   if (header.bit_depth == 16) {
     return decode<std::uint16_t>(context.get(), header, SPNG_FMT_PNG, path);
   }

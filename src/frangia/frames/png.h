@@ -17,8 +17,8 @@ using PngSizeCheck = std::function<void(int width_px, int height_px)>;
 /// Reads a grey PNG. Depths up to 8 bits give an 8-bit frame, 16 bits a 16-bit frame.
 ///
 /// @errors   Error(Input) that names the file when it is missing, not a regular file, not a PNG,
-///          truncated, in colour, larger than 65 535 pixels a side, or larger than 1 GiB; the error
-///          of `check_size`
+///          truncated, in colour, larger than 65 535 pixels a side, 250 million pixels, 1 GiB, or
+///          than its bytes can hold; the error of `check_size`
 [[nodiscard]] Frame read_png(const std::filesystem::path& path,
                              const PngSizeCheck& check_size = {});
 

@@ -165,6 +165,7 @@ const json& GltfDocument::item(const char* list, std::uint64_t index) const {
 
 std::uint64_t GltfDocument::whole(const nlohmann::json& number) const {
   constexpr double kMax = 9'007'199'254'740'992.0;  // 2^53, up to which a double is exact
+  if (number.is_number_unsigned()) return number.get<std::uint64_t>();
   if (number.is_number()) {
     const auto value = number.get<double>();
     if (value >= 0.0 && value <= kMax && value == std::floor(value))

@@ -56,7 +56,8 @@ struct GltfDocument {
 
   /// A number of the document that counts or refers to something.
   ///
-  /// @errors   Error(Input) unless it is whole, not negative and at most 2^53
+  /// @errors   Error(Input) unless it is whole and not negative; a number with a point is at most
+  ///          2^53
   [[nodiscard]] std::uint64_t whole(const nlohmann::json& number) const;
   /// As `whole` for the value of a key, or `fallback` when the object has no such key.
   [[nodiscard]] std::uint64_t whole_or(const nlohmann::json& object,
