@@ -218,8 +218,8 @@ std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path,
   // Registration holds the pairs of scans that overlap: `frangia merge` of 100 scans of 144 points
   // each takes 0.3 GB, of 200 scans 2.4 GB.
   constexpr double kBytesPerCubedScan = 300.0;
-  const auto merging_bytes = [](std::size_t scans) {
-    return kBytesPerCubedScan * std::pow(static_cast<double>(scans), 3.0);
+  const auto merging_bytes = [](std::size_t count) {
+    return kBytesPerCubedScan * std::pow(static_cast<double>(count), 3.0);
   };
   for (const RangeScan& posed : listed) {
     RangeScan& scan = scans.emplace_back(read_range_scan(posed.path));
