@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/error.h"
 #include "frangia/geometry/triangles_intersect.h"
 
 namespace frangia {
@@ -48,6 +49,17 @@ TEST(SelfIntersections, OfAFanOf40000TrianglesTakeSeconds) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   EXPECT_LT(seconds, 8.0);  // 33 s of processor where all pairs at the apex are tested
+}
+
+TEST(SelfIntersections, OfManyTrianglesThatCoincideAreRefused) {
+  if (!can_test_intersections()) GTEST_SKIP() << "built without CGAL";
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 10'000; ++i) {
+    for (const float x : {0.0F, 1.0F, 2.0F})
+      mesh.vertices_mm.emplace_back(x, x * x, 0.0F);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  EXPECT_THROW(static_cast<void>(self_intersections(mesh)), Error);
 }
 
 TEST(SelfIntersections, OfVerticesOfHighValenceAreThoseOfAllPairs) {

@@ -1,8 +1,11 @@
 #include "frangia/mesh/self_intersections.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
@@ -16,6 +19,8 @@ namespace {
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 constexpr std::size_t kChunk = 2048;  // leaves of the tree, or triangles
+/// Triangles that all coincide intersect in pairs without bound. A scan has thousands of pairs.
+constexpr std::size_t kMaxPairs = 4'000'000;
 
 IndexedTriangle corners_of(const Mesh& mesh, std::uint32_t triangle) {
   return indexed_triangle(mesh.triangles[triangle],
@@ -26,6 +31,13 @@ bool do_intersect(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
   const IndexedTriangle of_a = corners_of(mesh, a);
   const IndexedTriangle of_b = corners_of(mesh, b);
   return !surely_disjoint(of_a, of_b) && triangles_intersect(of_a, of_b);
+}
+
+/// Whether two corners are at the same position: such a triangle intersects none.
+bool is_collapsed(const Mesh& mesh, const Mesh::Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  return mesh.vertices_mm[a] == mesh.vertices_mm[b] || mesh.vertices_mm[b] == mesh.vertices_mm[c] ||
+         mesh.vertices_mm[c] == mesh.vertices_mm[a];
 }
 
 /// Some triangles of a mesh and the tree of their boxes.
@@ -52,19 +64,30 @@ struct Part {
 template <typename Work>
 void collect(std::size_t count, std::size_t chunk, Pairs& all, const Run& run, const Work& work) {
   std::vector<Pairs> found((count + chunk - 1) / chunk);
+  std::atomic<std::size_t> total = all.size();
   run.check();
   parallel_chunks(count, chunk, [&](std::size_t begin, std::size_t end) {
-    if (run.stop.stop_requested()) return;  // run.check() below throws
-    for (std::size_t i = begin; i < end; ++i)
-      work(i, found[begin / chunk]);
+    Pairs& pairs = found[begin / chunk];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (run.stop.stop_requested() || total > kMaxPairs) return;  // an error follows below
+      const std::size_t before = pairs.size();
+      work(i, pairs);
+      total += pairs.size() - before;
+    }
   });
   run.check();
+  if (total > kMaxPairs) {
+    throw Error(ErrorKind::Input,
+                fmt::format("more than {} million pairs of triangles intersect; remove the "
+                            "triangles that coincide",
+                            kMaxPairs / 1'000'000));
+  }
   for (const Pairs& pairs : found)
     all.insert(all.end(), pairs.begin(), pairs.end());
 }
 
-/// The triangles around vertices of high valence, and the others. All boxes of a fan overlap at its
-/// apex, so a tree of them has a quadratic number of overlapping pairs.
+/// The triangles around vertices of high valence, and the others, without collapsed ones. All boxes
+/// of a fan overlap at its apex, so a tree of them has a quadratic number of overlapping pairs.
 class FanSearch {
  public:
   FanSearch(const Mesh& mesh, const std::vector<std::uint32_t>& valence) : mesh_(mesh) {
@@ -72,6 +95,7 @@ class FanSearch {
     std::vector<std::uint32_t> others;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
       const auto& corners = mesh.triangles[i];
+      if (is_collapsed(mesh, corners)) continue;
       const std::uint32_t apex =
           *std::max_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
             return valence[a] < valence[b];
@@ -146,16 +170,18 @@ class FanSearch {
 
 Pairs self_intersections(const Mesh& mesh, const Run& run) {
   std::vector<std::uint32_t> valence(mesh.vertices_mm.size());
+  bool any_collapsed = false;
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t vertex : triangle) {
       require(vertex < valence.size(),
               "a triangle refers to a vertex that does not exist; repair the mesh first");
       ++valence[vertex];
     }
+    any_collapsed = any_collapsed || is_collapsed(mesh, triangle);
   }
   Pairs all;
   const auto most = std::max_element(valence.begin(), valence.end());
-  if (most != valence.end() && *most > FanSearch::kMaxValence) {
+  if (any_collapsed || (most != valence.end() && *most > FanSearch::kMaxValence)) {
     FanSearch(mesh, valence).find(all, run);
   } else {
     const AabbTree tree(mesh);

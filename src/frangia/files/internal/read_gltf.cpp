@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,8 +13,8 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/gltf_document.h"
+#include "frangia/files/internal/gltf_memory.h"
 #include "frangia/files/internal/mark_names.h"
-#include "frangia/files/internal/mesh_memory.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -23,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t kTriangles = 4;
+constexpr std::uint64_t kTriangles = kGltfTriangles;
 
 Eigen::Affine3d transform_of(const GltfDocument& document, const json& node) {
   const auto numbers = [&](const char* key, std::vector<double> usual) {
@@ -80,7 +79,11 @@ class GltfReader {
       for (std::uint64_t node = 0; node < all.at("nodes").size(); ++node)
         if (!children.contains(node)) visit(node, mm_from_scene);
     }
-    check_memory();
+    std::vector<std::uint64_t> meshes;
+    for (const Instance& instance : instances_)
+      meshes.push_back(instance.mesh);
+    MemoryBudget(document_.path, document_.total_bytes, options_.allow_memory_bytes)
+        .check(gltf_memory_bytes(document_, meshes));
     for (const Instance& instance : instances_)
       add_primitives(document_.item("meshes", instance.mesh), instance.mm_from_mesh);
     if (skipped_ > 0) {
@@ -116,37 +119,6 @@ class GltfReader {
       instances_.push_back({document_.whole(node.at("mesh")), mm_from_node});
     for (const std::uint64_t child : document_.whole_list(node, "children"))
       visit(child, mm_from_node, depth + 1);
-  }
-
-  /// Refuses a file whose meshes and primitives, repeated as it says, exceed the allowed memory.
-  void check_memory() const {
-    std::map<std::uint64_t, double> memory_of_mesh;
-    double bytes = static_cast<double>(document_.total_bytes);
-    for (const Instance& instance : instances_) {
-      const auto [known, inserted] = memory_of_mesh.try_emplace(instance.mesh, 0.0);
-      if (inserted) known->second = memory_of(document_.item("meshes", instance.mesh));
-      bytes += known->second;
-    }
-    MemoryBudget(document_.path, document_.total_bytes, options_.allow_memory_bytes).check(bytes);
-  }
-
-  [[nodiscard]] double memory_of(const json& mesh) const {
-    const auto count_of = [&](const json& accessor, std::size_t width) {
-      return static_cast<double>(document_.locate(document_.whole(accessor), width).count);
-    };
-    double bytes = 0.0;
-    const json* attributes = nullptr;
-    for (const auto& primitive : mesh.at("primitives")) {
-      if (document_.whole_or(primitive, "mode", kTriangles) != kTriangles) continue;
-      const json& own = primitive.at("attributes");
-      const double vertices = count_of(own.at("POSITION"), 3);
-      const double corners =
-          primitive.contains("indices") ? count_of(primitive.at("indices"), 1) : vertices;
-      const bool shared = attributes != nullptr && *attributes == own;
-      bytes += mesh_memory_bytes(shared ? 0.0 : vertices, corners / 3.0);
-      attributes = &own;
-    }
-    return bytes;
   }
 
   /// Adds the primitives of a mesh. Consecutive primitives with the same attributes share vertices.

@@ -1,0 +1,122 @@
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/files/internal/gltf_document.h"
+
+namespace frangia {
+namespace {
+
+std::size_t bytes_of_component(std::uint64_t type) {
+  switch (type) {
+    case 5120:
+    case 5121:
+      return 1;
+    case 5122:
+    case 5123:
+      return 2;
+    case 5125:
+    case 5126:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+template <typename Number>
+double number_at(std::string_view bytes, std::size_t place) {
+  Number number{};
+  std::memcpy(&number, bytes.data() + place, sizeof number);
+  return static_cast<double>(number);
+}
+
+double component_at(std::string_view bytes, std::size_t place, std::uint64_t type) {
+  switch (type) {
+    case 5120:
+      return number_at<std::int8_t>(bytes, place);
+    case 5121:
+      return number_at<std::uint8_t>(bytes, place);
+    case 5122:
+      return number_at<std::int16_t>(bytes, place);
+    case 5123:
+      return number_at<std::uint16_t>(bytes, place);
+    case 5125:
+      return number_at<std::uint32_t>(bytes, place);
+    default:
+      return number_at<float>(bytes, place);
+  }
+}
+
+/// The integer that stands for 1 in normalized components.
+double full_scale(std::uint64_t type) {
+  switch (type) {
+    case 5120:
+      return 127.0;
+    case 5121:
+      return 255.0;
+    case 5122:
+      return 32'767.0;
+    case 5123:
+      return 65'535.0;
+    default:
+      return 1.0;
+  }
+}
+
+}  // namespace
+
+GltfNumbers GltfDocument::locate(std::uint64_t accessor, std::size_t width) const {
+  const nlohmann::json& a = item("accessors", accessor);
+  if (a.contains("sparse") || !a.contains("bufferView")) {
+    fail("sparse and compressed data are not supported; export it without them");
+  }
+  const std::uint64_t type = whole(a.at("componentType"));
+  const std::size_t size = bytes_of_component(type);
+  const std::uint64_t count = whole(a.at("count"));
+  const std::string shape = a.at("type").get<std::string>();
+  const std::size_t has = shape == "SCALAR" ? 1 : shape == "VEC3" ? 3 : 0;
+  if (size == 0 || has != width)
+    fail(fmt::format("accessor {} has the wrong type; export it again", accessor));
+  const nlohmann::json& view = item("bufferViews", whole(a.at("bufferView")));
+  const std::uint64_t buffer = whole(view.at("buffer"));
+  if (buffer >= buffers.size()) fail("it refers to a buffer that does not exist; export it again");
+  const std::string_view in = buffers[buffer];
+  const std::uint64_t begin = whole_or(view, "byteOffset", 0);
+  const std::uint64_t length = whole(view.at("byteLength"));
+  const std::uint64_t offset = whole_or(a, "byteOffset", 0);
+  const std::uint64_t stride = whole_or(view, "byteStride", size * width);
+  const bool in_buffer = begin <= in.size() && length <= in.size() - begin;
+  const bool fits = in_buffer && offset <= length && stride >= size * width && stride <= 252 &&
+                    count <= (length - offset + stride - size * width) / stride;
+  if (!fits) {
+    fail(
+        fmt::format("{} elements exceed their buffer; the file is truncated or its "
+                    "counts are wrong",
+                    count));
+  }
+  const double unit = a.value("normalized", false) ? full_scale(type) : 1.0;
+  return {.bytes = in.substr(begin + offset, length - offset),
+          .count = count,
+          .stride = stride,
+          .type = type,
+          .unit = unit};
+}
+
+std::vector<double> GltfDocument::numbers(std::uint64_t accessor, std::size_t width) const {
+  const GltfNumbers place = locate(accessor, width);
+  const std::size_t size = bytes_of_component(place.type);
+  std::vector<double> found;
+  found.reserve(place.count * width);
+  for (std::uint64_t i = 0; i < place.count; ++i) {
+    for (std::size_t k = 0; k < width; ++k)
+      found.push_back(component_at(place.bytes, i * place.stride + k * size, place.type) /
+                      place.unit);
+  }
+  return found;
+}
+
+}  // namespace frangia
