@@ -104,9 +104,10 @@ void print_summary(const RigCalibration& result, const Board& board) {
   const std::vector<std::string> none = {"nothing"};
   print_text("  {:<10} {}\n",
              "estimated",
-             fmt::join(solution.terms.empty() ? none : solution.terms, ", "));
-  print_text(
-      "  {:<10} {}\n", "held", fmt::join(solution.held.empty() ? none : solution.held, ", "));
+             fmt::format("{}", fmt::join(solution.terms.empty() ? none : solution.terms, ", ")));
+  print_text("  {:<10} {}\n",
+             "held",
+             fmt::format("{}", fmt::join(solution.held.empty() ? none : solution.held, ", ")));
   print_text(
       "  {:<10} {}: the calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} "
       "mm\n",

@@ -61,9 +61,9 @@ TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
 
   std::ofstream(folder.path() / "poses/scan.toml", std::ios::app) << "\n# end\n";
   std::string scan = text_in(folder.path() / "poses/scan.toml");
-  const std::string corners = "corners = [ 10, 7 ]";
+  const std::string corners = "corners = [10, 7]";
   ASSERT_NE(scan.find(corners), std::string::npos) << scan;
-  scan.replace(scan.find(corners), corners.size(), "corners = [ 8, 6 ]");
+  scan.replace(scan.find(corners), corners.size(), "corners = [8, 6]");
   std::ofstream(folder.path() / "poses/scan.toml") << scan;
   const auto other = folder.path() / "other.toml";
   const Answer wrong = run_program("calibrate rig " + poses + " -o " + other.string());

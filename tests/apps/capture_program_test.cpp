@@ -111,7 +111,7 @@ TEST_F(CaptureProgram, FindsTheSameScanUnderAnyNameOfItsFolder) {
   EXPECT_EQ(run_program("scan " + rest + (folder_.path() / "moved").string()).exit_code, 0);
   std::ifstream in(folder_.path() / "moved/scan.toml");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  EXPECT_NE(text.find("name = 'moved'"), std::string::npos) << text;
+  EXPECT_NE(text.find("name = \"moved\""), std::string::npos) << text;
 }
 
 TEST_F(CaptureProgram, IsRefusedAFolderThatAnotherScanWritesTo) {

@@ -108,7 +108,8 @@ TEST_F(Program, UsageErrorsExitWithTwoAndOneSentence) {
   expect_usage_error(
       "recnstruct x",
       "the program has no verb recnstruct, perhaps reconstruct was meant; see frangia --help");
-  expect_usage_error("calibrate", "calibrate needs a verb: piezo; see frangia calibrate --help");
+  expect_usage_error("calibrate",
+                     "calibrate needs a verb: board, rig, piezo; see frangia calibrate --help");
   expect_usage_error(
       "calibrate peizo x",
       "calibrate has no verb peizo, perhaps piezo was meant; see frangia calibrate --help");

@@ -95,7 +95,7 @@ TEST_F(EveryFormat, ShowsSynthesizedTrianglesInTheBlueOfPictures) {
   EXPECT_NE(bytes_in("a.off").find(" 97 160 220\n"), std::string::npos) << bytes_in("a.off");
   write_mesh(at("a.3mf"), marked_box());
   std::string model;
-  EXPECT_TRUE(ZipReader(at("a.3mf")).read("3D/3dmodel.model", [&](std::string_view piece) {
+  EXPECT_TRUE(ZipReader(at("a.3mf")).read("3D/3dmodel.model", [&](std::string_view piece, double) {
     model += piece;
   }));
   EXPECT_NE(model.find("name=\"synthesized\" displaycolor=\"#61A0DC\""), std::string::npos);

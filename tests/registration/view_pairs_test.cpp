@@ -12,7 +12,7 @@ namespace frangia {
 namespace {
 
 ViewPairs pairs_around_table(int count) {
-  const CameraModel camera = testing::small_camera_model(60, 300.0);
+  const CameraModel camera = testing::small_camera_model(160, 800.0);
   const auto poses = testing::around_table(count, 0.4, 650.0);
   const ViewStore views = testing::snapshots(testing::lumpy, camera, poses);
   return choose_view_pairs(make_surfel_maps(views, camera), FastCameraModel(camera), poses);
@@ -53,7 +53,7 @@ TEST(ViewPairs, TakeNoMoreComparisonsForManyViewsThanFor24) {
 }
 
 TEST(ViewPairs, OmitViewsThatShowAnotherSide) {
-  const CameraModel camera = testing::small_camera_model(60, 300.0);
+  const CameraModel camera = testing::small_camera_model(160, 800.0);
   // 30 views from two opposite sides, 0.01 rad apart.
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < 30; ++i)

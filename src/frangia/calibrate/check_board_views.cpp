@@ -30,14 +30,19 @@ std::string views(std::size_t count) {
   return fmt::format("{} {}", count, count == 1 ? "view" : "views");
 }
 
-/// Fails when most of the views without the board show a checkerboard of one other size.
+/// Fails when most of the views in which corners can be counted, and at least two, show a
+/// checkerboard of one other size.
 void check_counts(std::span<const PoseCapture> poses, const Board& board) {
   std::map<std::array<int, 2>, std::size_t> seen;
-  for (const PoseCapture& pose : poses)
-    if (pose.counted) ++seen[*pose.counted];
+  std::size_t counted = 0;
+  for (const PoseCapture& pose : poses) {
+    if (!pose.counted) continue;
+    ++seen[*pose.counted];
+    ++counted;
+  }
   const auto most = std::max_element(
       seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most == seen.end() || 2 * most->second <= poses.size()) return;
+  if (most == seen.end() || most->second < 2 || 2 * most->second <= counted) return;
   const auto [longer, shorter] = most->first;
   if (longer == std::max(board.columns, board.rows) &&
       shorter == std::min(board.columns, board.rows))

@@ -125,7 +125,8 @@ LocalPlanes local_planes(const View& view,
           "local_planes: the range grid and the camera differ in size");
   const int width = rays.width();
   const int height = rays.height();
-  require(options.every >= 1, "local_planes: `every` must be at least 1 pixel");
+  require(options.every >= 1,
+          "local_planes: planes are needed at every pixel or at a multiple of 1 pixel");
   LocalPlanes out = std::move(reuse);
   out.rig_from_object = view.rig_from_object;
   const PixelBox box = grow(measured_box(view.range.depth_mm),

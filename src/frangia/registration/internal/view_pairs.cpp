@@ -11,7 +11,7 @@ namespace {
 
 /// Views that each view picks. tools/views_scaling.py: at 96 views the axis is as accurate as with
 /// all pairs.
-constexpr std::size_t kPicked = 8;
+constexpr std::size_t kPicked = 12;
 constexpr std::size_t kNeighbors = 2;      // nearest by rotation, always among the picked ones
 constexpr std::size_t kProbes = 128;       // surfels of a view that measure its overlap
 constexpr double kMinVisibleShare = 0.05;  // of the probes; fewer are chance
