@@ -39,7 +39,7 @@ def main():
     arguments.add_argument("--page", type=pathlib.Path)
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(STUDIES)}")
-    chosen = arguments.parse_args()
+    chosen = arguments.parse_intermixed_args()
     failed = 0
     for name in chosen.names or STUDIES:
         if name not in STUDIES:
