@@ -61,7 +61,7 @@ TEST(EstimateShifts, IsNotFoundWhenNoShiftsFitTheFrames) {
   EXPECT_GT(found.residual_counts2, 1.5 * found.expected_counts2);
 }
 
-/// Shortest processor time of two runs, in seconds, to find the shifts of a number of frames.
+/// Shortest processor time of three runs, in seconds, to find the shifts of a number of frames.
 double seconds_for(int frames) {
   Pattern pattern = quarter_steps();
   pattern.shifts_rad = equal_shifts(frames, kTwoPi / 9.0);
@@ -70,7 +70,7 @@ double seconds_for(int frames) {
   scene.height = 32;
   const FrameStack stack = render_frames(scene, pattern, tilted_plane);
   double shortest_s = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < 2; ++run) {
+  for (int run = 0; run < 3; ++run) {
     const std::clock_t start = std::clock();
     EXPECT_TRUE(estimate_shifts(stack, kStrongNoise).found) << frames;
     const double spent_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -81,20 +81,20 @@ double seconds_for(int frames) {
 
 TEST(EstimateShifts, TakesTheSquareOfTheFramesInTime) {
   // The square is 16 times the time; the fourth power, as before, would be 256 times.
-  EXPECT_LT(seconds_for(96), 48.0 * seconds_for(24));
+  EXPECT_LT(seconds_for(160), 48.0 * seconds_for(40));
 }
 
-TEST(EstimateShifts, FindsTheShiftsOf120Frames) {
+TEST(EstimateShifts, FindsTheShiftsOf360Frames) {
   Pattern pattern = quarter_steps();
-  pattern.shifts_rad = equal_shifts(120, rad_from_deg(3.0));
+  pattern.shifts_rad = equal_shifts(360, rad_from_deg(1.0));
   Scene scene = kScene;
   scene.height = 16;
   scene.step_error = 0.05;
   const ShiftEstimate found =
       estimate_shifts(render_frames(scene, pattern, tilted_plane), kStrongNoise);
   ASSERT_TRUE(found.found);
-  for (std::size_t k = 0; k < 120; ++k)
-    EXPECT_NEAR(found.shifts_rad[k], 1.05 * pattern.shifts_rad[k], 1e-2) << k;
+  for (std::size_t k = 0; k < 360; ++k)
+    EXPECT_NEAR(found.shifts_rad[k], 1.05 * pattern.shifts_rad[k], 5e-3) << k;
 }
 
 TEST(EstimateShifts, NeedsSixFrames) {

@@ -41,19 +41,47 @@ double harmonic_error(const PhaseAlgorithm& algorithm,
   return worst;
 }
 
+/// Sum of the squared derivatives of the phase by the frames, for algorithms that are linear in the
+/// frames: phi = atan2(S, C), so that dphi = (C dS - S dC) / (S^2 + C^2).
+double squared_slope(const PhaseAlgorithm& algorithm, const std::vector<double>& counts) {
+  double sine = 0.0;
+  double cosine = 0.0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    sine += algorithm.sine[k] * counts[k];
+    cosine += algorithm.cosine[k] * counts[k];
+  }
+  double sum = 0.0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const double slope = cosine * algorithm.sine[k] - sine * algorithm.cosine[k];
+    sum += slope * slope;
+  }
+  const double square = sine * sine + cosine * cosine;
+  return sum / (square * square);
+}
+
+/// The same by differences, for Carré's algorithm.
+double squared_difference_slope(const PhaseAlgorithm& algorithm, std::vector<double> counts) {
+  double sum = 0.0;
+  for (double& count : counts) {
+    const double unchanged = count;
+    count = unchanged + kSmall;
+    const double above = phase_of(algorithm, counts);
+    count -= 2.0 * kSmall;
+    const double slope = wrap_rad(above - phase_of(algorithm, counts)) / (2.0 * kSmall);
+    sum += slope * slope;
+    count = unchanged;
+  }
+  return sum;
+}
+
 }  // namespace
 
 double noise_gain(const PhaseAlgorithm& algorithm, const std::vector<double>& shifts_rad) {
   double sum = 0.0;
   for_each_phase([&](double phi) {
-    for (std::size_t k = 0; k < shifts_rad.size(); ++k) {
-      auto counts = frames_of(phi, shifts_rad);
-      counts[k] += kSmall;
-      const double above = phase_of(algorithm, counts);
-      counts[k] -= 2.0 * kSmall;
-      const double slope = wrap_rad(above - phase_of(algorithm, counts)) / (2.0 * kSmall);
-      sum += slope * slope;
-    }
+    const std::vector<double> counts = frames_of(phi, shifts_rad);
+    sum += algorithm.outer.empty() ? squared_slope(algorithm, counts)
+                                   : squared_difference_slope(algorithm, counts);
   });
   return std::sqrt(sum / kPhases);
 }

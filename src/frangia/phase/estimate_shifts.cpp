@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/solve_symmetric.h"
 #include "frangia/phase/frame_samples.h"
-#include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/internal/fringe_model.h"
 
 namespace frangia {
 namespace {
@@ -34,13 +35,11 @@ struct FringeFit {
   /// `root * root^T` are the inner products of the frames over all pixels, so that an iteration
   /// does not depend on the number of pixels.
   FringeFit(const Eigen::MatrixXd& root, const std::vector<double>& shifts)
-      : model(std::ssize(shifts), 3), inverse(3, std::ssize(shifts)) {
-    const PhaseAlgorithm fit = least_squares(shifts);
-    for (Eigen::Index k = 0; k < model.rows(); ++k) {
-      const auto frame = static_cast<std::size_t>(k);
-      model.row(k) << 1.0, std::cos(shifts[frame]), -std::sin(shifts[frame]);
-      inverse.col(k) << fit.mean[frame], fit.cosine[frame], fit.sine[frame];
-    }
+      : model(std::ssize(shifts), 3) {
+    for (Eigen::Index k = 0; k < model.rows(); ++k)
+      model.row(k) = fringe_model_row(shifts[static_cast<std::size_t>(k)]);
+    const Eigen::Matrix3d normal = model.transpose() * model;
+    inverse = normal.inverse() * model.transpose();
     fringes = inverse * root;
     residual = root - model * fringes;
   }
@@ -132,6 +131,7 @@ ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) 
       stack.frames.size() >= 6 && stack.frames.size() == stack.pattern.shifts_rad.size(),
       "the algorithm \"aia\" needs at least six frames to estimate the shifts; take more frames");
   const std::vector<double>& nominal = stack.pattern.shifts_rad;
+  static_cast<void>(fringe_normal_matrix(nominal));  // fails where they determine no phase
   ShiftEstimate out{.shifts_rad = nominal};
   const Eigen::ArrayXXd counts = sample_frames(stack, kSamples).cast<double>();
   if (counts.rows() < kMinSamples) return out;

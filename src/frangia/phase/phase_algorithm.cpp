@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,13 +11,11 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/phase/algorithm_errors.h"
+#include "frangia/phase/internal/fringe_model.h"
 #include "frangia/phase/published_algorithms.h"
 
 namespace frangia {
 namespace {
-
-/// Least ratio of eigenvalues of the normal matrix. At 1e-6 the noise is amplified a thousandfold.
-constexpr double kMinEigenvalueRatio = 1e-6;
 
 double weighted_sum(const std::vector<double>& weights, std::span<const double> counts) {
   return std::inner_product(weights.begin(), weights.end(), counts.begin(), 0.0);
@@ -147,29 +144,11 @@ double phase_of(const PhaseAlgorithm& algorithm, std::span<const double> counts)
 }
 
 PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
-  if (shifts_rad.size() < 3) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("a phase needs at least 3 shifts, but the pattern has {}", shifts_rad.size()));
-  }
-  // I = A + B cos(phi) cos(shift) - B sin(phi) sin(shift), linear in three unknowns.
-  const auto row = [](double shift) {
-    return Eigen::Vector3d(1.0, std::cos(shift), -std::sin(shift));
-  };
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  for (const double shift : shifts_rad)
-    normal += row(shift) * row(shift).transpose();
-  const Eigen::Vector3d eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(normal).eigenvalues();
-  if (!(eigenvalues(0) > kMinEigenvalueRatio * eigenvalues(2))) {
-    throw Error(ErrorKind::Input,
-                "shifts_deg does not determine a phase: at least three shifts must differ, modulo "
-                "360 degrees");
-  }
+  const Eigen::Matrix3d normal = fringe_normal_matrix(shifts_rad);
   const Eigen::Matrix3d inverse = normal.inverse();
   PhaseAlgorithm algorithm{.name = "least-squares"};
   for (const double shift : shifts_rad) {
-    const Eigen::Vector3d weights = inverse * row(shift);
+    const Eigen::Vector3d weights = inverse * fringe_model_row(shift);
     algorithm.mean.push_back(weights(0));
     algorithm.cosine.push_back(weights(1));
     algorithm.sine.push_back(weights(2));
