@@ -93,6 +93,12 @@ TEST_F(CalibrateRig, RecognizesExchangedDirections) {
       << fault_of(swapped);
 }
 
+TEST_F(CalibrateRig, StatesTheCornersThatTheImagesShow) {
+  Scan wrong = scan();
+  wrong.board->columns = 9;
+  EXPECT_NE(fault_of(wrong).find("set corners = [10, 7]"), std::string::npos) << fault_of(wrong);
+}
+
 TEST_F(CalibrateRig, NeedsABoardAndThreePoses) {
   Scan none = scan();
   none.board.reset();
