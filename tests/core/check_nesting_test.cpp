@@ -43,6 +43,14 @@ TEST(CheckNesting, CountsNoBracketOfAString) {
   EXPECT_EQ(toml_fault("# " + repeated("[a.", 1000) + "\na = 1"), "");
 }
 
+TEST(CheckNesting, CountsAfterAStringOfSeveralLinesThatEndsWithItsOwnQuotes) {
+  for (const std::string text : {R"("""b"""")", R"("""b""""")", "'''b''''", "'''b'''''"}) {
+    EXPECT_NE(toml_fault("a = [" + text + ", " + repeated("[", 100)), "") << text;
+    EXPECT_NE(toml_fault("a = {b = " + text + ", a" + repeated(".a", 100) + " = 1}"), "") << text;
+    EXPECT_EQ(toml_fault("a = [" + text + ", \"" + repeated("[", 1000) + "\"]"), "") << text;
+  }
+}
+
 TEST(CheckNesting, RefusesDeepToml) {
   EXPECT_EQ(toml_fault("a = " + repeated("[", 100'000)),
             "a.toml: line 1: brackets are nested more than 100 deep; correct the file");

@@ -86,6 +86,13 @@ class NestingScanner {
       at_ += std::size_t{escapes && text_[at_] == '\\' ? 2U : 1U};
     }
     at_ += quote.size() - 1;
+    if (quote.size() == 1) return;
+    // A string of several lines may have one or two quotes of its own before its last three.
+    constexpr int kMaxOwnQuotes = 2;
+    for (int i = 0; i < kMaxOwnQuotes && at_ + 1 < text_.size(); ++i) {
+      if (text_[at_ + 1] != quote.front()) return;
+      ++at_;
+    }
   }
 
   [[noreturn]] void fail(const std::string& what) const {
