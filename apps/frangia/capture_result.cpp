@@ -9,6 +9,7 @@
 #include "frangia/core/angles.h"
 
 #include "counted.h"
+#include "exit_codes.h"
 #include "print_text.h"
 
 namespace frangia {
@@ -40,8 +41,7 @@ void print_capture(const std::filesystem::path& output,
                    const CaptureReport& report,
                    Terminal& terminal) {
   terminal.finish();
-  constexpr int kDeviceFault = 4;
-  if (!report.skipped.empty()) terminal.exit_code = kDeviceFault;
+  if (!report.skipped.empty()) terminal.exit_code = DeviceFault;
   if (terminal.json) {
     nlohmann::ordered_json result{{"scan", output.string()},
                                   {"captured", report.captured},

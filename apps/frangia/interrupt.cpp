@@ -16,7 +16,7 @@ namespace frangia {
 namespace {
 
 constexpr std::array kStopSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-/// Longer than all devices of a rig take to be made safe side by side.
+/// Longer than all devices of a rig take to be made safe in parallel.
 constexpr auto kMakeSafe = std::chrono::seconds(3);
 
 volatile std::sig_atomic_t write_end = -1;  // of the pipe that wakes the signal thread
@@ -127,6 +127,7 @@ const SignalThread& signal_thread() {
 }  // namespace
 
 void handle_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
   static_cast<void>(signal_thread());
 }
 

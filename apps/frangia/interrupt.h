@@ -9,7 +9,8 @@ namespace frangia {
 ///
 /// The first signal requests a stop. The second one ends the program at once, as the signal does by
 /// default; while a `DeviceScope` exists, it leaves the devices 3 s to be made safe. The end of a
-/// reader of the output is an error of `write`, as a full disk is; see `reader_has_ended`.
+/// reader of the output is an error of `write`, as a full disk is; see `reader_has_ended`. So is a
+/// file that exceeds the limit of its size (SIGXFSZ).
 void handle_signals();
 
 /// A token that is stopped by the first signal.

@@ -1,7 +1,5 @@
 #include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <iostream>
 #include <memory>
 #include <new>
 #include <string>
@@ -14,6 +12,7 @@
 #include "frangia/core/error.h"
 #include "frangia/devices/guardian.h"
 
+#include "exit_codes.h"
 #include "interrupt.h"
 #include "merge_verb.h"
 #include "option_names.h"
@@ -25,8 +24,6 @@
 
 namespace frangia {
 namespace {
-
-enum ExitCode { Usage = 2, BadInput = 3, DeviceFault = 4, NumericFault = 5, Interrupted = 130 };
 
 int exit_code_of(ErrorKind kind) {
   switch (kind) {
@@ -43,11 +40,23 @@ int exit_code_of(ErrorKind kind) {
   return NumericFault;
 }
 
-int print_error(Terminal& terminal, const std::string& sentence, int code) {
-  terminal.release();
-  terminal.finish();
-  fmt::print(stderr, "frangia: {}\n", terminal_text(with_flags(sentence)));
+/// Prints one sentence. The exit code is right even when standard error cannot be written.
+int fail(const std::string& message, int code) {
+  const std::string sentence = terminal_text(message);
+  static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
   return code;
+}
+
+/// Prints the error that ended a verb. A reader of the output that has ended stops the program
+/// without a message, as it does other programs.
+int print_error(Terminal& terminal, const std::string& sentence, int code) {
+  if (reader_has_ended()) end_by_sigpipe();
+  try {
+    terminal.release();
+    terminal.finish();
+  } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch) of standard error
+  }
+  return fail(with_flags(sentence), code);
 }
 
 int run_program(int argc, char** argv) {
@@ -101,9 +110,7 @@ int run_program(int argc, char** argv) {
     return print_error(terminal,
                        "this does not fit into the memory of the machine; set a larger `voxel`",
                        NumericFault);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return print_error(terminal, error.what(), BadInput);
-  } catch (const std::system_error& error) {  // of fmt::print to standard output
+  } catch (const std::system_error& error) {  // of std::filesystem, or of output to standard error
     return print_error(terminal, error.what(), BadInput);
   } catch (const std::exception& error) {
     return print_error(terminal, error.what(), NumericFault);
@@ -112,24 +119,16 @@ int run_program(int argc, char** argv) {
   return terminal.exit_code;
 }
 
-/// Ends the output, which fails where the result could not be written. A reader that has ended
-/// stops the program, as it does other programs.
+/// Ends the output. It fails when the result could not be written; when a reader has ended, the
+/// program ends by SIGPIPE.
 int finish_output(int code) {
   try {
-    std::cout.flush();
     flush_output();
   } catch (const Error& error) {
     if (reader_has_ended()) end_by_sigpipe();
-    fmt::print(stderr, "frangia: {}\n", error.what());
-    return code == 0 ? exit_code_of(error.kind()) : code;
+    return fail(error.what(), code == 0 ? exit_code_of(error.kind()) : code);
   }
   if (reader_has_ended()) end_by_sigpipe();
-  return code;
-}
-
-int fail(const std::string& message, int code) {
-  const std::string sentence = terminal_text(message);
-  static_cast<void>(std::fprintf(stderr, "frangia: %s\n", sentence.c_str()));  // NOLINT(*-vararg)
   return code;
 }
 
@@ -144,7 +143,7 @@ int main(int argc, char** argv) {
   try {
     frangia::handle_signals();
     return frangia::finish_output(frangia::run_program(argc, argv));
-  } catch (const std::exception& error) {  // before the parse, or while printing a result
+  } catch (const std::exception& error) {  // before or after the parse
     if (frangia::reader_has_ended()) frangia::end_by_sigpipe();
     return frangia::fail(error.what(), frangia::NumericFault);
   }

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "exit_codes.h"
 #include "interrupt.h"
 #include "option_names.h"
 #include "print_text.h"
 
 namespace frangia {
 namespace {
-
-constexpr int kUntrustedExitCode = 5;
 
 /// Stages that work view by view; their notes are about single patterns.
 constexpr std::array<std::string_view, 4> kDetailStages = {"survey", "frames", "phase", "range"};
@@ -28,7 +26,6 @@ bool on_a_terminal() {
 }  // namespace
 
 Run Terminal::run() {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
   Run run;
   run.stop = stop_on_signals();
   run.progress = [this](double done) { draw(done); };
@@ -68,7 +65,7 @@ void Terminal::assess(const std::string& reason) {
   if (!reason.empty()) {
     const std::string text = with_flags(reason);
     print_line("the result is not trustworthy: " + text);
-    exit_code = kUntrustedExitCode;
+    exit_code = NumericFault;
     std::erase_if(held_, [&](const std::string& line) { return line.find(text) != line.npos; });
   }
   release();
