@@ -1,6 +1,5 @@
 #include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/phase/algorithm_errors.h"
@@ -27,7 +26,7 @@ std::vector<double> ripples(const PublishedAlgorithm& published, bool step_known
 void print_algorithms(const Terminal& terminal) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   if (!terminal.json) {
-    fmt::print("{:<14}{:<36}{:>11}{:>8}{:>7}{:>7}  {}\n",
+    print_text("{:<14}{:<36}{:>11}{:>8}{:>7}{:>7}  {}\n",
                "algorithm",
                "frames",
                "ripple/rad",
@@ -53,7 +52,7 @@ void print_algorithms(const Terminal& terminal) {
                       {"source", published.source}});
       continue;
     }
-    fmt::print("{:<14}{:<36}{:>11.6f}{:>8.3f}{:>7.2f}{:>7.2f}  {}\n",
+    print_text("{:<14}{:<36}{:>11.6f}{:>8.3f}{:>7.2f}{:>7.2f}  {}\n",
                published.name,
                describe_frames(published),
                errors.ripple_rad,
@@ -66,7 +65,7 @@ void print_algorithms(const Terminal& terminal) {
     print_json(json);
     return;
   }
-  fmt::print(
+  print_text(
       "\nripple: peak-to-valley phase error at a step error of 5 %; noise: c in sigma_phi = c "
       "sigma_I "
       "/ B;\nh2, h3: phase error per relative amplitude of the second or third harmonic. N = 6 "

@@ -17,6 +17,7 @@
 #include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/read_rig.h"
 
+#include "check_can_write.h"
 #include "counted.h"
 #include "print_text.h"
 
@@ -154,6 +155,7 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
 }
 
 void calibrate_rig_verb(const RigArguments& arguments, Terminal& terminal) {
+  check_can_write(arguments.output);
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run, RigContent::StartValues);
   CalibrateRigOptions options;

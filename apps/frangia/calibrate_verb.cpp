@@ -84,7 +84,7 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
                                         {"residual_ratio", sweep.residual_ratio}};
     print_json(result);
   } else if (!terminal.quiet) {
-    fmt::print("# for [devices.fringes], instead of command_per_turn\n{}", lines_of(sweep.curve));
+    write_output("# for [devices.fringes], instead of command_per_turn\n" + lines_of(sweep.curve));
     if (!arguments.output.empty()) terminal.print_written(arguments.output.string());
   }
 }

@@ -8,7 +8,7 @@ namespace frangia {
 
 /// Checks before the work that a file can be written after it.
 ///
-/// errors   Error(File) when the folder does not exist or is not writable
+/// @errors   Error(File) when the folder does not exist or is not writable
 inline void check_can_write(const std::filesystem::path& path) {
   const AtomicFile probe(path);
 }

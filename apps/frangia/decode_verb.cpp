@@ -43,7 +43,7 @@ void print_result(const DecodedView& decoded,
     const auto count = std::count(status.begin(), status.end(), entry.status);
     json["pixels"][entry.meaning] = count;
     if (count == 0 || terminal.json || terminal.quiet) continue;
-    fmt::print("{:>10} {:<6} {} ({} in mask.png)\n",
+    print_text("{:>10} {:<6} {} ({} in mask.png)\n",
                count,
                count == 1 ? "pixel" : "pixels",
                entry.meaning,

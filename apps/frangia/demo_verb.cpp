@@ -146,7 +146,7 @@ void print_cases(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
 }
 
 void print_table(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
-  fmt::print("{:<8}{:<10}{:>9}{:>11}{:>17}{:>11}{:>10}\n",
+  print_text("{:<8}{:<10}{:>9}{:>11}{:>17}{:>11}{:>10}\n",
              "part",
              "rig",
              "points",
@@ -155,7 +155,7 @@ void print_table(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
              "99 %, mm",
              "complete");
   for (const DemoCase& demo_case : demo_cases) {
-    fmt::print("{:<8}{:<10}{:>9}{:>11}{:>17.4f}{:>11.4f}{:>8.1f} %\n",
+    print_text("{:<8}{:<10}{:>9}{:>11}{:>17.4f}{:>11.4f}{:>8.1f} %\n",
                demo_case.part,
                demo_case.rig,
                demo_case.result.points,
@@ -164,10 +164,10 @@ void print_table(const std::vector<DemoCase>& demo_cases, Terminal& terminal) {
                demo_case.error.p99_mm,
                100.0 * demo_case.completeness.share);
   }
-  fmt::print("(complete: share of the measurable surface that has mesh within {} mm)\n", kWithinMm);
+  print_text("(complete: share of the measurable surface that has mesh within {} mm)\n", kWithinMm);
   if (!terminal.verbose) return;
   for (const auto& [stage, seconds] : terminal.stage_seconds())
-    fmt::print("  {:<10}{:7.2f} s\n", stage, seconds);
+    print_text("  {:<10}{:7.2f} s\n", stage, seconds);
 }
 
 /// Creates the folder, or takes one that is empty or was marked by an earlier demo. The demo

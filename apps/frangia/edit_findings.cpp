@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "fixed_text.h"
+#include "print_text.h"
 
 namespace frangia {
 namespace {
@@ -26,16 +27,16 @@ std::vector<std::size_t> by_size(const std::vector<Item>& items) {
 }
 
 void print_remainder(std::size_t count) {
-  if (count > kShown) fmt::print("  {} more, all smaller (--json lists them)\n", count - kShown);
+  if (count > kShown) print_text("  {} more, all smaller (--json lists them)\n", count - kShown);
 }
 
 void print_components(const std::vector<MeshComponent>& components) {
   if (components.size() < 2) return;
-  fmt::print("\n  component  size mm     area mm2  triangles\n");
+  print_text("\n  component  size mm     area mm2  triangles\n");
   const auto order = by_size(components);
   for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
     const MeshComponent& component = components[order[i]];
-    fmt::print("  {:>9} {:>8.2f} {:>12.2f} {:>10}\n",
+    print_text("  {:>9} {:>8.2f} {:>12.2f} {:>10}\n",
                order[i],
                component.size_mm,
                component.area_mm2,
@@ -46,11 +47,11 @@ void print_components(const std::vector<MeshComponent>& components) {
 
 void print_holes(const std::vector<BoundaryLoop>& holes) {
   if (holes.empty()) return;
-  fmt::print("\n  hole  size mm    length mm      edges\n");
+  print_text("\n  hole  size mm    length mm      edges\n");
   const auto order = by_size(holes);
   for (std::size_t i = 0; i < std::min(kShown, order.size()); ++i) {
     const BoundaryLoop& hole = holes[order[i]];
-    fmt::print("  {:>4} {:>8.2f} {:>12.2f} {:>10}\n",
+    print_text("  {:>4} {:>8.2f} {:>12.2f} {:>10}\n",
                order[i],
                hole.size_mm,
                hole.length_mm,
@@ -60,7 +61,7 @@ void print_holes(const std::vector<BoundaryLoop>& holes) {
 }
 
 void print_line(const char* what, const std::string& value) {
-  fmt::print("{:<20} {}\n", what, value);
+  print_text("{:<20} {}\n", what, value);
 }
 
 }  // namespace

@@ -15,16 +15,16 @@ class EditSession {
  public:
   EditSession(Mesh mesh, bool with_history);
 
-  /// errors   as apply_step
+  /// @errors   as apply_step
   void apply(const EditStep& step, const Run& run);
   /// Applies the steps of a script, then undoes those that it holds as undone.
   void run_script(const EditScript& script, const Run& run);
-  /// errors   Error(Input) when fewer steps can be undone or redone
+  /// @errors   Error(Input) when fewer steps can be undone or redone
   void undo(std::size_t count);
   void redo(std::size_t count);
   /// Checks that no operation waits for another one to follow.
   ///
-  /// errors   Error(Input) when `add` or `within` is not followed by a selection
+  /// @errors   Error(Input) when `add` or `within` is not followed by a selection
   void check_complete() const;
 
   [[nodiscard]] const EditState& state() const;

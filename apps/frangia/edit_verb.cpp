@@ -104,10 +104,10 @@ void report(const Mesh& mesh,
     print_findings(found);
   } else if (!terminal.quiet) {
     terminal.finish();
-    fmt::print("{}\n", counted(mesh.triangles.size(), "triangle"));
+    print_text("{}\n", counted(mesh.triangles.size(), "triangle"));
   }
   if (counts && !terminal.json && !terminal.quiet) {
-    fmt::print("preview: {} would be removed or moved, {} added\n",
+    print_text("preview: {} would be removed or moved, {} added\n",
                counted(counts->removed, "triangle"),
                counts->added);
   }

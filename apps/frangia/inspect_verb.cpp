@@ -135,7 +135,7 @@ void print_result(const SurfaceError& error,
     print_json(json);
     return;
   }
-  fmt::print(
+  print_text(
       "{} vertices: RMS {:.4f} mm, bias {}, 95 % within {:.4f}, 99 % within {:.4f}, all "
       "within {:.4f}\n",
       error.count,
@@ -144,7 +144,7 @@ void print_result(const SurfaceError& error,
       error.p95_mm,
       error.p99_mm,
       error.max_mm);
-  fmt::print("{:.1f} % of the {} has mesh within {} mm\n",
+  print_text("{:.1f} % of the {} has mesh within {} mm\n",
              100.0 * completeness.share,
              arguments.scan.empty() ? "reference" : "reference that the scan's views could measure",
              arguments.within_mm);

@@ -17,6 +17,7 @@
 #include "counted.h"
 #include "mesh_result.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "text_table.h"
 #include "write_options.h"
 
@@ -95,8 +96,8 @@ void print_result(const MergedScans& result, const MergeArguments& arguments, Te
     return;
   }
   if (terminal.quiet) return;
-  fmt::print("{}", table_of(result.scans));
-  fmt::print("{} points from {} -> {} triangles\n",
+  write_output(table_of(result.scans));
+  print_text("{} points from {} -> {} triangles\n",
              result.points,
              counted(result.scans.size(), "scan"),
              result.mesh.triangles.size());

@@ -1,6 +1,5 @@
 #include "mesh_result.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -36,7 +35,7 @@ void print_mesh_summary(Terminal& terminal, const std::vector<std::filesystem::p
   if (terminal.verbose) {
     for (const auto& [stage, seconds] : terminal.stage_seconds())
       print_text("  {:<10}{:7.2f} s\n", stage, seconds);
-    fmt::print("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
+    print_text("  {:<10}{:7.0f} MB\n", "peak", peak_memory_mb());
   }
   for (const auto& path : outputs)
     print_text("wrote {}\n", path.string());

@@ -69,14 +69,14 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
     print_json(json);
     return;
   }
-  fmt::print(
+  write_output(fmt::format(
       "{}, {} = {:.6g}\nfringes over the field: {:.4g}\nprobability of a wrong order: {:.1e} per "
       "pixel\n",
       counted(values.size(), "pattern"),
       key,
       fmt::join(values, ", "),
       fmt::join(found.fringes, ", "),
-      found.wrong_order);
+      found.wrong_order));
 }
 
 }  // namespace

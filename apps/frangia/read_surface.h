@@ -14,7 +14,7 @@ namespace frangia {
 
 /// Reads a mesh that must have triangles.
 ///
-/// errors   Error(Input) as read_mesh, and when the file holds points alone
+/// @errors   Error(Input) as read_mesh, and when the file holds points alone
 inline Mesh read_surface(const std::filesystem::path& path,
                          const Run& run = {},
                          const ReadOptions& options = {}) {

@@ -18,6 +18,7 @@
 #include "fixed_text.h"
 #include "mesh_result.h"
 #include "option_values.h"
+#include "print_text.h"
 #include "reconstruct_options.h"
 #include "text_table.h"
 #include "verbs.h"
@@ -75,9 +76,7 @@ nlohmann::ordered_json json_of(const std::vector<ViewSummary>& views) {
                     {"angle_deg", deg_from_rad(view.angle_rad)},
                     {"setup", view.setup},
                     {"points", view.points},
-                    {"sigma_mm",
-                     std::isnan(view.sigma_mm) ? nlohmann::ordered_json()
-                                               : nlohmann::ordered_json(view.sigma_mm)},
+                    {"sigma_mm", view.sigma_mm},  // NaN is written as null
                     {"left_out", view.left_out}});
   }
   return json;
@@ -124,8 +123,8 @@ void print_result(const Reconstruction& result,
   }
   if (terminal.quiet) return;
   terminal.finish();
-  fmt::print("{}", table_of(result.view_summaries));
-  fmt::print("{} points from {} -> {} triangles\n",
+  write_output(table_of(result.view_summaries));
+  print_text("{} points from {} -> {} triangles\n",
              result.points,
              counted(result.views, "view"),
              result.mesh.triangles.size());

@@ -25,7 +25,7 @@ struct ResponseArguments {
 };
 
 void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
-  check_can_write(arguments.output);  // fails before the work where no file can be written
+  check_can_write(arguments.output);
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
   std::vector<FrameStack> ramps;

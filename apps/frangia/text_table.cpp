@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "terminal_text.h"
+
 namespace frangia {
 namespace {
 
@@ -15,11 +17,9 @@ std::size_t width_of(const TextColumn& column) {
   return width;
 }
 
-void add_cell(std::string& line, const TextColumn& column, const std::string& value) {
-  const std::size_t width = width_of(column);
+void add_cell(std::string& line, bool numbers, const std::string& value, std::size_t width) {
   line += line.empty() ? "" : "  ";
-  line +=
-      column.numbers ? fmt::format("{:>{}}", value, width) : fmt::format("{:<{}}", value, width);
+  line += numbers ? fmt::format("{:>{}}", value, width) : fmt::format("{:<{}}", value, width);
 }
 
 std::string without_spaces_at_end(const std::string& line) {
@@ -28,16 +28,21 @@ std::string without_spaces_at_end(const std::string& line) {
 
 }  // namespace
 
-std::string text_table(const std::vector<TextColumn>& columns) {
+std::string text_table(std::vector<TextColumn> columns) {
   std::string titles;
-  for (const TextColumn& column : columns)
-    add_cell(titles, column, column.title);
+  std::vector<std::size_t> widths;
+  for (TextColumn& column : columns) {
+    for (std::string& value : column.values)
+      value = terminal_text(value);
+    widths.push_back(width_of(column));
+    add_cell(titles, column.numbers, column.title, widths.back());
+  }
   std::string text = without_spaces_at_end(titles) + '\n';
   const std::size_t rows = columns.empty() ? 0 : columns.front().values.size();
   for (std::size_t row = 0; row < rows; ++row) {
     std::string line;
-    for (const TextColumn& column : columns)
-      add_cell(line, column, column.values[row]);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      add_cell(line, columns[i].numbers, columns[i].values[row], widths[i]);
     text += without_spaces_at_end(line) + '\n';
   }
   return text;

@@ -13,8 +13,9 @@ struct TextColumn {
 };
 
 /// Lays out columns under their titles, with two spaces between them and none at the end of a line.
+/// Values are printed as `terminal_text` returns them.
 ///
-/// shape    columns of the same length
-[[nodiscard]] std::string text_table(const std::vector<TextColumn>& columns);
+/// @shape    columns of the same length
+[[nodiscard]] std::string text_table(std::vector<TextColumn> columns);
 
 }  // namespace frangia

@@ -1,16 +1,15 @@
 // The verbs calibrate board and calibrate rig: files, exit codes and one sentence.
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frangia/rig/read_rig.h"
 
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -18,11 +17,7 @@ namespace {
 using testing::Answer;
 using testing::run_program;
 using testing::TemporaryFolder;
-
-std::string text_in(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using testing::text_of;
 
 TEST(CalibrateProgram, WritesABoardAtTrueScale) {
   const TemporaryFolder folder;
@@ -30,7 +25,7 @@ TEST(CalibrateProgram, WritesABoardAtTrueScale) {
   const Answer answer = run_program("calibrate board -o " + file.string());
   EXPECT_EQ(answer.exit_code, 0) << answer.output;
   EXPECT_NE(answer.output.find("square_mm = 22"), std::string::npos) << answer.output;
-  const std::string pdf = text_in(file);
+  const std::string pdf = text_of(file);
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
   // A4 in points, and squares of 22 mm = 62.36 points.
   EXPECT_NE(pdf.find("841.88"), std::string::npos);
@@ -55,12 +50,12 @@ TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
             std::string::npos)
       << answer.output;
   EXPECT_TRUE(read_rig(rig).calibration);
-  EXPECT_NE(text_in(rig).find("[devices.camera]"), std::string::npos);
-  EXPECT_EQ(text_in(folder.path() / "rig-covariance.csv").substr(0, 26),
+  EXPECT_NE(text_of(rig).find("[devices.camera]"), std::string::npos);
+  EXPECT_EQ(text_of(folder.path() / "rig-covariance.csv").substr(0, 26),
             "parameter,camera.focal_px,");
 
   std::ofstream(folder.path() / "poses/scan.toml", std::ios::app) << "\n# end\n";
-  std::string scan = text_in(folder.path() / "poses/scan.toml");
+  std::string scan = text_of(folder.path() / "poses/scan.toml");
   const std::string corners = "corners = [10, 7]";
   ASSERT_NE(scan.find(corners), std::string::npos) << scan;
   scan.replace(scan.find(corners), corners.size(), "corners = [8, 6]");

@@ -1,12 +1,16 @@
 // Names and keys with control characters, bytes that are not UTF-8, and an output that cannot be
 // written.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "frangia/files/ply.h"
 
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
@@ -66,6 +70,27 @@ TEST(HostileText, AKeyOfATomlFileCannotForgeALine) {
   EXPECT_EQ(answer.output.find("\nwarning: forged"), std::string::npos);
 }
 
+TEST(HostileText, ANameInATableCannotForgeALine) {
+  const TemporaryFolder folder;
+  Mesh relief;
+  constexpr std::uint32_t kSide = 50;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const auto x = static_cast<float>(i % kSide);
+    const auto y = static_cast<float>(i / kSide);
+    relief.vertices_mm.emplace_back(x, y, 8.0F * std::sin(0.1F * x) * std::cos(0.08F * y));
+    if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
+    relief.triangles.push_back({i, i + 1, i + kSide + 1});
+    relief.triangles.push_back({i, i + kSide + 1, i + kSide});
+  }
+  write_ply(folder.path() / "a\x1b[31m\nforged.ply", relief);
+  const Answer answer = run_shell(fmt::format(
+      "cd {} && {} merge a*forged.ply -o merged.ply", folder.path().string(), FRANGIA_PROGRAM));
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_TRUE(is_plain(answer.output)) << answer.output;
+  EXPECT_NE(answer.output.find(R"(a\x1b[31m\nforged)"), std::string::npos) << answer.output;
+  EXPECT_EQ(answer.output.find("\nforged"), std::string::npos) << answer.output;
+}
+
 TEST(HostileText, JsonIsValidWhateverTheNameOfAFile) {
   const TemporaryFolder folder;
   const Answer answer =
@@ -82,14 +107,31 @@ TEST(HostileText, JsonIsValidWhateverTheNameOfAFile) {
 }
 
 TEST(HostileText, AnOutputThatCannotBeWrittenIsAnError) {
-  for (const char* arguments :
-       {"algorithms", "--json algorithms", "--help", "--version", "--help-all"}) {
+  for (const char* arguments : {"algorithms",
+                                "--json algorithms",
+                                "algorithms --json",
+                                "--help",
+                                "--version",
+                                "--help-all"}) {
     const Answer answer = run_shell(fmt::format("{} {} >/dev/full", FRANGIA_PROGRAM, arguments));
     EXPECT_EQ(answer.exit_code, 3) << arguments;
     EXPECT_NE(answer.output.find("standard output cannot be written"), std::string::npos)
         << arguments << ": " << answer.output;
   }
   EXPECT_EQ(run_shell(FRANGIA_PROGRAM " algorithms >/dev/null").exit_code, 0);
+}
+
+TEST(HostileText, AnOutputWithoutAReaderEndsTheProgramAsOthersEnd) {
+  for (const char* arguments : {"--help-all", "algorithms", "--json algorithms"}) {
+    const Answer answer = run_shell(
+        fmt::format("{{ sleep 0.2; {} {}; echo $? >&2; }} | true", FRANGIA_PROGRAM, arguments));
+    EXPECT_EQ(answer.output, "141\n") << arguments;
+  }
+}
+
+TEST(HostileText, AnErrorKeepsItsExitCodeWhenStandardErrorCannotBeWritten) {
+  const Answer answer = run_shell(FRANGIA_PROGRAM " edit missing.ply --list 2>/dev/full");
+  EXPECT_EQ(answer.exit_code, 3) << answer.output;
 }
 
 }  // namespace
