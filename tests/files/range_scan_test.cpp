@@ -7,6 +7,7 @@
 
 #include "frangia/core/error.h"
 
+#include "support/error_of.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -66,12 +67,7 @@ TEST(RangeScan, RotatesByTheConjugateOfTheQuaternionInAConf) {
 std::string fault_of(const std::string& text) {
   const TemporaryFolder folder;
   write(folder.path() / "grid.ply", text);
-  try {
-    static_cast<void>(read_range_scan(folder.path() / "grid.ply"));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
+  return testing::error_of([&] { return read_range_scan(folder.path() / "grid.ply"); });
 }
 
 std::string with(std::string text, const std::string& from, const std::string& to) {

@@ -119,10 +119,11 @@ bool is_temporary_file_name(const std::string& name) {
 
 std::size_t remove_temporary_files(const std::filesystem::path& folder) {
   std::size_t count = 0;
-  std::error_code ignored;
-  for (std::filesystem::recursive_directory_iterator entry(folder, ignored), end;
-       !ignored && entry != end;
-       entry.increment(ignored)) {
+  std::error_code error;
+  for (std::filesystem::recursive_directory_iterator entry(folder, error), end;
+       !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;  // a file that cannot be removed does not end the search
     const bool is_file =
         entry->symlink_status(ignored).type() == std::filesystem::file_type::regular;
     if (is_file && is_temporary_file_name(entry->path().filename().string()))

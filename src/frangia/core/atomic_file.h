@@ -19,7 +19,8 @@ namespace frangia {
 ///          folder, a device or a named pipe
 class AtomicFile {
  public:
-  /// Opens the temporary file beside `path`; with Durability::Synced, `commit` waits for the disk.
+  /// Opens the temporary file in the folder of `path`. With Durability::Synced, `commit` waits for
+  /// the disk.
   explicit AtomicFile(std::filesystem::path path, Durability durability = Durability::Buffered);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

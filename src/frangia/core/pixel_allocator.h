@@ -16,7 +16,7 @@ namespace frangia {
 /// Frees memory that `allocate_pixels(bytes)` returned. `bytes` must be the same.
 void free_pixels(void* memory, std::size_t bytes) noexcept;
 
-/// The allocator of Image. Elements constructed without a value stay uninitialized.
+/// The allocator of LargeVector. Elements constructed without a value stay uninitialized.
 template <typename T>
 struct PixelAllocator {
   using value_type = T;  ///< type of a pixel

@@ -44,7 +44,7 @@ std::vector<char> read_regular_file(const std::filesystem::path& path, std::size
   if (path.native().find('\0') != std::string::npos)
     throw Error(
         ErrorKind::Input,
-        fmt::format("{}: the name goes on after a NUL character; rename the file", path.c_str()));
+        fmt::format("{}: the name continues after a NUL character; rename the file", path.c_str()));
   struct ::stat state {};
   const Descriptor descriptor(
       ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));  // NOLINT(*-vararg)

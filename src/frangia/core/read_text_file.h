@@ -10,7 +10,8 @@ namespace frangia {
 /// parsed file takes up to 100 times its size in memory.
 inline constexpr std::uint64_t kMaxTextFileBytes = 8'000'000;
 
-/// Reads a whole regular file of at most `max_bytes`. It never waits for a pipe or a device.
+/// Reads a whole regular file of at most `max_bytes`, without changing its bytes. It never waits
+/// for a pipe or a device.
 ///
 /// @errors   Error(Input) that names the file: it does not exist, is not a regular file, is larger
 ///          than `max_bytes`, or cannot be read

@@ -9,7 +9,7 @@
 namespace frangia {
 
 /// Reads the triangles of a glTF 2.0 scene, each transformed by its nodes: a .glb, or a .gltf with
-/// its buffers embedded or in files beside it.
+/// its buffers embedded or in files of the same folder.
 ///
 /// @shape    normals are read when every primitive has them, and the attributes _SIGMA_MM, _VIEWS
 ///          and _MARK that write_gltf writes; marks of triangles follow from the names of materials

@@ -53,11 +53,11 @@ std::pair<std::string_view, std::string_view> chunks_of(const GltfDocument& docu
 
 std::string outside_buffer(const GltfDocument& document, const std::string& uri) {
   const std::filesystem::path name(uri);
-  const bool beside = !uri.empty() && name.filename() == name && uri != ".." &&
-                      uri.find(':') == std::string::npos && uri.find('%') == std::string::npos;
-  if (!beside) {
-    document.fail(
-        fmt::format("its buffer {} is not in a file beside it; export it as .glb", in_quotes(uri)));
+  const bool in_folder = !uri.empty() && name.filename() == name && uri != ".." &&
+                         uri.find(':') == std::string::npos && uri.find('%') == std::string::npos;
+  if (!in_folder) {
+    document.fail(fmt::format("its buffer {} is not a file in the same folder; export it as .glb",
+                              in_quotes(uri)));
   }
   return read_bytes(document.path.parent_path() / name);
 }

@@ -27,7 +27,7 @@ struct GltfDocument {
   nlohmann::json json;
   std::map<std::string, std::string> files;  ///< contents of the files and embedded buffers by uri
   std::vector<std::string_view> buffers;     ///< into `bytes` or `files`
-  std::uint64_t total_bytes = 0;             ///< of the file and the files beside it
+  std::uint64_t total_bytes = 0;             ///< of the file and of the buffer files that it names
 
   GltfDocument() = default;
   GltfDocument(const GltfDocument&) = delete;  // the views of a copy refer to the original
@@ -71,7 +71,7 @@ struct GltfDocument {
 /// Reads a .gltf or .glb with all of its buffers. A file that several buffers name is read once.
 ///
 /// @errors   Error(Input) that names the file: invalid JSON, chunks or buffers that are truncated,
-///          a buffer that is neither embedded nor in a file beside it
+///          a buffer that is neither embedded nor a file in the same folder
 void read_gltf_document(const std::filesystem::path& path, GltfDocument& document);
 
 }  // namespace frangia

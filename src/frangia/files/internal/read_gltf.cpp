@@ -22,8 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t kTriangles = kGltfTriangles;
-
 Eigen::Affine3d transform_of(const GltfDocument& document, const json& node) {
   const auto numbers = [&](const char* key, std::vector<double> usual) {
     if (!node.contains(key)) return usual;
@@ -126,12 +124,12 @@ class GltfReader {
     Mesh part;
     json attributes;
     for (const auto& primitive : mesh.at("primitives")) {
-      const std::uint64_t mode = document_.whole_or(primitive, "mode", kTriangles);
-      if (mode < kTriangles) {
+      const std::uint64_t mode = document_.whole_or(primitive, "mode", kGltfTriangles);
+      if (mode < kGltfTriangles) {
         ++skipped_;
         continue;
       }
-      if (mode > kTriangles)
+      if (mode > kGltfTriangles)
         document_.fail("triangle strips and fans are not supported; export it as triangles");
       if (primitive.contains("extensions") &&
           primitive.at("extensions").contains("KHR_draco_mesh_compression")) {

@@ -1,3 +1,7 @@
+#include <array>
+#include <cstddef>
+#include <string>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -25,16 +29,18 @@ void write_off(const std::filesystem::path& path, const Mesh& mesh) {
     file.number(place.z());
     file.text("\n");
   }
+  const auto line_end = [](Mark mark) {
+    return fmt::format(" {}\n", fmt::join(mark_screen_color(mark), " "));
+  };
+  const std::array<std::string, 3> line_ends{
+      "\n", line_end(Mark::Displaced), line_end(Mark::Synthesized)};  // indexed by Mark
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     file.text("3");
     for (const std::uint32_t corner : mesh.triangles[i]) {
       file.text(" ");
       file.number(std::size_t{corner});
     }
-    const Mark mark = mark_of(mesh, i);
-    if (mark != Mark::Measured)
-      file.text(fmt::format(" {}", fmt::join(mark_screen_color(mark), " ")));
-    file.text("\n");
+    file.text(line_ends.at(static_cast<std::size_t>(mark_of(mesh, i))));
   }
   file.commit();
 }
