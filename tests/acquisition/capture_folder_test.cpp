@@ -2,6 +2,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,6 @@ class CaptureFolder : public testing::SimulatedCapture {
   }
   void write_manifest(const std::string& text) const {
     std::ofstream(manifest(), std::ios::binary) << text;
-  }
-  /// The bytes of the images only.
-  [[nodiscard]] Bytes images() const {
-    Bytes images = bytes();
-    std::erase_if(images, [](const auto& file) { return !file.first.ends_with(".png"); });
-    return images;
   }
 };
 
@@ -164,7 +159,7 @@ TEST_F(CaptureFolder, DoesNotRecoverFramesOfARejectedSet) {
   EXPECT_TRUE(images() == whole);
 }
 
-TEST_F(CaptureFolder, IsResumedAfterADiskThatFilledWhileThePlanWasLaidDown) {
+TEST_F(CaptureFolder, IsResumedAfterADiskThatFilledWhileThePlanWasStored) {
   static_cast<void>(capture());
   const Bytes whole = images();
   for (const ::rlim_t bytes : {0U, 10U, 100U, 300U, 700U}) {
@@ -206,9 +201,9 @@ TEST_F(CaptureFolder, OfAnotherPartDeviceOrPlanIsRefusedWithTheDifference) {
   EXPECT_TRUE(mentions(complaint(), "[[view]] 2: angle_deg = 90")) << complaint();
 }
 
-TEST_F(CaptureFolder, IsTheSameScanWhenADeviceIsReachedOtherwiseOrIsSlower) {
+TEST_F(CaptureFolder, IsTheSameScanWhenADeviceHasAnotherSpeedOrLimit) {
   static_cast<void>(capture());
-  devices_["turntable"] += "speed_deg_per_s = 1000\nmax_deg = 500\n";
+  devices_["turntable"] += "speed_deg_per_s = 1000\nmax_deg = 500\nhome_time_s = 90\n";
   EXPECT_EQ(complaint(), "");
 }
 

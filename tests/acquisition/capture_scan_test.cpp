@@ -136,7 +136,10 @@ TEST_F(CaptureScan, IncompleteFramesAreTakenAgainAndCounted) {
 
 TEST_F(CaptureScan, LostFrameHasItsViewTakenAgain) {
   devices_["camera"] += "faults = [\"lost 1 fringe 2\"]\n";
-  EXPECT_TRUE(capture().skipped.empty());
+  const CaptureReport report = capture();
+  EXPECT_TRUE(report.skipped.empty());
+  EXPECT_EQ(report.captured, 15U);
+  EXPECT_EQ(report.resumed, 0U) << "frames from before the fault are of this session";
   ASSERT_EQ(warnings_.size(), 1U);
   EXPECT_TRUE(
       holds(warnings_.front(), "view 2 is captured again: simulated camera: no frame came"));

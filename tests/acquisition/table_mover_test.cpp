@@ -43,11 +43,6 @@ class TableWithoutSwitch : public testing::SimulatedCapture {
     const std::size_t line = text.rfind("table ");
     return line == std::string::npos ? "" : text.substr(line, text.find(" crc=", line) - line);
   }
-  [[nodiscard]] std::map<std::string, std::string> images() const {
-    auto images = bytes();
-    std::erase_if(images, [](const auto& file) { return !file.first.ends_with(".png"); });
-    return images;
-  }
 };
 
 bool says(const std::string& text, const std::string& part) {

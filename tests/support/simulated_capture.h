@@ -1,7 +1,6 @@
 #pragma once
 
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 #include <stop_token>
@@ -17,6 +16,7 @@
 #include "support/all_drivers.h"
 #include "support/small_scan.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia::testing {
 
@@ -83,14 +83,19 @@ class SimulatedCapture : public ::testing::Test {
     std::map<std::string, std::string> all;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(plan_.folder)) {
       if (!entry.is_regular_file()) continue;
-      std::ifstream in(entry.path(), std::ios::binary);
-      all[std::filesystem::relative(entry.path(), plan_.folder).string()] = {
-          std::istreambuf_iterator<char>(in), {}};
+      all[std::filesystem::relative(entry.path(), plan_.folder).string()] = text_of(entry.path());
     }
     std::istringstream lines(std::exchange(all["capture/manifest.txt"], {}));
     for (std::string line; std::getline(lines, line);)
       if (!line.starts_with("table ")) all["capture/manifest.txt"] += line + "\n";
     return all;
+  }
+
+  /// The bytes of the images only.
+  [[nodiscard]] std::map<std::string, std::string> images() const {
+    auto images = bytes();
+    std::erase_if(images, [](const auto& file) { return !file.first.ends_with(".png"); });
+    return images;
   }
 
   TemporaryFolder folder_;

@@ -11,12 +11,12 @@ namespace frangia {
 /// Captures `plan` into `plan.folder`. An interrupted capture continues at the first missing frame
 /// and gives the same bytes as an uninterrupted one on the same rig.
 ///
-/// A frame and its checksum in the manifest are on the disk before the next but one is exposed.
-/// Stored frames are never changed; the frames of a set that is captured again move to the folder
-/// `rejected` of their view. A failing view is retried, then skipped with a warning. scan.toml is
-/// written last and holds the complete views. Then the turntable returns to 0, unless a view was
-/// skipped. Lights and motion are off when the function returns or throws; after a stop or a fault
-/// nothing moves.
+/// When a frame is exposed, all frames but the last three before it are on the disk, with their
+/// checksums in the manifest. Stored frames are never changed; the frames of a set that is captured
+/// again move to the folder `rejected` of their view. A failing view is retried, then skipped with
+/// a warning. scan.toml is written last and holds the complete views. Then the turntable returns to
+/// 0, unless a view was skipped. Lights and motion are off when the function returns or throws;
+/// after a stop or a fault nothing moves.
 ///
 /// The folder belongs to the same scan under another name or in another place. A turntable without
 /// a home switch cannot find its angle again: a session that continues a scan and has to turn it

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/angles.h"
 #include "frangia/pattern/pattern_picture.h"
 
 namespace frangia {
@@ -52,9 +51,9 @@ CaptureDevices::CaptureDevices(RigDevices& devices,
 
 void CaptureDevices::turn_to(double angle_rad) {
   if (!devices_.turntable) return;
+  end_set();
   const Stopwatch watch(seconds_);
   TurntableDevice& table = *devices_.turntable;
-  end_set();
   if (!enabled_) table.enable(true, deadline(options_.timeout_s));
   enabled_ = true;
   if (!table.angle_rad() && standing_rad_ && !table.info().can_home) {

@@ -21,7 +21,7 @@ struct CompleteFrame {
 /// homes the table when needed, and sums the time of all device calls.
 class CaptureDevices {
  public:
-  /// @errors   Error(Input) when the devices cannot show the patterns or reach the angles
+  /// The references must outlive this object.
   CaptureDevices(RigDevices& devices,
                  const Rig& rig,
                  const CaptureOptions& options,

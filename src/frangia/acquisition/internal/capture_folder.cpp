@@ -2,8 +2,7 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/read_text_file.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/rig/read_rig.h"
@@ -43,9 +43,13 @@ std::string identity_of(const std::string& text) {
   return text.substr(0, begin) + (end == std::string::npos ? "" : text.substr(end));
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+/// The text of a stored file; empty when it is missing or cannot be read.
+std::string stored_text(const std::filesystem::path& path) {
+  try {
+    return read_text_file(path);
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 void write_durably(const std::filesystem::path& path, const std::string& text) {
@@ -81,7 +85,7 @@ void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, c
   const CaptureManifest manifest(folder);
   for (const PlanFile& file : files) {
     const std::filesystem::path path = folder / "capture" / file.name;
-    const std::string before = identity_of(text_of(path));
+    const std::string before = identity_of(stored_text(path));
     const std::string now = identity_of(file.text);
     if (before == now) continue;
     const auto stored = manifest.plan_checksums().find(file.name);

@@ -74,6 +74,8 @@ class CaptureManifest {
   void add_table_move(double target_deg);
   void add_table_at(double angle_deg);
 
+  /// Number of stored frames, without those of rejected sets.
+  [[nodiscard]] std::size_t frame_count() const { return frames_.size(); }
   [[nodiscard]] bool has(const std::string& file) const { return find(file) != nullptr; }
   [[nodiscard]] const ManifestFrame* find(const std::string& file) const;
   /// Whether the set is assessed and not rejected.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -21,10 +22,10 @@ CaptureSession::CaptureSession(Scan plan,
       options_(options),
       run_(run),
       devices_(devices, plan_.rig, options, run),
-      camera_(devices.camera->info()),
       manifest_(plan_.folder),
       table_(devices_, manifest_, devices.turntable.get(), options.table_at_rad, run),
-      exposures_(choose_exposures(plan_, devices_, camera_, table_, manifest_, options_, run_)),
+      exposures_(choose_exposures(
+          plan_, devices_, devices.camera->info(), table_, manifest_, options_, run_)),
       files_(plan_, manifest_),
       store_(manifest_),
       assessor_(plan_, run),
@@ -38,6 +39,7 @@ CaptureSession::CaptureSession(Scan plan,
       total_(static_cast<std::ptrdiff_t>(plan_.views.size() * files_.frames_per_view())) {
   report_.exposures_ms = exposures_.fringes_ms;
   check_stored_frames();
+  report_.resumed = manifest_.frame_count();
 }
 
 void CaptureSession::check_stored_frames() {
@@ -58,7 +60,6 @@ CaptureReport CaptureSession::capture() {
   return_table();
   const std::chrono::duration<double> time = Deadline::Clock::now() - begin_;
   report_.captured = sets_.captured();
-  report_.resumed += sets_.resumed();
   report_.frame_retries = manifest_.retries();
   report_.set_retakes = manifest_.retakes();
   report_.device_s = devices_.seconds();
@@ -92,7 +93,6 @@ void CaptureSession::capture_view_once(std::size_t view) {
 /// Captures the missing frames of a view. Returns the reason of a failure, or an empty text.
 std::string CaptureSession::capture_view(std::size_t view) {
   if (files_.is_complete(view)) {
-    report_.resumed += files_.frames_per_view();
     count(static_cast<std::ptrdiff_t>(files_.frames_per_view()));
     return {};
   }

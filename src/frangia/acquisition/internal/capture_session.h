@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 
 #include "frangia/acquisition/capture_options.h"
@@ -44,7 +43,6 @@ class CaptureSession {
   const CaptureOptions& options_;
   const Run& run_;
   CaptureDevices devices_;
-  CameraInfo camera_;
   CaptureManifest manifest_;
   TableMover table_;
   ChosenExposures exposures_;  ///< adds the exposures of a bracket to the plan

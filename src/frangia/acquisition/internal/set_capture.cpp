@@ -112,7 +112,6 @@ std::vector<SetCapture::FramePtr> SetCapture::acquire(std::size_t view,
       const std::string file = parts_.files.file_of(view, pattern, frame, exposure);
       if (stored[frames.size()]) {
         frames.push_back(std::make_shared<const Frame>(read_png(parts_.plan.folder / file)));
-        ++resumed_;
       } else {
         const FrameLabel label{static_cast<int>(view), pattern.name, frame, exposure, attempt};
         parts_.devices.expose_for(exposure_of(pattern, exposure));

@@ -48,8 +48,8 @@ class SetCapture {
   /// after the other.
   [[nodiscard]] std::vector<FramePtr> capture(std::size_t view, const Pattern& pattern);
 
-  [[nodiscard]] std::size_t captured() const { return captured_; }  ///< frames stored
-  [[nodiscard]] std::size_t resumed() const { return resumed_; }    ///< frames stored before
+  /// Number of frames captured so far.
+  [[nodiscard]] std::size_t captured() const { return captured_; }
 
  private:
   void capture_trial_set(std::size_t view, const Pattern& pattern);
@@ -66,7 +66,6 @@ class SetCapture {
   double exposure_ms_;
   std::function<void(std::ptrdiff_t)> on_frames_;
   std::size_t captured_ = 0;
-  std::size_t resumed_ = 0;
 };
 
 }  // namespace frangia
