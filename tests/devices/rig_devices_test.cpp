@@ -4,7 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +113,20 @@ TEST(MakeSafe, ADeviceThatHangsKeepsNoOtherOn) {
   std::jthread safe([&] { make_safe(devices); });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_FALSE(light.is_on());
+}
+
+TEST(MakeSafe, SwitchesMoreDevicesOffThanARigHas) {
+  std::array<std::atomic<bool>, 12> on;
+  std::vector<std::unique_ptr<TestSwitch>> lights;
+  std::vector<Device*> devices;
+  for (std::atomic<bool>& state : on) {
+    state = true;
+    lights.push_back(std::make_unique<TestSwitch>(&state));
+    devices.push_back(lights.back().get());
+  }
+  make_safe(devices);
+  for (const std::atomic<bool>& state : on)
+    EXPECT_FALSE(state);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ class Device {
   [[nodiscard]] virtual std::string test(const Deadline& deadline) = 0;
 
   /// Switches light off and stops and disables motion as fast as possible. Called on any fault, on
-  /// a signal and at the end, and side by side with the other devices of the rig; never throws.
+  /// a signal and at the end, in parallel with the other devices of the rig; never throws.
   /// Returns within 2 s even when the device does not answer.
   virtual void make_safe() noexcept = 0;
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/types.h>
@@ -73,7 +74,7 @@ class Guardian {
 };
 
 /// The work of a guardian process: holds the lines that `Guardian` sends over `socket`, and
-/// switches their devices off side by side when the connection breaks.
+/// switches their devices off in parallel when the connection breaks.
 ///
 /// @return   exit code of the process: 0 after a farewell or after it has acted, 2 when `socket` is
 ///           not the connection of a guardian

@@ -106,7 +106,8 @@ void make_safe(std::span<Device* const> devices) noexcept {
   for (Device* device : devices) {
     if (device == nullptr || is_display(device)) continue;
     try {
-      threads.at(running) = std::thread([device] { device->make_safe(); });
+      std::thread& next = threads.at(running);  // throws before a thread is started
+      next = std::thread([device] { device->make_safe(); });
       ++running;
     } catch (const std::exception&) {  // no further thread can be started
       device->make_safe();

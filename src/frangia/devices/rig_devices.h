@@ -17,8 +17,8 @@
 
 namespace frangia {
 
-/// Makes devices safe side by side, so that one that does not answer delays no other. Displays are
-/// made safe by the calling thread, which their windows belong to.
+/// Makes devices safe in parallel, so that a device that does not answer delays no other. Displays
+/// are made safe by the calling thread, which owns their windows.
 void make_safe(std::span<Device* const> devices) noexcept;
 
 /// The devices of a rig, null where it has none. On destruction and on any fault all are made safe.
@@ -43,7 +43,7 @@ struct RigDevices {
 
   /// All devices of the rig, light first.
   [[nodiscard]] std::vector<Device*> all() const;
-  /// Switches off all light and stops all motion, side by side; see `Device::make_safe`.
+  /// Switches off all light and stops all motion, in parallel; see `Device::make_safe`.
   void make_safe() noexcept;
   /// As `make_safe`, but a turntable at rest at a known angle stays enabled and keeps the angle.
   void make_dark() noexcept;

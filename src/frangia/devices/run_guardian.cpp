@@ -1,12 +1,12 @@
-// The guardian process. It keeps to plain system calls, since the machine may be out of memory or
-// disk space when the program that started it dies.
+// The guardian process. It writes no files and needs little memory, since the machine may be out of
+// disk space or memory when the program that started it dies.
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <map>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -87,7 +87,7 @@ void switch_all_off(const std::map<int, HeldLine>& lines) {
     const HeldLine& line = entry.second;
     try {
       threads.emplace_back([&line] { switch_off(line); });
-    } catch (const std::system_error&) {
+    } catch (const std::exception&) {  // no further thread can be started
       switch_off(line);
     }
   }

@@ -52,7 +52,7 @@ class MotionController {
   void add_off_command(const std::string& command) { off_commands_.push_back(command); }
   /// The number of stops so far. A stop invalidates known positions and outputs.
   [[nodiscard]] int stop_count() const { return stop_count_; }
-  /// Devices that share the board and are made safe side by side lock it.
+  /// Devices that share the board lock it in `make_safe`, which runs in parallel.
   [[nodiscard]] std::mutex& mutex() { return mutex_; }
 
  protected:

@@ -37,13 +37,10 @@ void StepperTurntable::enable(bool on, const Deadline& deadline) {
 
 void StepperTurntable::home(const Deadline& deadline) {
   if (!enabled_) fail_device(*this, "it is not enabled; enable it before homing");
+  if (!options_.info.can_home) return set_angle(0.0, deadline);
   angle_rad_.reset();
   backlash_taken_up_ = false;
-  if (options_.info.can_home) {
-    board_->home(deadline);
-  } else {
-    board_->set_zero(deadline);
-  }
+  board_->home(deadline);
   zero_deg_ = 0.0;
   stop_count_ = board_->stop_count();
   angle_rad_ = 0.0;
