@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <variant>
 
@@ -14,6 +13,7 @@
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -75,14 +75,12 @@ TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {
   const TemporaryFolder folder;
   const auto known = save_known(folder, kSizesOnly);
   const auto path = folder.path() / "rig.toml";
-  Rig rig = read_rig(known, {}, RigContent::StartValues);
+  const Rig rig = read_rig(known, {}, RigContent::StartValues);
   write_rig(path, rig, Durability::Buffered, known);
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  EXPECT_NE(text.str().find("[devices.camera]"), std::string::npos) << text.str();
-  EXPECT_NE(text.str().find("exposure_ms = 12.5"), std::string::npos) << text.str();
-  EXPECT_NE(text.str().find("[devices.turntable]"), std::string::npos) << text.str();
+  const std::string text = testing::text_of(path);
+  EXPECT_NE(text.find("[devices.camera]"), std::string::npos) << text;
+  EXPECT_NE(text.find("exposure_ms = 12.5"), std::string::npos) << text;
+  EXPECT_NE(text.find("[devices.turntable]"), std::string::npos) << text;
 }
 
 TEST(ReadRig, TakesStartValuesFromAFileThatHoldsSizesOnly) {

@@ -1,6 +1,7 @@
-// Poses of a board, projected by OpenCV: an error of convention of ours cannot cancel.
+// Poses of a board, projected by OpenCV, so that an error in our own convention cannot cancel out.
 #pragma once
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ namespace frangia::testing {
 inline const Board kBoard{
     .kind = BoardKind::Checkerboard, .columns = 10, .rows = 7, .square_mm = 15.0};
 
-/// A rig of which the sizes are known only.
+/// A rig of which only the sizes are known.
 inline Rig known_rig() {
   const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
   Rig rig;
@@ -28,7 +29,7 @@ inline Rig known_rig() {
   return rig;
 }
 
-/// A rig as OpenCV has it.
+/// A rig in the convention of OpenCV.
 struct TrueRig {
   cv::Mat camera =
       (cv::Mat_<double>(3, 3) << 2400.0, 0.0, 646.8, 0.0, 2400.0, 507.4, 0.0, 0.0, 1.0);
@@ -74,7 +75,8 @@ inline std::vector<BoardView> make_views(
                          seen[k].y + noise_px * normal(random)};
       point.projector_px = {lit[k].x + noise_px * normal(random),
                             lit[k].y + noise_px * normal(random)};
-      point.projector_sigma_px = Eigen::Vector2d::Constant(0.05);  // stated half of what it is
+      point.projector_sigma_px =
+          Eigen::Vector2d::Constant(0.05);  // not the true noise, which is `noise_px`
       view.points.push_back(point);
     }
     views.push_back(view);

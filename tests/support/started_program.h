@@ -5,13 +5,12 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace frangia::testing {
 
-/// A program that runs beside the test, so that signals can be sent to it. Killed at the end.
+/// A program that runs in parallel with the test, which can send it signals. Killed at the end.
 class StartedProgram {
  public:
   /// `output` receives standard output and error.

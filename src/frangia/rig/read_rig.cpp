@@ -181,7 +181,7 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
     put_camera_model(writer, std::get<PinholeModel>(projector.model));
   }
   if (!projector.response) return;
-  constexpr int kDigits = 6;  // far beyond what a response is measured to
+  constexpr int kDigits = 6;  // a measured response is less certain than the sixth digit
   std::vector<double> light;
   for (const double value : projector.response->light)
     light.push_back(rounded_to_digits(value, kDigits));

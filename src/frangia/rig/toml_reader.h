@@ -26,7 +26,7 @@ class TomlReader {
   TomlReader(std::filesystem::path file, std::string table_name, const toml::table& table)
       : file_(std::move(file)), table_name_(std::move(table_name)), table_(&table) {}
 
-  /// Throws Error(Input) that names the file and the key and says `what` is wrong.
+  /// Throws Error(Input) with "FILE: KEY WHAT".
   [[noreturn]] void fail(std::string_view key, std::string_view what) const {
     throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), name(key), what));
   }

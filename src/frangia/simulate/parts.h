@@ -28,7 +28,7 @@ namespace frangia {
 
 [[nodiscard]] Mesh make_shaft();  ///< the part "shaft" of `make_part`
 [[nodiscard]] Mesh make_blade();  ///< the part "blade" of `make_part`
-/// The part "bust" of `make_part`; it takes a second.
+/// The part "bust" of `make_part`, the only one that is slow enough to be cancelled.
 [[nodiscard]] Mesh make_bust(const Run& run = {});
 [[nodiscard]] Mesh make_ball_bar();  ///< the part "ball-bar" of `make_part`
 [[nodiscard]] Mesh make_plate();     ///< the part "plate" of `make_part`

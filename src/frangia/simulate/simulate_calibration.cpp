@@ -101,7 +101,7 @@ Eigen::Isometry3d random_pose(const Eigen::Vector3d& crossing,
     return 2.0 * uniform_from(hash(stream, index)) - 1.0;
   };
   const double direction = kPi * even(1);
-  const double tilt = max_tilt_rad * std::sqrt(std::abs(even(2)));  // tilted poses tell most
+  const double tilt = max_tilt_rad * std::sqrt(std::abs(even(2)));  // more poses with a large tilt
   constexpr double kMaxTurn_rad = 0.35;
   constexpr double kSideways = 0.15;  // of the field
   constexpr double kDepth = 0.3;

@@ -1,5 +1,6 @@
 #include "frangia/dataset/internal/read_board.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 

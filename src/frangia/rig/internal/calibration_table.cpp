@@ -25,7 +25,7 @@ Calibration read_calibration(TomlReader reader, const Run& run) {
 }
 
 void put_calibration(TomlWriter& writer, const Calibration& calibration) {
-  constexpr int kDigits = 4;  // far beyond what these figures are known to
+  constexpr int kDigits = 4;  // the estimates are less certain than the fourth digit
   const auto rounded = [](double value) { return rounded_to_digits(value, kDigits); };
   writer.begin_table("calibration");
   writer.put("date", calibration.date);

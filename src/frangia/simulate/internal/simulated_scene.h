@@ -35,11 +35,10 @@ struct SimulatedView {
 };
 
 /// Places a part on a rig and sets the exposure by the brightest pixel of all views. `part_pose` is
-/// the pose that `part` has already; a printed board needs it.
+/// the pose already applied to `part`; it locates the plane of a printed board.
 ///
 /// @errors   Error(Input) when the part has no triangles, the rig has no turntable, or an option is
-/// out
-///          of range
+///          out of range; Error(Cancelled)
 [[nodiscard]] SimulatedScene make_simulated_scene(
     const Mesh& part,
     const Rig& rig,
