@@ -131,6 +131,16 @@ TEST(UnwrapSequence, UnwrapsANarrowBandWhoseBeatsAllExceedOneFringe) {
   EXPECT_GT(errors.kept_share, 0.999);
 }
 
+TEST(UnwrapSequence, UnwrapsByABeatThatIsSafeOnlyAtLowNoise) {
+  const std::vector<double> sequence{15.0, 16.0};
+  const std::vector<WrappedPhase> quiet = maps_of(sequence, 0.01);
+  EXPECT_TRUE(
+      determine_absolute_phase(std::vector{quiet[0].pattern, quiet[1].pattern}, wide_display()));
+  const Errors errors = errors_of(unwrap_sequence(quiet, wide_display()), 16.0);
+  EXPECT_EQ(errors.wrong_share, 0.0);
+  EXPECT_GT(errors.kept_share, 0.999);
+}
+
 TEST(UnwrapSequence, ConfusesOrdersAsOftenAsPredicted) {
   const std::vector<double> sequence{53.0, 58.0, 64.0};
   const double sigma = 0.11;

@@ -80,12 +80,19 @@ AbsolutePhase unwrap_all(std::span<const WrappedPhase> coarse_to_fine, const Unw
   return out;
 }
 
+/// Fringe counts of the maps over the field.
+std::vector<double> fringe_counts(std::span<const Pattern> patterns, const Projector& projector) {
+  std::vector<double> fringes;
+  for (const Pattern& pattern : patterns)
+    fringes.push_back(phase_range(pattern, projector).width_rad() / kTwoPi);
+  return fringes;
+}
+
 /// Whether comparing one level with the next loses nothing: every level is a map of its own, or the
 /// beats leave a wide margin.
 bool suits_hierarchy(std::span<const UnwrapLevel> levels) {
   constexpr double kSigma = 0.05;
   constexpr double kMaxWrongOrder = 1e-4;
-  if (levels.empty()) return false;
   const bool beats = std::any_of(
       levels.begin(), levels.end(), [](const UnwrapLevel& level) { return level.subtracted >= 0; });
   return !beats || is_safe(levels, kSigma, kMaxWrongOrder);
@@ -102,7 +109,10 @@ AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
     require(same_size(map.phase_rad, coarse_to_fine.front().phase_rad),
             "unwrap_sequence: the phases differ in size");
   }
-  if (suits_hierarchy(find_unwrap_levels(patterns, projector))) {
+  const std::vector<UnwrapLevel> levels = find_unwrap_levels(patterns, projector);
+  // Levels with a narrow margin still serve where the search has none at all.
+  if (!levels.empty() &&
+      (suits_hierarchy(levels) || !determines_order(fringe_counts(patterns, projector)))) {
     return unwrap_all(coarse_to_fine,
                       HierarchicalUnwrapper(patterns, projector, options.max_wrong_order));
   }
@@ -111,11 +121,8 @@ AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
 
 bool determine_absolute_phase(std::span<const Pattern> coarse_to_fine, const Projector& projector) {
   if (coarse_to_fine.empty()) return false;
-  if (!find_unwrap_levels(coarse_to_fine, projector).empty()) return true;
-  std::vector<double> fringes;
-  for (const Pattern& pattern : coarse_to_fine)
-    fringes.push_back(phase_range(pattern, projector).width_rad() / kTwoPi);
-  return determines_order(fringes);
+  return !find_unwrap_levels(coarse_to_fine, projector).empty() ||
+         determines_order(fringe_counts(coarse_to_fine, projector));
 }
 
 }  // namespace frangia

@@ -16,7 +16,9 @@ namespace frangia {
 ///
 /// Where a map or a safe beat of two has at most one fringe over the field, each level is unwrapped
 /// by the next coarser one. Otherwise all orders are searched for the most likely one, which needs
-/// no map and no beat of one fringe: 64, 58 and 53 fringes suffice.
+/// no map and no beat of one fringe: 64, 58 and 53 fringes suffice. Where the search would confuse
+/// orders at 0.05 rad of noise, as with 16 and 15 fringes, the beats are used although they are not
+/// safe: frames with less noise are unwrapped, and uncertain pixels are discarded.
 ///
 /// @shape    coarse to fine, all w x h
 /// @missing  a pixel missing in any map, or whose probability of a wrong order, summed over the
