@@ -66,7 +66,9 @@ Bundle make_bundle(const ViewStore& views,
   Bundle bundle{
       make_surfel_maps(views, camera, kPixels, run), FastCameraModel(camera), given, given, {}};
   bundle.pairs = choose_view_pairs(bundle.maps, bundle.model, poses_of(given));
-  if (bundle.maps.size() > 1) add_view_pair(bundle.pairs, 0, given.closing_view());
+  // View 0 is its own closing view when it is the only one of the first setup.
+  const std::size_t closing = given.closing_view();
+  if (closing != 0) add_view_pair(bundle.pairs, 0, closing);
   std::vector<float> sigmas_mm;
   std::vector<float> distances_mm;
   for (const SurfelMap& map : bundle.maps) {
