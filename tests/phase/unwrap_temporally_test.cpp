@@ -123,8 +123,21 @@ TEST(UnwrapTemporally, RefusesLevelsOutOfOrderOrWithoutAnAbsoluteStart) {
       Error);
   EXPECT_THROW(static_cast<void>(unwrap_temporally(levels(scene, {320.0, 10.0}), wall_display())),
                Error);
-  EXPECT_THROW(
-      static_cast<void>(unwrap_temporally(std::span<const WrappedPhase>(), wall_display())), Error);
+  EXPECT_THROW(static_cast<void>(unwrap_temporally({}, wall_display())), Error);
+}
+
+TEST(UnwrapTemporally, InPlaceGivesTheSamePhase) {
+  const std::vector<WrappedPhase> maps = levels({.noise_counts = 500.0}, {640.0, 80.0, 10.0});
+  const AbsolutePhase copied = unwrap_temporally(maps, wall_display());
+  const AbsolutePhase moved =
+      unwrap_temporally_in_place(std::vector<WrappedPhase>(maps), wall_display());
+  ASSERT_TRUE(same_size(moved.phase_rad, copied.phase_rad));
+  for (std::size_t i = 0; i < copied.status.pixels().size(); ++i) {
+    ASSERT_EQ(moved.status.pixels()[i], copied.status.pixels()[i]) << i;
+    if (copied.status.pixels()[i] != PixelStatus::Measured) continue;
+    ASSERT_EQ(moved.phase_rad.pixels()[i], copied.phase_rad.pixels()[i]) << i;
+    ASSERT_EQ(moved.sigma_rad.pixels()[i], copied.sigma_rad.pixels()[i]) << i;
+  }
 }
 
 }  // namespace

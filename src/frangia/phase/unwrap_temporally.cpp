@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 16;
 
-/// The still wrapped phase of a level, in memory of its own.
-AbsolutePhase wrapped_copy(const WrappedPhase& level) {
+/// The still wrapped phase of a level, in new memory.
+AbsolutePhase start_from(const WrappedPhase& level) {
   return {level.pattern, level.phase_rad, level.sigma_rad, level.status};
 }
 
 /// The still wrapped phase of a level, in the level's memory.
-AbsolutePhase wrapped_copy(WrappedPhase&& level) {
+AbsolutePhase start_from(WrappedPhase&& level) {
   return {std::move(level.pattern),
           std::move(level.phase_rad),
           std::move(level.sigma_rad),
@@ -113,7 +113,7 @@ AbsolutePhase unwrap_levels(AbsolutePhase absolute,
                             const TemporalUnwrapOptions& options) {
   const double max_sigma = sigma_for_wrong_order_probability(options.max_wrong_order);
   for (Level& level : finer) {
-    AbsolutePhase unwrapped = wrapped_copy(std::move(level));
+    AbsolutePhase unwrapped = start_from(std::move(level));
     unwrap_level(absolute, options.smooth_radius_px, max_sigma, unwrapped);
     absolute = std::move(unwrapped);
   }
@@ -128,7 +128,7 @@ AbsolutePhase unwrap_all_levels(std::span<Level> coarse_to_fine,
   require(is_absolute(coarse_to_fine.front().pattern, projector),
           "unwrap_temporally: the first level must have at most one fringe over the field");
   const double sigmas = kPi / sigma_for_wrong_order_probability(options.max_wrong_order);
-  AbsolutePhase coarsest = wrapped_copy(std::move(coarse_to_fine.front()));
+  AbsolutePhase coarsest = start_from(std::move(coarse_to_fine.front()));
   unwrap_single_fringe(projector, sigmas, coarsest);
   return unwrap_levels(std::move(coarsest), coarse_to_fine.subspan(1), options);
 }
@@ -147,9 +147,9 @@ AbsolutePhase unwrap_temporally(std::span<const WrappedPhase> coarse_to_fine,
   return unwrap_all_levels(coarse_to_fine, projector, options);
 }
 
-AbsolutePhase unwrap_temporally(std::vector<WrappedPhase>&& coarse_to_fine,
-                                const Projector& projector,
-                                const TemporalUnwrapOptions& options) {
+AbsolutePhase unwrap_temporally_in_place(std::vector<WrappedPhase>&& coarse_to_fine,
+                                         const Projector& projector,
+                                         const TemporalUnwrapOptions& options) {
   return unwrap_all_levels(std::span(coarse_to_fine), projector, options);
 }
 

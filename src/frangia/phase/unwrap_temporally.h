@@ -33,10 +33,12 @@ struct TemporalUnwrapOptions {
                                               const Projector& projector,
                                               const TemporalUnwrapOptions& options = {});
 
-/// Does the same and uses the memory of the maps for the result.
-[[nodiscard]] AbsolutePhase unwrap_temporally(std::vector<WrappedPhase>&& coarse_to_fine,
-                                              const Projector& projector,
-                                              const TemporalUnwrapOptions& options = {});
+/// Computes the same as `unwrap_temporally` and uses the memory of the maps for the result.
+///
+/// @errors   as `unwrap_temporally`
+[[nodiscard]] AbsolutePhase unwrap_temporally_in_place(std::vector<WrappedPhase>&& coarse_to_fine,
+                                                       const Projector& projector,
+                                                       const TemporalUnwrapOptions& options = {});
 
 /// Unwraps finer levels by an existing absolute phase, for example one that the laser sheet fixed.
 ///

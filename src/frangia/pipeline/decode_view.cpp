@@ -217,9 +217,9 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
         std::span(out.wrapped).subspan(1),
         options.temporal);
   } else if (unwraps_temporally) {
-    out.phase = options.keep_maps
-                    ? unwrap_temporally(out.wrapped, rig.projector, options.temporal)
-                    : unwrap_temporally(std::move(out.wrapped), rig.projector, options.temporal);
+    out.phase = options.keep_maps ? unwrap_temporally(out.wrapped, rig.projector, options.temporal)
+                                  : unwrap_temporally_in_place(
+                                        std::move(out.wrapped), rig.projector, options.temporal);
   } else if (patterns.size() > 1 && determine_absolute_phase(patterns, rig.projector)) {
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.temporal);
   } else {

@@ -58,20 +58,21 @@ FRANGIA_VECTORIZED void finish_slope(const float* __restrict at,
 
 }  // namespace
 
-void fit_frequency_slope(const FrequencyMaps& maps,
+void fit_frequency_slope(const TilePhases& maps,
+                         std::span<const double> ratios,
                          const float* at,
                          std::size_t n,
                          float* absolute_rad,
                          float* sigma_rad) {
   Slope slope;  // NOLINT(cppcoreguidelines-pro-type-member-init): initialized by the first two maps
-  for (std::size_t m = 0; m < maps.ratios.size(); m += 2) {
+  for (std::size_t m = 0; m < ratios.size(); m += 2) {
     // The last map of an odd number is paired with itself at weight zero.
-    const bool pair = m + 1 < maps.ratios.size();
+    const bool pair = m + 1 < ratios.size();
     const std::size_t other = pair ? m + 1 : m;
-    const MapTerm one{maps.phase_rad[m], maps.precision[m], static_cast<float>(maps.ratios[m])};
+    const MapTerm one{maps.phase_rad[m], maps.precision[m], static_cast<float>(ratios[m])};
     const MapTerm two{maps.phase_rad[other],
                       maps.precision[other],
-                      pair ? static_cast<float>(maps.ratios[other]) : 0.0F};
+                      pair ? static_cast<float>(ratios[other]) : 0.0F};
     (m == 0 ? add_to_slope<true> : add_to_slope<false>)(one, two, at, n, slope);
   }
   finish_slope(at, slope, n, absolute_rad, sigma_rad);

@@ -3,21 +3,17 @@
 #include <cstddef>
 #include <span>
 
+#include "frangia/phase/internal/tile_phases.h"
+
 namespace frangia {
 
-/// Wrapped phases and their inverse variances of up to kTilePixels pixels, one pointer per map, and
-/// the frequency of each map relative to the finest one.
-struct FrequencyMaps {
-  std::span<const float* const> phase_rad;
-  std::span<const float* const> precision;
-  std::span<const double> ratios;
-};
-
-/// Fits the weighted least-squares slope of phase over frequency through all maps. `at` is the
-/// absolute phase of the finest map; the slope gives a more precise one and its sigma.
+/// Fits the weighted least-squares slope of phase over frequency through all maps. `ratios` are the
+/// frequencies of the maps relative to the finest one. `at` is the absolute phase of the finest
+/// map; the slope gives a more precise one and its sigma.
 ///
 /// @source   Huntley and Saldner 1997
-void fit_frequency_slope(const FrequencyMaps& maps,
+void fit_frequency_slope(const TilePhases& maps,
+                         std::span<const double> ratios,
                          const float* at,
                          std::size_t n,
                          float* absolute_rad,

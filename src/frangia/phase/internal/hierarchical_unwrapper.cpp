@@ -25,7 +25,7 @@ FRANGIA_VECTORIZED bool any_of(const std::int32_t* state, std::size_t n) {
 }
 
 /// The data of a level; `subtracted` is null for a single map.
-LevelLanes lanes_of(const UnwrapLevel& step, const HierarchicalUnwrapper::Input& maps) {
+LevelLanes lanes_of(const UnwrapLevel& step, const TilePhases& maps) {
   if (step.subtracted < 0)
     return {maps.phase_rad[step.map], nullptr, maps.precision[step.map], nullptr};
   const auto subtracted = static_cast<std::size_t>(step.subtracted);
@@ -61,7 +61,7 @@ HierarchicalUnwrapper::HierarchicalUnwrapper(std::span<const Pattern> coarse_to_
       levels_.front().per_unit / top * phase_range(coarse_to_fine.back(), projector).center_rad();
 }
 
-void HierarchicalUnwrapper::unwrap(const Input& maps,
+void HierarchicalUnwrapper::unwrap(const TilePhases& maps,
                                    std::size_t n,
                                    float* absolute_rad,
                                    float* sigma_rad,
@@ -82,11 +82,8 @@ void HierarchicalUnwrapper::unwrap(const Input& maps,
                       uncertain);
     coarse = fine;
   }
-  fit_frequency_slope({maps.phase_rad, maps.precision, ratios_},
-                      lanes[(levels_.size() - 1) % 2].data(),
-                      n,
-                      absolute_rad,
-                      sigma_rad);
+  fit_frequency_slope(
+      maps, ratios_, lanes[(levels_.size() - 1) % 2].data(), n, absolute_rad, sigma_rad);
   // Pixels that the margins do not classify as safe get the exact probability.
   constexpr std::size_t kBlock = 64;
   for (std::size_t begin = 0; begin < n; begin += kBlock) {
@@ -100,7 +97,7 @@ void HierarchicalUnwrapper::unwrap(const Input& maps,
   }
 }
 
-double HierarchicalUnwrapper::pixel_wrong_order_probability(const Input& maps,
+double HierarchicalUnwrapper::pixel_wrong_order_probability(const TilePhases& maps,
                                                             std::size_t i) const {
   double chance = 0.0;
   double variance = 0.0;

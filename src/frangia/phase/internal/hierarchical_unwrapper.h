@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frangia/pattern/pattern.h"
+#include "frangia/phase/internal/tile_phases.h"
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/rig/projector.h"
 
@@ -21,18 +22,11 @@ class HierarchicalUnwrapper {
                         const Projector& projector,
                         double max_wrong_order);
 
-  /// Wrapped phases and their inverse variances, one pointer per map. `invalid` is nonzero where a
-  /// phase is missing.
-  struct Input {
-    std::span<const float* const> phase_rad;
-    std::span<const float* const> precision;
-    const std::int32_t* invalid = nullptr;
-  };
   /// Computes the absolute phase of the finest map by the least-squares slope through all maps, and
-  /// its sigma, for n <= kTilePixels pixels. Results are meaningless where `invalid` is set.
+  /// its sigma, for n <= kTilePixels pixels. Results are meaningless where a phase is missing.
   /// `uncertain` is 1 where the probability of a wrong order, summed over the levels, exceeds the
   /// limit, and 0 elsewhere.
-  void unwrap(const Input& maps,
+  void unwrap(const TilePhases& maps,
               std::size_t n,
               float* absolute_rad,
               float* sigma_rad,
@@ -40,7 +34,7 @@ class HierarchicalUnwrapper {
 
  private:
   /// Probability that one of pixel i's orders is wrong.
-  [[nodiscard]] double pixel_wrong_order_probability(const Input& maps, std::size_t i) const;
+  [[nodiscard]] double pixel_wrong_order_probability(const TilePhases& maps, std::size_t i) const;
 
   std::vector<UnwrapLevel> levels_;
   std::vector<double> ratios_;  ///< frequency of each map relative to the finest one

@@ -1,6 +1,6 @@
 #include "frangia/phase/internal/order_search.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -86,7 +86,7 @@ FRANGIA_VECTORIZED void keep_best(const Residuals& __restrict of,
   }
 }
 
-/// The negation also catches a NaN where the input is invalid.
+/// Marks the pixels whose two most likely orders differ too little.
 FRANGIA_VECTORIZED void mark_uncertain(const Best& __restrict best,
                                        float min_difference,
                                        std::size_t n,
@@ -120,7 +120,7 @@ OrderSearch::OrderSearch(std::span<const Pattern> coarse_to_fine,
   min_difference_ = static_cast<float>(-2.0 * std::log(std::min(1.0, max_wrong_order)));
 }
 
-void OrderSearch::unwrap(const HierarchicalUnwrapper::Input& maps,
+void OrderSearch::unwrap(const TilePhases& maps,
                          std::size_t n,
                          float* absolute_rad,
                          float* sigma_rad,
@@ -157,8 +157,7 @@ void OrderSearch::unwrap(const HierarchicalUnwrapper::Input& maps,
     keep_best(residuals, slope_weights.data(), absolute.data(), n, best);
   }
   mark_uncertain(best, min_difference_, n, uncertain);
-  fit_frequency_slope(
-      {maps.phase_rad, maps.precision, ratios_}, best.absolute.data(), n, absolute_rad, sigma_rad);
+  fit_frequency_slope(maps, ratios_, best.absolute.data(), n, absolute_rad, sigma_rad);
 }
 
 }  // namespace frangia

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frangia/pattern/pattern.h"
-#include "frangia/phase/internal/hierarchical_unwrapper.h"
+#include "frangia/phase/internal/tile_phases.h"
 #include "frangia/rig/projector.h"
 
 namespace frangia {
@@ -22,9 +22,9 @@ class OrderSearch {
               const Projector& projector,
               double max_wrong_order);
 
-  /// As HierarchicalUnwrapper::unwrap. The probability of a wrong order is that of the second most
-  /// likely one, from the difference of their squared residuals over sigma.
-  void unwrap(const HierarchicalUnwrapper::Input& maps,
+  /// Computes the same as `HierarchicalUnwrapper::unwrap`. The probability of a wrong order is that
+  /// of the second most likely one, from the difference of their squared residuals over sigma.
+  void unwrap(const TilePhases& maps,
               std::size_t n,
               float* absolute_rad,
               float* sigma_rad,
