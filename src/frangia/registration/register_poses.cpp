@@ -29,10 +29,10 @@ double matched_share(const FreePoseSums& sums) {
 }
 
 FreePoseBundle make_free_pose_bundle(const ViewStore& views,
-                                     std::vector<SurfelMap> maps,
+                                     std::span<const SurfelMap> maps,
                                      const CameraModel& camera) {
   const std::size_t surfels = surfels_per_view(3000, views.size());
-  FreePoseBundle bundle{std::move(maps), {}, {}, FastCameraModel(camera), {}};
+  FreePoseBundle bundle{maps, {}, {}, FastCameraModel(camera), {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
     bundle.surfels.push_back(pick_surfels(bundle.maps[i], surfels));
     bundle.rig_from_world.push_back(views.rig_from_object(i));
@@ -64,7 +64,7 @@ double default_reach_mm(std::span<const SurfelMap> maps) {
 }
 
 PosesReport register_poses(ViewStore& views,
-                           std::vector<SurfelMap> maps,
+                           std::span<const SurfelMap> maps,
                            const CameraModel& camera,
                            const RegisterPosesOptions& options,
                            const Run& run) {
@@ -74,7 +74,7 @@ PosesReport register_poses(ViewStore& views,
   PosesReport report;
   if (views.size() < 2) return report;
   const double reach_mm = options.reach_mm > 0.0 ? options.reach_mm : default_reach_mm(maps);
-  FreePoseBundle bundle = make_free_pose_bundle(views, std::move(maps), camera);
+  FreePoseBundle bundle = make_free_pose_bundle(views, maps, camera);
   FreePoseSums sums = sum_free_poses(bundle, reach_mm);
   report.rms_before_mm = report.rms_after_mm = root_mean_square(sums.distances_mm);
   report.overlap = matched_share(sums);

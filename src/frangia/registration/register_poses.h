@@ -49,7 +49,7 @@ struct PosesReport {
 /// @source   projective association: Blais & Levine 1995; symmetric point-to-plane distance:
 ///          Rusinkiewicz 2019; solved by `minimize_robustly`
 [[nodiscard]] PosesReport register_poses(ViewStore& views,
-                                         std::vector<SurfelMap> maps,
+                                         std::span<const SurfelMap> maps,
                                          const CameraModel& camera,
                                          const RegisterPosesOptions& options = {},
                                          const Run& run = {});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -11,9 +12,9 @@
 
 namespace frangia {
 
-/// Views with a free rigid pose each; the pose of view 0 is held.
+/// Views with a free rigid pose each; the pose of view 0 is held. The maps must outlive it.
 struct FreePoseBundle {
-  std::vector<SurfelMap> maps;
+  std::span<const SurfelMap> maps;
   std::vector<std::vector<SurfelMap::Surfel>> surfels;  ///< those that are compared, by view
   std::vector<Eigen::Isometry3d> rig_from_world;
   FastCameraModel model;
