@@ -179,11 +179,9 @@ void ViewStore::replace(std::size_t index, const View& view) {
 }
 
 void ViewStore::clear(std::size_t index) {
-  View view = load(index);
-  for (Image<float>* image : {&view.range.depth_mm, &view.range.sigma_mm, &view.range.phase_rad})
-    std::fill(image->pixels().begin(), image->pixels().end(), kMissing);
-  view.edge_pixels.clear();
-  replace(index, view);
+  Entry& entry = entries_.at(index);
+  entry.box = {0, 0, 0, 0};
+  entry.edge_pixels = 0;
 }
 
 View ViewStore::load(std::size_t index) const {
