@@ -50,8 +50,7 @@ TEST(RegisterViews, FindsTheAxisAndTheAnglesOfManyViews) {
   const Table table(kViews);
   ViewStore views = table.take(knobbly, camera);
   const auto report = register_views(views, camera, {table.given, table.stations()});
-  // Measured 0.019 degrees, and 0.018 with all pairs.
-  EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.025));
+  EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.025));  // measured 0.019
   EXPECT_LT(shift_mm(report.table, table.truth), 0.01);
   for (std::size_t i = 0; i < report.angles_rad.size(); ++i)
     EXPECT_NEAR(report.angles_rad[i], table.true_angles_rad[i], rad_from_deg(0.03)) << i;

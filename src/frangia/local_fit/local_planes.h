@@ -220,7 +220,8 @@ struct LocalPlanesOptions {
 /// than their noise. `reuse`, an earlier result, lends its memory to the new one.
 ///
 /// @shape    w x h of the camera
-/// @missing  with `every` above 1, pixels and quads that are not needed may have no plane
+/// @missing  with `every` above 1, what is not needed is unspecified: missing, or left over from
+///          `reuse`
 /// @units    mm, rig frame
 /// @errors   Error(Input) when the grid and the camera differ in size
 /// @source   the choice among windows: Kuwahara et al. 1976

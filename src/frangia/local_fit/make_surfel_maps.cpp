@@ -8,9 +8,9 @@
 namespace frangia {
 
 std::size_t surfel_budget(std::size_t pixels, std::size_t views) {
-  // 24 maps of the default size. More views overlap more, and need fewer surfels each:
-  // tools/views_scaling.py shows that the accuracy does not suffer.
-  constexpr std::size_t kAllSurfels = 6'000'000;
+  // More views overlap more and need fewer surfels each. tools/views_scaling.py prints the accuracy
+  // with 6, 24 and 96 views.
+  constexpr std::size_t kAllSurfels = 24 * kSurfelsPerView;
   return std::min(pixels, kAllSurfels / std::max<std::size_t>(1, views));
 }
 

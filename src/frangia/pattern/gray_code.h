@@ -20,8 +20,8 @@ namespace frangia {
   return gray;
 }
 
-/// Returns the number of the frame that shows a bit, 0 for the most significant one, or its
-/// inverse.
+/// Returns the number of the frame that shows a bit, or of the one that shows it inverted. Bit 0 is
+/// the most significant one.
 [[nodiscard]] int frame_of_bit(const Pattern& gray, int bit, bool is_inverse);
 
 /// Returns the code of a stripe: Gray code, or the number itself for a binary code.

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kMaxCount = 1e5;
 
-/// Orders as far apart as the field is wide lie at its two ends; see the phase unwrapping.
+/// Share of the field up to which two orders are compared. Orders a whole field apart lie at its
+/// two ends only; the margin absorbs the rounding of the counts.
 constexpr double kFieldEnd = 1.0 - 1e-6;
 
 /// Squared distance of two orders of the finest fringes, rad squared.

@@ -14,7 +14,7 @@ namespace frangia {
 namespace {
 
 /// Sampled pixels of up to 16 frames. At 1 % noise the standard error of a step is then below 1e-4
-/// rad. With more frames fewer pixels do: each window of four frames adds to the estimate.
+/// rad. With more frames, fewer pixels suffice: each window of four frames adds to the estimate.
 constexpr std::size_t kSamples = 400'000;
 constexpr std::size_t kMaxCounts = 16 * kSamples;  ///< pixels times frames: 26 MB
 constexpr Eigen::Index kMinSamples = 100;          ///< fewer pixels do not determine the step

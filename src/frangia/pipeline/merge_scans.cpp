@@ -18,6 +18,7 @@ namespace {
 /// The scans and their resampled views.
 struct ScanViews {
   const std::vector<RangeScan>& scans;
+  std::vector<std::string> names;
   CameraModel model;
   ViewStore views;
 };
@@ -55,14 +56,13 @@ ScanViews resample_all(MergedScans& out,
     quality.spacing_mm = std::max(quality.spacing_mm, cameras.back().spacing_mm);
     points_only = points_only || scan.mesh.triangles.empty();
   }
-  ScanViews all{scans, common_camera_model(cameras, points_only), {}};
-  const std::vector<std::string> names = names_of(scans);
+  ScanViews all{scans, names_of(scans), common_camera_model(cameras, points_only), {}};
   run.stage("range");
   for (std::size_t i = 0; i < scans.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scans.size()));
     ResampledScan resampled = resample_scan(scans[i], cameras[i], all.model);
     all.views.add(std::move(resampled.view));
-    out.scans.push_back({names[i], resampled.points, resampled.noise_mm, /*left_out=*/false});
+    out.scans.push_back({all.names[i], resampled.points, resampled.noise_mm, /*left_out=*/false});
     out.points += resampled.points;
     quality.noise_mm = std::max(quality.noise_mm, resampled.noise_mm);
   }
@@ -79,13 +79,12 @@ void register_scans(MergedScans& out,
     run.note("a single scan is not registered");
     return;
   }
-  auto maps = make_surfel_maps(all.views, all.model, 250000, run);
-  const std::vector<std::string> names = names_of(all.scans);
+  auto maps = make_surfel_maps(all.views, all.model, kSurfelsPerView, run);
   RegisterPosesOptions registration = options.registration;
   const bool find_poses = options.register_poses ? poses_unknown(all, maps, options)
                                                  : options.poses == ScanPoses::Shape;
   if (find_poses) {
-    out.found_poses = find_view_poses(all.views, maps, all.model, names, run);
+    out.found_poses = find_view_poses(all.views, maps, all.model, all.names, run);
     run.note(out.found_poses->text());
     registration.reach_mm = out.found_poses->accuracy_mm;
     for (const std::size_t scan : out.found_poses->left_out)
@@ -95,7 +94,7 @@ void register_scans(MergedScans& out,
     out.registration = register_poses(all.views, maps, all.model, registration, run);
   const MergeFit fit = compare_scans(all.views, maps, all.model, quality, options);
   out.contradiction = fit.contradiction;
-  out.untrusted_reason = untrusted_merge_reason(fit, names, options);
+  out.untrusted_reason = untrusted_merge_reason(fit, all.names, options);
   const bool agrees = out.untrusted_reason.empty();
   if (agrees && out.registration && out.registration->iterations > 0)
     run.note(out.registration->text());

@@ -27,8 +27,8 @@ struct MergeScansOptions {
   ScanPoses poses = ScanPoses::Auto;  ///< source of the initial poses
   bool register_poses = true;         ///< refine the poses
   /// Share of a scan's compared points in front of another scan's surface, or behind it, beyond
-  /// which the result is not trustworthy. Poses at random reach a third; scans that fit stay below
-  /// 0.04 (tests/pipeline/merge_scans_test).
+  /// which the result is not trustworthy. Scans that fit stay below 0.04
+  /// (tests/pipeline/merge_scans_test).
   double max_contradiction = 0.1;
   /// Median distance between scans beyond which the result is not trustworthy: the larger of this
   /// many standard deviations of a scan's points ...
@@ -41,7 +41,7 @@ struct MergeScansOptions {
 
 /// One of the scans that were merged.
 struct MergedScan {
-  std::string name;        ///< path of its file
+  std::string name;        ///< path of its file, or "scan 0" without one
   std::size_t points = 0;  ///< after resampling
   double noise_mm = 0.0;   ///< standard deviation of a point, from the scatter of neighbours
   bool left_out = false;   ///< its pose was not found

@@ -17,7 +17,7 @@ struct ProfilePoint {
   double sigma_px = 0.0;  ///< standard deviation of `pixel`, across the line
 };
 
-/// Criteria of a peak that is taken for the laser line.
+/// Criteria that a peak must meet to be the laser line.
 struct LaserProfileOptions {
   double min_sigmas = 6.0;  ///< minimum height of a peak above its base, in sigmas of camera noise
   double min_contrast = 0.5;  ///< minimum height of a peak, as a share of the object's stray light

@@ -15,8 +15,8 @@
 
 namespace frangia {
 
-/// Stores views in an unnamed temporary file, so that memory holds one view at a time. The file
-/// holds of each grid the smallest box with all pixels that have a depth.
+/// Stores views in an unnamed temporary file, so that memory holds one view at a time. Of each
+/// grid, the file holds the smallest box with all pixels that have a depth.
 ///
 /// @missing  a pixel without a depth is loaded as NaN in all images of the grid
 /// @errors   Error(File) when the temporary folder cannot hold the views
@@ -45,9 +45,8 @@ class ViewStore {
   [[nodiscard]] View load_points(std::size_t index) const;
   /// Loads the depth image alone.
   [[nodiscard]] Image<float> load_depth_mm(std::size_t index) const;
-  /// Returns `rays_of(camera)`. The store keeps them, because several stages need them and their
-  /// computation takes as long as that of all points of a view. Not to be called by several threads
-  /// at once.
+  /// Returns `rays_of(camera)`. The store keeps them, because several stages need them. Not to be
+  /// called by several threads at once.
   [[nodiscard]] std::shared_ptr<const Image<Eigen::Vector2f>> rays(const CameraModel& camera) const;
   /// The pose of a view, without reading its grid.
   [[nodiscard]] const Eigen::Isometry3d& rig_from_object(std::size_t index) const {

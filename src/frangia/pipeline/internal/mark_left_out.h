@@ -12,7 +12,7 @@ namespace frangia {
 /// Adds the names of the views that the registration of a setup emptied.
 void add_outliers(std::set<std::string>& names, const MeasuredSetup& setup);
 
-/// Marks the views that are not part of the joined setups as left out, and the outliers.
+/// Marks as left out the outliers and the views that are not part of the joined setups.
 void mark_left_out(std::vector<ViewSummary>& summaries,
                    const MeasuredSetup& joined,
                    const std::set<std::string>& outliers);

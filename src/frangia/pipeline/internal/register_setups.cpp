@@ -27,7 +27,7 @@ MappedSetups map_setups(const std::vector<MeasuredSetup>& setups,
   for (const MeasuredSetup& setup : setups) {
     const ViewStore& views = setup.measured.views;
     std::vector<ViewGroup::Member> members;
-    for (SurfelMap& map : make_surfel_maps(views, camera, 250000, run)) {
+    for (SurfelMap& map : make_surfel_maps(views, camera, kSurfelsPerView, run)) {
       members.push_back({all.maps.size(), views.rig_from_object(members.size())});
       all.maps.push_back(std::move(map));
     }

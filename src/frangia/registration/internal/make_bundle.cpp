@@ -59,12 +59,14 @@ Bundle make_bundle(const ViewStore& views,
                    const TableState& given,
                    const RegisterOptions& options,
                    const Run& run) {
-  constexpr std::size_t kPixels = 250000;  // of a map: its surfels stay denser than the pairs
-  constexpr std::size_t kSamples = 1000;   // of a view, for medians
+  constexpr std::size_t kSamples = 1000;  // of a view, for medians
   // Of one surfel. The distance of a pair has the noise of two, so this is over four of its sigmas.
   constexpr double kGateSigmas = 6.0;
-  Bundle bundle{
-      make_surfel_maps(views, camera, kPixels, run), FastCameraModel(camera), given, given, {}};
+  Bundle bundle{make_surfel_maps(views, camera, kSurfelsPerView, run),
+                FastCameraModel(camera),
+                given,
+                given,
+                {}};
   bundle.pairs = choose_view_pairs(bundle.maps, bundle.model, poses_of(given));
   // View 0 is its own closing view when it is the only one of the first setup.
   const std::size_t closing = given.closing_view();
