@@ -9,7 +9,7 @@
 #include "frangia/files/write_mesh.h"
 
 #include "files/sample_meshes.h"
-#include "wanted.h"
+#include "performance_target.h"
 
 namespace frangia {
 namespace {

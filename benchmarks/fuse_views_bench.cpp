@@ -13,8 +13,8 @@
 #include "frangia/files/ply.h"
 #include "frangia/fusion/fuse_views.h"
 
+#include "performance_target.h"
 #include "support/analytic_views.h"
-#include "wanted.h"
 
 namespace frangia {
 namespace {

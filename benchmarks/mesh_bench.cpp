@@ -22,7 +22,7 @@
 #include "frangia/mesh/mesh_findings.h"
 
 #include "mesh_scan.h"
-#include "wanted.h"
+#include "performance_target.h"
 
 namespace frangia {
 namespace {

@@ -16,7 +16,7 @@
 #include "frangia/geometry/connected_components.h"
 #include "frangia/mesh/make_manifold.h"
 
-#include "wanted.h"
+#include "performance_target.h"
 
 namespace frangia {
 

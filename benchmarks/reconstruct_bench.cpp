@@ -23,7 +23,7 @@
 #include "frangia/simulate/rig_presets.h"
 #include "frangia/simulate/simulate_scan.h"
 
-#include "wanted.h"
+#include "performance_target.h"
 
 namespace frangia {
 namespace {
