@@ -34,6 +34,19 @@ double squared_distance(std::span<const double> fringes, double finest, double o
   return std::max(0.0, square - along * along / slope);
 }
 
+/// The probability of confusion. Stops when the sum over the orders reaches `limit`.
+double confusion_up_to(double limit, std::span<const double> fringes, double sigma_rad) {
+  const double finest = *std::max_element(fringes.begin(), fringes.end());
+  double sum = 0.0;
+  for (double apart = 1.0; sum < limit && apart < finest * kFieldEnd; apart += 1.0) {
+    // The share of the field where the other order is inside it, on either side.
+    const double share = 1.0 - apart / finest;
+    const double distance = std::sqrt(squared_distance(fringes, finest, apart));
+    sum += share * std::erfc(distance / (2.0 * std::numbers::sqrt2 * sigma_rad));
+  }
+  return sum;
+}
+
 /// Replaces each count but the finest by the one of least confusion, until none improves.
 double improve(std::vector<double>& fringes, double lowest, double sigma_rad) {
   const double finest = fringes.back();
@@ -44,7 +57,7 @@ double improve(std::vector<double>& fringes, double lowest, double sigma_rad) {
       double best = fringes[m];
       for (double count = std::ceil(lowest); count < finest; count += 1.0) {
         fringes[m] = count;
-        const double found = confusion_probability(fringes, sigma_rad);
+        const double found = confusion_up_to(least, fringes, sigma_rad);
         if (found >= least) continue;
         least = found;
         best = count;
@@ -64,15 +77,7 @@ double confusion_probability(std::span<const double> fringes, double sigma_rad) 
     require(count > 0.0 && count <= kMaxCount,
             "confusion_probability: a fringe count must be above 0 and at most 1e5");
   }
-  const double finest = *std::max_element(fringes.begin(), fringes.end());
-  double sum = 0.0;
-  for (double apart = 1.0; apart < finest * kFieldEnd; apart += 1.0) {
-    // The share of the field where the other order is inside it, on either side.
-    const double share = 1.0 - apart / finest;
-    const double distance = std::sqrt(squared_distance(fringes, finest, apart));
-    sum += share * std::erfc(distance / (2.0 * std::numbers::sqrt2 * sigma_rad));
-  }
-  return std::min(1.0, sum);
+  return std::min(1.0, confusion_up_to(1.0, fringes, sigma_rad));
 }
 
 bool determines_order(std::span<const double> fringes) {
