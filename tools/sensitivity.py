@@ -4,15 +4,17 @@
 usage: sensitivity.py PROGRAM STUDY docs/parameters.md [FOLDER]
 
 PROGRAM is the frangia program and STUDY is fusion_sensitivity of the benchmarks. Six small scans are
-simulated once into FOLDER (out/sensitivity), with half the pixels of the digital rig on a side. For each, STUDY fuses the views with half and with double of
-each parameter and compares the meshes with the truth; its answers are kept as JSON lines beside the
-scans, and a scan whose answers exist is not measured again. The script writes the table of the page.
+simulated once into FOLDER (out/sensitivity), with half the pixels of the digital rig on a side. For each,
+STUDY fuses the views with half and with double of each parameter and compares the meshes with the truth.
+Its answers are kept as JSON lines next to the scans; a scan whose answers exist is not measured again. The
+script writes the table of the page.
 """
 import json
 import pathlib
-import re
 import subprocess
 import sys
+
+from half_rig import half_rig
 
 SCANS = [("bust", "digital"), ("blade", "digital"), ("bracket", "digital"), ("shaft", "digital"),
          ("bust", "angular"), ("bracket", "angular")]
@@ -24,28 +26,11 @@ MARK = "<!-- sensitivity: the rest of this page is written by tools/sensitivity.
 LEAST = {"rms_mm": 0.2, "p99_mm": 0.2, "covered": 0.01, "sigmas": 0.002, "triangles": 0.02}
 
 
-def half_rig(program):
-    """The digital rig with half the pixels of its camera on a side."""
-    rig = FOLDER / "digital-half.toml"
-    if not rig.exists():
-        scan = FOLDER / "digital"
-        subprocess.run([program, "--quiet", "simulate", "plate", "--rig", "digital", "--views", "1", "-o", scan], check=True)
-
-        def halved(match):
-            numbers = [0.5 * float(number) for number in match[2].split(",")]
-            numbers = [int(number) for number in numbers] if match[1] == "size_px" else numbers
-            return f"{match[1]} = [{', '.join(map(str, numbers))}]"
-
-        text = (scan / "rig.toml").read_text()
-        rig.write_text(re.sub(r"(size_px|focal_px|principal_point_px) = \[([^\]]*)\]", halved, text, count=3))
-    return rig
-
-
 def answers(program, study, part, rig):
     scan, kept = FOLDER / f"{part}-{rig}", FOLDER / f"{part}-{rig}.jsonl"
     if not kept.exists():
         if not (scan / "scan.toml").exists():
-            model = half_rig(program) if rig == "digital" else rig
+            model = half_rig(program, FOLDER) if rig == "digital" else rig
             subprocess.run([program, "--quiet", "simulate", part, "--rig", model, "--samples", "4", "--views", str(VIEWS),
                             "-o", scan], check=True)
         unfinished = kept.with_suffix(".unfinished")

@@ -20,11 +20,10 @@ STUDIES = ["kills", "power_cuts", "io_errors", "two_sessions", "signals", "devic
 BEGIN, END = "<!-- begin table: written by `./run faults` -->", "<!-- end table -->"
 
 
-def write_table(page, answers):
+def write_row(page, answer):
     text = page.read_text()
     rows = {line.split("`")[1]: line for line in text.split(BEGIN)[1].split(END)[0].splitlines() if line.startswith("| `")}
-    for answer in answers:
-        rows[answer.name] = f"| `{answer.name}` | {answer.title} | {answer.tried} | {len(answer.failures)} | {answer.measured} |"
+    rows[answer.name] = f"| `{answer.name}` | {answer.title} | {answer.tried} | {len(answer.failures)} | {answer.measured} |"
     ordered = [rows[name] for name in STUDIES if name in rows]
     table = ["", "| study | what was done | tried | failed | measured |", "|---|---|---|---|---|", *ordered, ""]
     temporary = page.with_suffix(".tmp")
@@ -40,10 +39,11 @@ def main():
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(STUDIES)}")
     chosen = arguments.parse_intermixed_args()
-    failed = 0
-    for name in chosen.names or STUDIES:
+    for name in chosen.names:
         if name not in STUDIES:
             sys.exit(f"faults: there is no study '{name}'; the studies are {', '.join(STUDIES)}")
+    failed = 0
+    for name in chosen.names or STUDIES:
         work = tempfile.mkdtemp(prefix="frangia-faults-")
         begin = time.monotonic()
         answer = importlib.import_module(name).run(Campaign(chosen.program, work, chosen.long, chosen.seed))
@@ -52,8 +52,10 @@ def main():
             print(f"  {failure}", flush=True)
         failed += len(answer.failures)
         if chosen.page:
-            write_table(chosen.page, [answer])
-        if not answer.failures:
+            write_row(chosen.page, answer)
+        if answer.failures:
+            print(f"  the files of the failed runs are in {work}", flush=True)
+        else:
             shutil.rmtree(work)
     sys.exit(1 if failed else 0)
 

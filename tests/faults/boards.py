@@ -19,7 +19,7 @@ class GrblBoard:
     def __init__(self, fault="", fault_at=10**9):
         self.fault, self.fault_at = fault, fault_at
         self.commands = 0
-        self.on = {"spindle": None, "coolant": None}  # since when, seconds of the monotonic clock; None: off
+        self.on = {"spindle": False, "coolant": False}
         self.switched_off_at = time.monotonic()
         self.position = 0.0
         self.line, self.alarm = b"", False
@@ -31,7 +31,7 @@ class GrblBoard:
         self.thread.start()
 
     def is_lit(self):
-        return any(since is not None for since in self.on.values())
+        return any(self.on.values())
 
     def close(self):
         self.stopping.set()
@@ -80,10 +80,10 @@ class GrblBoard:
                     self._receive(received[i:i + 1])
 
     def _switch(self, output, on):
-        was = self.is_lit()
-        self.on[output] = (self.on[output] or time.monotonic()) if on else None
-        if was and not self.is_lit():
-            self.switched_off_at = time.monotonic()
+        after = self.on | {output: on}
+        if self.is_lit() and not any(after.values()):
+            self.switched_off_at = time.monotonic()  # before the change, which other threads wait for
+        self.on = after
 
     def _receive(self, byte):
         if byte == b"\x18":

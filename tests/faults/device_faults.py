@@ -1,5 +1,4 @@
-"""A board that misbehaves from a random command on: the scan ends with a sentence that names the port, the light off."""
-import pathlib
+"""A board that misbehaves from a random command on: the scan ends, its message names the port, and the light is off."""
 import subprocess
 import time
 
@@ -20,12 +19,11 @@ def run(campaign):
         fault = FAULTS[i % len(FAULTS)]
         board = GrblBoard(fault, campaign.random.randint(0, 30))
         what = f"{fault} from command {board.fault_at} on"
-        rig = pathlib.Path(frames.parent / f"rig-{i}.toml")
+        rig = frames.parent / f"rig-{i}.toml"
         rig.write_text(rig_with(board, frames, RIG.read_text()))
         scan = campaign.fresh("misbehaving")
         command = [*campaign.scan_command(scan, rig), "--patience", str(PATIENCE_S)]
         process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-        # It may retry as long as it says so; what counts is the time from Ctrl-C to the end.
         try:
             errors = process.communicate(timeout=60)[1]
         except subprocess.TimeoutExpired:

@@ -1,6 +1,5 @@
 """Mutated files of every format: no crash, no hang, no unbounded memory, no control characters in the terminal."""
 import pathlib
-import re
 import subprocess
 import sys
 
@@ -17,5 +16,5 @@ def run(campaign):
     if result.returncode != 0:
         answer.failures += lines[-20:] or [f"mutate_inputs.py ended with {result.returncode}"]
     else:
-        answer.measured = re.sub(r"\s+", " ", lines[-1]) if lines else ""
+        answer.measured = lines[-1]
     return answer

@@ -1,6 +1,4 @@
-"""Every signal at random moments of a scan over a board: the light is off soon after, whoever died."""
-import os
-import pathlib
+"""Every signal at random moments of a scan over a board: the light is off soon after, also when the program dies at once."""
 import signal
 import subprocess
 import time
@@ -35,7 +33,7 @@ def run(campaign):
         for i in range(per_signal):
             what = f"{name}, run {i + 1}"
             board = GrblBoard()
-            rig = pathlib.Path(f"{frames.parent}/rig-{name.replace(' ', '-')}-{i}.toml")
+            rig = frames.parent / f"rig-{name.replace(' ', '-')}-{i}.toml"
             rig.write_text(rig_with(board, frames, RIG.read_text()))
             scan = campaign.fresh("signalled")
             process = subprocess.Popen(campaign.scan_command(scan, rig), stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
@@ -71,4 +69,4 @@ def wait_for_light(board, process):
         time.sleep(0.002)
     if not board.is_lit():
         errors = process.communicate(timeout=5)[1].decode() if process.poll() is not None else "no light after 20 s"
-        raise SystemExit(f"faults: the scan over the emulated board did not start: {errors} (pid {os.getpid()})")
+        raise SystemExit(f"faults: the scan over the emulated board did not start: {errors}")

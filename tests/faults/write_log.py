@@ -1,7 +1,7 @@
 """The writes of a program as strace records them, and the files that they leave after a power cut.
 
 Two models of what a disk keeps: `ordered`, where every operation before the cut has arrived, and `reordered`, where only
-synced data is certain, as POSIX has it: of an unsynced file any prefix may remain, and an unsynced name may be the old or
+synced data is certain, as POSIX defines it: of an unsynced file any prefix may remain, and an unsynced name may be the old or
 the new one, each independently.
 """
 import re

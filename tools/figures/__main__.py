@@ -1,7 +1,8 @@
 """Measures the figures of the documentation: python3 tools/figures PROGRAM [NAME...], or `./run figures [NAME...]`.
 
-Each section is a file of `sections` and one part of a page in docs; a section that is not named stays as it is. Without
-names all are measured, and `list` prints them. An interrupted section goes on with the scans that it has made.
+Each section is a file of `sections` and one part of a page in docs; a section that is not named, or that needs something
+missing on this machine, stays as it is. Without names all are measured; `list` prints them. An interrupted section goes
+on with the scans that it has made.
 """
 import importlib
 import pathlib
@@ -11,11 +12,11 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE / "sections"), str(HERE.parent)]
 
 from page import write_section  # noqa: E402
-from study import ROOT, Study  # noqa: E402
+from study import ROOT, NotMeasured, Study  # noqa: E402
 
 # In the order in which they stand on their pages.
-SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misaligned_turntable", "large", "edits",
-            "decimation", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead",
+SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misaligned_turntable", "large", "views",
+            "edits", "decimation", "calibration", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead",
             "file_readers", "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
 
 
@@ -23,7 +24,11 @@ def measure(program, name):
     section = importlib.import_module(name)
     print(f"\n==> figures {name}: {section.__doc__.splitlines()[0]}", flush=True)
     study = Study(program)
-    section.measure(study)
+    try:
+        section.measure(study)
+    except NotMeasured as reason:
+        print(f"figures: {name} is not measured: {reason}", flush=True)
+        return
     title = getattr(section, "TITLE", None)
     if title:  # the others write their pictures and tables themselves
         page = ROOT / "docs" / getattr(section, "PAGE", "figures.md")

@@ -11,13 +11,13 @@ def end(name):
 
 
 def write_section(path, names, name, text):
-    """Replaces one section of a page; a new section comes behind the last one before it in `names`."""
+    """Replaces one section of a page; a new section follows the last one that precedes it in `names`."""
     page = path.read_text()
     body = f"{begin(name)}\n{text.rstrip()}\n{end(name)}\n"
     if begin(name) in page:
         head, rest = page.split(begin(name), 1)
-        page = head + body + rest.split(end(name), 1)[1].lstrip("\n")
-        page = page if page.endswith(body) else head + body + "\n" + page[len(head + body):]
+        rest = rest.split(end(name), 1)[1].lstrip("\n")
+        page = head + body + ("\n" + rest if rest else "")
     else:
         earlier = [other for other in names[: names.index(name)] if end(other) in page]
         if earlier:

@@ -1,4 +1,4 @@
-"""What the sections of the figures share: the program, a folder of scans that outlives an interruption, and lines of Markdown."""
+"""Shared by the sections of the figures: the program, a folder of scans that an interruption leaves intact, and lines of Markdown."""
 import hashlib
 import json
 import pathlib
@@ -9,8 +9,12 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SHARED = ROOT.parent / "shared" / "scans"
 
 
+class NotMeasured(Exception):
+    """Something that a section needs is missing on this machine; its page stays as it is."""
+
+
 class Study:
-    """One section in the making.
+    """What one section measures with, and the lines that it has written.
 
     Scans lie in out/figures/CHECKSUM/NAME, where the checksum is that of the program: a section that is
     started again goes on with the scans that are complete, and a new build measures everything again.
@@ -69,8 +73,8 @@ class Study:
             unfinished.rename(path)
         return path
 
-    def run_anew(self, name, *arguments):
-        """The JSON answer of a command that writes a folder, without what an earlier call left."""
+    def run_in_new_folder(self, name, *arguments):
+        """The JSON answer of a command that writes a folder; deletes the folder of an earlier call."""
         shutil.rmtree(self.work / name, ignore_errors=True)
         return self.run(*arguments, "-o", self.work / name)
 
@@ -81,7 +85,7 @@ class Study:
         return self.run("inspect", mesh, "--reference", truth, "--scan", scan)
 
     def build(self, *targets):
-        """Builds what the section needs beside the program."""
+        """Builds what the section needs in addition to the program."""
         subprocess.run(["cmake", "--preset", "release", "-DFRANGIA_BENCHMARKS=ON"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
         subprocess.run(["cmake", "--build", "--preset", "release", "--target", *targets], check=True, cwd=ROOT)
 
@@ -92,11 +96,10 @@ class Study:
         return json.loads(line[len("FIGURE "):])
 
     def shared(self, name):
-        """A scan of ../shared/scans; None, and a line of the section, where this machine has none."""
-        if (SHARED / name).exists():
-            return SHARED / name
-        self.add("Not measured: the shared scans are not on this machine.\n")
-        return None
+        """A scan of ../shared/scans."""
+        if not (SHARED / name).exists():
+            raise NotMeasured(f"{SHARED / name} does not exist")
+        return SHARED / name
 
 
 def seconds(answer):

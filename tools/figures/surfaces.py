@@ -1,9 +1,9 @@
-"""Meshes that the program wrote, and analytic shapes to compare them with."""
+"""Meshes in PLY, and analytic shapes to compare them with."""
 import numpy
 
 
 def read_ply(path):
-    """The vertices of a PLY that the program wrote, as a structured array by property name."""
+    """The vertices of a binary PLY, as a structured array by property name."""
     raw = path.read_bytes()
     end = raw.index(b"end_header\n") + len(b"end_header\n")
     types = {"float": "<f4", "uchar": "u1", "ushort": "<u2", "int": "<i4", "uint": "<u4"}
@@ -32,6 +32,7 @@ def points_of(vertices):
 
 
 def fit_sphere(points, centre, radius):
+    """Centre, radius and RMS residual of the sphere of least squares, from a first estimate."""
     for _ in range(30):
         away = points - centre
         distance = numpy.linalg.norm(away, axis=1)
@@ -39,6 +40,13 @@ def fit_sphere(points, centre, radius):
         step = numpy.linalg.lstsq(jacobian, radius - distance, rcond=None)[0]
         centre, radius = centre + step[:3], radius + step[3]
     return centre, radius, numpy.sqrt(numpy.mean((distance - radius) ** 2))
+
+
+def fit_ball(points, centre, radius=20.0, within=0.5):
+    """Centre, radius and RMS residual of a ball of the ball bar, from the points above its post and near the nominal sphere."""
+    centre = numpy.asarray(centre, float)
+    near = (points[:, 2] > 47) & (numpy.abs(numpy.linalg.norm(points - centre, axis=1) - radius) < within)
+    return fit_sphere(points[near], centre, radius)
 
 
 def box(p, low, high):

@@ -8,7 +8,7 @@
 namespace frangia {
 
 std::size_t surfel_budget(std::size_t pixels, std::size_t views) {
-  // More views overlap more and need fewer surfels each. tools/views_scaling.py prints the accuracy
+  // More views overlap more and need fewer surfels each. `./run figures views` prints the accuracy
   // with 6, 24 and 96 views.
   constexpr std::size_t kAllSurfels = 24 * kSurfelsPerView;
   return std::min(pixels, kAllSurfels / std::max<std::size_t>(1, views));

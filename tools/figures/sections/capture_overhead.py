@@ -1,4 +1,4 @@
-"""The time that a capture takes beside the devices and the disk."""
+"""The time that a capture takes in addition to the devices and the disk."""
 from study import ROOT
 
 PAGE = "figures-capture.md"
@@ -11,7 +11,7 @@ def measure(study):
     for small, large in (("[960, 768]", "[1280, 1024]"), ("[1800, 1800]", "[2400, 2400]"), ("[490.45, 377.35]", "[653.9, 503.1]"), ("samples = 4", "samples = 1")):
         text = text.replace(small, large)
     rig.write_text(text)
-    answer = study.run_anew("overhead", "scan", rig, "--views", 4)
+    answer = study.run_in_new_folder("overhead", "scan", rig, "--views", 4)
     study.add("`frangia scan` at 1280 x 1024 pixels, 4 views of 12 frames: the time of the program alone, without the devices (exposing, settling, moving; here rendering) and without waiting for the disk.\n")
     study.table("", "measured", "wanted")
     study.row("ms per frame", f"{answer['overhead_ms_per_frame']:.1f}", "at most 20")

@@ -4,7 +4,7 @@ import re
 import subprocess
 
 import meshlab
-from study import ROOT
+from study import ROOT, NotMeasured
 
 TITLE = "Decimation, measured by MeshLab"
 
@@ -26,8 +26,7 @@ def distance(sampled, target):
 def measure(study):
     missing = meshlab.is_missing()
     if missing:
-        study.add(f"Not measured: missing {', '.join(missing)}.")
-        return
+        raise NotMeasured(f"missing {', '.join(missing)}")
     study.build("bench_mesh")
     data = ROOT / "out" / "bench" / "data"
     subprocess.run([ROOT / "build/release/bin/bench_mesh", "--benchmark_filter=^decimate_to"], check=True,

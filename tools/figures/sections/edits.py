@@ -2,7 +2,7 @@
 import numpy
 
 import sharp_block
-from surfaces import fit_sphere, points_of, read_ply, read_triangles, rms, vertex_normals
+from surfaces import fit_ball, points_of, read_ply, read_triangles, rms, vertex_normals
 
 TITLE = "Edits"
 
@@ -30,9 +30,7 @@ def filled_holes(study):
     study.run("reconstruct", study.simulated("ball-bar"), "-o", mesh)
     points = points_of(read_ply(mesh))
     for side in (-35.0, 35.0):
-        from_centre = numpy.linalg.norm(points - [0.0, side, 60.0], axis=1)
-        near = points[(points[:, 2] > 47) & (numpy.abs(from_centre - 20) < 0.5)]
-        centre, radius, _ = fit_sphere(near, numpy.array([0.0, side, 60.0]), 20.0)
+        centre, radius, _ = fit_ball(points, [0.0, side, 60.0])
         top = centre + radius * numpy.array([0.0, numpy.sign(side) * 0.6, 0.8])
         ball = ",".join(f"{x:.4f}" for x in top) + ",10"
         study.run("edit", mesh, "--remove-islands", "5mm", "--select-ball", ball, "--delete", "--fill-holes", "25mm", "-o", filled)

@@ -13,11 +13,8 @@ def distance_to_block(p):
 
 
 def measure(study):
-    scan = study.shared("block")
-    if not scan:
-        return
     mesh = study.work / "block.ply"
-    answer = study.run("reconstruct", scan, "-o", mesh)
+    answer = study.run("reconstruct", study.shared("block"), "-o", mesh)
     vertices = read_ply(mesh)
     distance = distance_to_block(points_of(vertices))
     study.add("`frangia reconstruct ../shared/scans/block -o block.ply`; distances of the vertices to the analytic block. One fringe order corresponds to 28 mm of depth.\n")

@@ -2,13 +2,12 @@
 import subprocess
 import sys
 
-from study import ROOT
+from study import ROOT, NotMeasured
 
 
 def measure(study):
     bench, docs = ROOT / "out" / "bench", ROOT / "docs"
     if not (bench / "phase.json").exists():
-        print("the plots of times need out/bench: run `./run bench` first", flush=True)
-        return
+        raise NotMeasured("the plots of times need out/bench; run `./run bench` first")
     subprocess.run([sys.executable, ROOT / "tools" / "plot_phase.py", study.program, bench, docs / "phase"], check=True)
     subprocess.run([sys.executable, ROOT / "tools" / "plot_fusion.py", bench, docs / "images" / "surface-time.svg"], check=True)

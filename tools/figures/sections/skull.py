@@ -9,13 +9,9 @@ TITLE = "A real scan: the skull"
 
 
 def measure(study):
-    scan = study.shared("skull")
-    if not scan:
-        return
     mesh = study.work / "skull.ply"
-    answer = study.run("reconstruct", scan, "-o", mesh)
-    raw = (scan / "reference.ply").read_bytes()
-    reference = numpy.frombuffer(raw, "<f4", offset=raw.index(b"end_header\n") + 11).reshape(-1, 3)
+    answer = study.run("reconstruct", study.shared("skull"), "-o", mesh)
+    reference = points_of(read_ply(study.shared("skull") / "reference.ply"))
     distance = cKDTree(reference).query(points_of(read_ply(mesh)))[0]
     study.add("`frangia reconstruct ../shared/scans/skull -o skull.ply`; distances to the nearest point of its `reference.ply`, which is itself coarse.\n")
     study.table("", "measured", "wanted")

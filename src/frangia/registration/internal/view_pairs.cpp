@@ -9,7 +9,7 @@
 namespace frangia {
 namespace {
 
-/// Views that each view picks. tools/views_scaling.py prints the refined axis of 96 views, which
+/// Views that each view picks. `./run figures views` prints the refined axis of 96 views, which
 /// pick, and of 24 views, which are all compared with each other.
 constexpr std::size_t kPicked = 12;
 constexpr std::size_t kNeighbors = 2;      // nearest by rotation, always among the picked ones
