@@ -167,11 +167,8 @@ double largest_tilt_rad(std::span<const BoardView> found,
                         const CameraModel& projector) {
   const RigParameters start = start_values(board, found, camera, projector);
   std::vector<Eigen::Vector3d> normals;
-  for (const RigParameters::Pose& pose : start.camera_from_board) {
-    const Eigen::Vector3d rotation(pose[0], pose[1], pose[2]);
-    normals.push_back(Eigen::AngleAxisd(rotation.norm(), rotation.normalized()) *
-                      Eigen::Vector3d::UnitZ());
-  }
+  for (const RigParameters::Pose& pose : start.camera_from_board)
+    normals.push_back(isometry_of(pose).linear().col(2));
   double largest = 0.0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)

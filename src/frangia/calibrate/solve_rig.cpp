@@ -58,11 +58,9 @@ void adjust(std::span<const RigObservation> observations,
             const RigSolveOptions& options,
             Fit& fit,
             const Run& run) {
-  constexpr int kRounds = 3;  // the weights settle within these
+  constexpr int kRounds = 3;  // the weights converge within these
   const double parameters = static_cast<double>(fit.freedom.count()) +
                             6.0 * static_cast<double>(fit.parameters.camera_from_board.size());
-  SumOfSquares camera;
-  SumOfSquares projector;
   for (int i = 0; i < kRounds; ++i) {
     const RigBundleResult result = adjust_rig(
         observations, fit.freedom, fit.noise, options.max_iterations, fit.parameters, run);
@@ -73,9 +71,9 @@ void adjust(std::span<const RigObservation> observations,
           "views for one that is swapped or out of step");
     }
     fit.iterations += result.iterations;
-    camera = sum_squares(observations, fit.parameters, false);
-    projector = sum_squares(observations, fit.parameters, true);
-    fit.noise = noise_of(camera, projector, parameters);
+    fit.noise = noise_of(sum_squares(observations, fit.parameters, false),
+                         sum_squares(observations, fit.parameters, true),
+                         parameters);
   }
 }
 
@@ -103,15 +101,6 @@ CameraModel model_of(const RigParameters::Intrinsics& from, int width_px, int he
   model.principal_point_px = {from[2], from[3]};
   model.distortion = {from[4], from[5], from[6], from[7], from[8]};
   return model;
-}
-
-Eigen::Isometry3d isometry(const RigParameters::Pose& pose) {
-  const Eigen::Vector3d rotation(pose[0], pose[1], pose[2]);
-  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
-  if (rotation.norm() > 0.0)
-    out.linear() = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).matrix();
-  out.translation() = Eigen::Vector3d(pose[3], pose[4], pose[5]);
-  return out;
 }
 
 void add_residual(const Eigen::Vector2d& residual, ResidualSummary& summary) {
@@ -188,9 +177,9 @@ RigSolution solve_rig(const Board& board,
   out.camera =
       model_of(fit.parameters.camera, known.camera.model.width_px, known.camera.model.height_px);
   out.projector = model_of(fit.parameters.projector, projector->width_px, projector->height_px);
-  out.projector_from_camera = isometry(fit.parameters.projector_from_camera);
+  out.projector_from_camera = isometry_of(fit.parameters.projector_from_camera);
   for (const RigParameters::Pose& pose : fit.parameters.camera_from_board)
-    out.camera_from_board.push_back(isometry(pose));
+    out.camera_from_board.push_back(isometry_of(pose));
   out.board.aspect = fit.parameters.board[0];
   out.board.shear = fit.parameters.board[1];
   std::copy(

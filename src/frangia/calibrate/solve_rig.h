@@ -57,7 +57,7 @@ struct RigSolution {
   std::vector<std::vector<Eigen::Vector2d>> projector_residuals_px;  ///< likewise, of the projector
   std::vector<std::string> terms;       ///< model terms that the data supports, in words
   std::vector<std::string> held;        ///< optional terms that the data does not support
-  std::vector<std::string> parameters;  ///< names of the rows of `covariance`: "camera.fx", ...
+  std::vector<std::string> parameters;  ///< names of the rows of `covariance`: "camera.focal_px"
   /// Of all parameters of camera, projector and relative pose. A held term has the uncertainty that
   /// ordinary lenses leave and its correlation with the parameters that would compensate it.
   Eigen::MatrixXd covariance;

@@ -15,12 +15,12 @@ struct PaperSize {
 /// Writes a board to print at true scale as PDF, with a ruler to check the scale. Returns the board
 /// as drawn: a `square_mm` of 0 chooses the largest whole number of millimetres that fits.
 ///
-/// A board must not look the same turned by 180 degrees, so that it cannot be taken upside down:
+/// A checkerboard must not look the same turned by 180 degrees, so that its corners have one order:
 /// one of its numbers of squares is odd and one even.
 /// @units    mm
-/// @errors   Error(Input) when the board is symmetric or does not fit on the paper; Error(File)
-/// when
-///           the file cannot be written
+/// @errors   Error(Input) when the checkerboard is symmetric or the board does not fit on the
+/// paper;
+///           Error(File) when the file cannot be written
 Board write_board_pdf(const std::filesystem::path& path,
                       const Board& board,
                       const PaperSize& paper = {});

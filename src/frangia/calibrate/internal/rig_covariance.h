@@ -8,12 +8,12 @@
 namespace frangia {
 
 /// Adds the covariance of camera, projector and relative pose to a solution, with the poses and the
-/// board's shape marginalized, and names the parameters that the data leaves open. Terms of the
-/// lenses that are held have the uncertainty that ordinary lenses leave, so that it enters the
+/// board's shape marginalized, and names the parameters that the data do not determine. Terms of
+/// the lenses that are held have the uncertainty that ordinary lenses leave, so that it enters the
 /// parameters that would compensate them.
 ///
 /// @units    focal lengths and principal points px, rotation rad, translation mm
-/// @missing  a parameter that is not determined has the variance of its prior: none, so infinite
+/// @missing  a parameter that is not determined has an infinite variance
 /// @source   inverse of the normal equations; a direction whose eigenvalue is below 1e-12 of the
 ///           largest, in parameters scaled to unit diagonal, counts as not determined
 void add_covariance(std::span<const RigObservation> observations,

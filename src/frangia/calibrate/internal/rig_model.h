@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace frangia {
 
@@ -24,6 +25,16 @@ struct RigParameters {
   std::vector<Pose> camera_from_board;
   Shape board{};
 };
+
+/// The rigid transform of a pose.
+[[nodiscard]] inline Eigen::Isometry3d isometry_of(const RigParameters::Pose& pose) {
+  const Eigen::Vector3d rotation(pose[0], pose[1], pose[2]);
+  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
+  if (rotation.norm() > 0.0)
+    isometry.linear() = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).matrix();
+  isometry.translation() = Eigen::Vector3d(pose[3], pose[4], pose[5]);
+  return isometry;
+}
 
 /// Which parameters are estimated. Those that are not keep their values.
 struct RigFreedom {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 
@@ -122,15 +121,6 @@ cv::Mat better_matrix(const std::vector<SeenPoints>& views, const CameraModel& g
     known.at<double>(1, 2) = given.principal_point_px.y();
   }
   return mean_square(views, known) < mean_square(views, estimated) ? known : estimated;
-}
-
-Eigen::Isometry3d isometry_of(const RigParameters::Pose& pose) {
-  const Eigen::Vector3d rotation(pose[0], pose[1], pose[2]);
-  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
-  if (rotation.norm() > 0.0)
-    isometry.linear() = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).matrix();
-  isometry.translation() = Eigen::Vector3d(pose[3], pose[4], pose[5]);
-  return isometry;
 }
 
 RigParameters::Pose pose_from(const Eigen::Isometry3d& isometry) {
