@@ -16,5 +16,5 @@ def run(campaign):
     if result.returncode != 0:
         answer.failures += lines[-20:] or [f"mutate_inputs.py ended with {result.returncode}"]
     else:
-        answer.measured = lines[-1]
+        answer.measured = result.stdout.splitlines()[-1]
     return answer
