@@ -1,8 +1,6 @@
 // The library names options in backticks as snake_case; the program words them as flags.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -11,17 +9,14 @@
 
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
 
 using testing::Answer;
 using testing::run_program;
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using testing::text_of;
 
 /// The source without comments, and with the parts of each string literal joined.
 std::string code_of(const std::filesystem::path& path) {

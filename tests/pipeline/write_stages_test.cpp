@@ -12,15 +12,12 @@
 
 #include "support/small_scan.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
+using testing::text_of;
 
 TEST(WriteStages, WritesEveryFileThatItNamesAndAPageThatShowsEachPictureWithItsCaption) {
   const testing::TemporaryFolder folder;
