@@ -159,7 +159,7 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
   if (!arguments.picture.empty()) check_shown(arguments, mesh);
   std::optional<RayScene> reference;
   if (!arguments.reference.empty())
-    reference.emplace(read_surface(arguments.reference, run, arguments.read));
+    reference.emplace(read_surface(arguments.reference, run, arguments.read), run);
   if (!arguments.picture.empty()) draw(arguments, mesh, reference, run);
   if (!reference) {
     if (terminal.json) {
@@ -168,7 +168,7 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
     terminal.print_written(arguments.picture.string());
     return;
   }
-  const RayScene mesh_scene(mesh);
+  const RayScene mesh_scene(mesh, run);
   const SurfaceError error = surface_error(mesh, *reference, {}, run);
   const SurfaceCompleteness completeness = completeness_of(arguments, *reference, mesh_scene, run);
   print_result(error, completeness, surface_validity(mesh, *reference, run), arguments, terminal);

@@ -1,6 +1,9 @@
 #include "frangia/geometry/ray_scene.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <stop_token>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +135,57 @@ TEST(RayScene, GivesAScaledAnswerForAScaledMesh) {
       EXPECT_NEAR(scaled->signed_distance_mm / s, one->signed_distance_mm, 1e-12);
     }
   }
+}
+
+/// A quad cut into two triangles, `copies` times, of corners in other orders and vertices of their
+/// own.
+Mesh repeated_quad(std::uint32_t copies) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < copies; ++i) {
+    const std::uint32_t v = 4 * i;
+    for (const Eigen::Vector3f& corner :
+         {Eigen::Vector3f(0, 0, 0), {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})
+      mesh.vertices_mm.push_back(corner);
+    const std::uint32_t turn = i % 3;
+    std::array<std::uint32_t, 3> lower{v, v + 1, v + 2};
+    std::rotate(lower.begin(), lower.begin() + turn, lower.end());
+    mesh.triangles.push_back(lower);
+    mesh.triangles.push_back({v, v + 2, v + 3});
+  }
+  return mesh;
+}
+
+TEST(RayScene, NamesTheFirstOfRepeatedTriangles) {
+  Mesh mesh = box({-1, -1, 5}, {1, 1, 6});
+  const auto first = static_cast<std::uint32_t>(mesh.triangles.size());
+  const Mesh quads = repeated_quad(50);
+  for (const auto& [a, b, c] : quads.triangles)
+    mesh.triangles.push_back({a + 8, b + 8, c + 8});
+  mesh.vertices_mm.insert(
+      mesh.vertices_mm.end(), quads.vertices_mm.begin(), quads.vertices_mm.end());
+  mesh.triangles.push_back({0, 1, 2});  // beyond the repeated ones
+  const RayScene scene(mesh);
+  const auto nearest = scene.nearest({0.7, 0.2, 0.5});
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->triangle, first);
+  const auto hit = scene.first_hit({0.2, 0.7, -1.0}, {0, 0, 1});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->triangle, first + 1);
+}
+
+TEST(RayScene, IsAsFastWithRepeatedTriangles) {
+  // Without their removal each query visits all of them: a minute.
+  const RayScene scene(repeated_quad(50'000));
+  double sum = 0.0;
+  for (std::uint64_t i = 0; i < 100'000; ++i)
+    sum += scene.nearest({uniform_from(hash(1, i)), uniform_from(hash(2, i)), 0.5})->distance_mm;
+  EXPECT_NEAR(sum, 50'000.0, 1e-6);
+}
+
+TEST(RayScene, StopsWhenItsTaskIsCancelled) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(RayScene(unit_cube().mesh(), Run{.stop = stop.get_token()}), Error);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/geometry/nearest_on_triangle.h"
+#include "frangia/geometry/repeated_triangles.h"
 
 namespace frangia {
 namespace {
@@ -39,8 +40,14 @@ constexpr double kTie = 1e-9;
 /// Margin of Embree's query radius, which is in single precision; times the size of the mesh.
 constexpr double kQueryMargin = 1e-6;
 
+/// The triangle of the mesh that Embree knows by its number among the searched ones.
+std::uint32_t triangle_of(const std::vector<std::uint32_t>& searched, std::uint32_t number) {
+  return searched.empty() ? number : searched[number];
+}
+
 struct Search {
   const Mesh* mesh;
+  const std::vector<std::uint32_t>* searched;
   Eigen::Vector3d point_mm;
   std::optional<NearestPoint> best;
   double max_distance_mm;
@@ -74,7 +81,7 @@ bool consider(Search& search, std::uint32_t triangle) {
 
 bool on_candidate(RTCPointQueryFunctionArguments* arguments) {
   auto& search = *static_cast<Search*>(arguments->userPtr);
-  if (!consider(search, arguments->primID)) return false;
+  if (!consider(search, triangle_of(*search.searched, arguments->primID))) return false;
   // Embree prunes in single precision: the margin also keeps ties.
   const double radius = search.best->distance_mm * (1.0 + 1e-6) + kQueryMargin * search.size_mm;
   if (radius >= static_cast<double>(arguments->query->radius)) return false;
@@ -122,21 +129,28 @@ struct RayScene::Embree {
     rtcReleaseDevice(device);
   }
 
-  void build(const Mesh& mesh) const {
+  void build(const Mesh& mesh, const std::vector<Mesh::Triangle>& triangles, const Run& run) const {
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneProgressMonitorFunction(
+        scene,
+        [](void* data, double /*done*/) {
+          return !static_cast<const Run*>(data)->stop.stop_requested();
+        },
+        const_cast<Run*>(&run));  // NOLINT(*-const-cast): Embree passes it back unchanged
     if (!mesh.empty()) {
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
       copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices_mm);
-      copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+      copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles);
       rtcCommitGeometry(geometry);
       rtcAttachGeometry(scene, geometry);
       rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);  // `run` may end before the scene
   }
 };
 
-RayScene::RayScene(Mesh mesh) : mesh_(std::move(mesh)) {
+RayScene::RayScene(Mesh mesh, const Run& run) : mesh_(std::move(mesh)) {
   for (const auto& triangle : mesh_.triangles) {
     require(*std::max_element(triangle.begin(), triangle.end()) < mesh_.vertices_mm.size(),
             "RayScene: a triangle refers to a vertex that does not exist; repair the mesh first");
@@ -146,11 +160,26 @@ RayScene::RayScene(Mesh mesh) : mesh_(std::move(mesh)) {
     if (vertex.allFinite()) box.extend(vertex.cast<double>());
   }
   if (!box.isEmpty()) size_mm_ = box.diagonal().norm();
+  std::vector<Mesh::Triangle> without_repeated;
+  const std::vector<std::uint32_t> repeated = repeated_triangles(mesh_);
+  if (!repeated.empty()) {
+    auto next = repeated.begin();
+    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+      if (next != repeated.end() && *next == i) {
+        ++next;
+      } else {
+        searched_.push_back(i);
+        without_repeated.push_back(mesh_.triangles[i]);
+      }
+    }
+  }
+  run.check();
   // One thread builds the tree: which of two triangles a ray through their edge hits depends on it.
   tbb::task_arena(1).execute([&] {
     embree_ = std::make_unique<Embree>();
-    embree_->build(mesh_);
+    embree_->build(mesh_, repeated.empty() ? mesh_.triangles : without_repeated, run);
   });
+  run.check();
 }
 
 RayScene::RayScene(RayScene&& other) noexcept = default;
@@ -172,10 +201,11 @@ std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3d& origin_mm,
 #endif
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
-  const Corners t = corners_of(mesh_, query.hit.primID);
+  const std::uint32_t triangle = triangle_of(searched_, query.hit.primID);
+  const Corners t = corners_of(mesh_, triangle);
   const Eigen::Vector3d cross = (t.b - t.a).cross(t.c - t.a);
   RayHit hit;
-  hit.triangle = query.hit.primID;
+  hit.triangle = triangle;
   hit.normal = cross.normalized();
   // At grazing incidence the plane's distance is ill-conditioned; Embree's is kept.
   const double steepness = direction.dot(cross);
@@ -204,7 +234,7 @@ bool RayScene::occluded(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& t
 
 std::optional<NearestPoint> RayScene::nearest(const Eigen::Vector3d& point_mm,
                                               double max_distance_mm) const {
-  Search search{&mesh_, point_mm, std::nullopt, max_distance_mm, size_mm_};
+  Search search{&mesh_, &searched_, point_mm, std::nullopt, max_distance_mm, size_mm_};
   RTCPointQuery query{};
   query.x = static_cast<float>(point_mm.x());
   query.y = static_cast<float>(point_mm.y());

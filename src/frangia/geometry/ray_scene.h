@@ -4,9 +4,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -32,12 +34,12 @@ struct NearestPoint {
 /// Embree finds the triangle in single precision; the result is then computed in double precision.
 /// @units    mm
 /// @missing  triangles without area, or with a corner that is not finite, are ignored
-/// @errors   Error(Input) when a triangle refers to a vertex that does not exist
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist; Error(Cancelled)
 /// @source   Embree: Wald et al. 2014
 class RayScene {
  public:
   /// Builds the search structure and keeps the mesh.
-  explicit RayScene(Mesh mesh);
+  explicit RayScene(Mesh mesh, const Run& run = {});
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
   /// Takes over the mesh and the search structure.
@@ -69,6 +71,9 @@ class RayScene {
   struct Embree;
   Mesh mesh_;
   double size_mm_ = 0.0;  ///< of the bounding box
+  /// Triangles that Embree searches, ascending; empty: all. A repeated triangle is left out, since
+  /// queries visit every triangle at the same place.
+  std::vector<std::uint32_t> searched_;
   std::unique_ptr<Embree> embree_;
 };
 

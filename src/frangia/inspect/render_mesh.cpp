@@ -24,9 +24,9 @@ constexpr std::size_t kSkyRays = 4;  ///< per sample of a pixel
 
 class Renderer {
  public:
-  Renderer(const Mesh& mesh, const RenderOptions& options)
+  Renderer(const Mesh& mesh, const RenderOptions& options, const Run& run)
       : options_(options),
-        scene_(mesh),
+        scene_(mesh, run),
         normals_(corner_normals(mesh, options.crease_rad)),
         viewpoint_(fit_viewpoint(mesh, options)) {
     Eigen::AlignedBox3d box;
@@ -143,7 +143,7 @@ Image<Rgb> render_mesh(const Mesh& mesh, const RenderOptions& options, const Run
           "a picture needs one value per vertex");
   require(options.highlighted.empty() || options.highlighted.size() == mesh.triangles.size(),
           "a picture needs one highlight per triangle");
-  const Renderer renderer(mesh, options);
+  const Renderer renderer(mesh, options, run);
   Image<Rgb> picture(options.width_px, options.height_px);
   const double half = 0.5 * std::min(options.width_px, options.height_px);
   const int across = options.samples_across;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "frangia/core/parallel.h"
+#include "frangia/core/interruptible_chunks.h"
 #include "frangia/geometry/sample_surface.h"
 
 namespace frangia {
@@ -46,7 +46,7 @@ SurfaceCompleteness completeness_of(const RayScene& reference,
           "the reference has no triangles, only points; give a mesh with triangles");
   std::vector<SampleStatus> found(samples.size(), SampleStatus::Excluded);
   constexpr std::size_t kChunk = 1024;
-  parallel_chunks(samples.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  interruptible_chunks(samples.size(), kChunk, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!counts(samples[i])) continue;
       found[i] = mesh.nearest(samples[i].point_mm, options.within_mm) ? SampleStatus::Covered

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frangia/core/parallel.h"
+#include "frangia/core/interruptible_chunks.h"
 #include "frangia/geometry/sample_surface.h"
 
 namespace frangia {
@@ -15,11 +15,11 @@ std::vector<float> signed_distances(const std::vector<Eigen::Vector3d>& points,
   require(!reference.mesh().empty(),
           "the reference has no triangles, only points; give a mesh with triangles");
   constexpr std::size_t kChunk = 2048;
-  constexpr std::size_t kBlock = 64 * kChunk;  // between checks for cancellation
+  constexpr std::size_t kBlock = 64 * kChunk;  // between reports of progress
   std::vector<float> distances(points.size());
   for (std::size_t done = 0; done < points.size(); done += kBlock) {
     const std::size_t size = std::min(kBlock, points.size() - done);
-    parallel_chunks(size, kChunk, [&](std::size_t begin, std::size_t end) {
+    interruptible_chunks(size, kChunk, run, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = done + begin; i < done + end; ++i) {
         distances[i] = static_cast<float>(reference.nearest(points[i])->signed_distance_mm);
       }

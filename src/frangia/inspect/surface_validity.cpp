@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/parallel.h"
+#include "frangia/core/interruptible_chunks.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/mesh/make_manifold.h"
 
@@ -50,7 +50,7 @@ bool is_inward(const Mesh& mesh, const Mesh::Triangle& triangle, const RayScene&
 
 SurfaceValidity surface_validity(const Mesh& mesh, const RayScene& reference, const Run& run) {
   std::vector<std::uint8_t> inward(mesh.triangles.size());
-  parallel_chunks(inward.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  interruptible_chunks(inward.size(), 1024, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       inward[i] = is_inward(mesh, mesh.triangles[i], reference) ? 1 : 0;
   });

@@ -189,7 +189,7 @@ Mesh decimate_within(Mesh mesh, const DecimateOptions& options, const Run& run) 
   constexpr double kCheckedShare = 0.8;
   const HalfEdges edges(mesh);
   run.check();
-  const RayScene original(mesh);
+  const RayScene original(mesh, run);
   run.check();
   DistanceGuard guard(original, edges, kCheckedShare * options.tolerance_mm);
   Decimation(mesh, edges, options.tolerance_mm).run(edges, options.triangles, &guard, run);

@@ -68,7 +68,7 @@ bool any_keeps_distance(const Mesh& original,
                         double distance_mm,
                         const Run& run) {
   constexpr double kShare = 0.99;  // of the distance: room for rounding
-  const RayScene scene(original);
+  const RayScene scene(original, run);
   for (std::size_t v = 0; v < offset_mm.size(); ++v) {
     if (v % kStepsPerCheck == 0) run.check();
     if (offset_mm[v] == original.vertices_mm[v]) continue;

@@ -118,7 +118,7 @@ Mesh remesh_isotropic(const Mesh& mesh, const RemeshOptions& options, const Run&
           .vertex_point_map(points));
   run.report(0.9);
   Mesh remeshed = from_cgal(surface, run);
-  transfer_vertex_data(remeshed, RayScene(mesh), run);
+  transfer_vertex_data(remeshed, RayScene(mesh, run), run);
   return remeshed;
 }
 

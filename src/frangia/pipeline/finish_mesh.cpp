@@ -92,8 +92,8 @@ Mesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run) {
 Mesh limit_triangles(const Mesh& mesh, std::size_t max_triangles, const Run& run) {
   if (max_triangles == 0 || mesh.triangles.size() <= max_triangles) return mesh;
   Mesh fewer = decimate(mesh, {.triangles = max_triangles}, run);
-  const double distance_mm =
-      std::max(max_distance_mm(mesh, RayScene(fewer)), max_distance_mm(fewer, RayScene(mesh)));
+  const double distance_mm = std::max(max_distance_mm(mesh, RayScene(fewer, run)),
+                                      max_distance_mm(fewer, RayScene(mesh, run)));
   run.note(
       fmt::format("decimated to {} of {} triangles, at most {:.3g} mm from the original surface",
                   fewer.triangles.size(),

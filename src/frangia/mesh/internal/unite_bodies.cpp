@@ -60,7 +60,7 @@ std::optional<Mesh> unite_bodies(const Mesh& a, const Mesh& b, const Run& run) {
   Mesh united = from_cgal(both, run);
   Mesh source = a;
   append_mesh(source, b);
-  transfer_vertex_data(united, RayScene(std::move(source)), run);
+  transfer_vertex_data(united, RayScene(std::move(source), run), run);
   return united;
 }
 
