@@ -64,10 +64,18 @@ TEST(RangeScan, RotatesByTheConjugateOfTheQuaternionInAConf) {
   EXPECT_TRUE(turned.isApprox(Eigen::Vector3d(1.0, 1.0, 3.0), 1e-6)) << turned.transpose();
 }
 
-std::string fault_of(const std::string& text) {
+void read_text(const std::string& text) {
   const TemporaryFolder folder;
   write(folder.path() / "grid.ply", text);
-  return testing::error_of([&] { return read_range_scan(folder.path() / "grid.ply"); });
+  static_cast<void>(read_range_scan(folder.path() / "grid.ply"));
+}
+
+/// The message about a file with this text.
+std::string fault_of(const std::string& text) {
+  return error_of([&] {
+    read_text(text);
+    return 0;
+  });
 }
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -85,7 +93,7 @@ TEST(RangeScan, RefusesSizesWhoseProductOverflows) {
 TEST(RangeScan, SkipsAnElementWithoutPropertiesWhateverItsCount) {
   const std::string other = with(
       small_grid(3), "element range_grid", "element other 9000000000000000000\nelement range_grid");
-  EXPECT_EQ(fault_of(other), "");
+  EXPECT_NO_THROW(read_text(other));
   const std::string grid =
       "ply\nformat ascii 1.0\nobj_info num_cols 3\nobj_info num_rows 3\n"
       "element vertex 1\nproperty float x\nproperty float y\n"
@@ -97,7 +105,7 @@ TEST(RangeScan, SkipsAnElementWithoutPropertiesWhateverItsCount) {
 
 TEST(RangeScan, RefusesIndicesAndLengthsThatAreNoWholeNumbers) {
   const std::string real = with(small_grid(3), "list uchar int", "list uchar double");
-  EXPECT_EQ(fault_of(real), "");
+  EXPECT_NO_THROW(read_text(real));
   for (const char* wrong : {"1 1e300\n", "1 nan\n", "1 inf\n", "1 0.5\n", "1 5e9\n"})
     EXPECT_NE(fault_of(with(real, "1 7\n", wrong)).find("not a valid index"), std::string::npos)
         << wrong;
