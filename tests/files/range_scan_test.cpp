@@ -72,7 +72,7 @@ void read_text(const std::string& text) {
 
 /// The message about a file with this text.
 std::string fault_of(const std::string& text) {
-  return error_of([&] {
+  return testing::error_of([&] {
     read_text(text);
     return 0;
   });
