@@ -185,7 +185,8 @@ TEST(RayScene, IsAsFastWithRepeatedTriangles) {
 TEST(RayScene, StopsWhenItsTaskIsCancelled) {
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(RayScene(unit_cube().mesh(), Run{.stop = stop.get_token()}), Error);
+  const frangia::Run run{.stop = stop.get_token()};
+  EXPECT_THROW(RayScene(unit_cube().mesh(), run), Error);
 }
 
 }  // namespace
