@@ -182,6 +182,15 @@ TEST(RayScene, IsAsFastWithRepeatedTriangles) {
   EXPECT_NEAR(sum, 50'000.0, 1e-6);
 }
 
+TEST(RayScene, HitsNothingByRaysBeyondSinglePrecision) {
+  const RayScene scene = unit_cube();
+  for (const double far : {1e19, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(scene.first_hit({far, 0, 0}, {-1, 0, 0}));
+    EXPECT_FALSE(scene.first_hit({5, 0, 0}, {-far, 0, 0}));
+    EXPECT_FALSE(scene.occluded({far, 0, 0}, {0, 0, 0}));
+  }
+}
+
 TEST(RayScene, StopsWhenItsTaskIsCancelled) {
   std::stop_source stop;
   stop.request_stop();

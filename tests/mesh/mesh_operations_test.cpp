@@ -107,6 +107,13 @@ TEST(Orient, MakesABallConsistentAndOutward) {
   EXPECT_NEAR(volume_mm3(turned), volume_mm3(ball()), 1e-3);
 }
 
+TEST(Orient, IsFastWhereTensOfThousandsOfTrianglesShareAnEdge) {
+  Mesh mesh;
+  mesh.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles.assign(30'000, {0, 1, 2});
+  EXPECT_EQ(orient(mesh).triangles, mesh.triangles);  // a minute when each visits all others
+}
+
 TEST(OffsetMesh, OffsetsTheFacesOfABoxToALargerBox) {
   EXPECT_NEAR(volume_mm3(offset_mesh(box({0, 0, 0}, {10, 20, 30}), 1.0)), 12.0 * 22.0 * 32.0, 0.01);
 }

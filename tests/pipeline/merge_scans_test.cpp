@@ -243,6 +243,15 @@ TEST(MergeScans, RefusesScansOfFewPointsInOneSentence) {
     EXPECT_NE(fault_of({small_scan(3, joined), small_scan(3, joined)}), "");
 }
 
+TEST(MergeScans, RefusesAPoseThatIsTooFarForItsCoordinates) {
+  for (const double far_mm : {1e300, 1e8}) {
+    RangeScan far = small_scan(12, true);
+    far.path = "far.ply";
+    far.world_from_scan.translation().x() = far_mm;
+    EXPECT_NE(fault_of({small_scan(12, true), far}).find("far.ply: its pose"), std::string::npos);
+  }
+}
+
 TEST(MergeScans, RefusesPointsThatCoincide) {
   RangeScan scan = small_scan(3, false);
   for (auto& point : scan.mesh.vertices_mm)

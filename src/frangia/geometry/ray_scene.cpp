@@ -89,6 +89,14 @@ bool on_candidate(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
+/// Whether Embree accepts a ray: its coordinates must be finite and below 1.8e18.
+bool is_valid(const RTCRay& ray) {
+  constexpr float kLargest = 1e18F;
+  const auto fits = [](float value) { return std::abs(value) < kLargest; };  // false for NaN
+  return fits(ray.org_x) && fits(ray.org_y) && fits(ray.org_z) && fits(ray.dir_x) &&
+         fits(ray.dir_y) && fits(ray.dir_z) && !std::isnan(ray.tfar);
+}
+
 RTCRay ray_of(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double end) {
   RTCRay ray{};
   ray.org_x = static_cast<float>(origin.x());
@@ -192,6 +200,7 @@ std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3d& origin_mm,
   RTCRayHit query{};
   query.ray = ray_of(origin_mm, direction, max_distance);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  if (!is_valid(query.ray)) return std::nullopt;
 #if RTC_VERSION_MAJOR >= 4
   rtcIntersect1(embree_->scene, &query);
 #else
@@ -222,6 +231,7 @@ std::optional<RayHit> RayScene::first_hit(const Eigen::Vector3d& origin_mm,
 
 bool RayScene::occluded(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm) const {
   RTCRay ray = ray_of(from_mm, to_mm - from_mm, 1.0);
+  if (!is_valid(ray)) return false;
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(embree_->scene, &ray);
 #else

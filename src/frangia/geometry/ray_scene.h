@@ -33,7 +33,8 @@ struct NearestPoint {
 ///
 /// Embree finds the triangle in single precision; the result is then computed in double precision.
 /// @units    mm
-/// @missing  triangles without area, or with a corner that is not finite, are ignored
+/// @missing  triangles without area, or with a corner that is not finite, are ignored; a ray with a
+///          coordinate that is not finite or beyond 1e18 hits nothing
 /// @errors   Error(Input) when a triangle refers to a vertex that does not exist; Error(Cancelled)
 /// @source   Embree: Wald et al. 2014
 class RayScene {

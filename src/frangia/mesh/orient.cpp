@@ -18,17 +18,24 @@ struct Neighbor {
   bool opposite;
 };
 
+/// The triangle that continues the surface beyond an edge; none at a boundary, and none where three
+/// or more triangles share the edge, since which one continues is ambiguous.
 std::vector<Neighbor> neighbors(const Mesh& mesh, const HalfEdges& edges, std::uint32_t edge) {
   if (edges.is_boundary(edge)) return {};
   if (edges.has_twin(edge)) return {{edges.twin(edge) / 3, false}};
   const std::uint32_t from = source_vertex(mesh, edge);
   const std::uint32_t to = target_vertex(mesh, edge);
   std::vector<Neighbor> found;
-  for (const std::uint32_t e : edges.outgoing(from))
-    if (e != edge && target_vertex(mesh, e) == to) found.push_back({e / 3, true});
-  for (const std::uint32_t e : edges.outgoing(to))
-    if (target_vertex(mesh, e) == from) found.push_back({e / 3, false});
-  if (found.size() > 1) found.clear();  // which triangle continues the surface is ambiguous
+  for (const std::uint32_t e : edges.outgoing(from)) {
+    if (e == edge || target_vertex(mesh, e) != to) continue;
+    found.push_back({e / 3, true});
+    if (found.size() > 1) return {};
+  }
+  for (const std::uint32_t e : edges.outgoing(to)) {
+    if (target_vertex(mesh, e) != from) continue;
+    found.push_back({e / 3, false});
+    if (found.size() > 1) return {};
+  }
   return found;
 }
 

@@ -20,7 +20,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 constexpr std::size_t kChunk = 2048;  // leaves of the tree, or triangles
 /// Triangles that all coincide intersect in pairs without bound. A scan has thousands of pairs.
-constexpr std::size_t kMaxPairs = 4'000'000;
+constexpr std::size_t kMaxPairs = 1'000'000;
 
 IndexedTriangle corners_of(const Mesh& mesh, std::uint32_t triangle) {
   return indexed_triangle(mesh.triangles[triangle],
@@ -78,9 +78,8 @@ void collect(std::size_t count, std::size_t chunk, Pairs& all, const Run& run, c
   run.check();
   if (total > kMaxPairs) {
     throw Error(ErrorKind::Input,
-                fmt::format("more than {} million pairs of triangles intersect; remove the "
-                            "triangles that coincide",
-                            kMaxPairs / 1'000'000));
+                "more than a million pairs of triangles intersect; remove the triangles that "
+                "coincide");
   }
   for (const Pairs& pairs : found)
     all.insert(all.end(), pairs.begin(), pairs.end());

@@ -14,8 +14,8 @@ namespace frangia {
 /// share. Triangles without area are ignored.
 ///
 /// @shape    pairs of triangle indices, the smaller one first, in ascending order
-/// @errors   Error(Input) when a triangle refers to a vertex that does not exist, when more than 4
-///          million pairs intersect, or in a build without CGAL; Error(Cancelled)
+/// @errors   Error(Input) when a triangle refers to a vertex that does not exist, when more than
+///          a million pairs intersect, or in a build without CGAL; Error(Cancelled)
 /// @source   CGAL, Intersecting Sequences of dD Iso-oriented Boxes; exact predicates
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const Run& run = {});

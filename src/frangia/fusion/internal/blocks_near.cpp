@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 
 namespace frangia {
@@ -111,6 +115,9 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
   const int top = (box.top + stride - 1) / stride * stride;
   const auto rows = static_cast<std::size_t>(std::max(0, (box.bottom - top + stride - 1) / stride));
   std::vector<std::vector<std::uint64_t>> parts((rows + kRows - 1) / kRows);
+  // Beyond, single-precision coordinates are coarser than a voxel and keys of blocks repeat.
+  constexpr float kMostVoxels = 4e6F;
+  std::atomic<bool> too_far = false;
   parallel_chunks(rows, kRows, [&](std::size_t begin, std::size_t end) {
     KeySet keys;
     for (std::size_t row = begin; row < end; ++row) {
@@ -121,6 +128,10 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
         const float depth = 1.0F / view.inverse_depth(x, y);
         const Eigen::Vector3f ray(camera.rays(x, y).x(), camera.rays(x, y).y(), 1.0F);
         const Eigen::Vector3f point = origin + rotation * (depth * ray);
+        if (!(point.cwiseAbs().maxCoeff() < kMostVoxels)) {
+          too_far = true;
+          return;
+        }
         const Eigen::Vector3f along = (rotation * ray).normalized();  // one voxel
         const float cosine = std::max(1.0F / kLongest, quad.distance_mm / (depth * ray.norm()));
         const float reach = near / cosine;
@@ -129,6 +140,13 @@ std::vector<std::uint64_t> blocks_near(const LocalPlanes& view,
     }
     parts[begin / kRows] = keys.release();
   });
+  if (too_far) {
+    throw Error(ErrorKind::Input,
+                fmt::format("a view has points more than {:.3g} mm from the origin, too far for "
+                            "voxels of {:.3g} mm; correct the poses or enlarge the voxels",
+                            static_cast<double>(kMostVoxels) * band.voxel_mm,
+                            band.voxel_mm));
+  }
   KeySet all;
   for (const auto& part : parts) {
     for (const std::uint64_t key : part)

@@ -123,6 +123,17 @@ VirtualCamera virtual_camera_of(const RangeScan& scan) {
                             "proportion; remove the stray points",
                             scan.path.string()));
   }
+  // Fused coordinates are single-precision numbers, with 2^23 steps up to their largest value.
+  constexpr double kMostSpacings = 1 << 20;
+  const double distance_mm = (scan.world_from_scan * box.center().cast<double>()).norm();
+  if (!(distance_mm < kMostSpacings * camera.spacing_mm)) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: its pose places it {:.3g} mm from the origin, more than a million "
+                            "times the spacing of its points; correct the pose or move all poses "
+                            "towards the origin",
+                            scan.path.string(),
+                            distance_mm));
+  }
   const Eigen::Vector3d towards = mean_normal(scan.mesh);
   const Eigen::Vector3d right = towards.unitOrthogonal();
   camera.rig_from_scan.linear() << right.transpose(), -towards.cross(right).transpose(),

@@ -24,8 +24,8 @@ struct VirtualCamera {
 /// Returns the virtual camera of one scan, at its centre until `common_camera_model` sets the
 /// distance.
 ///
-/// @errors   Error(Input) that names the file when the scan has fewer than 3 points, or when its
-///          points coincide or one of them is too far away
+/// @errors   Error(Input) that names the file when the scan has fewer than 3 points, when its
+///          points coincide or one of them is too far away, or when its pose is too far away
 [[nodiscard]] VirtualCamera virtual_camera_of(const RangeScan& scan);
 
 /// Returns one camera model for all scans and moves the cameras to their distance. The field holds
