@@ -17,8 +17,8 @@ function(frangia_module name)
   set(dir ${PROJECT_SOURCE_DIR}/src/frangia/${name})
   file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/internal/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${dir}/*.h)
-  if(NOT FRANGIA_CALIBRATION)  # the module calibrate, and sources of other modules that need it
-    list(FILTER sources EXCLUDE REGEX "/frangia/(calibrate/|[a-z_]+/calibrate_)")
+  if(NOT FRANGIA_CALIBRATION)  # the modules calibrate and exchange, and sources of other modules that need it
+    list(FILTER sources EXCLUDE REGEX "/frangia/(calibrate/|exchange/|[a-z_]+/calibrate_)")
   endif()
   list(TRANSFORM ARG_USES PREPEND "frangia::")
   list(TRANSFORM ARG_PRIVATE_HEADERS REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/files/lowercase_extension.h"
+#include "frangia/core/lowercase_extension.h"
 #include "frangia/pipeline/merge_scans.h"
 
 #include "allow_memory.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/files/lowercase_extension.h"
+#include "frangia/core/lowercase_extension.h"
 #include "frangia/files/ply.h"
 #include "frangia/pipeline/reconstruct.h"
 

@@ -20,7 +20,7 @@ const CameraModel kCameraModel{.width_px = 640,
 
 /// Points and pixels of OpenCV 4.6 for one set of coefficients, by tests/rig/make_opencv_points.py.
 struct OpenCvModel {
-  std::array<double, 5> distortion;
+  std::array<double, kDistortionCoefficients> distortion;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector2d>> projected;    ///< point, pixel
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> undistorted;  ///< pixel, ray
 };
@@ -56,6 +56,64 @@ const std::vector<OpenCvModel>& opencv_models() {
            {{639, 511}, {0.26991457757330817, 0.22674524261013701}},
            {{17.25, 480.5}, {-0.26739421690847215, 0.19966483340668892}},
            {{600, 30}, {0.23354410276676457, -0.19078122630104499}},
+       }},
+      {{0.21, -0.12, 0.0004, -0.0003, 0.03, 0.33, -0.06, 0.02},
+       {
+           {{0, 0, 250}, {326.80000000000001, 251.40000000000001}},
+           {{30, -20, 400}, {416.70155425469227, 191.96701732606459}},
+           {{-85, 60, 400}, {73.805881177929592, 428.5110381754493}},
+           {{120, 95, 500}, {611.48093544489916, 474.96538699615178}},
+           {{-140, -110, 450}, {-39.399861481149173, -33.812300465790457}},
+       },
+       {
+           {{0, 0}, {-0.27643967200172942, -0.21452461418800917}},
+           {{326.8, 251.4}, {0, 0}},
+           {{639, 511}, {0.26402965973623393, 0.22131193201951357}},
+           {{17.25, 480.5}, {-0.26123260361727996, 0.19494573137320362}},
+           {{600, 30}, {0.23023767211641838, -0.18816530271268678}},
+       }},
+      {{-0.12, 0.05, 0.0004, -0.0003, 0.01, 0.02, -0.01, 0.003, 0.001, -0.0002, 0.0005, 0.0001},
+       {
+           {{0, 0, 250}, {326.80000000000001, 251.40000000000001}},
+           {{30, -20, 400}, {416.69715748664089, 191.98120166798984}},
+           {{-85, 60, 400}, {74.134298210003976, 428.37800868070718}},
+           {{120, 95, 500}, {611.26076405782624, 474.76271448232058}},
+           {{-140, -110, 450}, {-38.803385367332282, -33.393272084172594}},
+       },
+       {
+           {{0, 0}, {-0.27691578616637674, -0.2148638002118535}},
+           {{326.8, 251.4}, {0, 0}},
+           {{639, 511}, {0.26424331653353639, 0.22152789429779804}},
+           {{17.25, 480.5}, {-0.26166382682958478, 0.19513339509101846}},
+           {{600, 30}, {0.23041651411103428, -0.18842913553296312}},
+       }},
+      {{-0.12,
+        0.05,
+        0.0004,
+        -0.0003,
+        0.01,
+        0.02,
+        -0.01,
+        0.003,
+        0.001,
+        -0.0002,
+        0.0005,
+        0.0001,
+        0.03,
+        -0.05},
+       {
+           {{0, 0, 250}, {326.80000000000001, 251.40000000000001}},
+           {{30, -20, 400}, {417.01281661088649, 191.95444812050007}},
+           {{-85, 60, 400}, {75.346544594711133, 427.01397876842861}},
+           {{120, 95, 500}, {616.68991227086599, 479.27479032211897}},
+           {{-140, -110, 450}, {-31.228545123725951, -27.802069266543555}},
+       },
+       {
+           {{0, 0}, {-0.28236886638365455, -0.2188477000728348}},
+           {{326.8, 251.4}, {0, 0}},
+           {{639, 511}, {0.25869098337591734, 0.2166595091009911}},
+           {{17.25, 480.5}, {-0.26325999857689153, 0.19687479107902839}},
+           {{600, 30}, {0.22877093471463555, -0.18757597729157641}},
        }}};
   return models;
 }
@@ -105,13 +163,23 @@ TEST(CameraModel, RayOfAPixelProjectsBackToThePixel) {
 TEST(CameraModel, JacobianIsTheDerivativeOfDistort) {
   const Eigen::Vector2d at(0.21, -0.17);
   const double h = 1e-6;
-  Eigen::Matrix2d numeric;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(axis);
-    numeric.col(axis) =
-        (kCameraModel.distort(at + step) - kCameraModel.distort(at - step)) / (2.0 * h);
+  CameraModel model = kCameraModel;
+  for (const OpenCvModel& each : opencv_models()) {
+    model.distortion = each.distortion;
+    Eigen::Matrix2d numeric;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(axis);
+      numeric.col(axis) = (model.distort(at + step) - model.distort(at - step)) / (2.0 * h);
+    }
+    EXPECT_NEAR((numeric - model.distort_jacobian(at)).norm(), 0.0, 1e-8);
+    const auto fast = FastCameraModel(model);
+    const auto pixel = model.distortion[5] != 0.0 ? fast.jacobian<true>(0.21F, -0.17F)
+                                                  : fast.jacobian<false>(0.21F, -0.17F);
+    EXPECT_NEAR(static_cast<double>(pixel.ux), model.focal_px.x() * numeric(0, 0), 2e-3);
+    EXPECT_NEAR(static_cast<double>(pixel.uy), model.focal_px.x() * numeric(0, 1), 2e-3);
+    EXPECT_NEAR(static_cast<double>(pixel.vx), model.focal_px.y() * numeric(1, 0), 2e-3);
+    EXPECT_NEAR(static_cast<double>(pixel.vy), model.focal_px.y() * numeric(1, 1), 2e-3);
   }
-  EXPECT_NEAR((numeric - kCameraModel.distort_jacobian(at)).norm(), 0.0, 1e-8);
 }
 
 TEST(CameraModel, HasNoRayWhereTheModelFoldsBack) {
@@ -124,7 +192,9 @@ TEST(CameraModel, RaysOfMatchesRayAtEveryPixel) {
   CameraModel folding = kCameraModel;  // so strong that the corners of the image have no ray
   folding.distortion[0] = -2.0;
   folding.focal_px = {700.0, 690.0};
-  for (const CameraModel& model : {kCameraModel, folding}) {
+  CameraModel tilted = kCameraModel;
+  tilted.distortion = opencv_models().back().distortion;
+  for (const CameraModel& model : {kCameraModel, folding, tilted}) {
     const auto rays = rays_of(model);
     int missing = 0;
     for (int y = 0; y < model.height_px; y += 3) {

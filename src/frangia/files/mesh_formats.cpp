@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "frangia/core/lowercase_extension.h"
 #include "frangia/files/dxf.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/obj.h"
@@ -9,7 +10,6 @@
 #include "frangia/files/internal/pcd.h"
 #include "frangia/files/internal/three_mf.h"
 #include "frangia/files/internal/xyz.h"
-#include "frangia/files/lowercase_extension.h"
 #include "frangia/files/ply.h"
 #include "frangia/files/stl.h"
 

@@ -25,9 +25,10 @@ struct RayRow {
   std::vector<double> x, y, distorted_x, distorted_y;
 };
 
-/// Performs one Newton step for a whole row; returns the largest squared error before the step.
+/// Performs one Newton step of the model of Brown and Conrady for a whole row; returns the largest
+/// squared error before the step.
 FRANGIA_VECTORIZED_WIDE double newton_step(const CameraModel& model, RayRow& row) {
-  const auto [k1, k2, p1, p2, k3] = model.distortion;
+  const auto [k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, tau_x, tau_y] = model.distortion;
   double* to_x = row.x.data();
   double* to_y = row.y.data();
   const double* from_x = row.distorted_x.data();
@@ -57,55 +58,35 @@ FRANGIA_VECTORIZED_WIDE double newton_step(const CameraModel& model, RayRow& row
   return worst;
 }
 
-}  // namespace
-
-Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& normalized) const {
-  const auto& [k1, k2, p1, p2, k3] = distortion;
-  const double x = normalized.x();
-  const double y = normalized.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
-          y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+Eigen::Vector2d distorted_by(const Distortion<double>& lens, const Eigen::Vector2d& normalized) {
+  const auto [u, v] = lens.extended ? lens.distort<true>(normalized.x(), normalized.y())
+                                    : lens.distort<false>(normalized.x(), normalized.y());
+  return {u, v};
 }
 
-Eigen::Matrix2d CameraModel::distort_jacobian(const Eigen::Vector2d& normalized) const {
-  const auto& [k1, k2, p1, p2, k3] = distortion;
-  const double x = normalized.x();
-  const double y = normalized.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // 2 d(radial) / d(r^2)
+Eigen::Matrix2d jacobian_of(const Distortion<double>& lens, const Eigen::Vector2d& normalized) {
+  const auto d = lens.extended ? lens.jacobian<true>(normalized.x(), normalized.y())
+                               : lens.jacobian<false>(normalized.x(), normalized.y());
   Eigen::Matrix2d jacobian;
-  jacobian << radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x,
-      slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y,  //
-      slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y,
-      radial + slope * y * y + 6.0 * p1 * y + 2.0 * p2 * x;
+  jacobian << d.ux, d.uy, d.vx, d.vy;
   return jacobian;
 }
 
-Eigen::Vector2d CameraModel::undistort(const Eigen::Vector2d& distorted) const {
+Eigen::Vector2d undistorted_by(const Distortion<double>& lens, const Eigen::Vector2d& distorted) {
   Eigen::Vector2d guess = distorted;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const Eigen::Vector2d error = distort(guess) - distorted;
+    const Eigen::Vector2d error = distorted_by(lens, guess) - distorted;
     if (error.squaredNorm() < kConverged) return guess;
-    const Eigen::Matrix2d jacobian = distort_jacobian(guess);
+    const Eigen::Matrix2d jacobian = jacobian_of(lens, guess);
     if (!(jacobian.determinant() > kMinDeterminant)) break;
     guess -= jacobian.inverse() * error;
   }
-  if ((distort(guess) - distorted).squaredNorm() < kAcceptable) return guess;
+  if ((distorted_by(lens, guess) - distorted).squaredNorm() < kAcceptable) return guess;
   return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
-Eigen::Vector2d CameraModel::project(const Eigen::Vector3d& point) const {
-  return focal_px.cwiseProduct(distort(point.head<2>() / point.z())) + principal_point_px;
-}
-
-Eigen::Vector2d CameraModel::ray(const Eigen::Vector2d& pixel) const {
-  return undistort((pixel - principal_point_px).cwiseQuotient(focal_px));
-}
-
-Image<Eigen::Vector2f> rays_of(const CameraModel& model) {
+/// `rays_of` for the model of Brown and Conrady.
+Image<Eigen::Vector2f> basic_rays_of(const CameraModel& model) {
   Image<Eigen::Vector2f> rays(model.width_px, model.height_px, Uninitialized{});
   const auto width = static_cast<std::size_t>(model.width_px);
   std::vector<double> distorted_x(width);
@@ -130,6 +111,47 @@ Image<Eigen::Vector2f> rays_of(const CameraModel& model) {
     }
   });
   return rays;
+}
+
+/// `rays_of` for a model with further coefficients.
+Image<Eigen::Vector2f> extended_rays_of(const CameraModel& model, const Distortion<double>& lens) {
+  Image<Eigen::Vector2f> rays(model.width_px, model.height_px, Uninitialized{});
+  parallel_rows(model.height_px, [&](int y) {
+    for (int x = 0; x < model.width_px; ++x) {
+      const Eigen::Vector2d pixel(x, y);
+      rays(x, y) =
+          undistorted_by(lens, (pixel - model.principal_point_px).cwiseQuotient(model.focal_px))
+              .cast<float>();
+    }
+  });
+  return rays;
+}
+
+}  // namespace
+
+Eigen::Vector2d CameraModel::distort(const Eigen::Vector2d& normalized) const {
+  return distorted_by(Distortion<double>(distortion), normalized);
+}
+
+Eigen::Matrix2d CameraModel::distort_jacobian(const Eigen::Vector2d& normalized) const {
+  return jacobian_of(Distortion<double>(distortion), normalized);
+}
+
+Eigen::Vector2d CameraModel::undistort(const Eigen::Vector2d& distorted) const {
+  return undistorted_by(Distortion<double>(distortion), distorted);
+}
+
+Eigen::Vector2d CameraModel::project(const Eigen::Vector3d& point) const {
+  return focal_px.cwiseProduct(distort(point.head<2>() / point.z())) + principal_point_px;
+}
+
+Eigen::Vector2d CameraModel::ray(const Eigen::Vector2d& pixel) const {
+  return undistort((pixel - principal_point_px).cwiseQuotient(focal_px));
+}
+
+Image<Eigen::Vector2f> rays_of(const CameraModel& model) {
+  const Distortion<double> lens(model.distortion);
+  return lens.extended ? extended_rays_of(model, lens) : basic_rays_of(model);
 }
 
 }  // namespace frangia

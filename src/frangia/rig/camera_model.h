@@ -5,17 +5,19 @@
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
+#include "frangia/rig/distortion.h"
 
 namespace frangia {
 
-/// A pinhole camera with Brown-Conrady distortion, as in OpenCV. A digital projector is an inverse
-/// camera and uses the same model. Pixel (0, 0) has its centre at (0, 0).
+/// A pinhole camera with the distortion model of OpenCV. A digital projector is an inverse camera
+/// and uses the same model. Pixel (0, 0) has its centre at (0, 0).
 struct CameraModel {
   int width_px = 0;                                              ///< width of the image
   int height_px = 0;                                             ///< height of the image
   Eigen::Vector2d focal_px = Eigen::Vector2d::Zero();            ///< focal lengths along x and y
   Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();  ///< pixel on the optical axis
-  std::array<double, 5> distortion{};                            ///< k1 k2 p1 p2 k3
+  /// k1 k2 p1 p2 k3, then k4 k5 k6 s1 s2 s3 s4 tau_x tau_y; see `Distortion`.
+  std::array<double, kDistortionCoefficients> distortion{};
 
   /// Applies the distortion to the normalized point (x/z, y/z).
   [[nodiscard]] Eigen::Vector2d distort(const Eigen::Vector2d& normalized) const;

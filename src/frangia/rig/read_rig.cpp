@@ -1,6 +1,7 @@
 #include "frangia/rig/read_rig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -78,7 +79,14 @@ CameraModel read_camera_model(TomlReader& reader, RigContent content) {
   if (complete || reader.has("principal_point_px"))
     model.principal_point_px = vector2(reader, "principal_point_px");
   if (reader.has("distortion")) {
-    const auto values = reader.numbers("distortion", 5);
+    const auto values = reader.numbers("distortion");
+    const std::array<std::size_t, 5> counts{4, 5, 8, 12, kDistortionCoefficients};
+    if (std::find(counts.begin(), counts.end(), values.size()) == counts.end()) {
+      reader.fail("distortion",
+                  fmt::format("has {} numbers; it must have 4, 5, 8, 12 or 14, in OpenCV's order: "
+                              "k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tau_x tau_y",
+                              values.size()));
+    }
     std::copy(values.begin(), values.end(), model.distortion.begin());
   }
   return model;
@@ -139,6 +147,15 @@ std::vector<double> list_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+/// The distortion without the groups of coefficients at the end that are 0.
+std::vector<double> shortest_distortion(const CameraModel& model) {
+  const auto last = std::find_if(
+      model.distortion.rbegin(), model.distortion.rend(), [](double c) { return c != 0.0; });
+  const auto used = static_cast<std::size_t>(model.distortion.rend() - last);
+  const std::size_t count = used <= 5 ? 5 : used <= 8 ? 8 : used <= 12 ? 12 : 14;
+  return {model.distortion.begin(), model.distortion.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 void put_camera_model(TomlWriter& writer, const CameraModel& model) {
   writer.put("size_px", std::vector<int>{model.width_px, model.height_px});
   if (model.focal_px.allFinite())
@@ -147,7 +164,7 @@ void put_camera_model(TomlWriter& writer, const CameraModel& model) {
     writer.put("principal_point_px",
                std::vector{model.principal_point_px.x(), model.principal_point_px.y()});
   }
-  writer.put("distortion", std::vector<double>(model.distortion.begin(), model.distortion.end()));
+  writer.put("distortion", shortest_distortion(model));
 }
 
 void put_camera(TomlWriter& writer, const Camera& camera) {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/error.h"
+#include "frangia/core/lowercase_extension.h"
 #include "frangia/files/internal/base64.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/mark_names.h"
-#include "frangia/files/lowercase_extension.h"
 #include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
 

@@ -71,6 +71,12 @@ struct ViewSampler {
   };
 
   void project(std::span<const Eigen::Vector3f> points_mm, Batch& batch) const {
+    model.lens.extended ? project_by<true>(points_mm, batch) : project_by<false>(points_mm, batch);
+  }
+
+  /// `kExtended` is that of the camera.
+  template <bool kExtended>
+  void project_by(std::span<const Eigen::Vector3f> points_mm, Batch& batch) const {
     const FastCameraModel camera = model;
     const Eigen::Matrix3f r = rotation;
     const Eigen::Vector3f t = translation;
@@ -85,7 +91,7 @@ struct ViewSampler {
       to.x[k] = r(0, 0) * x + r(0, 1) * y + r(0, 2) * z + t.x();
       to.y[k] = r(1, 0) * x + r(1, 1) * y + r(1, 2) * z + t.y();
       to.z[k] = r(2, 0) * x + r(2, 1) * y + r(2, 2) * z + t.z();
-      camera.project(to.x[k], to.y[k], to.z[k], to.u[k], to.v[k]);
+      camera.project<kExtended>(to.x[k], to.y[k], to.z[k], to.u[k], to.v[k]);
     }
   }
 

@@ -66,7 +66,9 @@ struct Row {
   alignas(32) Eight<float> weighted{};
 };
 
-/// Projects the voxels into the image. Points behind the camera and NaN are outside.
+/// Projects the voxels into the image. Points behind the camera and NaN are outside. `kExtended` is
+/// that of the camera.
+template <bool kExtended>
 [[gnu::always_inline]] inline void project_row(Row& row,
                                                const Sampler& sampler,
                                                const Eigen::Vector3f& start,
@@ -86,7 +88,7 @@ struct Row {
     const float z = fz + at * sz;
     float u = 0.0F;
     float v = 0.0F;
-    model.project(fx + at * sx, fy + at * sy, z, u, v);
+    model.project<kExtended>(fx + at * sx, fy + at * sy, z, u, v);
     row.depth[i] = z;
     row.u[i] = u;
     row.v[i] = v;
@@ -182,7 +184,11 @@ FRANGIA_VECTORIZED_WIDE void add_block(DistanceField::Block& block,
     const int up = r / kEdge;
     const Eigen::Vector3f start =
         first + steps.col(1) * static_cast<float>(across) + steps.col(2) * static_cast<float>(up);
-    project_row(row, sampler, start, step);
+    if (sampler.model.lens.extended) {
+      project_row<true>(row, sampler, start, step);
+    } else {
+      project_row<false>(row, sampler, start, step);
+    }
     std::int32_t seen = 0;
     std::int32_t creased = 0;
     for (std::size_t i = 0; i < kEdge; ++i) {

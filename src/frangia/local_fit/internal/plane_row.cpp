@@ -53,10 +53,12 @@ struct PlaneRowData {
   float* weight;
 };
 
-FRANGIA_VECTORIZED_WIDE void fit_planes(const PlaneRowData& rows,
-                                        const Eigen::Vector2f* rays,
-                                        const FastCameraModel& camera,
-                                        std::ptrdiff_t count) {
+/// `kExtended` is that of the camera.
+template <bool kExtended>
+[[gnu::always_inline]] inline void fit_planes_of(const PlaneRowData& rows,
+                                                 const Eigen::Vector2f* rays,
+                                                 const FastCameraModel& camera,
+                                                 std::ptrdiff_t count) {
   const PlaneRowData row = rows;
   const FastCameraModel model = camera;
   const float* ray = rays->data();
@@ -64,7 +66,7 @@ FRANGIA_VECTORIZED_WIDE void fit_planes(const PlaneRowData& rows,
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const float x = ray[2 * i];
     const float y = ray[2 * i + 1];
-    const FastCameraModel::Jacobian moves = model.jacobian(x, y);
+    const Distortion<float>::Jacobian moves = model.jacobian<kExtended>(x, y);
     const float a = moves.ux * row.slope_x[i] + moves.vx * row.slope_y[i];
     const float b = moves.uy * row.slope_x[i] + moves.vy * row.slope_y[i];
     const float c = row.mean[i] - (a * x + b * y);
@@ -79,6 +81,20 @@ FRANGIA_VECTORIZED_WIDE void fit_planes(const PlaneRowData& rows,
     row.tangent_distance[i] = distance * (row.mean[i] / q);
     row.weight[i] = squares * squares / row.variance[i];
   }
+}
+
+FRANGIA_VECTORIZED_WIDE void fit_planes(const PlaneRowData& rows,
+                                        const Eigen::Vector2f* rays,
+                                        const FastCameraModel& camera,
+                                        std::ptrdiff_t count) {
+  fit_planes_of<false>(rows, rays, camera, count);
+}
+
+void fit_planes_extended(const PlaneRowData& rows,
+                         const Eigen::Vector2f* rays,
+                         const FastCameraModel& camera,
+                         std::ptrdiff_t count) {
+  fit_planes_of<true>(rows, rays, camera, count);
 }
 
 }  // namespace
@@ -188,20 +204,23 @@ void PlaneRow::choose(const LinkedPixels& grid,
 void PlaneRow::fit(const Eigen::Vector2f* rays, const FastCameraModel& model) {
   const auto from = static_cast<std::ptrdiff_t>(begin_);
   const auto at = [&](Row& row) { return row.data() + from; };
-  fit_planes({at(value_),
-              at(variance_),
-              at(mean_),
-              at(slope_x_),
-              at(slope_y_),
-              at(normal_x_),
-              at(normal_y_),
-              at(normal_z_),
-              at(distance_),
-              at(tangent_distance_),
-              at(weight_)},
-             rays + from,
-             model,
-             static_cast<std::ptrdiff_t>(end_ - begin_));
+  const PlaneRowData row{at(value_),
+                         at(variance_),
+                         at(mean_),
+                         at(slope_x_),
+                         at(slope_y_),
+                         at(normal_x_),
+                         at(normal_y_),
+                         at(normal_z_),
+                         at(distance_),
+                         at(tangent_distance_),
+                         at(weight_)};
+  const auto count = static_cast<std::ptrdiff_t>(end_ - begin_);
+  if (model.lens.extended) {
+    fit_planes_extended(row, rays + from, model, count);
+  } else {
+    fit_planes(row, rays + from, model, count);
+  }
 }
 
 void PlaneRow::write(LocalPlanes::Plane* planes, float* inverse_depth) const {

@@ -1,0 +1,218 @@
+#include "frangia/exchange/internal/interpret_values.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+namespace frangia {
+namespace {
+
+using Names = std::initializer_list<const char*>;
+
+/// The first of some names that the file holds; null without one.
+const Eigen::MatrixXd* find(const NamedValues& values, Names names) {
+  for (const char* name : names) {
+    const auto found = values.matrices.find(name);
+    if (found != values.matrices.end()) return &found->second;
+  }
+  return nullptr;
+}
+
+std::optional<Eigen::Matrix3d> matrix3_of(const Eigen::MatrixXd* matrix) {
+  if (matrix == nullptr || matrix->rows() != 3 || matrix->cols() != 3) return std::nullopt;
+  return Eigen::Matrix3d(*matrix);
+}
+
+std::optional<Eigen::Vector3d> vector3_of(const Eigen::MatrixXd* matrix) {
+  if (matrix == nullptr || matrix->size() != 3) return std::nullopt;
+  return Eigen::Vector3d(matrix->reshaped());
+}
+
+std::vector<double> numbers_of(const Eigen::MatrixXd* matrix) {
+  if (matrix == nullptr) return {};
+  std::vector<double> numbers;
+  for (Eigen::Index i = 0; i < matrix->size(); ++i)
+    numbers.push_back(matrix->reshaped()[i]);
+  return numbers;
+}
+
+/// A rotation matrix, or one by its rotation vector.
+std::optional<Eigen::Matrix3d> rotation_of(const Eigen::MatrixXd* matrix) {
+  if (const auto full = matrix3_of(matrix)) return full;
+  const auto turn = vector3_of(matrix);
+  if (!turn) return std::nullopt;
+  if (turn->norm() == 0.0) return Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  return Eigen::AngleAxisd(turn->norm(), turn->normalized()).toRotationMatrix();
+}
+
+/// A side of an image in pixels; 0 when it is none.
+int side_of(const Eigen::MatrixXd* matrix) {
+  constexpr double kMaxSide = 65535.0;
+  if (matrix == nullptr || matrix->size() != 1) return 0;
+  const double side = (*matrix)(0, 0);
+  return side >= 1.0 && side <= kMaxSide && side == std::floor(side) ? static_cast<int>(side) : 0;
+}
+
+std::optional<std::array<int, 2>> size_of(const NamedValues& values, Names widths, Names heights) {
+  const int width = side_of(find(values, widths));
+  const int height = side_of(find(values, heights));
+  if (width == 0 || height == 0) return std::nullopt;
+  return std::array<int, 2>{width, height};
+}
+
+/// MATLAB's names from the part that states what a value is, without outer structures.
+NamedValues without_outer_names(const NamedValues& values) {
+  const auto inner = [](const std::string& name) {
+    for (const char* part : {"CameraParameters", "RotationOfCamera2", "TranslationOfCamera2"}) {
+      const auto at = name.find(part);
+      if (at != std::string::npos) return name.substr(at);
+    }
+    return name;
+  };
+  NamedValues inside;
+  for (const auto& [name, matrix] : values.matrices)
+    inside.matrices.emplace(inner(name), matrix);
+  for (const auto& [name, text] : values.texts)
+    inside.texts.emplace(inner(name), text);
+  return inside;
+}
+
+/// One of the two cameras of MATLAB's stereoParameters. Its first pixel has its centre at (1, 1),
+/// and its older matrix is transposed.
+ForeignLens matlab_camera_of(const NamedValues& values, const std::string& name) {
+  const auto named = [&](const char* part) { return find(values, {(name + "." + part).c_str()}); };
+  ForeignLens lens;
+  lens.matrix = matrix3_of(named("K"));
+  if (!lens.matrix) {
+    lens.matrix = matrix3_of(named("IntrinsicMatrix"));
+    if (lens.matrix) lens.matrix->transposeInPlace();
+  }
+  const std::vector<double> focal = numbers_of(named("FocalLength"));
+  const std::vector<double> center = numbers_of(named("PrincipalPoint"));
+  if (!lens.matrix && focal.size() == 2 && center.size() == 2) {
+    const std::vector<double> skew = numbers_of(named("Skew"));
+    lens.matrix = Eigen::Matrix3d{{focal[0], skew.empty() ? 0.0 : skew[0], center[0]},
+                                  {0.0, focal[1], center[1]},
+                                  {0.0, 0.0, 1.0}};
+  }
+  if (lens.matrix) {
+    (*lens.matrix)(0, 2) -= 1.0;
+    (*lens.matrix)(1, 2) -= 1.0;
+  }
+  const std::vector<double> radial = numbers_of(named("RadialDistortion"));
+  std::vector<double> tangential = numbers_of(named("TangentialDistortion"));
+  if (radial.size() >= 2 && radial.size() <= 3) {
+    tangential.resize(2);
+    lens.distortion = {radial[0], radial[1], tangential[0], tangential[1]};
+    if (radial.size() == 3) lens.distortion.push_back(radial[2]);
+  }
+  const std::vector<double> size = numbers_of(named("ImageSize"));  // rows, columns
+  if (size.size() == 2 && size[0] >= 1.0 && size[1] >= 1.0 && size[0] < 65536.0 &&
+      size[1] < 65536.0)
+    lens.size_px = std::array<int, 2>{static_cast<int>(size[1]), static_cast<int>(size[0])};
+  return lens;
+}
+
+/// One of the two cameras of Bouguet's toolbox, whose first pixel has its centre at (0, 0).
+ForeignLens toolbox_camera_of(const NamedValues& values, const std::string& side) {
+  const auto named = [&](const char* part) {
+    return numbers_of(find(values, {(part + side).c_str()}));
+  };
+  ForeignLens lens;
+  const std::vector<double> focal = named("fc");
+  const std::vector<double> center = named("cc");
+  const std::vector<double> skew = named("alpha_c");
+  if (focal.size() == 2 && center.size() == 2) {
+    lens.matrix = Eigen::Matrix3d{{focal[0], skew.empty() ? 0.0 : skew[0] * focal[0], center[0]},
+                                  {0.0, focal[1], center[1]},
+                                  {0.0, 0.0, 1.0}};
+  }
+  lens.distortion = named("kc");
+  return lens;
+}
+
+}  // namespace
+
+ForeignCalibration interpret_opencv_values(const NamedValues& values) {
+  ForeignCalibration found;
+  found.program = find(values, {"Kc"}) != nullptr      ? "SLStudio"
+                  : find(values, {"cam_K", "cam_int"}) ? "scan3d-capture"
+                                                       : "OpenCV";
+  found.camera.matrix = matrix3_of(find(values,
+                                        {"Kc",
+                                         "cam_K",
+                                         "cam_int",
+                                         "M1",
+                                         "K1",
+                                         "cameraMatrix1",
+                                         "camera_matrix",
+                                         "cameraMatrix",
+                                         "K"}));
+  found.camera.distortion = numbers_of(find(values,
+                                            {"kc",
+                                             "cam_kc",
+                                             "cam_dist",
+                                             "D1",
+                                             "d1",
+                                             "distCoeffs1",
+                                             "distortion_coefficients",
+                                             "distCoeffs",
+                                             "dist_coeffs",
+                                             "D"}));
+  found.camera.size_px = size_of(
+      values, {"frameWidth", "image_width", "width"}, {"frameHeight", "image_height", "height"});
+  found.projector.matrix = matrix3_of(find(
+      values,
+      {"Kp", "proj_K", "proj_int", "M2", "K2", "cameraMatrix2", "projector_matrix", "projMatrix"}));
+  found.projector.distortion = numbers_of(find(values,
+                                               {"kp",
+                                                "proj_kc",
+                                                "proj_dist",
+                                                "D2",
+                                                "d2",
+                                                "distCoeffs2",
+                                                "projector_distortion",
+                                                "projDist"}));
+  found.projector.size_px = size_of(values,
+                                    {"screenResX", "projector_width", "proj_width"},
+                                    {"screenResY", "projector_height", "proj_height"});
+  found.rotation = rotation_of(find(values, {"Rp", "R", "rotation"}));
+  found.translation = vector3_of(find(values, {"Tp", "T", "t", "translation"}));
+  // scan3d-capture writes metres into its JSON, and millimetres into its YAML.
+  if (find(values, {"cam_int"}) != nullptr) found.mm_per_unit = 1000.0;
+  return found;
+}
+
+ForeignCalibration interpret_matlab_values(const NamedValues& all) {
+  const NamedValues values = without_outer_names(all);
+  ForeignCalibration found;
+  if (find(values, {"fc_left"}) != nullptr) {
+    found.program = "the Camera Calibration Toolbox";
+    found.camera = toolbox_camera_of(values, "_left");
+    found.projector = toolbox_camera_of(values, "_right");
+    found.camera.size_px = size_of(values, {"nx"}, {"ny"});
+    found.rotation = rotation_of(find(values, {"om", "R"}));
+    found.translation = vector3_of(find(values, {"T"}));
+    return found;
+  }
+  found.program = "MATLAB";
+  found.camera = matlab_camera_of(values, "CameraParameters1");
+  found.projector = matlab_camera_of(values, "CameraParameters2");
+  if (const auto rotation = matrix3_of(find(values, {"RotationOfCamera2"})))
+    found.rotation = rotation->transpose();  // MATLAB multiplies rows: [x2] = [x1] R + t
+  found.translation = vector3_of(find(values, {"TranslationOfCamera2"}));
+  const auto unit = values.texts.find("CameraParameters1.WorldUnits");
+  if (unit != values.texts.end()) {
+    const std::string& name = unit->second;
+    if (name == "cm" || name == "centimeters") found.mm_per_unit = 10.0;
+    if (name == "m" || name == "meters") found.mm_per_unit = 1000.0;
+    if (name == "in" || name == "inches") found.mm_per_unit = 25.4;
+  }
+  return found;
+}
+
+}  // namespace frangia

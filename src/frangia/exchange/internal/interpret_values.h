@@ -1,0 +1,19 @@
+#pragma once
+
+#include "frangia/exchange/foreign_calibration.h"
+#include "frangia/exchange/internal/named_values.h"
+
+namespace frangia {
+
+/// Recognizes a calibration by the names of OpenCV's samples, SLStudio, scan3d-capture and ROS.
+///
+/// @missing  what the values do not state is empty
+[[nodiscard]] ForeignCalibration interpret_opencv_values(const NamedValues& values);
+
+/// Recognizes a calibration by the names of MATLAB's stereoParameters, as toStruct writes them, and
+/// of Bouguet's Camera Calibration Toolbox.
+///
+/// @missing  what the values do not state is empty
+[[nodiscard]] ForeignCalibration interpret_matlab_values(const NamedValues& values);
+
+}  // namespace frangia

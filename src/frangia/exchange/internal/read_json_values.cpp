@@ -1,0 +1,86 @@
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/check_nesting.h"
+#include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/exchange/internal/named_values.h"
+
+namespace frangia {
+namespace {
+
+using nlohmann::json;
+
+/// The matrix of a value; empty when it is something else.
+Eigen::MatrixXd matrix_of(const json& value) {
+  if (value.is_number()) return Eigen::MatrixXd::Constant(1, 1, value.get<double>());
+  if (!value.is_array() || value.empty()) return {};
+  const bool nested = value.front().is_array();
+  const std::size_t columns = nested ? value.front().size() : value.size();
+  const std::size_t rows = nested ? value.size() : 1;
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  for (std::size_t row = 0; row < rows; ++row) {
+    const json& list = nested ? value[row] : value;
+    if (!list.is_array() || list.size() != columns) return {};
+    for (std::size_t column = 0; column < columns; ++column) {
+      if (!list[column].is_number()) return {};
+      matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+          list[column].get<double>();
+    }
+  }
+  return matrix;
+}
+
+/// The matrix of an object with rows, cols and data; empty when it is something else.
+Eigen::MatrixXd opencv_matrix_of(const json& value) {
+  if (!value.contains("rows") || !value.contains("cols") || !value.contains("data")) return {};
+  if (!value["rows"].is_number_integer() || !value["cols"].is_number_integer()) return {};
+  const Eigen::MatrixXd list = matrix_of(value["data"]);
+  const auto rows = value["rows"].get<Eigen::Index>();
+  const auto columns = value["cols"].get<Eigen::Index>();
+  if (rows <= 0 || columns <= 0 || rows > list.size() || columns > list.size() ||
+      rows * columns != list.size())
+    return {};
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(list.data(), rows, columns);
+}
+
+void collect(const json& object, const std::string& prefix, NamedValues& values) {
+  for (const auto& [key, value] : object.items()) {
+    const std::string name = prefix + key;
+    if (value.is_string()) {
+      values.texts.emplace(name, value.get<std::string>());
+    } else if (value.is_object()) {
+      Eigen::MatrixXd matrix = opencv_matrix_of(value);
+      if (matrix.size() > 0) {
+        values.matrices.emplace(name, std::move(matrix));
+      } else {
+        collect(value, name + ".", values);
+      }
+    } else {
+      Eigen::MatrixXd matrix = matrix_of(value);
+      if (matrix.size() > 0) values.matrices.emplace(name, std::move(matrix));
+    }
+  }
+}
+
+}  // namespace
+
+NamedValues read_json_values(const std::filesystem::path& file) {
+  const std::string text = read_text_file(file);
+  check_json_nesting(text, file);
+  const json document = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!document.is_object()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: it is not a JSON object; give the text of "
+                            "jsonencode(toStruct(stereoParams))",
+                            file.string()));
+  }
+  NamedValues values;
+  collect(document, "", values);
+  return values;
+}
+
+}  // namespace frangia

@@ -1,0 +1,114 @@
+// OpenCV is expensive to compile: its FileStorage stays in this source and in opencv_text.cpp.
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include "frangia/core/check_nesting.h"
+#include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/exchange/internal/named_values.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::uint64_t kMaxBytes = 1'000'000;  // a calibration has some kilobytes
+constexpr int kMaxDepth = 64;                   // FileStorage recurses, with 4 kB a level
+constexpr std::size_t kMaxNumbers = 1000;       // of a matrix that is kept
+
+void check_xml_depth(std::string_view text, const std::filesystem::path& file) {
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '<' && text[i + 1] == '/') --depth;
+    if (text[i] == '<' && text[i + 1] != '/' && text[i + 1] != '?' && text[i + 1] != '!') ++depth;
+    if (text[i] == '/' && text[i + 1] == '>') --depth;
+    if (depth > kMaxDepth) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: its elements are nested more than {} deep; it is no calibration",
+                              file.string(),
+                              kMaxDepth));
+    }
+  }
+}
+
+void check_indentation(std::string_view text, const std::filesystem::path& file) {
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t first = text.find_first_not_of(" -", start);
+    if (first != std::string_view::npos && first - start > 4 * kMaxDepth) {
+      throw Error(
+          ErrorKind::Input,
+          fmt::format("{}: a line is indented by more than {} columns; it is no calibration",
+                      file.string(),
+                      4 * kMaxDepth));
+    }
+    const std::size_t end = text.find('\n', start);
+    if (end == std::string_view::npos) break;
+    start = end + 1;
+  }
+}
+
+Eigen::MatrixXd list_of(const cv::FileNode& node) {
+  if (node.size() > kMaxNumbers) return {};
+  Eigen::MatrixXd list(1, static_cast<Eigen::Index>(node.size()));
+  Eigen::Index column = 0;
+  for (const cv::FileNode& item : node) {
+    if (!item.isReal() && !item.isInt()) return {};
+    list(0, column++) = item.real();
+  }
+  return list;
+}
+
+/// The matrix of a node; empty when it is something else.
+Eigen::MatrixXd matrix_of(const cv::FileNode& node) {
+  if (node.isReal() || node.isInt()) return Eigen::MatrixXd::Constant(1, 1, node.real());
+  if (node.isSeq()) return list_of(node);
+  if (!node.isMap()) return {};
+  const cv::FileNode rows = node["rows"];
+  const cv::FileNode cols = node["cols"];
+  if (!rows.isInt() || !cols.isInt() || !node["data"].isSeq()) return {};
+  const Eigen::MatrixXd list = list_of(node["data"]);
+  const auto row_count = static_cast<Eigen::Index>(static_cast<int>(rows));
+  const auto column_count = static_cast<Eigen::Index>(static_cast<int>(cols));
+  if (row_count <= 0 || column_count <= 0 || row_count * column_count != list.size()) return {};
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(list.data(), row_count, column_count);
+}
+
+}  // namespace
+
+NamedValues read_opencv_values(const std::filesystem::path& file) {
+  std::string text = read_text_file(file, kMaxBytes);
+  const bool is_xml = text.find("<opencv_storage") != std::string::npos;
+  if (is_xml) {
+    check_xml_depth(text, file);
+  } else {
+    check_json_nesting(text, file);
+    check_indentation(text, file);
+    // FileStorage asks for the directive; ROS does not write it.
+    if (text.rfind("%YAML", 0) != 0) text.insert(0, "%YAML:1.0\n---\n");
+  }
+  NamedValues values;
+  try {
+    const cv::FileStorage storage(
+        text,
+        cv::FileStorage::READ | cv::FileStorage::MEMORY |
+            (is_xml ? cv::FileStorage::FORMAT_XML : cv::FileStorage::FORMAT_YAML));
+    for (const cv::FileNode& node : storage.root()) {
+      Eigen::MatrixXd matrix = matrix_of(node);
+      if (matrix.size() > 0) values.matrices.emplace(node.name(), std::move(matrix));
+      if (node.isString()) values.texts.emplace(node.name(), node.string());
+    }
+  } catch (const std::exception& fault) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: OpenCV cannot read it ({}); give a .yml or .xml that OpenCV's "
+                            "FileStorage wrote",
+                            file.string(),
+                            fault.what()));
+  }
+  return values;
+}
+
+}  // namespace frangia
