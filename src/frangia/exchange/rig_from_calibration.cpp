@@ -12,30 +12,31 @@
 namespace frangia {
 namespace {
 
-[[noreturn]] void fail(const std::string& sentence) {
+[[noreturn]] void fail_import(const std::string& sentence) {
   throw Error(ErrorKind::Input, sentence);
 }
 
 /// Files carry six digits and more.
 constexpr double kRotationTolerance = 1e-4;
 
-CameraModel model_of(const ForeignLens& lens,
-                     const std::optional<std::array<int, 2>>& given_size,
-                     const char* device,
-                     const Run& run) {
+CameraModel imported_model_of(const ForeignLens& lens,
+                              const std::optional<std::array<int, 2>>& given_size,
+                              const char* device,
+                              const Run& run) {
   const auto size = given_size ? given_size : lens.size_px;
   if (!size)
-    fail(fmt::format("the calibration states no image size of the {0}; set `{0}_size`", device));
+    fail_import(
+        fmt::format("the calibration states no image size of the {0}; set `{0}_size`", device));
   const Eigen::Matrix3d& matrix = *lens.matrix;
   const bool is_pinhole = matrix.allFinite() && matrix(0, 0) > 0.0 && matrix(1, 1) > 0.0 &&
                           matrix(1, 0) == 0.0 && matrix.row(2) == Eigen::RowVector3d(0, 0, 1);
   if (!is_pinhole) {
-    fail(fmt::format("the matrix of the {} is not a camera matrix, [fx 0 cx; 0 fy cy; 0 0 1]",
-                     device));
+    fail_import(fmt::format(
+        "the matrix of the {} is not a camera matrix, [fx 0 cx; 0 fy cy; 0 0 1]", device));
   }
   constexpr double kMaxSkew = 1e-6;  // of the focal length
   if (std::abs(matrix(0, 1)) > kMaxSkew * matrix(0, 0)) {
-    fail(
+    fail_import(
         fmt::format("the matrix of the {} has a skew of {:.4g} px, which no rig can hold; "
                     "calibrate without skew",
                     device,
@@ -47,13 +48,14 @@ CameraModel model_of(const ForeignLens& lens,
   model.focal_px = {matrix(0, 0), matrix(1, 1)};
   model.principal_point_px = {matrix(0, 2), matrix(1, 2)};
   if (lens.distortion.size() > model.distortion.size()) {
-    fail(fmt::format("the {} has {} distortion coefficients; OpenCV's models have 14 at most",
-                     device,
-                     lens.distortion.size()));
+    fail_import(
+        fmt::format("the {} has {} distortion coefficients; OpenCV's models have 14 at most",
+                    device,
+                    lens.distortion.size()));
   }
   for (std::size_t i = 0; i < lens.distortion.size(); ++i) {
     if (!std::isfinite(lens.distortion[i]))
-      fail(fmt::format("a distortion coefficient of the {} is not a number", device));
+      fail_import(fmt::format("a distortion coefficient of the {} is not a number", device));
     model.distortion.at(i) = lens.distortion[i];
   }
   const Eigen::Vector2d corner(model.width_px, model.height_px);
@@ -85,11 +87,11 @@ void set_pose(Projector& projector,
   const Eigen::Matrix3d& rotation = *calibration.rotation;
   const double departure = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (!(departure < kRotationTolerance) || rotation.determinant() < 0.0)
-    fail("R of the calibration is not a rotation matrix");
+    fail_import("R of the calibration is not a rotation matrix");
   const double scale = options.mm_per_unit.value_or(calibration.mm_per_unit);
   const Eigen::Vector3d translation_mm = scale * *calibration.translation;
   if (!translation_mm.allFinite() || translation_mm.norm() == 0.0)
-    fail("T of the calibration is 0 or not a number; triangulation needs a baseline");
+    fail_import("T of the calibration is 0 or not a number; triangulation needs a baseline");
   projector.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
   projector.position_mm = -(projector.rotation.transpose() * translation_mm);
   constexpr double kShortest_mm = 3.0;
@@ -106,24 +108,24 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
                          const Run& run) {
   Rig rig = options.base.value_or(Rig{});
   if (!calibration.camera.matrix && !options.base) {
-    fail(
+    fail_import(
         "the calibration has no camera; name the file that holds its matrix as well, or set "
         "`base` to a rig.toml");
   }
   if (calibration.camera.matrix)
-    rig.camera.model = model_of(calibration.camera, options.camera_size_px, "camera", run);
+    rig.camera.model = imported_model_of(calibration.camera, options.camera_size_px, "camera", run);
   if (calibration.projector.matrix) {
     rig.projector.model =
-        model_of(calibration.projector, options.projector_size_px, "projector", run);
+        imported_model_of(calibration.projector, options.projector_size_px, "projector", run);
   } else if (!options.base) {
-    fail(
+    fail_import(
         "the calibration has a camera, but no projector; set `base` to a rig.toml that describes "
         "the projector");
   }
   if (calibration.rotation && calibration.translation) {
     set_pose(rig.projector, calibration, options, run);
   } else if (!options.base) {
-    fail(
+    fail_import(
         "the calibration does not state R and T from camera to projector; name the file that holds "
         "them as well, or set `base` to a rig.toml");
   }

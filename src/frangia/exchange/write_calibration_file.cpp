@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-Eigen::Matrix3d matrix_of(const CameraModel& model, double origin_px) {
+Eigen::Matrix3d camera_matrix_of(const CameraModel& model, double origin_px) {
   return Eigen::Matrix3d{{model.focal_px.x(), 0.0, model.principal_point_px.x() + origin_px},
                          {0.0, model.focal_px.y(), model.principal_point_px.y() + origin_px},
                          {0.0, 0.0, 1.0}};
@@ -86,9 +86,9 @@ std::string opencv_file(const Rig& rig,
   };
   const CameraModel& camera = rig.camera.model;
   const std::vector<std::pair<std::string, Eigen::MatrixXd>> matrices{
-      {names.camera_matrix, matrix_of(camera, 0.0)},
+      {names.camera_matrix, camera_matrix_of(camera, 0.0)},
       {names.camera_distortion, distortion(camera)},
-      {names.projector_matrix, matrix_of(projector, 0.0)},
+      {names.projector_matrix, camera_matrix_of(projector, 0.0)},
       {names.projector_distortion, distortion(projector)},
       {names.rotation, rig.projector.rotation},
       {names.translation, translation}};
@@ -117,7 +117,7 @@ ordered_json matlab_camera(const CameraModel& model) {
           {"TangentialDistortion", {d[2], d[3]}},
           {"ImageSize", {model.height_px, model.width_px}},
           {"WorldUnits", "millimeters"},
-          {"IntrinsicMatrix", rows_of(matrix_of(model, 1.0).transpose())}};
+          {"IntrinsicMatrix", rows_of(camera_matrix_of(model, 1.0).transpose())}};
 }
 
 std::string matlab_file(const Rig& rig, const PinholeModel& projector) {

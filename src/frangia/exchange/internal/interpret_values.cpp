@@ -14,7 +14,7 @@ namespace {
 using Names = std::initializer_list<const char*>;
 
 /// The first of some names that the file holds; null without one.
-const Eigen::MatrixXd* find(const NamedValues& values, Names names) {
+const Eigen::MatrixXd* find_value(const NamedValues& values, Names names) {
   for (const char* name : names) {
     const auto found = values.matrices.find(name);
     if (found != values.matrices.end()) return &found->second;
@@ -57,9 +57,11 @@ int side_of(const Eigen::MatrixXd* matrix) {
   return side >= 1.0 && side <= kMaxSide && side == std::floor(side) ? static_cast<int>(side) : 0;
 }
 
-std::optional<std::array<int, 2>> size_of(const NamedValues& values, Names widths, Names heights) {
-  const int width = side_of(find(values, widths));
-  const int height = side_of(find(values, heights));
+std::optional<std::array<int, 2>> named_size_of(const NamedValues& values,
+                                                Names widths,
+                                                Names heights) {
+  const int width = side_of(find_value(values, widths));
+  const int height = side_of(find_value(values, heights));
   if (width == 0 || height == 0) return std::nullopt;
   return std::array<int, 2>{width, height};
 }
@@ -84,7 +86,9 @@ NamedValues without_outer_names(const NamedValues& values) {
 /// One of the two cameras of MATLAB's stereoParameters. Its first pixel has its centre at (1, 1),
 /// and its older matrix is transposed.
 ForeignLens matlab_camera_of(const NamedValues& values, const std::string& name) {
-  const auto named = [&](const char* part) { return find(values, {(name + "." + part).c_str()}); };
+  const auto named = [&](const char* part) {
+    return find_value(values, {(name + "." + part).c_str()});
+  };
   ForeignLens lens;
   lens.matrix = matrix3_of(named("K"));
   if (!lens.matrix) {
@@ -120,7 +124,7 @@ ForeignLens matlab_camera_of(const NamedValues& values, const std::string& name)
 /// One of the two cameras of Bouguet's toolbox, whose first pixel has its centre at (0, 0).
 ForeignLens toolbox_camera_of(const NamedValues& values, const std::string& side) {
   const auto named = [&](const char* part) {
-    return numbers_of(find(values, {(part + side).c_str()}));
+    return numbers_of(find_value(values, {(part + side).c_str()}));
   };
   ForeignLens lens;
   const std::vector<double> focal = named("fc");
@@ -139,72 +143,72 @@ ForeignLens toolbox_camera_of(const NamedValues& values, const std::string& side
 
 ForeignCalibration interpret_opencv_values(const NamedValues& values) {
   ForeignCalibration found;
-  found.program = find(values, {"Kc"}) != nullptr      ? "SLStudio"
-                  : find(values, {"cam_K", "cam_int"}) ? "scan3d-capture"
-                                                       : "OpenCV";
-  found.camera.matrix = matrix3_of(find(values,
-                                        {"Kc",
-                                         "cam_K",
-                                         "cam_int",
-                                         "M1",
-                                         "K1",
-                                         "cameraMatrix1",
-                                         "camera_matrix",
-                                         "cameraMatrix",
-                                         "K"}));
-  found.camera.distortion = numbers_of(find(values,
-                                            {"kc",
-                                             "cam_kc",
-                                             "cam_dist",
-                                             "D1",
-                                             "d1",
-                                             "distCoeffs1",
-                                             "distortion_coefficients",
-                                             "distCoeffs",
-                                             "dist_coeffs",
-                                             "D"}));
-  found.camera.size_px = size_of(
+  found.program = find_value(values, {"Kc"}) != nullptr      ? "SLStudio"
+                  : find_value(values, {"cam_K", "cam_int"}) ? "scan3d-capture"
+                                                             : "OpenCV";
+  found.camera.matrix = matrix3_of(find_value(values,
+                                              {"Kc",
+                                               "cam_K",
+                                               "cam_int",
+                                               "M1",
+                                               "K1",
+                                               "cameraMatrix1",
+                                               "camera_matrix",
+                                               "cameraMatrix",
+                                               "K"}));
+  found.camera.distortion = numbers_of(find_value(values,
+                                                  {"kc",
+                                                   "cam_kc",
+                                                   "cam_dist",
+                                                   "D1",
+                                                   "d1",
+                                                   "distCoeffs1",
+                                                   "distortion_coefficients",
+                                                   "distCoeffs",
+                                                   "dist_coeffs",
+                                                   "D"}));
+  found.camera.size_px = named_size_of(
       values, {"frameWidth", "image_width", "width"}, {"frameHeight", "image_height", "height"});
-  found.projector.matrix = matrix3_of(find(
+  found.projector.matrix = matrix3_of(find_value(
       values,
       {"Kp", "proj_K", "proj_int", "M2", "K2", "cameraMatrix2", "projector_matrix", "projMatrix"}));
-  found.projector.distortion = numbers_of(find(values,
-                                               {"kp",
-                                                "proj_kc",
-                                                "proj_dist",
-                                                "D2",
-                                                "d2",
-                                                "distCoeffs2",
-                                                "projector_distortion",
-                                                "projDist"}));
-  found.projector.size_px = size_of(values,
-                                    {"screenResX", "projector_width", "proj_width"},
-                                    {"screenResY", "projector_height", "proj_height"});
-  found.rotation = rotation_of(find(values, {"Rp", "R", "rotation"}));
-  found.translation = vector3_of(find(values, {"Tp", "T", "t", "translation"}));
+  found.projector.distortion = numbers_of(find_value(values,
+                                                     {"kp",
+                                                      "proj_kc",
+                                                      "proj_dist",
+                                                      "D2",
+                                                      "d2",
+                                                      "distCoeffs2",
+                                                      "projector_distortion",
+                                                      "projDist"}));
+  found.projector.size_px = named_size_of(values,
+                                          {"screenResX", "projector_width", "proj_width"},
+                                          {"screenResY", "projector_height", "proj_height"});
+  found.rotation = rotation_of(find_value(values, {"Rp", "R", "rotation"}));
+  found.translation = vector3_of(find_value(values, {"Tp", "T", "t", "translation"}));
   // scan3d-capture writes metres into its JSON, and millimetres into its YAML.
-  if (find(values, {"cam_int"}) != nullptr) found.mm_per_unit = 1000.0;
+  if (find_value(values, {"cam_int"}) != nullptr) found.mm_per_unit = 1000.0;
   return found;
 }
 
 ForeignCalibration interpret_matlab_values(const NamedValues& all) {
   const NamedValues values = without_outer_names(all);
   ForeignCalibration found;
-  if (find(values, {"fc_left"}) != nullptr) {
+  if (find_value(values, {"fc_left"}) != nullptr) {
     found.program = "the Camera Calibration Toolbox";
     found.camera = toolbox_camera_of(values, "_left");
     found.projector = toolbox_camera_of(values, "_right");
-    found.camera.size_px = size_of(values, {"nx"}, {"ny"});
-    found.rotation = rotation_of(find(values, {"om", "R"}));
-    found.translation = vector3_of(find(values, {"T"}));
+    found.camera.size_px = named_size_of(values, {"nx"}, {"ny"});
+    found.rotation = rotation_of(find_value(values, {"om", "R"}));
+    found.translation = vector3_of(find_value(values, {"T"}));
     return found;
   }
   found.program = "MATLAB";
   found.camera = matlab_camera_of(values, "CameraParameters1");
   found.projector = matlab_camera_of(values, "CameraParameters2");
-  if (const auto rotation = matrix3_of(find(values, {"RotationOfCamera2"})))
+  if (const auto rotation = matrix3_of(find_value(values, {"RotationOfCamera2"})))
     found.rotation = rotation->transpose();  // MATLAB multiplies rows: [x2] = [x1] R + t
-  found.translation = vector3_of(find(values, {"TranslationOfCamera2"}));
+  found.translation = vector3_of(find_value(values, {"TranslationOfCamera2"}));
   const auto unit = values.texts.find("CameraParameters1.WorldUnits");
   if (unit != values.texts.end()) {
     const std::string& name = unit->second;

@@ -30,7 +30,7 @@ const std::map<std::string, ColmapModel>& colmap_models() {
   return models;
 }
 
-ForeignLens lens_of(const std::string& line, const std::string& place) {
+ForeignLens colmap_lens_of(const std::string& line, const std::string& place) {
   std::istringstream words(line);
   long long id = 0;
   std::string name;
@@ -84,7 +84,7 @@ ForeignCalibration read_colmap_cameras(const std::filesystem::path& file) {
     ++number;
     const auto first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
-    lenses.push_back(lens_of(line, fmt::format("{}: line {}", file.string(), number)));
+    lenses.push_back(colmap_lens_of(line, fmt::format("{}: line {}", file.string(), number)));
   }
   if (lenses.empty()) {
     throw Error(ErrorKind::Input,

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 /// The matrix of a value; empty when it is something else.
-Eigen::MatrixXd matrix_of(const json& value) {
+Eigen::MatrixXd json_matrix_of(const json& value) {
   if (value.is_number()) return Eigen::MatrixXd::Constant(1, 1, value.get<double>());
   if (!value.is_array() || value.empty()) return {};
   const bool nested = value.front().is_array();
@@ -37,7 +37,7 @@ Eigen::MatrixXd matrix_of(const json& value) {
 Eigen::MatrixXd opencv_matrix_of(const json& value) {
   if (!value.contains("rows") || !value.contains("cols") || !value.contains("data")) return {};
   if (!value["rows"].is_number_integer() || !value["cols"].is_number_integer()) return {};
-  const Eigen::MatrixXd list = matrix_of(value["data"]);
+  const Eigen::MatrixXd list = json_matrix_of(value["data"]);
   const auto rows = value["rows"].get<Eigen::Index>();
   const auto columns = value["cols"].get<Eigen::Index>();
   if (rows <= 0 || columns <= 0 || rows > list.size() || columns > list.size() ||
@@ -47,7 +47,7 @@ Eigen::MatrixXd opencv_matrix_of(const json& value) {
   return Eigen::Map<const RowMajor>(list.data(), rows, columns);
 }
 
-void collect(const json& object, const std::string& prefix, NamedValues& values) {
+void collect_object(const json& object, const std::string& prefix, NamedValues& values) {
   for (const auto& [key, value] : object.items()) {
     const std::string name = prefix + key;
     if (value.is_string()) {
@@ -57,10 +57,10 @@ void collect(const json& object, const std::string& prefix, NamedValues& values)
       if (matrix.size() > 0) {
         values.matrices.emplace(name, std::move(matrix));
       } else {
-        collect(value, name + ".", values);
+        collect_object(value, name + ".", values);
       }
     } else {
-      Eigen::MatrixXd matrix = matrix_of(value);
+      Eigen::MatrixXd matrix = json_matrix_of(value);
       if (matrix.size() > 0) values.matrices.emplace(name, std::move(matrix));
     }
   }
@@ -79,7 +79,7 @@ NamedValues read_json_values(const std::filesystem::path& file) {
                             file.string()));
   }
   NamedValues values;
-  collect(document, "", values);
+  collect_object(document, "", values);
   return values;
 }
 

@@ -14,9 +14,9 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kMaxNumbers = 1000;  // of a matrix that is kept
-constexpr std::size_t kMaxBytes = 8'000'000;
-constexpr int kMaxDepth = 8;  // of structures
+constexpr std::size_t kMaxMatNumbers = 1000;  // of a matrix that is kept
+constexpr std::size_t kMaxMatBytes = 8'000'000;
+constexpr int kMaxMatDepth = 8;  // of structures
 
 struct CloseMat {
   void operator()(mat_t* file) const { Mat_Close(file); }
@@ -26,7 +26,7 @@ struct FreeVariable {
 };
 
 template <typename Number>
-Eigen::MatrixXd matrix_of(const matvar_t& variable) {
+Eigen::MatrixXd typed_matrix_of(const matvar_t& variable) {
   // MATLAB stores columns one after the other, as Eigen.
   using Stored = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
   return Eigen::Map<const Stored>(static_cast<const Number*>(variable.data),
@@ -35,40 +35,41 @@ Eigen::MatrixXd matrix_of(const matvar_t& variable) {
       .template cast<double>();
 }
 
-/// The matrix of a variable; empty when it is not a real matrix of at most `kMaxNumbers`.
-Eigen::MatrixXd matrix_of_any(const matvar_t& variable) {
+/// The matrix of a variable; empty when it is not a real matrix of at most `kMaxMatNumbers`.
+Eigen::MatrixXd mat_matrix_of(const matvar_t& variable) {
   if (variable.rank != 2 || variable.data == nullptr || variable.isComplex != 0) return {};
   const std::size_t rows = variable.dims[0];
   const std::size_t columns = variable.dims[1];
-  if (rows == 0 || columns == 0 || rows > kMaxNumbers || columns > kMaxNumbers / rows) return {};
+  if (rows == 0 || columns == 0 || rows > kMaxMatNumbers || columns > kMaxMatNumbers / rows)
+    return {};
   switch (variable.data_type) {
     case MAT_T_DOUBLE:
-      return matrix_of<double>(variable);
+      return typed_matrix_of<double>(variable);
     case MAT_T_SINGLE:
-      return matrix_of<float>(variable);
+      return typed_matrix_of<float>(variable);
     case MAT_T_INT8:
-      return matrix_of<std::int8_t>(variable);
+      return typed_matrix_of<std::int8_t>(variable);
     case MAT_T_UINT8:
-      return matrix_of<std::uint8_t>(variable);
+      return typed_matrix_of<std::uint8_t>(variable);
     case MAT_T_INT16:
-      return matrix_of<std::int16_t>(variable);
+      return typed_matrix_of<std::int16_t>(variable);
     case MAT_T_UINT16:
-      return matrix_of<std::uint16_t>(variable);
+      return typed_matrix_of<std::uint16_t>(variable);
     case MAT_T_INT32:
-      return matrix_of<std::int32_t>(variable);
+      return typed_matrix_of<std::int32_t>(variable);
     case MAT_T_UINT32:
-      return matrix_of<std::uint32_t>(variable);
+      return typed_matrix_of<std::uint32_t>(variable);
     default:
       return {};
   }
 }
 
 /// The text of a row of characters; empty when it is something else.
-std::string text_of(const matvar_t& variable) {
+std::string mat_text_of(const matvar_t& variable) {
   if (variable.class_type != MAT_C_CHAR || variable.rank != 2 || variable.data == nullptr)
     return {};
   const std::size_t count = variable.dims[0] * variable.dims[1];
-  if (variable.dims[0] != 1 || count > kMaxNumbers) return {};
+  if (variable.dims[0] != 1 || count > kMaxMatNumbers) return {};
   std::string text;
   for (std::size_t i = 0; i < count; ++i) {
     text += variable.data_size == 2
@@ -78,15 +79,18 @@ std::string text_of(const matvar_t& variable) {
   return text;
 }
 
-void collect(const matvar_t& variable, const std::string& name, int depth, NamedValues& values) {
-  if (depth > kMaxDepth) return;
+void collect_variable(const matvar_t& variable,
+                      const std::string& name,
+                      int depth,
+                      NamedValues& values) {
+  if (depth > kMaxMatDepth) return;
   if (variable.class_type == MAT_C_CHAR) {
-    std::string text = text_of(variable);
+    std::string text = mat_text_of(variable);
     if (!text.empty()) values.texts.emplace(name, std::move(text));
     return;
   }
   if (variable.class_type != MAT_C_STRUCT) {
-    Eigen::MatrixXd matrix = matrix_of_any(variable);
+    Eigen::MatrixXd matrix = mat_matrix_of(variable);
     if (matrix.size() > 0) values.matrices.emplace(name, std::move(matrix));
     return;
   }
@@ -96,14 +100,15 @@ void collect(const matvar_t& variable, const std::string& name, int depth, Named
   char* const* names = Mat_VarGetStructFieldnames(&variable);
   const auto* const* members = static_cast<const matvar_t* const*>(variable.data);
   for (unsigned i = 0; i < fields; ++i) {
-    if (members[i] != nullptr) collect(*members[i], name + "." + names[i], depth + 1, values);
+    if (members[i] != nullptr)
+      collect_variable(*members[i], name + "." + names[i], depth + 1, values);
   }
 }
 
 }  // namespace
 
 NamedValues read_mat_values(const std::filesystem::path& file) {
-  const std::vector<char> bytes = read_regular_file(file, kMaxBytes);
+  const std::vector<char> bytes = read_regular_file(file, kMaxMatBytes);
   constexpr std::string_view kHdf5Header = "MATLAB 7.3";
   if (std::string_view(bytes.data(), bytes.size()).substr(0, kHdf5Header.size()) == kHdf5Header) {
     throw Error(ErrorKind::Input,
@@ -123,7 +128,7 @@ NamedValues read_mat_values(const std::filesystem::path& file) {
       objects = variable->name == nullptr ? "a variable" : variable->name;
       continue;
     }
-    if (variable->name != nullptr) collect(*variable, variable->name, 0, values);
+    if (variable->name != nullptr) collect_variable(*variable, variable->name, 0, values);
   }
   if (values.matrices.empty() && !objects.empty()) {
     throw Error(ErrorKind::Input,

@@ -14,9 +14,9 @@
 namespace frangia {
 namespace {
 
-constexpr std::uint64_t kMaxBytes = 1'000'000;  // a calibration has some kilobytes
-constexpr int kMaxDepth = 64;                   // FileStorage recurses, with 4 kB a level
-constexpr std::size_t kMaxNumbers = 1000;       // of a matrix that is kept
+constexpr std::uint64_t kMaxStorageBytes = 1'000'000;  // a calibration has some kilobytes
+constexpr int kMaxStorageDepth = 64;                   // FileStorage recurses, with 4 kB a level
+constexpr std::size_t kMaxStorageNumbers = 1000;       // of a matrix that is kept
 
 void check_xml_depth(std::string_view text, const std::filesystem::path& file) {
   int depth = 0;
@@ -24,11 +24,11 @@ void check_xml_depth(std::string_view text, const std::filesystem::path& file) {
     if (text[i] == '<' && text[i + 1] == '/') --depth;
     if (text[i] == '<' && text[i + 1] != '/' && text[i + 1] != '?' && text[i + 1] != '!') ++depth;
     if (text[i] == '/' && text[i + 1] == '>') --depth;
-    if (depth > kMaxDepth) {
+    if (depth > kMaxStorageDepth) {
       throw Error(ErrorKind::Input,
                   fmt::format("{}: its elements are nested more than {} deep; it is no calibration",
                               file.string(),
-                              kMaxDepth));
+                              kMaxStorageDepth));
     }
   }
 }
@@ -37,12 +37,12 @@ void check_indentation(std::string_view text, const std::filesystem::path& file)
   std::size_t start = 0;
   while (start < text.size()) {
     const std::size_t first = text.find_first_not_of(" -", start);
-    if (first != std::string_view::npos && first - start > 4 * kMaxDepth) {
+    if (first != std::string_view::npos && first - start > 4 * kMaxStorageDepth) {
       throw Error(
           ErrorKind::Input,
           fmt::format("{}: a line is indented by more than {} columns; it is no calibration",
                       file.string(),
-                      4 * kMaxDepth));
+                      4 * kMaxStorageDepth));
     }
     const std::size_t end = text.find('\n', start);
     if (end == std::string_view::npos) break;
@@ -50,8 +50,8 @@ void check_indentation(std::string_view text, const std::filesystem::path& file)
   }
 }
 
-Eigen::MatrixXd list_of(const cv::FileNode& node) {
-  if (node.size() > kMaxNumbers) return {};
+Eigen::MatrixXd storage_list_of(const cv::FileNode& node) {
+  if (node.size() > kMaxStorageNumbers) return {};
   Eigen::MatrixXd list(1, static_cast<Eigen::Index>(node.size()));
   Eigen::Index column = 0;
   for (const cv::FileNode& item : node) {
@@ -62,14 +62,14 @@ Eigen::MatrixXd list_of(const cv::FileNode& node) {
 }
 
 /// The matrix of a node; empty when it is something else.
-Eigen::MatrixXd matrix_of(const cv::FileNode& node) {
+Eigen::MatrixXd storage_matrix_of(const cv::FileNode& node) {
   if (node.isReal() || node.isInt()) return Eigen::MatrixXd::Constant(1, 1, node.real());
-  if (node.isSeq()) return list_of(node);
+  if (node.isSeq()) return storage_list_of(node);
   if (!node.isMap()) return {};
   const cv::FileNode rows = node["rows"];
   const cv::FileNode cols = node["cols"];
   if (!rows.isInt() || !cols.isInt() || !node["data"].isSeq()) return {};
-  const Eigen::MatrixXd list = list_of(node["data"]);
+  const Eigen::MatrixXd list = storage_list_of(node["data"]);
   const auto row_count = static_cast<Eigen::Index>(static_cast<int>(rows));
   const auto column_count = static_cast<Eigen::Index>(static_cast<int>(cols));
   if (row_count <= 0 || column_count <= 0 || row_count * column_count != list.size()) return {};
@@ -80,7 +80,7 @@ Eigen::MatrixXd matrix_of(const cv::FileNode& node) {
 }  // namespace
 
 NamedValues read_opencv_values(const std::filesystem::path& file) {
-  std::string text = read_text_file(file, kMaxBytes);
+  std::string text = read_text_file(file, kMaxStorageBytes);
   const bool is_xml = text.find("<opencv_storage") != std::string::npos;
   if (is_xml) {
     check_xml_depth(text, file);
@@ -97,7 +97,7 @@ NamedValues read_opencv_values(const std::filesystem::path& file) {
         cv::FileStorage::READ | cv::FileStorage::MEMORY |
             (is_xml ? cv::FileStorage::FORMAT_XML : cv::FileStorage::FORMAT_YAML));
     for (const cv::FileNode& node : storage.root()) {
-      Eigen::MatrixXd matrix = matrix_of(node);
+      Eigen::MatrixXd matrix = storage_matrix_of(node);
       if (matrix.size() > 0) values.matrices.emplace(node.name(), std::move(matrix));
       if (node.isString()) values.texts.emplace(node.name(), node.string());
     }
