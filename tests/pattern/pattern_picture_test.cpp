@@ -22,6 +22,16 @@ TEST(PatternPicture, FringePhaseRefersToTheCentreOfAColumn) {
   }
 }
 
+TEST(PatternPicture, DiamondPixelsShowTheFringeAtTheirPlaceOnTheChip) {
+  // DLP LightCrafter 4500: odd rows lie half a pixel to the right, which is one height of a row.
+  const Pattern pattern{.name = "f", .period_px = 24.0, .shifts_rad = {0.0}};
+  const Image<float> picture = pattern_picture(pattern, 0, 912, 1140, PixelLayout::Diamond);
+  for (int x = 0; x < 912; ++x) {
+    EXPECT_NEAR(picture(x, 500), 0.5 + 0.5 * std::cos(kTwoPi * (2 * x) / 24.0), 1e-5);
+    EXPECT_NEAR(picture(x, 501), 0.5 + 0.5 * std::cos(kTwoPi * (2 * x + 1) / 24.0), 1e-5);
+  }
+}
+
 TEST(PatternPicture, HorizontalFringesVaryFromRowToRow) {
   const Pattern pattern{
       .name = "f", .direction = FringeDirection::Horizontal, .period_px = 8.0, .shifts_rad = {0.0}};

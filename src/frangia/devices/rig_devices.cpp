@@ -66,7 +66,10 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
   if (devices.display) {
     const DisplayInfo& info = devices.display->info();
     const auto* model = std::get_if<PinholeModel>(&rig.projector.model);
-    if (model == nullptr || info.width_px != model->width_px || info.height_px != model->height_px)
+    const std::array<int, 2> image =
+        model == nullptr ? std::array{0, 0}
+                         : image_size(rig.projector.pixels, model->width_px, model->height_px);
+    if (info.width_px != image[0] || info.height_px != image[1])
       refuse(*devices.display, info.width_px, info.height_px, "projector.size_px");
   }
   if (devices.shifter && !rig.projector.is_angular()) {

@@ -30,25 +30,24 @@ float light_at(const Pattern& pattern, int frame, int position) {
 
 }  // namespace
 
-Image<float> pattern_picture(const Pattern& pattern, int frame, int width, int height) {
+Image<float> pattern_picture(
+    const Pattern& pattern, int frame, int width, int height, PixelLayout layout) {
   if (pattern.kind == PatternKind::Line)
     fail(pattern, "is of kind line, which a digital projector does not show");
   if (pattern.kind == PatternKind::Fringe && !(pattern.period_px > 0.0))
     fail(pattern, "needs a period_px above 0 to be shown by a digital projector");
   if (frame < 0 || frame >= pattern.frame_count()) fail(pattern, "has no frame of this number");
   const bool vertical = pattern.direction == FringeDirection::Vertical;
+  // Rows 0 and 1 hold all columns of the chip that a row can have.
   std::vector<float> across;
-  for (int position = 0; position < (vertical ? width : height); ++position)
+  const int positions = vertical ? chip_column(layout, width - 1, 1) + 1 : height;
+  for (int position = 0; position < positions; ++position)
     across.push_back(light_at(pattern, frame, position));
   Image<float> picture(width, height, Uninitialized{});
   for (int y = 0; y < height; ++y) {
-    const auto row =
-        picture.pixels().subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(width),
-                                 static_cast<std::size_t>(width));
-    if (vertical) {
-      std::copy(across.begin(), across.end(), row.begin());
-    } else {
-      std::fill(row.begin(), row.end(), across[static_cast<std::size_t>(y)]);
+    for (int x = 0; x < width; ++x) {
+      const int position = vertical ? chip_column(layout, x, y) : y;
+      picture(x, y) = across[static_cast<std::size_t>(position)];
     }
   }
   return picture;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "frangia/pattern/pixel_layout.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/rig/response_curve.h"
 
@@ -24,6 +25,8 @@ struct Projector {
   std::variant<AngularModel, PinholeModel> model;          ///< fringe geometry
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();   ///< in the rig frame
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< projector_from_rig
+
+  PixelLayout pixels = PixelLayout::Square;  ///< of a digital projector's chip
 
   /// Response that a look-up table corrects before patterns are shown; none: patterns are shown
   /// uncorrected.

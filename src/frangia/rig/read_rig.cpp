@@ -108,6 +108,13 @@ Camera read_camera(TomlReader reader, RigContent content, const Run& run) {
   return camera;
 }
 
+PixelLayout read_pixels(TomlReader& reader) {
+  const std::string name = reader.text("pixels");
+  if (name == "square") return PixelLayout::Square;
+  if (name == "diamond") return PixelLayout::Diamond;
+  reader.fail("pixels", fmt::format(R"(is "{}"; it must be "square" or "diamond")", name));
+}
+
 Projector read_projector(TomlReader reader, RigContent content, const Run& run) {
   Projector projector;
   projector.position_mm.setConstant(std::nan(""));
@@ -124,6 +131,7 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
     projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1])};
   } else if (model == "pinhole") {
     projector.model = read_camera_model(reader, content);
+    if (reader.has("pixels")) projector.pixels = read_pixels(reader);
   } else {
     reader.fail("model", fmt::format(R"(is "{}"; it must be "angular" or "pinhole")", model));
   }
@@ -196,6 +204,7 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
         std::vector{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
   } else {
     put_camera_model(writer, std::get<PinholeModel>(projector.model));
+    if (projector.pixels == PixelLayout::Diamond) writer.put("pixels", std::string("diamond"));
   }
   if (!projector.response) return;
   constexpr int kDigits = 6;  // a measured response is less certain than the sixth digit

@@ -91,7 +91,8 @@ void CaptureDevices::show(const Pattern& pattern, int frame) {
     return;
   }
   const DisplayInfo& info = devices_.display->info();
-  const Image<float> picture = pattern_picture(pattern, frame, info.width_px, info.height_px);
+  const Image<float> picture =
+      pattern_picture(pattern, frame, info.width_px, info.height_px, rig_.projector.pixels);
   const Stopwatch watch(seconds_);
   devices_.display->show(picture, deadline(options_.timeout_s));
 }

@@ -1,3 +1,4 @@
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,8 +14,10 @@ class SimulatedDisplay final : public PatternDisplay {
       : bench_(std::move(bench)) {
     const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
     if (pinhole == nullptr) settings.fail("driver", "is a digital projector, but the rig has none");
-    info_.width_px = pinhole->width_px;
-    info_.height_px = pinhole->height_px;
+    layout_ = rig.projector.pixels;
+    const std::array<int, 2> size = image_size(layout_, pinhole->width_px, pinhole->height_px);
+    info_.width_px = size[0];
+    info_.height_px = size[1];
   }
 
   [[nodiscard]] std::string name() const override { return "simulated display"; }
@@ -25,13 +28,28 @@ class SimulatedDisplay final : public PatternDisplay {
   void make_safe() noexcept override { bench_->picture = {}; }
   void show(const Image<float>& light, const Deadline& deadline) override {
     deadline.check();
-    bench_->picture = light;
+    bench_->picture = layout_ == PixelLayout::Square ? light : on_chip(light);
   }
   void show_dark(const Deadline& /*deadline*/) override { bench_->picture = {}; }
 
  private:
+  /// The light at every place of a chip with diamond pixels; each pixel lights two places of its
+  /// row.
+  static Image<float> on_chip(const Image<float>& image) {
+    Image<float> chip(2 * image.width(), image.height(), 0.0F);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const int column = chip_column(PixelLayout::Diamond, x, y);
+        chip(column, y) = image(x, y);
+        if (column + 1 < chip.width()) chip(column + 1, y) = image(x, y);
+      }
+    }
+    return chip;
+  }
+
   BenchPtr bench_;
   DisplayInfo info_;
+  PixelLayout layout_ = PixelLayout::Square;
 };
 
 class SimulatedSwitch final : public SwitchDevice {
