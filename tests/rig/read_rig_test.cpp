@@ -80,6 +80,39 @@ TEST(ReadRig, ReadsBackAWrittenRig) {
   EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
 }
 
+TEST(ReadRig, TakesTheLensModelsOfOpenCv) {
+  const TemporaryFolder folder;
+  const std::string five = "[-0.09, 0.05, 4e-4, -3e-4, 0.0]";
+  std::string list = "[-0.09, 0.05, 4e-4, -3e-4";
+  for (int count = 4; count <= 14; ++count) {
+    const auto path = save(folder, with(five, list + "]"));
+    if (count == 4 || count == 5 || count == 8 || count == 12 || count == 14) {
+      const Rig rig = read_rig(path);
+      const double last = count == 4 ? -3e-4 : 0.001 * count;
+      EXPECT_EQ(rig.camera.model.distortion.at(static_cast<std::size_t>(count) - 1), last);
+      write_rig(folder.path() / "back.toml", rig);
+      EXPECT_EQ(read_rig(folder.path() / "back.toml").camera.model.distortion,
+                rig.camera.model.distortion);
+    } else {
+      const std::string fault = testing::error_of([&] { static_cast<void>(read_rig(path)); });
+      EXPECT_NE(fault.find("4, 5, 8, 12 or 14"), std::string::npos) << fault;
+    }
+    list += ", " + std::to_string(0.001 * (count + 1));
+  }
+}
+
+TEST(ReadRig, KeepsTheDiamondPixelsOfAProjector) {
+  const TemporaryFolder folder;
+  Rig rig = make_paper_rig({});
+  rig.projector.model = PinholeModel{.width_px = 1824,
+                                     .height_px = 1140,
+                                     .focal_px = {2600.0, 2600.0},
+                                     .principal_point_px = {900.0, 1100.0}};
+  rig.projector.pixels = PixelLayout::Diamond;
+  write_rig(folder.path() / "rig.toml", rig);
+  EXPECT_EQ(read_rig(folder.path() / "rig.toml").projector.pixels, PixelLayout::Diamond);
+}
+
 TEST(WriteRig, WritesTheShortestNumbersThatRestoreTheRigExactly) {
   const TemporaryFolder folder;
   Rig rig = make_paper_rig({});
