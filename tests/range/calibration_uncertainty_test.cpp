@@ -134,16 +134,28 @@ TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfAnAngular
   expect_scatter(rig, kFringe);
 }
 
-TEST(CalibrationUncertainty, ExcludesAChangeThatMovesAllPointsRigidly) {
-  // A turn of the projector about the axis along its fringes' rows moves the points; one about its
-  // own fringe direction's normal does not. A shift of the projector along its columns leaves all
-  // planes of light where they are.
+TEST(CalibrationUncertainty, IsZeroForAChangeThatLeavesThePlanesOfLightWhereTheyAre) {
   Rig rig = digital_rig();
   std::get<PinholeModel>(rig.projector.model).distortion = {};
   rig.calibration =
       Calibration{.covariance = {{"projector.y_mm"}, Eigen::MatrixXd::Constant(1, 1, 4.0)}};
   const CalibrationUncertainty none(rig, kColumns, measured_points());
   EXPECT_LT(none.along_ray_mm(256.0, 256.0, 490.0), 1e-6);
+}
+
+TEST(CalibrationUncertainty, ExcludesTheRigidMotionOfThePart) {
+  // A turn of the projector by 1 mrad moves points at 490 mm by about a millimetre. A part of 3 mm
+  // moves as a whole.
+  Rig rig = digital_rig();
+  rig.calibration = Calibration{
+      .covariance = {{"projector.rotation_y_rad"}, Eigen::MatrixXd::Constant(1, 1, 1e-6)}};
+  std::vector<Vector3d> small = measured_points();
+  for (Vector3d& point : small)
+    point = Vector3d(0.0, 0.0, 490.0) + 0.02 * (point - Vector3d(0.0, 0.0, 490.0));
+  const CalibrationUncertainty of_small(rig, kColumns, small);
+  const CalibrationUncertainty of_large(rig, kColumns, measured_points());
+  EXPECT_GT(of_large.along_ray_mm(270.0, 240.0, 489.0), 0.01);
+  EXPECT_LT(of_small.along_ray_mm(256.0, 256.0, 490.0), 1e-3);
 }
 
 TEST(CalibrationUncertainty, AddsToTheSystematicPartOfEachPoint) {

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <vector>
 
 #include <Eigen/QR>
 
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/symmetric_eigen.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/uncertainty/combined_sigma.h"
@@ -105,22 +106,38 @@ RigidMotions fit_rigid(std::span<const Eigen::Vector3d> points, const ChangedRig
 }
 
 /// Replaces missing nodes, which a changed rig does not measure, by the nearest known one.
-void fill_missing(std::vector<double>& values, const std::array<int, 3>& nodes) {
-  const auto place_of = [&](std::size_t i) {
+void fill_missing(Eigen::MatrixXd& nodes, const std::array<int, 3>& counts) {
+  const auto place_of = [&](Eigen::Index i) {
     const auto at = static_cast<int>(i);
-    return Eigen::Array3i(at % nodes[0], at / nodes[0] % nodes[1], at / (nodes[0] * nodes[1]));
+    return Eigen::Array3i(at % counts[0], at / counts[0] % counts[1], at / (counts[0] * counts[1]));
   };
-  const std::vector<double> known = values;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isnan(known[i])) continue;
+  const Eigen::MatrixXd known = nodes;
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
+    if (known.col(i).allFinite()) continue;
+    nodes.col(i).setZero();
     int nearest = std::numeric_limits<int>::max();
-    for (std::size_t j = 0; j < known.size(); ++j) {
+    for (Eigen::Index j = 0; j < nodes.cols(); ++j) {
       const int apart = (place_of(j) - place_of(i)).square().sum();
-      if (std::isnan(known[j]) || apart >= nearest) continue;
+      if (apart >= nearest || !known.col(j).allFinite()) continue;
       nearest = apart;
-      values[i] = known[j];
+      nodes.col(i) = known.col(j);
     }
   }
+}
+
+/// Replaces the rows of a matrix by the fewest rows whose sums of squares of each column agree with
+/// the original ones to within 1e-4 of their mean.
+Eigen::MatrixXf principal_components(const Eigen::MatrixXd& rows) {
+  constexpr double kLost = 1e-4;
+  const auto eigen = symmetric_eigen(Eigen::MatrixXd(rows * rows.transpose()));
+  const double most = kLost * eigen.values.sum();
+  Eigen::Index first = 0;
+  for (double lost = 0.0; first < eigen.values.size(); ++first) {
+    lost += std::max(0.0, eigen.values[first]);
+    if (lost > most) break;
+  }
+  const Eigen::Index kept = eigen.values.size() - first;
+  return (eigen.vectors.rightCols(kept).transpose() * rows).cast<float>();
 }
 
 }  // namespace
@@ -130,6 +147,7 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
                                                std::span<const Eigen::Vector3d> volume_mm) {
   if (!rig.calibration || rig.calibration->covariance.empty() || volume_mm.empty()) return;
   const ChangedRigs rigs(rig, pattern);
+  if (rigs.changes() == 0) return;
   const RigidMotions rigid = fit_rigid(volume_mm, rigs);
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low_;
@@ -141,8 +159,9 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
   }
   constexpr double kLeastStep = 1e-9;  // px or mm; keeps the step of a flat volume above zero
   step_ = ((high - low_) / (node_counts() - 1.0)).max(kLeastStep);
-  variance_mm2_.assign(static_cast<std::size_t>(kNodes[0] * kNodes[1] * kNodes[2]), kMissing);
-  parallel_chunks(variance_mm2_.size(), 16, [&](std::size_t begin, std::size_t end) {
+  constexpr int kCount = kNodes[0] * kNodes[1] * kNodes[2];
+  Eigen::MatrixXd nodes(rigs.changes(), kCount);
+  parallel_chunks(kCount, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto index = static_cast<int>(i);
       const Eigen::Array3d at = low_ + step_ * Eigen::Array3d(index % kNodes[0],
@@ -151,10 +170,11 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
       const Eigen::Vector3d ray = rig.camera.model.ray({at.x(), at.y()}).homogeneous();
       const Eigen::Vector3d point = at.z() * ray;
       const Displacements rest = rigs.displacements_of(point) - rigid.design(point) * rigid.motions;
-      variance_mm2_[i] = (ray.normalized().transpose() * rest).squaredNorm();
+      nodes.col(index) = rest.transpose() * ray.normalized();
     }
   });
-  fill_missing(variance_mm2_, kNodes);
+  fill_missing(nodes, kNodes);
+  along_ray_mm_ = principal_components(nodes);
 }
 
 Eigen::Array3d CalibrationUncertainty::place_of(double x_px, double y_px, double depth_mm) const {
@@ -162,22 +182,22 @@ Eigen::Array3d CalibrationUncertainty::place_of(double x_px, double y_px, double
 }
 
 double CalibrationUncertainty::along_ray_mm(double x_px, double y_px, double depth_mm) const {
-  if (variance_mm2_.empty()) return 0.0;
+  if (along_ray_mm_.size() == 0) return 0.0;
   const Eigen::Array3d place = place_of(x_px, y_px, depth_mm);
   const Eigen::Array3d first = place.floor().min(node_counts() - 2.0);
   const Eigen::Array3d along = place - first;
-  double variance = 0.0;
+  Eigen::VectorXf sum = Eigen::VectorXf::Zero(along_ray_mm_.rows());
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Array3d upper(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
     const Eigen::Array3i at = (first + upper).cast<int>();
     const double share = (upper * along + (1.0 - upper) * (1.0 - along)).prod();
-    variance += share * node(at.x(), at.y(), at.z());
+    sum += static_cast<float>(share) * along_ray_mm_.col(node(at.x(), at.y(), at.z()));
   }
-  return std::sqrt(variance);
+  return static_cast<double>(sum.norm());
 }
 
 void CalibrationUncertainty::add_to(RangeGrid& range) const {
-  if (variance_mm2_.empty()) return;
+  if (along_ray_mm_.size() == 0) return;
   const int width = range.depth_mm.width();
   if (range.systematic_mm.empty()) {
     range.systematic_mm = Image<float>(width, range.depth_mm.height(), Uninitialized{});
@@ -186,17 +206,17 @@ void CalibrationUncertainty::add_to(RangeGrid& range) const {
         range.systematic_mm(x, y) = std::isnan(range.depth_mm(x, y)) ? kMissing : 0.0F;
     });
   }
-  // The nodes of a row of pixels, interpolated along y, by node along x and depth.
-  const auto across = static_cast<std::size_t>(kNodes[0]);
+  const Eigen::Index components = along_ray_mm_.rows();
   parallel_rows(range.depth_mm.height(), [&](int y) {
     const double row = place_of(0.0, y, 0.0).y();
     const int upper = std::min(static_cast<int>(row), kNodes[1] - 2);
-    const double down = row - upper;
-    std::vector<double> nodes(across * static_cast<std::size_t>(kNodes[2]));
+    const auto down = static_cast<float>(row - upper);
+    // The nodes interpolated at this row, with those along depth side by side.
+    Eigen::MatrixXf nodes(components, kNodes[0] * kNodes[2]);
     for (int z = 0; z < kNodes[2]; ++z) {
       for (int x = 0; x < kNodes[0]; ++x) {
-        nodes[static_cast<std::size_t>(z) * across + static_cast<std::size_t>(x)] =
-            (1.0 - down) * node(x, upper, z) + down * node(x, upper + 1, z);
+        nodes.col(x * kNodes[2] + z) = (1.0F - down) * along_ray_mm_.col(node(x, upper, z)) +
+                                       down * along_ray_mm_.col(node(x, upper + 1, z));
       }
     }
     for (int x = 0; x < width; ++x) {
@@ -205,15 +225,19 @@ void CalibrationUncertainty::add_to(RangeGrid& range) const {
       const Eigen::Array3d place = place_of(x, y, static_cast<double>(depth));
       const int left = std::min(static_cast<int>(place.x()), kNodes[0] - 2);
       const int near = std::min(static_cast<int>(place.z()), kNodes[2] - 2);
-      const double right = place.x() - left;
-      const double far = place.z() - near;
-      const double* at =
-          &nodes[static_cast<std::size_t>(near) * across + static_cast<std::size_t>(left)];
-      const double front = at[0] + right * (at[1] - at[0]);
-      const double back = at[across] + right * (at[across + 1] - at[across]);
-      const double variance = front + far * (back - front);
+      const auto right = static_cast<float>(place.x() - left);
+      const auto far = static_cast<float>(place.z() - near);
+      const float* front = &nodes(0, left * kNodes[2] + near);
+      const float* back = front + kNodes[2] * components;
+      float squares = 0.0F;
+      for (Eigen::Index i = 0; i < components; ++i) {
+        const float here = front[i] + far * (front[i + components] - front[i]);
+        const float next = back[i] + far * (back[i + components] - back[i]);
+        const float moved = here + right * (next - here);
+        squares += moved * moved;
+      }
       float& systematic = range.systematic_mm(x, y);
-      systematic = combined_sigma(systematic, static_cast<float>(std::sqrt(variance)));
+      systematic = combined_sigma(systematic, std::sqrt(squares));
     }
   });
 }

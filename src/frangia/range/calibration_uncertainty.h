@@ -2,7 +2,6 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -17,9 +16,10 @@ namespace frangia {
 ///
 /// Each independent change of the parameters displaces the triangulated points. The rigid motion
 /// that fits the displacements of the measured volume best is removed first, because it moves the
-/// part and leaves its shape and size as they are. The root sum of squares of the rest, along the
-/// ray, is computed at the nodes of a coarse grid of pixels and depths and interpolated between
-/// them. Displacements across the ray do not enter.
+/// part and leaves its shape and size as they are. The rest, along the ray, is smooth: it is
+/// computed at the nodes of a coarse grid of pixels and depths, reduced to its few principal
+/// components, and interpolated. Its root sum of squares is the uncertainty. Displacements across
+/// the ray do not enter.
 class CalibrationUncertainty {
  public:
   /// Linearizes the triangulation about the rig. `volume_mm` are points that represent the measured
@@ -41,17 +41,18 @@ class CalibrationUncertainty {
   void add_to(RangeGrid& range) const;
 
  private:
-  static constexpr std::array<int, 3> kNodes{17, 17, 5};  ///< along x, y and depth
+  static constexpr std::array<int, 3> kNodes{17, 17, 9};  ///< along x, y and depth
   [[nodiscard]] static Eigen::Array3d node_counts() { return {kNodes[0], kNodes[1], kNodes[2]}; }
-  [[nodiscard]] double node(int x, int y, int z) const {
-    return variance_mm2_[static_cast<std::size_t>((z * kNodes[1] + y) * kNodes[0] + x)];
+  [[nodiscard]] static Eigen::Index node(int x, int y, int z) {
+    return (z * kNodes[1] + y) * kNodes[0] + x;
   }
   /// Node coordinates of a pixel and a depth, within the grid.
   [[nodiscard]] Eigen::Array3d place_of(double x_px, double y_px, double depth_mm) const;
 
   Eigen::Array3d low_ = Eigen::Array3d::Zero();   ///< x px, y px, depth mm of the first node
   Eigen::Array3d step_ = Eigen::Array3d::Ones();  ///< distance of nodes
-  std::vector<double> variance_mm2_;              ///< empty: zero everywhere
+  /// Displacements along the ray by each principal component; one column for each node.
+  Eigen::MatrixXf along_ray_mm_;
 };
 
 }  // namespace frangia
