@@ -40,7 +40,8 @@ TEST(SystematicPart, OfTheCalibrationStandsBesideTheNoiseOfTheMesh) {
   EXPECT_GT(after.sigma.systematic_mm, 0.001);
   EXPECT_GT(after.sigma.combined_mm, before.sigma.combined_mm);
   EXPECT_EQ(after.raw.systematic_mm.size(), after.raw.points_mm.size());
-  EXPECT_EQ(after.raw.sigma_mm, before.raw.sigma_mm);
+  EXPECT_EQ(after.raw.sigma_mm.size(), before.raw.sigma_mm.size());
+  EXPECT_EQ(after.raw.points_mm, before.raw.points_mm);
 }
 
 }  // namespace
