@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <variant>
 
 #include <Eigen/Geometry>
@@ -168,6 +170,13 @@ std::vector<std::string> rig_parameter_names(const Rig& rig) {
 }
 
 RigCovariance read_rig_covariance(const std::filesystem::path& path, const Rig& rig) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: there is no such file; copy it to the folder of the rig.toml that "
+                            "names it, or remove the key covariance from [calibration]",
+                            path.string()));
+  }
   CovarianceReader reader(path, read_text_file(path));
   const auto header = reader.line();
   if (header.size() < 2 || header.front() != "parameter")
