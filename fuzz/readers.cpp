@@ -18,7 +18,9 @@
 #include "frangia/frames/png.h"
 #include "frangia/phase/correct_response.h"
 #include "frangia/phase/phase_algorithm.h"
+#include "frangia/rig/paper_rig.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 namespace {
@@ -90,9 +92,19 @@ void read_response(const Path& path) {
   static_cast<void>(response_table(*rig.projector.response, least_squares(shifts_rad), shifts_rad));
 }
 
-constexpr std::array<FuzzReader, 18> kReaders{{
+/// A covariance, and the changes of a rig that it states.
+void read_covariance(const Path& path) {
+  const Rig rig = make_paper_rig({});
+  const RigCovariance covariance = read_rig_covariance(path, rig);
+  const Eigen::MatrixXd factor = covariance_factor(covariance);
+  for (Eigen::Index i = 0; i < factor.cols(); ++i)
+    static_cast<void>(change_parameters(rig, covariance.parameters, factor.col(i)));
+}
+
+constexpr std::array<FuzzReader, 19> kReaders{{
     {"3mf", "input.3mf", read_mesh_file},
     {"conf", "input.conf", [](const Path& path) { static_cast<void>(read_posed_scans(path)); }},
+    {"covariance", "input.csv", read_covariance},
     {"dxf", "input.dxf", read_mesh_file},
     {"glb", "input.glb", read_mesh_file},
     {"gltf", "input.gltf", read_mesh_file},

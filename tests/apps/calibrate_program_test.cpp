@@ -35,6 +35,29 @@ TEST(CalibrateProgram, WritesABoardAtTrueScale) {
   EXPECT_NE(even.output.find("looks the same upside down"), std::string::npos) << even.output;
 }
 
+/// Scans a part with a calibrated rig, and reconstructs it with and without the covariance.
+void expect_systematic_part(const std::filesystem::path& folder, const std::filesystem::path& rig) {
+  std::ofstream(rig, std::ios::app)
+      << "\n[turntable]\npoint_mm = [3.5, 55.0, 496.0]\naxis = [0.0, -1.0, 0.0]\n";
+  const std::string scan = (folder / "scan").string();
+  const Answer simulated =
+      run_program("simulate ball-bar --rig " + rig.string() + " --views 1 -o " + scan);
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.output;
+  const std::string reconstruct = "reconstruct " + scan + " -o " + (folder / "a.ply").string();
+  const Answer answer = run_program(reconstruct);
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_NE(answer.output.find(" mm (noise 0."), std::string::npos) << answer.output;
+  EXPECT_NE(
+      run_program("--json " + reconstruct + " 2>/dev/null").output.find("\"systematic_mm\": 0."),
+      std::string::npos);
+  EXPECT_NE(text_of(folder / "a.ply").find("property float sigma_systematic_mm\n"),
+            std::string::npos);
+  std::filesystem::remove(folder / "scan/rig-covariance.csv");
+  const Answer missing = run_program(reconstruct);
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_NE(missing.output.find("rig-covariance.csv"), std::string::npos) << missing.output;
+}
+
 TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
   const TemporaryFolder folder;
   const std::string poses = (folder.path() / "poses").string();
@@ -53,6 +76,7 @@ TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
   EXPECT_NE(text_of(rig).find("[devices.camera]"), std::string::npos);
   EXPECT_EQ(text_of(folder.path() / "rig-covariance.csv").substr(0, 26),
             "parameter,camera.focal_px,");
+  expect_systematic_part(folder.path(), rig);
 
   std::ofstream(folder.path() / "poses/scan.toml", std::ios::app) << "\n# end\n";
   std::string scan = text_of(folder.path() / "poses/scan.toml");

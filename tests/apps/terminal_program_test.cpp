@@ -54,6 +54,8 @@ TEST_F(TerminalProgram, ShowsASummaryByDefaultAndTheRestUnderVerbose) {
   const Answer brief = run_program(reconstruct);
   EXPECT_EQ(brief.exit_code, 0);
   EXPECT_TRUE(shows(brief, "points from 1 view -> ")) << brief.output;
+  EXPECT_TRUE(shows(brief, " triangles, median sigma 0.")) << brief.output;
+  EXPECT_FALSE(shows(brief, "systematic")) << brief.output;
   EXPECT_TRUE(shows(brief, "wrote " + path("a.ply"))) << brief.output;
   EXPECT_FALSE(shows(brief, "algorithm") || shows(brief, "contrast") || shows(brief, " MB"))
       << brief.output;

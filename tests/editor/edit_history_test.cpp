@@ -31,6 +31,12 @@ Mesh random_mesh(std::uint64_t seed) {
     mesh.sigma_mm.push_back(static_cast<float>(0.2 * uniform_from(hash(hash(seed, 4), i))));
     mesh.views.push_back(static_cast<std::uint16_t>(hash(hash(seed, 5), i) % 9));
   }
+  if (hash(seed, 7) % 2 == 0) {
+    ensure_sigma_parts(mesh);
+    for (float& systematic : mesh.sigma_systematic_mm)
+      systematic = static_cast<float>(0.1 * uniform_from(hash(seed, 8)));
+    combine_sigma_parts(mesh);
+  }
   mesh.normals = vertex_normals(mesh);
   const float side = hash(seed, 6) % 2 == 0 ? 10.0F : -10.0F;
   return delete_selected(mesh, select_by_ball(mesh, {side, 0, 0}, 3.0));

@@ -1,6 +1,7 @@
 // What each format keeps of a mesh in a round trip, and what other programs read in the files.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/missing.h"
 #include "frangia/files/internal/zip_file.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
@@ -113,6 +115,50 @@ TEST_F(EveryFormat, GltfAndPlyKeepAllVertexAttributesExactly) {
     EXPECT_EQ(back.views, mesh.views) << name;
     EXPECT_EQ(back.vertex_marks, mesh.vertex_marks) << name;
   }
+}
+
+TEST_F(EveryFormat, GltfPlyAndPcdKeepBothPartsOfSigma) {
+  Mesh mesh = marked_box();
+  mesh.sigma_noise_mm = mesh.sigma_mm;
+  for (const float noise : mesh.sigma_noise_mm)
+    mesh.sigma_systematic_mm.push_back(3.0F * noise);
+  mesh.sigma_systematic_mm[2] = kMissing;
+  combine_sigma_parts(mesh);
+  for (const char* name : {"a.ply", "a.glb", "a.gltf", "a.pcd"}) {
+    const Mesh back = there_and_back(name, mesh);
+    ASSERT_EQ(back.sigma_systematic_mm.size(), mesh.vertices_mm.size()) << name;
+    EXPECT_EQ(back.sigma_noise_mm, mesh.sigma_noise_mm) << name;
+    EXPECT_EQ(back.views,
+              std::string_view(name) == "a.pcd" ? std::vector<std::uint16_t>() : mesh.views);
+    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+      if (i == 2) {
+        EXPECT_TRUE(std::isnan(back.sigma_mm[i]) && std::isnan(back.sigma_systematic_mm[i]))
+            << name;
+      } else {
+        EXPECT_EQ(back.sigma_mm[i], mesh.sigma_mm[i]) << name;
+        EXPECT_EQ(back.sigma_systematic_mm[i], mesh.sigma_systematic_mm[i]) << name;
+      }
+    }
+  }
+}
+
+TEST_F(EveryFormat, NamesNoPartsOfSigmaWhereOnlyNoiseIsKnown) {
+  for (const char* name : {"a.ply", "a.gltf", "a.pcd"}) {
+    write_mesh(at(name), marked_box());
+    EXPECT_EQ(bytes_in(name).find("oise"), std::string::npos) << name;
+    EXPECT_EQ(bytes_in(name).find("NOISE"), std::string::npos) << name;
+    EXPECT_TRUE(read_mesh(at(name)).sigma_noise_mm.empty()) << name;
+  }
+}
+
+TEST_F(EveryFormat, PlyWithOnePartOfSigmaKeepsTheCombinedValueAlone) {
+  const Mesh mesh =
+      read_mesh(put("a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                    "property float z\nproperty float sigma_mm\nproperty float sigma_noise_mm\n"
+                    "end_header\n1 2 3 0.5 0.3\n"));
+  EXPECT_EQ(mesh.sigma_mm, std::vector<float>(1, 0.5F));
+  EXPECT_TRUE(mesh.sigma_noise_mm.empty() && mesh.sigma_systematic_mm.empty());
 }
 
 TEST_F(EveryFormat, GltfIsInMetresWithYUp) {

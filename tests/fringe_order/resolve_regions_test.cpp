@@ -86,6 +86,18 @@ TEST(ResolveByDistance, ChoosesTheOrderClosestToTheDistance) {
   EXPECT_NEAR(resolved.phase.phase_rad(10, 10), walls.truth(10, 10), 1e-4);
 }
 
+TEST(ResolveByLaserSheet, KeepsTheSystematicPartOfThePhase) {
+  TwoWalls walls;
+  walls.phase.systematic_rad = Image<float>(100, 60, 0.3F);
+  const ResolvedPhase resolved =
+      resolve_by_laser_sheet(walls.phase, walls.line_at(20, 480.3, 30), walls.rig.projector);
+  EXPECT_EQ(resolved.phase.systematic_rad(20, 30), 0.3F);
+  EXPECT_TRUE(std::isnan(resolved.phase.systematic_rad(80, 30)));
+  ASSERT_EQ(resolved.unresolved.size(), 1U);
+  EXPECT_EQ(resolved.unresolved[0].systematic_rad,
+            std::vector<float>(resolved.unresolved[0].pixel.size(), 0.3F));
+}
+
 TEST(ResolveByLaserSheet, RemovesTheBorderOfTwoRegionsAsMixed) {
   TwoWalls walls;
   for (int y = 0; y < 60; ++y) {

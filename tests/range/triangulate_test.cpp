@@ -71,6 +71,18 @@ TEST(Triangulate, PredictsTheScatterOfNoisyPhase) {
   EXPECT_NEAR(chi_square / static_cast<double>(range.depth_mm.pixels().size()), 1.0, 0.08);
 }
 
+TEST(Triangulate, PropagatesTheSystematicPartAsTheNoise) {
+  const Wall wall;
+  AbsolutePhase phase = wall.phase(490.0, 0.02F);
+  EXPECT_TRUE(triangulate(phase, wall.rig, wall.rays).systematic_mm.empty());
+  phase.systematic_rad = Image<float>(wall.rays.width(), wall.rays.height(), 0.05F);
+  phase.phase_rad(5, 4) = phase.systematic_rad(5, 4) = kMissing;
+  const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
+  EXPECT_TRUE(std::isnan(range.systematic_mm(5, 4)));
+  for (int x = 6; x < 64; ++x)
+    EXPECT_NEAR(range.systematic_mm(x, 4), 2.5F * range.sigma_mm(x, 4), 1e-6F);
+}
+
 TEST(Triangulate, LeavesOutPhasesThatTheProjectorDoesNotShow) {
   const Wall wall;
   AbsolutePhase phase = wall.phase(490.0, 0.02F);

@@ -58,7 +58,9 @@ TEST(Calibration, OfAWrittenRigIsReadBack) {
                                 .point_sigma_mm = 0.0125,
                                 .distance_mm = 480.0,
                                 .sigma = {{"camera.focal_px", 0.41}, {"projector.x_mm", 0.02}},
-                                .covariance_file = "rig-covariance.csv"};
+                                .covariance_file = "rig-covariance.csv",
+                                .covariance = {{"camera.focal_px", "projector.x_mm"},
+                                               Eigen::Matrix2d{{0.1681, 0.002}, {0.002, 0.0004}}}};
   const auto path = folder.path() / "rig.toml";
   write_rig(path, rig, Durability::Buffered, folder.path() / "known.toml");
   const Rig back = read_rig(path);
@@ -69,6 +71,11 @@ TEST(Calibration, OfAWrittenRigIsReadBack) {
   EXPECT_EQ(back.calibration->point_sigma_mm, 0.0125);
   EXPECT_EQ(back.calibration->sigma, rig.calibration->sigma);
   EXPECT_EQ(back.calibration->covariance_file, "rig-covariance.csv");
+  EXPECT_EQ(back.calibration->covariance.parameters, rig.calibration->covariance.parameters);
+  EXPECT_EQ(back.calibration->covariance.covariance, rig.calibration->covariance.covariance);
+  std::filesystem::remove(folder.path() / "rig-covariance.csv");
+  const std::string missing = testing::error_of([&] { static_cast<void>(read_rig(path)); });
+  EXPECT_NE(missing.find("rig-covariance.csv"), std::string::npos) << missing;
 }
 
 TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {

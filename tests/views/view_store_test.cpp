@@ -46,6 +46,41 @@ TEST(ViewStore, ReplacesOneViewAndLeavesTheOthers) {
   EXPECT_THROW(store.replace(1, view_of(1.0F, 5, 5)), Error);
 }
 
+TEST(ViewStore, LoadsTheSystematicPartWhereItIsAskedFor) {
+  ViewStore store;
+  View view = view_of(1.0F);
+  view.range.phase_rad = Image<float>(30, 20, 5.0F);
+  view.range.systematic_mm = Image<float>(30, 20, 0.25F);
+  view.range.systematic_mm(7, 6) = 0.5F;
+  store.add(view_of(2.0F));
+  EXPECT_FALSE(store.has_systematic());
+  store.add(view);
+  EXPECT_TRUE(store.has_systematic());
+  EXPECT_EQ(store.load(1).range.systematic_mm(7, 6), 0.5F);
+  EXPECT_EQ(store.load(1).range.phase_rad(7, 6), 5.0F);
+  EXPECT_EQ(store.load_points(1, PointSigma::BothParts).range.systematic_mm(7, 6), 0.5F);
+  EXPECT_TRUE(store.load_points(1, PointSigma::BothParts).range.phase_rad.empty());
+  EXPECT_TRUE(store.load_points(1).range.systematic_mm.empty());
+  EXPECT_TRUE(store.load(0).range.systematic_mm.empty());
+  EXPECT_THROW(store.replace(1, view_of(1.0F)), Error);
+}
+
+TEST(ViewStore, KeepsEdgePixelsBehindTheSystematicPart) {
+  ViewStore store;
+  View view = view_of(1.0F);
+  view.range.systematic_mm = Image<float>(30, 20, 0.25F);
+  view.edge_pixels = {{3, 4, 5.0F, 0.5F, kMissing, 0.75F}};
+  store.add(view);
+  for (const PointSigma sigma : {PointSigma::Noise, PointSigma::BothParts}) {
+    View loaded = store.load_points(0, sigma);
+    ASSERT_EQ(loaded.edge_pixels.size(), 1U);
+    EXPECT_EQ(loaded.edge_pixels[0].systematic_mm, 0.75F);
+    for (const RangePixel& pixel : loaded.edge_pixels)
+      loaded.range.set(pixel);
+    EXPECT_EQ(loaded.range.depth_mm(3, 4), 5.0F);
+  }
+}
+
 TEST(ViewStore, KeepsEdgePixelsApartFromTheGrid) {
   ViewStore store;
   View view = view_of(1.0F);

@@ -7,6 +7,7 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -33,7 +34,7 @@ class Surface {
     double reach = rounding_mm_;
     Vector3d middle = Vector3d::Zero();
     for (const std::uint32_t vertex : triangle) {
-      const double sigma = mesh.sigma_mm.empty() ? 0.0 : mesh.sigma_mm[vertex];
+      const double sigma = mesh.sigma_mm.empty() ? 0.0 : noise_mm_of(mesh)[vertex];
       if (std::isfinite(sigma)) reach = std::max(reach, sigma);
       middle += mesh.vertices_mm[vertex].cast<double>() / 3.0;
     }

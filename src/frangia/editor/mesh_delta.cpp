@@ -86,6 +86,8 @@ MeshDelta::MeshDelta(const EditState& before, const EditState& after)
   arrays_.push_back(compare(before.mesh.vertex_marks, after.mesh.vertex_marks));
   arrays_.push_back(compare(before.mesh.triangle_marks, after.mesh.triangle_marks));
   arrays_.push_back(compare(before.selection, after.selection));
+  arrays_.push_back(compare(before.mesh.sigma_noise_mm, after.mesh.sigma_noise_mm));
+  arrays_.push_back(compare(before.mesh.sigma_systematic_mm, after.mesh.sigma_systematic_mm));
 }
 
 void MeshDelta::apply(EditState& state, bool back) const {
@@ -97,6 +99,8 @@ void MeshDelta::apply(EditState& state, bool back) const {
   patch(state.mesh.vertex_marks, arrays_[5], back);
   patch(state.mesh.triangle_marks, arrays_[6], back);
   patch(state.selection, arrays_[7], back);
+  patch(state.mesh.sigma_noise_mm, arrays_[8], back);
+  patch(state.mesh.sigma_systematic_mm, arrays_[9], back);
   state.combine = back ? combine_before_ : combine_after_;
   state.max_sigmas = back ? sigmas_before_ : sigmas_after_;
 }

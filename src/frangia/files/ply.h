@@ -9,10 +9,10 @@ namespace frangia {
 /// Reads a PLY file: ascii, or binary in either byte order. A file without faces gives a mesh
 /// without triangles.
 ///
-/// @shape    the properties read are x y z; nx ny nz when all three exist; sigma_mm; views
-/// (ushort);
-///          mark (uchar, of vertices and faces: 0 measured, 1 displaced, 2 synthesized). Polygons
-///          become triangles. Other properties and elements are skipped.
+/// @shape    the properties read are x y z; nx ny nz when all three exist; sigma_mm, and
+///          sigma_noise_mm with sigma_systematic_mm beside it; views (ushort); mark (uchar, of
+///          vertices and faces: 0 measured, 1 displaced, 2 synthesized). Polygons become triangles.
+///          Other properties and elements are skipped.
 /// @units    as in the file, assumed to be mm
 /// @missing  a normal that is not finite becomes zero
 /// @errors   Error(Input) that names the file and the fault: truncated, a count larger than the
@@ -22,8 +22,9 @@ namespace frangia {
 /// @source   Greg Turk, The PLY Polygon File Format, 1994
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
 
-/// Writes a binary little-endian PLY: x y z, then nx ny nz and sigma_mm where the mesh has them
-/// (all float), views (ushort), mark (uchar); faces, with their mark where the mesh has it.
+/// Writes a binary little-endian PLY: x y z, then nx ny nz, sigma_mm, sigma_noise_mm and
+/// sigma_systematic_mm where the mesh has them (all float), views (ushort), mark (uchar); faces,
+/// with their mark where the mesh has it.
 ///
 /// @units    mm
 /// @errors   Error(Input) when check_mesh fails; Error(File) when the file cannot be written

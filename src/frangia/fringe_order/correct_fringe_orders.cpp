@@ -120,7 +120,9 @@ void correct_pixel(const FringeComparison& comparison,
   const RayDepth after = intersect();
   if (std::isnan(after.depth_mm)) return view.range.remove(x, y);
   pixel.depth_mm = static_cast<float>(after.depth_mm);
-  pixel.sigma_mm *= static_cast<float>(std::abs(after.mm_per_rad / before.mm_per_rad));
+  const auto scale = static_cast<float>(std::abs(after.mm_per_rad / before.mm_per_rad));
+  pixel.sigma_mm *= scale;
+  pixel.systematic_mm *= scale;
   view.range.set(pixel);
 }
 

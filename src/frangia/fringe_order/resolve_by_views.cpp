@@ -51,9 +51,15 @@ void add_to_view(const UnresolvedViewRegion& unresolved,
     const RayDepth found =
         intersect_fringe(ray, phase, comparison.pattern, comparison.rig.projector);
     if (std::isnan(found.depth_mm)) continue;
-    const double along_ray = std::sqrt(1.0 + ray.squaredNorm());
-    const double sigma = std::abs(found.mm_per_rad) * region.sigma_rad[i] * along_ray;
-    view.range.set({x, y, static_cast<float>(found.depth_mm), static_cast<float>(sigma), phase});
+    const double mm_per_rad = std::abs(found.mm_per_rad) * std::sqrt(1.0 + ray.squaredNorm());
+    const float systematic_rad =
+        region.systematic_rad.empty() ? kMissing : region.systematic_rad[i];
+    view.range.set({x,
+                    y,
+                    static_cast<float>(found.depth_mm),
+                    static_cast<float>(mm_per_rad * region.sigma_rad[i]),
+                    phase,
+                    static_cast<float>(mm_per_rad * systematic_rad)});
   }
   views.replace(unresolved.view, view);
 }

@@ -40,7 +40,12 @@ bool at_border(const Image<std::int32_t>& region, std::size_t i) {
 
 ResolvedPhase with_orders(const RelativePhase& relative, const Orders& orders) {
   ResolvedPhase out;
-  out.phase = {relative.pattern, relative.phase_rad, relative.sigma_rad, relative.status};
+  out.phase = {relative.pattern,
+               relative.phase_rad,
+               relative.sigma_rad,
+               relative.status,
+               relative.systematic_rad};
+  const bool has_systematic = !relative.systematic_rad.empty();
   std::vector<UnresolvedRegion> unresolved(orders.size());
   const auto labels = relative.region.pixels();
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -57,10 +62,13 @@ ResolvedPhase with_orders(const RelativePhase& relative, const Orders& orders) {
       unresolved[region].pixel.push_back(static_cast<std::uint32_t>(i));
       unresolved[region].phase_rad.push_back(phase);
       unresolved[region].sigma_rad.push_back(sigma);
+      if (has_systematic)
+        unresolved[region].systematic_rad.push_back(relative.systematic_rad.pixels()[i]);
       out.phase.status.pixels()[i] = PixelStatus::Unresolved;
     }
     phase = kMissing;
     sigma = kMissing;
+    if (has_systematic) out.phase.systematic_rad.pixels()[i] = kMissing;
   }
   for (UnresolvedRegion& region : unresolved) {
     if (!region.pixel.empty()) out.unresolved.push_back(std::move(region));

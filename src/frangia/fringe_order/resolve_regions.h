@@ -11,9 +11,10 @@ namespace frangia {
 
 /// A region of unknown fringe order: its pixels and their relative phases.
 struct UnresolvedRegion {
-  std::vector<std::uint32_t> pixel;  ///< y * width + x
-  std::vector<float> phase_rad;      ///< relative phase, one for each pixel
-  std::vector<float> sigma_rad;      ///< standard deviation of `phase_rad`
+  std::vector<std::uint32_t> pixel;   ///< y * width + x
+  std::vector<float> phase_rad;       ///< relative phase, one for each pixel
+  std::vector<float> sigma_rad;       ///< standard deviation of `phase_rad`
+  std::vector<float> systematic_rad;  ///< systematic part, one for each pixel; empty: none known
 };
 
 /// Criteria for the fringe order that the laser sheet gives a region.

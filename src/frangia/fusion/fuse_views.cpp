@@ -17,6 +17,7 @@
 #include "frangia/fusion/internal/place_vertices.h"
 #include "frangia/fusion/internal/voxel_budget.h"
 #include "frangia/geometry/clean_mesh.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/local_fit/local_planes.h"
 #include "frangia/views/add_edge_pixels.h"
 #include "frangia/views/load_each_view.h"
@@ -52,6 +53,37 @@ void for_each_view(const ViewStore& views,
                       : local_planes(view, camera, how, std::move(planes));
     use(planes);
   });
+}
+
+/// Samples each view at the crossings.
+HermiteAccumulators sample_crossings(const ViewStore& views,
+                                     const CameraRays& camera,
+                                     const EdgeCrossings& crossings,
+                                     const HermiteOptions& how,
+                                     const FusionOptions& options,
+                                     const std::function<void()>& on_view) {
+  const bool has_systematic = views.has_systematic() || options.add_systematic;
+  HermiteAccumulators hermite(crossings.points_mm.size(), has_systematic);
+  LocalPlanes planes;
+  load_each_view(
+      views,
+      [&](std::size_t /*index*/, View& view) {
+        add_edge_pixels(view);
+        if (options.add_systematic) options.add_systematic(view);
+        planes = local_planes(view, camera, {.widen = true}, std::move(planes));
+        accumulate_view(hermite, crossings, planes, camera, how, view.range.systematic_mm);
+        on_view();
+      },
+      PointSigma::BothParts);
+  return hermite;
+}
+
+/// Combines the noise and the systematic part that fusion has left in `sigma_mm` and
+/// `sigma_systematic_mm`.
+void combine_parts(Mesh& mesh) {
+  if (mesh.sigma_systematic_mm.empty()) return;
+  mesh.sigma_noise_mm = mesh.sigma_mm;
+  combine_sigma_parts(mesh);
 }
 
 /// Pixel step for the field. The field only locates the crossings, so pixels denser than its voxels
@@ -123,17 +155,19 @@ Mesh fuse_views(const ViewStore& views,
   const EdgeCrossings crossings = find_edge_crossings(field, parameters.field);
   field = {};
 
-  HermiteAccumulators hermite(crossings.points_mm.size());
-  for_each_view(views, 1, rays, {.widen = true}, [&](const LocalPlanes& view) {
-    accumulate_view(
-        hermite, crossings, view, rays, {band.allocation_mm, band.front_mm, parameters.hermite});
-    run.report(done += progress);
-  });
+  HermiteAccumulators hermite =
+      sample_crossings(views,
+                       rays,
+                       crossings,
+                       {band.allocation_mm, band.front_mm, parameters.hermite},
+                       options,
+                       [&] { run.report(done += progress); });
   add_between_view_variance(hermite, crossings);
   Mesh mesh =
       mesh_quads(place_vertices(crossings, hermite, parameters), crossings, hermite, parameters);
   run.report(0.95);
   clean_mesh(mesh, options.min_component_triangles);
+  combine_parts(mesh);
   run.report(1.0);
   return mesh;
 }

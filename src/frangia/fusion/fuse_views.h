@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "frangia/core/run.h"
 #include "frangia/fusion/fusion_parameters.h"
@@ -14,11 +15,18 @@ namespace frangia {
 struct FusionOptions {
   double voxel_mm = 0.0;          ///< edge of a voxel; 0 derives it from the sampling of the views
   std::size_t max_memory_mb = 0;  ///< of the surface during fusion; 0 is half of the machine's
+  /// Adds systematic parts that are not stored with the points of a view; empty: there are none.
+  std::function<void(View&)> add_systematic;
   std::size_t min_component_triangles = 100;  ///< smaller connected components are removed
   FusionParameters parameters;                ///< heuristic thresholds
 };
 
 /// Fuses all views into one mesh with normals, sigma and the number of views at each vertex.
+///
+/// Where a systematic part of the uncertainty is known of any view, the mesh holds both parts of
+/// sigma and their combination. The weights are those of noise, so that the systematic part does
+/// not change the shape. Noise falls with the number of observations; the systematic part of a
+/// vertex is the weighted mean of those of the observations, projected onto the normal.
 ///
 /// The views are averaged as signed distances near the surface, each weighted by cos^2/sigma^2.
 /// Where the average crosses zero on an edge of the voxel grid, each view is sampled again: views

@@ -133,6 +133,8 @@ void split_at(const std::vector<bool>& boundary, Mesh& mesh) {
       repeat(mesh.vertices_mm, around[0].vertex);
       repeat(mesh.normals, around[0].vertex);
       repeat(mesh.sigma_mm, around[0].vertex);
+      repeat(mesh.sigma_noise_mm, around[0].vertex);
+      repeat(mesh.sigma_systematic_mm, around[0].vertex);
       repeat(mesh.views, around[0].vertex);
       repeat(mesh.vertex_marks, around[0].vertex);
       for (std::size_t i = 0; i < fans.size(); ++i) {
@@ -192,6 +194,8 @@ void remove_unused_vertices(Mesh& mesh) {
   keep(mesh.vertices_mm);
   keep(mesh.normals);
   keep(mesh.sigma_mm);
+  keep(mesh.sigma_noise_mm);
+  keep(mesh.sigma_systematic_mm);
   keep(mesh.views);
   keep(mesh.vertex_marks);
   parallel_chunks(mesh.triangles.size(), 65536, [&](std::size_t begin, std::size_t end) {

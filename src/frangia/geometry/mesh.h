@@ -23,8 +23,13 @@ struct Mesh {
   std::vector<Eigen::Vector3f> vertices_mm;  ///< positions, object frame
   std::vector<Triangle> triangles;           ///< counter-clockwise seen from outside
   std::vector<Eigen::Vector3f> normals;      ///< unit, one for each vertex, or empty
-  std::vector<float>
-      sigma_mm;  ///< standard deviation along the normal, one for each vertex, or empty
+  /// Combined standard uncertainty along the normal, one for each vertex, or empty.
+  std::vector<float> sigma_mm;
+  /// The part of `sigma_mm` that is noise. Empty when no systematic part is known: `sigma_mm` is
+  /// then noise alone.
+  std::vector<float> sigma_noise_mm;
+  /// The systematic part of `sigma_mm`, or empty.
+  std::vector<float> sigma_systematic_mm;
   std::vector<std::uint16_t> views;  ///< number that observed it, one for each vertex, or empty
   std::vector<Mark> vertex_marks;    ///< one for each vertex; empty: all measured
   std::vector<Mark> triangle_marks;  ///< one for each triangle; empty: all measured

@@ -31,6 +31,28 @@ void join(std::vector<T>& values, std::size_t count, const std::vector<T>& more,
 
 }  // namespace
 
+const std::vector<float>& noise_mm_of(const Mesh& mesh) {
+  return mesh.sigma_noise_mm.empty() ? mesh.sigma_mm : mesh.sigma_noise_mm;
+}
+
+void ensure_sigma_parts(Mesh& mesh) {
+  if (mesh.sigma_mm.empty() || !mesh.sigma_systematic_mm.empty()) return;
+  mesh.sigma_noise_mm = mesh.sigma_mm;
+  mesh.sigma_systematic_mm.assign(mesh.sigma_mm.size(), 0.0F);
+}
+
+void combine_sigma_parts(Mesh& mesh) {
+  mesh.sigma_mm.resize(mesh.sigma_noise_mm.size());
+  for (std::size_t i = 0; i < mesh.sigma_mm.size(); ++i)
+    mesh.sigma_mm[i] = combined_sigma(mesh.sigma_noise_mm[i], mesh.sigma_systematic_mm[i]);
+}
+
+void discard_sigma(Mesh& mesh) {
+  for (std::vector<float>* sigma :
+       {&mesh.sigma_mm, &mesh.sigma_noise_mm, &mesh.sigma_systematic_mm})
+    std::fill(sigma->begin(), sigma->end(), kMissing);
+}
+
 void ensure_marks(Mesh& mesh) {
   mesh.vertex_marks.resize(mesh.vertices_mm.size(), Mark::Measured);
   mesh.triangle_marks.resize(mesh.triangles.size(), Mark::Measured);
@@ -48,6 +70,8 @@ std::uint32_t copy_vertex(Mesh& mesh, std::uint32_t from) {
   repeat(mesh.vertices_mm, from);
   repeat(mesh.normals, from);
   repeat(mesh.sigma_mm, from);
+  repeat(mesh.sigma_noise_mm, from);
+  repeat(mesh.sigma_systematic_mm, from);
   repeat(mesh.views, from);
   repeat(mesh.vertex_marks, from);
   return last_vertex(mesh);
@@ -60,7 +84,7 @@ std::uint32_t add_interpolated_vertex(Mesh& mesh, std::uint32_t a, std::uint32_t
   if (!mesh.normals.empty()) {
     mesh.normals[fresh] = Eigen::Vector3f(mean(mesh.normals)).stableNormalized();
   }
-  if (!mesh.sigma_mm.empty()) mesh.sigma_mm[fresh] = mean(mesh.sigma_mm);
+  set_sigma(mesh, fresh, mean);
   if (!mesh.vertex_marks.empty()) {
     mesh.vertex_marks[fresh] = std::max(mesh.vertex_marks[a], mesh.vertex_marks[b]);
   }
@@ -74,12 +98,15 @@ std::uint32_t add_synthesized_vertex(Mesh& mesh,
   if (!mesh.normals.empty()) mesh.normals.emplace_back(Eigen::Vector3f::Zero());
   if (!mesh.views.empty()) mesh.views.push_back(0);
   if (!mesh.vertex_marks.empty()) mesh.vertex_marks.push_back(Mark::Synthesized);
-  if (!mesh.sigma_mm.empty()) {
+  for (std::vector<float>* sigma :
+       {&mesh.sigma_mm, &mesh.sigma_noise_mm, &mesh.sigma_systematic_mm})
+    if (!sigma->empty()) sigma->push_back(kMissing);
+  set_sigma(mesh, last_vertex(mesh), [&](const std::vector<float>& values) {
     float largest = around.empty() ? kMissing : 0.0F;
     for (const std::uint32_t vertex : around)
-      largest = std::max(largest, mesh.sigma_mm[vertex]);
-    mesh.sigma_mm.push_back(largest);
-  }
+      largest = std::max(largest, values[vertex]);
+    return largest;
+  });
   return last_vertex(mesh);
 }
 
@@ -104,11 +131,22 @@ void keep_triangles(Mesh& mesh, std::span<const std::uint8_t> keep) {
 }
 
 void append_mesh(Mesh& mesh, const Mesh& other) {
+  const bool parts = !mesh.sigma_systematic_mm.empty();
+  const bool other_parts = !other.sigma_systematic_mm.empty();
+  if (!parts && other_parts) ensure_sigma_parts(mesh);
+  if (parts && !other_parts && !other.sigma_mm.empty()) {
+    Mesh split = other;
+    ensure_sigma_parts(split);
+    append_mesh(mesh, split);
+    return;
+  }
   const std::size_t vertices = mesh.vertices_mm.size();
   const std::size_t all = vertices + other.vertices_mm.size();
   require(all < 0xFFFFFFFFU, "append_mesh: more than 4 billion vertices; decimate first");
   join(mesh.normals, vertices, other.normals, Eigen::Vector3f(Eigen::Vector3f::Zero()));
   join(mesh.sigma_mm, vertices, other.sigma_mm, kMissing);
+  join(mesh.sigma_noise_mm, vertices, other.sigma_noise_mm, kMissing);
+  join(mesh.sigma_systematic_mm, vertices, other.sigma_systematic_mm, kMissing);
   join(mesh.views, vertices, other.views, std::uint16_t{0});
   join(mesh.vertex_marks, vertices, other.vertex_marks, Mark::Measured);
   join(mesh.triangle_marks, mesh.triangles.size(), other.triangle_marks, Mark::Measured);
@@ -118,7 +156,9 @@ void append_mesh(Mesh& mesh, const Mesh& other) {
   for (const Mesh::Triangle& t : other.triangles)
     mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   if (!mesh.normals.empty()) mesh.normals.resize(all, Eigen::Vector3f::Zero());
-  if (!mesh.sigma_mm.empty()) mesh.sigma_mm.resize(all, kMissing);
+  for (std::vector<float>* sigma :
+       {&mesh.sigma_mm, &mesh.sigma_noise_mm, &mesh.sigma_systematic_mm})
+    if (!sigma->empty()) sigma->resize(all, kMissing);
   if (!mesh.views.empty()) mesh.views.resize(all, 0);
   if (!mesh.vertex_marks.empty() || !mesh.triangle_marks.empty()) ensure_marks(mesh);
 }

@@ -5,8 +5,40 @@
 #include <vector>
 
 #include "frangia/geometry/mesh.h"
+#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
+
+/// Returns the noise of the vertices: `sigma_noise_mm`, or `sigma_mm` when no systematic part is
+/// known. Operations that weight by sigma use it, because averaging reduces noise only.
+[[nodiscard]] const std::vector<float>& noise_mm_of(const Mesh& mesh);
+
+/// Splits `sigma_mm` into its parts where only the combined value is known: all of it is noise.
+/// Does nothing when the mesh has no sigma, or has the parts already.
+void ensure_sigma_parts(Mesh& mesh);
+
+/// Sets `sigma_mm` to the combination of both parts at every vertex.
+///
+/// @shape    a mesh with both parts
+void combine_sigma_parts(Mesh& mesh);
+
+/// Sets `sigma_mm` and its parts to NaN at every vertex.
+void discard_sigma(Mesh& mesh);
+
+/// Sets the sigma of a vertex: `value_of` returns its new value in the array that it is given. Both
+/// parts are set when the mesh has them, and combined. Does nothing when the mesh has no sigma.
+template <typename ValueOf>
+void set_sigma(Mesh& mesh, std::uint32_t vertex, const ValueOf& value_of) {
+  if (mesh.sigma_mm.empty()) return;
+  if (mesh.sigma_systematic_mm.empty()) {
+    mesh.sigma_mm[vertex] = value_of(mesh.sigma_mm);
+    return;
+  }
+  mesh.sigma_noise_mm[vertex] = value_of(mesh.sigma_noise_mm);
+  mesh.sigma_systematic_mm[vertex] = value_of(mesh.sigma_systematic_mm);
+  mesh.sigma_mm[vertex] =
+      combined_sigma(mesh.sigma_noise_mm[vertex], mesh.sigma_systematic_mm[vertex]);
+}
 
 /// Gives every vertex and triangle a mark, `Measured` by default.
 void ensure_marks(Mesh& mesh);
@@ -41,8 +73,7 @@ void keep_triangles(Mesh& mesh, std::span<const std::uint8_t> keep);
 /// Appends another mesh.
 ///
 /// @missing  attributes that only one of the meshes has are zero normals, NaN sigma or zero views
-/// for
-///          the vertices of the other
+///           for the vertices of the other; a sigma without parts counts as noise alone
 /// @errors   Error(Input) for more than 4 billion vertices
 void append_mesh(Mesh& mesh, const Mesh& other);
 

@@ -158,7 +158,8 @@ class Decimation {
     topology_.collapse(a, b);
     cost_.collapse(a, b);
     mesh_.vertices_mm[a] = target_mm.cast<float>();
-    if (!mesh_.sigma_mm.empty()) mesh_.sigma_mm[a] = std::max(mesh_.sigma_mm[a], mesh_.sigma_mm[b]);
+    set_sigma(
+        mesh_, a, [&](const std::vector<float>& values) { return std::max(values[a], values[b]); });
     if (!mesh_.views.empty()) mesh_.views[a] = std::min(mesh_.views[a], mesh_.views[b]);
     if (!mesh_.vertex_marks.empty()) {
       mesh_.vertex_marks[a] = std::max(mesh_.vertex_marks[a], mesh_.vertex_marks[b]);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/missing.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/local_fit/make_surfel_maps.h"
 #include "frangia/pipeline/internal/assess_merge.h"
 #include "frangia/pipeline/internal/resample_scan.h"
@@ -114,8 +114,7 @@ MergedScans merge_scans(const std::vector<RangeScan>& scans,
   run.stage("surface");
   out.mesh =
       finish_mesh(fuse_views(all.views, all.model, options.fusion, run), options.finish, run);
-  if (!out.untrusted_reason.empty())
-    std::fill(out.mesh.sigma_mm.begin(), out.mesh.sigma_mm.end(), kMissing);
+  if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   return out;
 }
 

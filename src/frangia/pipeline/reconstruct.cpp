@@ -1,6 +1,5 @@
 #include "frangia/pipeline/reconstruct.h"
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -8,8 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
+#include "frangia/geometry/vertex_data.h"
+#include "frangia/pipeline/internal/calibration_part.h"
 #include "frangia/pipeline/internal/explain_no_points.h"
 #include "frangia/pipeline/internal/mark_left_out.h"
 #include "frangia/pipeline/internal/measure_views.h"
@@ -104,11 +104,13 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   // Views -> one surface -> finished mesh.
   run.stage("surface");
   const ViewStore& views = joined.measured.views;
-  if (options.keep_raw) out.raw = collect_points(views, camera, run);
-  out.mesh = finish_mesh(fuse_views(views, camera, options.fusion, run), options.finish, run);
+  FusionOptions fusion = options.fusion;
+  fusion.add_systematic = calibration_part(views, scan.rig, joined.measured.coarsest, rays);
+  if (options.keep_raw) out.raw = collect_points(views, camera, run, fusion.add_systematic);
+  out.mesh = finish_mesh(fuse_views(views, camera, fusion, run), options.finish, run);
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
-  if (!out.untrusted_reason.empty())
-    std::fill(out.mesh.sigma_mm.begin(), out.mesh.sigma_mm.end(), kMissing);
+  if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
+  out.sigma = median_sigma(out.mesh);
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "frangia/fringe_order/correct_fringe_orders.h"
 #include "frangia/fringe_order/resolve_by_views.h"
 #include "frangia/fusion/fuse_views.h"
+#include "frangia/geometry/median_sigma.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/finish_mesh.h"
@@ -45,6 +46,7 @@ struct ReconstructOptions {
 /// The reconstructed surface and what the stages report.
 struct Reconstruction {
   Mesh mesh;               ///< fused surface, object frame; sigma is NaN if it is not trusted
+  MedianSigma sigma;       ///< of the mesh's vertices
   PointCloud raw;          ///< empty unless `keep_raw`
   std::size_t points = 0;  ///< in all views
   std::size_t views = 0;   ///< that hold points

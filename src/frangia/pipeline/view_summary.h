@@ -13,7 +13,7 @@ struct ViewSummary {
   double angle_rad = 0.0;      ///< commanded turntable angle
   int setup = 0;               ///< number of the setup in scan.toml
   std::size_t points = 0;      ///< measured, before the background is removed
-  double sigma_mm = kMissing;  ///< median standard deviation of the points; NaN without points
+  double sigma_mm = kMissing;  ///< median noise of the points along their rays; NaN without points
   bool left_out = false;       ///< not part of the mesh; a warning gives the reason
 };
 

@@ -14,6 +14,7 @@
 #include "frangia/frames/map_picture.h"
 #include "frangia/frames/picture_legend.h"
 #include "frangia/pipeline/stage_pictures.h"
+#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 namespace {
@@ -113,7 +114,13 @@ void write_wrapped(const WrappedPhase& level, StageWriter& out) {
               "the same with its residues, loops of pixels around which the phase gains 2 pi "
               "clockwise (red) or loses 2 pi (blue)");
   out.map(name + "-modulation", level.modulation_counts, "modulation", "counts");
-  out.map(name + "-sigma", level.sigma_rad, "standard deviation of the phase", "rad");
+  out.map(name + "-sigma", level.sigma_rad, "noise of the phase, standard deviation", "rad");
+  if (!level.systematic_rad.empty()) {
+    out.map(name + "-systematic",
+            level.systematic_rad,
+            "systematic standard uncertainty of the phase",
+            "rad");
+  }
 }
 
 void write_relative(const RelativePhase& relative, StageWriter& out) {
@@ -127,6 +134,22 @@ void write_relative(const RelativePhase& relative, StageWriter& out) {
               label_picture(relative.region),
               fmt::format("{} regions that could not be joined safely, a colour each",
                           relative.region_count));
+}
+
+/// The uncertainty of the points along their rays: combined, and its parts where both are known.
+void write_sigma(const RangeGrid& range, StageWriter& out) {
+  if (range.systematic_mm.empty()) {
+    out.map("sigma", range.sigma_mm, "standard uncertainty of the point along its ray", "mm");
+    return;
+  }
+  Image<float> combined(range.sigma_mm.width(), range.sigma_mm.height(), Uninitialized{});
+  const auto noise = range.sigma_mm.pixels();
+  const auto systematic = range.systematic_mm.pixels();
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    combined.pixels()[i] = combined_sigma(noise[i], systematic[i]);
+  out.map("sigma", combined, "combined standard uncertainty of the point along its ray", "mm");
+  out.map("sigma-noise", range.sigma_mm, "part of sigma that is noise", "mm");
+  out.map("sigma-systematic", range.systematic_mm, "systematic part of sigma", "mm");
 }
 
 }  // namespace
@@ -144,7 +167,7 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
   out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
   out.map("absolute", decoded.phase.phase_rad, "final phase", "rad");
   out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
-  out.map("sigma", range.sigma_mm, "standard deviation of the point along its ray", "mm");
+  write_sigma(range, out);
   write_page(folder / "index.html", out.written);
   out.written.push_back({"index.html", "all pictures on one page"});
   return std::move(out.written);

@@ -19,9 +19,11 @@ struct StageFile {
 /// Writes the stages of one view into `folder`: pictures (.png), values (.tiff, 32-bit float), and
 /// index.html, which shows the pictures with their captions.
 ///
-/// each pattern                 NAME-wrapped, NAME-residues, NAME-modulation, NAME-sigma
+/// each pattern                 NAME-wrapped, NAME-residues, NAME-modulation, NAME-sigma, and
+///                              NAME-systematic if a systematic part is known
 /// spatially unwrapped phase    relative, regions, and growth if the growth order was kept
-/// every view                   mask, fringes, absolute, depth, sigma
+/// every view                   mask, fringes, absolute, depth, sigma, and sigma-noise and
+///                              sigma-systematic if a systematic part is known
 /// @errors   Error(File) when the folder cannot be created or written
 std::vector<StageFile> write_stages(const DecodedView& decoded,
                                     const RangeGrid& range,

@@ -17,6 +17,8 @@ RangeGrid triangulate(AbsolutePhase& phase, const Rig& rig, const Image<Eigen::V
   RangeGrid out{Image<float>(width, rays.height(), Uninitialized{}),
                 Image<float>(width, rays.height(), Uninitialized{}),
                 Image<float>(width, rays.height(), Uninitialized{})};
+  const bool has_systematic = !phase.systematic_rad.empty();
+  if (has_systematic) out.systematic_mm = Image<float>(width, rays.height(), kMissing);
   const PhaseRange lit = phase_range(phase.pattern, rig.projector);
   parallel_rows(rays.height(), [&](int y) {
     for (Image<float>* image : {&out.depth_mm, &out.sigma_mm, &out.phase_rad})
@@ -39,7 +41,10 @@ RangeGrid triangulate(AbsolutePhase& phase, const Rig& rig, const Image<Eigen::V
                y,
                static_cast<float>(found.depth_mm),
                static_cast<float>(std::abs(found.mm_per_rad) * sigma * along_ray),
-               measured_rad});
+               measured_rad,
+               has_systematic ? static_cast<float>(std::abs(found.mm_per_rad) *
+                                                   phase.systematic_rad(x, y) * along_ray)
+                              : kMissing});
     }
   });
   return out;

@@ -12,8 +12,9 @@ namespace frangia {
 /// Triangulates each pixel from its camera ray and its absolute phase.
 ///
 /// @shape    w x h in and out; `rays` from `rays_of(rig.camera.model)`
-/// @units    mm, rig frame; sigma along the viewing ray
-/// @missing  a pixel without a phase has no point; a pixel whose phase the projector does not show
+/// @units    mm, rig frame; sigma and systematic part along the viewing ray
+/// @missing  without `phase.systematic_rad` the result has no systematic part;
+///           a pixel without a phase has no point; a pixel whose phase the projector does not show
 ///          in front of the camera has none either and is marked OutOfField in `phase`
 /// @errors   Error(Input) when the phase and the rays differ in size
 /// @source   the paper's equations (5) to (8)

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/rig/rig_covariance.h"
+
 namespace frangia {
 
 /// How a rig was calibrated and how uncertain the result is: `[calibration]` of rig.toml.
@@ -20,6 +22,7 @@ struct Calibration {
   /// Names and standard deviations of the estimated parameters, in the order of the covariance.
   std::vector<std::pair<std::string, double>> sigma;
   std::string covariance_file;  ///< CSV file beside rig.toml with the covariance; may be empty
+  RigCovariance covariance;     ///< what that file holds; empty without one
 };
 
 }  // namespace frangia

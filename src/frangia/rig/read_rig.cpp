@@ -267,6 +267,11 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
   }
   if (reader.has("calibration"))
     rig.calibration = read_calibration(reader.table("calibration"), run);
+  const bool has_covariance = rig.calibration && !rig.calibration->covariance_file.empty();
+  if (has_covariance && content == RigContent::Complete) {
+    rig.calibration->covariance =
+        read_rig_covariance(path.parent_path() / rig.calibration->covariance_file, rig);
+  }
   reader.warn_of_unused_keys(run);
   return rig;
 }
@@ -280,6 +285,10 @@ void write_rig(const std::filesystem::path& path,
                Durability durability,
                const std::filesystem::path& devices_from) {
   const std::string devices = devices_from.empty() ? "" : devices_of(devices_from);
+  if (rig.calibration && !rig.calibration->covariance.empty()) {
+    write_rig_covariance(path.parent_path() / rig.calibration->covariance_file,
+                         rig.calibration->covariance);
+  }
   AtomicFile file(path, durability);
   file.stream() << rig_text(rig) << devices;
   file.commit();

@@ -19,9 +19,13 @@ enum class RigContent {
 /// names it. With `RigContent::StartValues` focal lengths, principal points and the projector's
 /// pose may be missing.
 ///
+/// The covariance of the parameters is read from the CSV file that `[calibration]` names, except
+/// with `RigContent::StartValues`.
+///
 /// @missing  NaN for a value that may be missing
 /// @errors   Error(Input) that names the file and the key when a key is missing, of the wrong type
-///          or not finite, when the projector model is unknown, or when a matrix is not a rotation
+///          or not finite, when the projector model is unknown, when a matrix is not a rotation,
+///          or as `read_rig_covariance`
 [[nodiscard]] Rig read_rig(const std::filesystem::path& path,
                            const Run& run = {},
                            RigContent content = RigContent::Complete);
@@ -30,7 +34,8 @@ enum class RigContent {
 /// are left out.
 [[nodiscard]] std::string rig_text(const Rig& rig);
 
-/// Writes `rig_text` to a file. The `[devices]` tables of the rig.toml `devices_from` are copied,
+/// Writes `rig_text` to a file, and the covariance of the parameters, where it is known, to the CSV
+/// file beside it. The `[devices]` tables of the rig.toml `devices_from` are copied,
 /// if it is given.
 ///
 /// @errors   Error(File) when the file cannot be written; Error(Input) when `devices_from` cannot

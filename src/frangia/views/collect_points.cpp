@@ -6,12 +6,17 @@
 
 namespace frangia {
 
-PointCloud collect_points(const ViewStore& views, const CameraModel& camera, const Run& run) {
+PointCloud collect_points(const ViewStore& views,
+                          const CameraModel& camera,
+                          const Run& run,
+                          const std::function<void(View&)>& add_systematic) {
   const auto rays = rays_of(camera);
+  const bool has_systematic = views.has_systematic() || add_systematic;
   PointCloud cloud;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.check();
-    const View view = views.load_points(i);
+    View view = views.load_points(i, PointSigma::BothParts);
+    if (add_systematic) add_systematic(view);
     require(same_size(view.range.depth_mm, rays),
             "collect_points: a view and the camera differ in size");
     const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
@@ -21,6 +26,9 @@ PointCloud collect_points(const ViewStore& views, const CameraModel& camera, con
       const Eigen::Vector3f seen = depth * rays.pixels()[pixel].homogeneous();
       cloud.points_mm.emplace_back((object_from_rig * seen.cast<double>()).cast<float>());
       cloud.sigma_mm.push_back(view.range.sigma_mm.pixels()[pixel]);
+      if (!has_systematic) continue;
+      cloud.systematic_mm.push_back(
+          view.range.systematic_mm.empty() ? 0.0F : view.range.systematic_mm.pixels()[pixel]);
     }
   }
   return cloud;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,16 +16,20 @@ namespace frangia {
 /// @units    mm, object frame
 struct PointCloud {
   std::vector<Eigen::Vector3f> points_mm;  ///< positions
-  std::vector<float> sigma_mm;  ///< standard deviation of each point along its viewing ray
+  std::vector<float> sigma_mm;  ///< noise of each point, standard deviation along its viewing ray
+  /// Systematic standard uncertainty of each point along its viewing ray; empty when none is known.
+  std::vector<float> systematic_mm;
 };
 
 /// Collects the points of all views, view by view and row by row, without edge pixels.
+/// `add_systematic` adds systematic parts that are not stored with the views, where there are any.
 ///
 /// @units    mm, object frame
 /// @missing  missing pixels are skipped
 /// @errors   Error(Input) when a view and the camera differ in size
 [[nodiscard]] PointCloud collect_points(const ViewStore& views,
                                         const CameraModel& camera,
-                                        const Run& run = {});
+                                        const Run& run = {},
+                                        const std::function<void(View&)>& add_systematic = {});
 
 }  // namespace frangia

@@ -12,6 +12,7 @@ namespace frangia {
 ///
 /// @errors   Error(File) when a view cannot be read; and what `use` throws
 void load_each_view(const ViewStore& views,
-                    const std::function<void(std::size_t index, View& view)>& use);
+                    const std::function<void(std::size_t index, View& view)>& use,
+                    PointSigma sigma = PointSigma::Noise);
 
 }  // namespace frangia

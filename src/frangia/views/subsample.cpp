@@ -39,6 +39,8 @@ View subsample(const View& view, int step) {
   out.range.depth_mm = subsample(view.range.depth_mm, step);
   out.range.sigma_mm = subsample(view.range.sigma_mm, step);
   if (!view.range.phase_rad.empty()) out.range.phase_rad = subsample(view.range.phase_rad, step);
+  if (!view.range.systematic_mm.empty())
+    out.range.systematic_mm = subsample(view.range.systematic_mm, step);
   return out;
 }
 

@@ -135,11 +135,13 @@ ViewStore::~ViewStore() {
 void ViewStore::write(const View& view, Entry& entry) {
   const RangeGrid& range = view.range;
   require(same_size(range.depth_mm, range.sigma_mm) &&
-              (range.phase_rad.empty() || same_size(range.depth_mm, range.phase_rad)),
+              (range.phase_rad.empty() || same_size(range.depth_mm, range.phase_rad)) &&
+              (range.systematic_mm.empty() || same_size(range.depth_mm, range.systematic_mm)),
           "ViewStore: the images of the range grid differ in size");
   entry.box = measured_box(range.depth_mm);
   entry.edge_pixels = view.edge_pixels.size();
-  const std::size_t images = range.phase_rad.empty() ? 2 : 3;
+  const std::size_t images =
+      2U + (range.phase_rad.empty() ? 0U : 1U) + (range.systematic_mm.empty() ? 0U : 1U);
   const auto bytes = static_cast<std::int64_t>(images * sizeof(float) * pixels_in(entry.box) +
                                                std::span(view.edge_pixels).size_bytes());
   if (bytes > entry.reserved) {
@@ -149,7 +151,8 @@ void ViewStore::write(const View& view, Entry& entry) {
   }
   Cursor cursor(file_, entry.offset);
   std::vector<float> buffer;
-  for (const Image<float>* image : {&range.depth_mm, &range.sigma_mm, &range.phase_rad})
+  for (const Image<float>* image :
+       {&range.depth_mm, &range.sigma_mm, &range.phase_rad, &range.systematic_mm})
     write_box(*image, entry.box, buffer, cursor);
   cursor.write(std::as_bytes(std::span(view.edge_pixels)));
 }
@@ -161,6 +164,7 @@ void ViewStore::add(const View& view) {
   entry.width = depth.width();
   entry.height = depth.height();
   entry.has_phase = !view.range.phase_rad.empty();
+  entry.has_systematic = !view.range.systematic_mm.empty();
   write(view, entry);
   entries_.push_back(entry);
 }
@@ -172,6 +176,9 @@ void ViewStore::replace(std::size_t index, const View& view) {
       "ViewStore::replace: the grid has another size");
   require(!view.range.phase_rad.empty() == entry.has_phase,
           "ViewStore::replace: the grid must have a phase image exactly when it had one before");
+  require(
+      !view.range.systematic_mm.empty() == entry.has_systematic,
+      "ViewStore::replace: the grid must have a systematic part exactly when it had one before");
   require(view.edge_pixels.size() <= entry.edge_pixels,
           "ViewStore::replace: the view has more edge pixels than before");
   write(view, entry);
@@ -185,11 +192,16 @@ void ViewStore::clear(std::size_t index) {
 }
 
 View ViewStore::load(std::size_t index) const {
-  return read(index, true);
+  return read(index, {});
 }
 
-View ViewStore::load_points(std::size_t index) const {
-  return read(index, false);
+View ViewStore::load_points(std::size_t index, PointSigma sigma) const {
+  return read(index, {.phase = false, .systematic = sigma == PointSigma::BothParts});
+}
+
+bool ViewStore::has_systematic() const {
+  return std::any_of(
+      entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.has_systematic; });
 }
 
 std::shared_ptr<const Image<Eigen::Vector2f>> ViewStore::rays(const CameraModel& camera) const {
@@ -207,7 +219,7 @@ Image<float> ViewStore::load_depth_mm(std::size_t index) const {
   return read_box(entry.width, entry.height, entry.box, buffer, cursor);
 }
 
-View ViewStore::read(std::size_t index, bool with_phase) const {
+View ViewStore::read(std::size_t index, const OptionalImages& wanted) const {
   const Entry& entry = entries_.at(index);
   View view;
   view.rig_from_object = entry.rig_from_object;
@@ -219,11 +231,15 @@ View ViewStore::read(std::size_t index, bool with_phase) const {
   };
   view.range.depth_mm = next_image();
   view.range.sigma_mm = next_image();
-  if (entry.has_phase && with_phase) {
-    view.range.phase_rad = next_image();
-  } else if (entry.has_phase) {
-    cursor.skip(sizeof(float) * pixels_in(entry.box));
-  }
+  const auto next_optional = [&](bool stored, bool wants, Image<float>& image) {
+    if (stored && wants) {
+      image = next_image();
+    } else if (stored) {
+      cursor.skip(sizeof(float) * pixels_in(entry.box));
+    }
+  };
+  next_optional(entry.has_phase, wanted.phase, view.range.phase_rad);
+  next_optional(entry.has_systematic, wanted.systematic, view.range.systematic_mm);
   cursor.read(std::as_writable_bytes(std::span(view.edge_pixels)));
   return view;
 }

@@ -15,10 +15,17 @@
 
 namespace frangia {
 
+/// The parts of the uncertainty that are loaded with the points of a view.
+enum class PointSigma {
+  Noise,      ///< noise only
+  BothParts,  ///< noise, and the systematic part where it is known
+};
+
 /// Stores views in an unnamed temporary file, so that memory holds one view at a time. Of each
 /// grid, the file holds the smallest box with all pixels that have a depth.
 ///
-/// @missing  a pixel without a depth is loaded as NaN in all images of the grid
+/// @missing  a pixel without a depth is loaded as NaN in all images of the grid; images that a
+///           grid does not have stay empty
 /// @errors   Error(File) when the temporary folder cannot hold the views
 class ViewStore {
  public:
@@ -35,14 +42,17 @@ class ViewStore {
   void add(const View& view);                                         ///< appends a view
   /// Replaces view `index`.
   ///
-  /// @errors   Error(Input) unless the grid keeps its size and has a phase image when it had one
-  ///          before, and the number of edge pixels does not grow
+  /// @errors   Error(Input) unless the grid keeps its size and has a phase image and a systematic
+  ///           part when it had them before, and the number of edge pixels does not grow
   void replace(std::size_t index, const View& view);
   /// Removes all points of view `index`; the view itself remains.
   void clear(std::size_t index);
   [[nodiscard]] View load(std::size_t index) const;  ///< reads a view from the file
-  /// Loads a view without its phase image, for stages that use points only.
-  [[nodiscard]] View load_points(std::size_t index) const;
+  /// Loads a view without its phase image, for stages that use points only, and without the
+  /// systematic part of their uncertainty unless that is asked for.
+  [[nodiscard]] View load_points(std::size_t index, PointSigma sigma = PointSigma::Noise) const;
+  /// Whether a systematic part of the uncertainty is known of the points of any view.
+  [[nodiscard]] bool has_systematic() const;
   /// Loads the depth image alone.
   [[nodiscard]] Image<float> load_depth_mm(std::size_t index) const;
   /// Returns `rays_of(camera)`. The store keeps them, because several stages need them. Not to be
@@ -63,12 +73,17 @@ class ViewStore {
     int width = 0;
     int height = 0;
     bool has_phase = false;
+    bool has_systematic = false;
     std::size_t edge_pixels = 0;  ///< pixels
     std::int64_t offset = 0;
     std::int64_t reserved = 0;  ///< bytes of the file from `offset` on
     PixelBox box;               ///< of the grid; the file holds its pixels only
   };
-  [[nodiscard]] View read(std::size_t index, bool with_phase) const;
+  struct OptionalImages {
+    bool phase = true;
+    bool systematic = true;
+  };
+  [[nodiscard]] View read(std::size_t index, const OptionalImages& wanted) const;
   /// Writes a view to the place of its entry, or to the end of the file if the place is too small.
   void write(const View& view, Entry& entry);
 

@@ -10,7 +10,7 @@ namespace frangia {
 /// Reads a point cloud of the Point Cloud Library, ascii or binary.
 ///
 /// @shape    points without triangles; the fields read are x y z, normal_x normal_y normal_z when
-///          all three exist, and sigma_mm
+///          all three exist, and sigma_mm with its parts sigma_noise_mm and sigma_systematic_mm
 /// @units    as in the file, assumed to be mm
 /// @missing  points that are not finite, which an organized cloud has at unmeasured pixels, are
 ///          omitted; `run` gets their number
@@ -19,8 +19,8 @@ namespace frangia {
 /// @source   PCL, The PCD file format 0.7
 [[nodiscard]] Mesh read_pcd(const std::filesystem::path& path, const Run& run = {});
 
-/// Writes a binary cloud: x y z, then normals and sigma_mm where the mesh has them (all float),
-/// views and mark as unsigned integers.
+/// Writes a binary cloud: x y z, then normals, sigma_mm and its parts where the mesh has them (all
+/// float), views and mark as unsigned integers.
 ///
 /// @units    mm
 /// @missing  triangles are not stored

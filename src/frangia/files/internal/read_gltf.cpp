@@ -164,8 +164,18 @@ class GltfReader {
     all_have_normals_ = all_have_normals_ && !part.normals.empty();
     for (auto& normal : part.normals)
       if (!normal.allFinite()) normal.setZero();
-    for (const double sigma : read("_SIGMA_MM", 1))
-      part.sigma_mm.push_back(static_cast<float>(sigma));
+    const auto read_sigma = [&](const char* name) {
+      std::vector<float> sigmas;
+      for (const double sigma : read(name, 1))
+        sigmas.push_back(static_cast<float>(sigma));
+      return sigmas;
+    };
+    part.sigma_mm = read_sigma("_SIGMA_MM");
+    if (!part.sigma_mm.empty() && attributes.contains("_SIGMA_NOISE_MM") &&
+        attributes.contains("_SIGMA_SYSTEMATIC_MM")) {
+      part.sigma_noise_mm = read_sigma("_SIGMA_NOISE_MM");
+      part.sigma_systematic_mm = read_sigma("_SIGMA_SYSTEMATIC_MM");
+    }
     for (const double views : read("_VIEWS", 1))
       part.views.push_back(static_cast<std::uint16_t>(views > 0 ? std::min(views, 65'535.0) : 0.0));
     for (const double mark : read("_MARK", 1)) {

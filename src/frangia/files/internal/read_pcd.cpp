@@ -19,8 +19,15 @@
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 7> kKept{
-    "x", "y", "z", "normal_x", "normal_y", "normal_z", "sigma_mm"};
+constexpr std::array<std::string_view, 9> kKept{"x",
+                                                "y",
+                                                "z",
+                                                "normal_x",
+                                                "normal_y",
+                                                "normal_z",
+                                                "sigma_mm",
+                                                "sigma_noise_mm",
+                                                "sigma_systematic_mm"};
 constexpr std::uint64_t kMaxFieldCount = 65'536;
 
 struct Field {
@@ -49,6 +56,8 @@ class PcdReader {
     has_normals_ = slot_of("normal_x") != kNone && slot_of("normal_y") != kNone &&
                    slot_of("normal_z") != kNone;
     has_sigma_ = slot_of("sigma_mm") != kNone;
+    has_parts_ =
+        has_sigma_ && slot_of("sigma_noise_mm") != kNone && slot_of("sigma_systematic_mm") != kNone;
     Mesh mesh;
     if (header_.data == "ascii") {
       read_points(mesh, left_out, [&](const Field& field) { return ascii(field); });
@@ -182,6 +191,9 @@ class PcdReader {
         mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
       }
       if (has_sigma_) mesh.sigma_mm.push_back(kept[6]);
+      if (!has_parts_) continue;
+      mesh.sigma_noise_mm.push_back(kept[7]);
+      mesh.sigma_systematic_mm.push_back(kept[8]);
     }
   }
 
@@ -210,6 +222,7 @@ class PcdReader {
   Header header_;
   bool has_normals_ = false;
   bool has_sigma_ = false;
+  bool has_parts_ = false;
 };
 
 }  // namespace

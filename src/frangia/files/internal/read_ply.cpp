@@ -16,10 +16,21 @@
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 9> kKeptOfVertices{
-    "x", "y", "z", "nx", "ny", "nz", "sigma_mm", "views", "mark"};
+constexpr std::array<std::string_view, 11> kKeptOfVertices{"x",
+                                                           "y",
+                                                           "z",
+                                                           "nx",
+                                                           "ny",
+                                                           "nz",
+                                                           "sigma_mm",
+                                                           "views",
+                                                           "mark",
+                                                           "sigma_noise_mm",
+                                                           "sigma_systematic_mm"};
 constexpr std::size_t kViews = 7;
 constexpr std::size_t kMark = 8;
+constexpr std::size_t kNoise = 9;
+constexpr std::size_t kSystematic = 10;
 
 /// For each property of a vertex its index in kKeptOfVertices; for a skipped property the size of
 /// kKeptOfVertices.
@@ -61,6 +72,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
   const std::vector<std::size_t> slots = slots_of(element);
   const bool has_normals = has(slots, 3, 3);
   const bool has_sigma = has(slots, 6, 1);
+  const bool has_parts = has_sigma && has(slots, kNoise, 2);
   const bool has_views = has(slots, kViews, 1);
   const bool has_marks = has(slots, kMark, 1);
   if (!has(slots, 0, 3)) source.fail("its vertices have no x, y or z");
@@ -76,6 +88,10 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
     }
     mesh.vertices_mm.emplace_back(kept[0], kept[1], kept[2]);
     if (has_sigma) mesh.sigma_mm.push_back(kept[6]);
+    if (has_parts) {
+      mesh.sigma_noise_mm.push_back(kept[kNoise]);
+      mesh.sigma_systematic_mm.push_back(kept[kSystematic]);
+    }
     if (has_views)
       mesh.views.push_back(static_cast<std::uint16_t>(std::clamp(kept[kViews], 0.0F, 65'535.0F)));
     if (has_marks) mesh.vertex_marks.push_back(mark_from(static_cast<double>(kept[kMark])));

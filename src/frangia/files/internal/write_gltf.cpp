@@ -104,8 +104,11 @@ class Layout {
   void write(Sink sink) const {
     write_vectors(sink, mesh_.vertices_mm);
     write_vectors(sink, mesh_.normals);
-    for (const float sigma : mesh_.sigma_mm)
-      sink.number(sigma);
+    for (const std::vector<float>* sigmas :
+         {&mesh_.sigma_mm, &mesh_.sigma_noise_mm, &mesh_.sigma_systematic_mm}) {
+      for (const float sigma : *sigmas)
+        sink.number(sigma);
+    }
     for (const std::uint16_t views : mesh_.views)
       sink.number(static_cast<float>(views));
     for (const Mark mark : mesh_.vertex_marks)
@@ -139,6 +142,10 @@ class Layout {
     accessors_.back()["max"] = {box.max().x(), box.max().y(), box.max().z()};
     if (!mesh_.normals.empty()) attributes_["NORMAL"] = accessor(count, kFloat, "VEC3");
     if (!mesh_.sigma_mm.empty()) attributes_["_SIGMA_MM"] = accessor(count, kFloat, "SCALAR");
+    if (!mesh_.sigma_noise_mm.empty())
+      attributes_["_SIGMA_NOISE_MM"] = accessor(count, kFloat, "SCALAR");
+    if (!mesh_.sigma_systematic_mm.empty())
+      attributes_["_SIGMA_SYSTEMATIC_MM"] = accessor(count, kFloat, "SCALAR");
     if (!mesh_.views.empty()) attributes_["_VIEWS"] = accessor(count, kFloat, "SCALAR");
     if (!mesh_.vertex_marks.empty()) attributes_["_MARK"] = accessor(count, kFloat, "SCALAR");
   }

@@ -32,6 +32,8 @@ void write_header(FileWriter& file, const Mesh& mesh) {
       fields.add(name, 4, 'F');
   }
   if (!mesh.sigma_mm.empty()) fields.add("sigma_mm", 4, 'F');
+  if (!mesh.sigma_noise_mm.empty()) fields.add("sigma_noise_mm", 4, 'F');
+  if (!mesh.sigma_systematic_mm.empty()) fields.add("sigma_systematic_mm", 4, 'F');
   if (!mesh.views.empty()) fields.add("views", 2, 'U');
   if (!mesh.vertex_marks.empty()) fields.add("mark", 1, 'U');
   const std::size_t count = mesh.vertices_mm.size();

@@ -16,6 +16,8 @@ void write_ply_header(FileWriter& file, const Mesh& mesh) {
     file.text("property float nx\nproperty float ny\nproperty float nz\n");
   }
   if (!mesh.sigma_mm.empty()) file.text("property float sigma_mm\n");
+  if (!mesh.sigma_noise_mm.empty()) file.text("property float sigma_noise_mm\n");
+  if (!mesh.sigma_systematic_mm.empty()) file.text("property float sigma_systematic_mm\n");
   if (!mesh.views.empty()) file.text("property ushort views\n");
   if (!mesh.vertex_marks.empty()) file.text("property uchar mark\n");
   file.text(fmt::format("element face {}\n", mesh.triangles.size()));

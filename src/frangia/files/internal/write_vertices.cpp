@@ -13,6 +13,8 @@ void write_vertices(FileWriter& file, const Mesh& mesh) {
         file.binary(coordinate);
     }
     if (!mesh.sigma_mm.empty()) file.binary(mesh.sigma_mm[i]);
+    if (!mesh.sigma_noise_mm.empty()) file.binary(mesh.sigma_noise_mm[i]);
+    if (!mesh.sigma_systematic_mm.empty()) file.binary(mesh.sigma_systematic_mm[i]);
     if (!mesh.views.empty()) file.binary(mesh.views[i]);
     if (!mesh.vertex_marks.empty()) file.binary(static_cast<std::uint8_t>(mesh.vertex_marks[i]));
   }

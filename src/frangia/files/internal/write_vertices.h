@@ -6,8 +6,8 @@
 namespace frangia {
 
 /// Writes the vertices interleaved, as binary PLY and PCD store them: position and normal (floats),
-/// sigma (float), views (2 bytes), mark (1 byte). Attributes that the mesh does not have are
-/// omitted.
+/// sigma and its parts (float), views (2 bytes), mark (1 byte). Attributes that the mesh does not
+/// have are omitted.
 void write_vertices(FileWriter& file, const Mesh& mesh);
 
 }  // namespace frangia

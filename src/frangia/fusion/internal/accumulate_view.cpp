@@ -8,47 +8,11 @@
 #include <utility>
 
 #include "frangia/core/parallel.h"
+#include "frangia/fusion/internal/sampler_settings.h"
 #include "frangia/rig/fast_camera_model.h"
 
 namespace frangia {
 namespace {
-
-/// `HermiteOptions` as floats, with cosines in place of angles.
-struct SamplerSettings {
-  explicit SamplerSettings(const HermiteOptions& options)
-      : near_mm(static_cast<float>(options.near_mm)),
-        free_space_mm(static_cast<float>(options.free_space_mm)),
-        same_face(cosine(options.parameters.same_face_rad)),
-        back_face(cosine(options.parameters.back_face_rad)),
-        hidden_mm(static_cast<float>(options.parameters.hidden_bands * options.near_mm)),
-        clear_sight_px(static_cast<float>(options.parameters.clear_sight_px)),
-        clear_sight_mm(
-            static_cast<float>(options.parameters.clear_sight_share * options.free_space_mm)),
-        free_space_factor(static_cast<float>(options.parameters.free_space_factor)),
-        boundary_share(static_cast<float>(options.parameters.boundary_share)),
-        boundary_incidence(cosine(options.parameters.boundary_incidence_rad)),
-        small_window_incidence(cosine(options.parameters.small_window_incidence_rad)),
-        interpolated_variance(static_cast<float>(options.parameters.interpolated_variance)),
-        lateral_px(static_cast<float>(options.parameters.lateral_px)),
-        boundary_lateral_px(static_cast<float>(options.parameters.boundary_lateral_px)) {}
-
-  static float cosine(double angle_rad) { return static_cast<float>(std::cos(angle_rad)); }
-
-  float near_mm;
-  float free_space_mm;
-  float same_face;
-  float back_face;
-  float hidden_mm;
-  float clear_sight_px;
-  float clear_sight_mm;
-  float free_space_factor;
-  float boundary_share;
-  float boundary_incidence;
-  float small_window_incidence;
-  float interpolated_variance;
-  float lateral_px;
-  float boundary_lateral_px;
-};
 
 /// The accumulator of one crossing.
 struct AccumulatorRef {
@@ -63,6 +27,7 @@ struct ViewSampler {
   Eigen::Vector3f translation;
   float pixel_rad;
   SamplerSettings set;
+  const Image<float>& systematic_mm;  ///< along the rays; empty: none is known
 
   /// Points in camera coordinates and in the image, one array for each coordinate, for vector code.
   struct Batch {
@@ -100,7 +65,7 @@ struct ViewSampler {
     const LocalPlanes::Quad* quad = view.quad_at(u, v);
     if (quad == nullptr) {
       const LocalPlanes::Plane* pixel = view.pixel_at(u, v);
-      if (pixel != nullptr) support_at_boundary(at, p, *pixel, outward);
+      if (pixel != nullptr) support_at_boundary(at, p, *pixel, systematic_at(u, v), outward);
       return;
     }
     const float chord = (1.0F - p.z() * view.inverse_depth_at(u, v)) * quad->distance_mm;
@@ -111,12 +76,21 @@ struct ViewSampler {
     if (std::abs(distance) < set.near_mm) {
       const bool at_boundary = is_at_boundary(u, v);
       if (at_boundary && !has_surface_at(p - distance * plane.normal)) return;
-      support(at, {p, plane.normal, distance, quad->weight, at_boundary}, outward);
+      support(
+          at, {p, plane.normal, distance, quad->weight, at_boundary, systematic_at(u, v)}, outward);
     } else if (distance > set.free_space_mm && is_free_space(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
       at.all[at.number].free_space_weight +=
           set.free_space_factor * quad->weight / (cosine * cosine);
     }
+  }
+
+  /// The systematic part of the nearest pixel; 0 where none is known.
+  [[nodiscard]] float systematic_at(float u, float v) const {
+    if (systematic_mm.empty()) return 0.0F;
+    const float right = u + 0.5F;
+    const float down = v + 0.5F;
+    return systematic_mm(static_cast<int>(right), static_cast<int>(down));
   }
 
   /// Whether the surface all around the pixel lies far behind the point.
@@ -136,13 +110,16 @@ struct ViewSampler {
   void support_at_boundary(AccumulatorRef at,
                            const Eigen::Vector3f& point,
                            const LocalPlanes::Plane& pixel,
+                           float systematic,
                            int outward) const {
     const float incidence =
         pixel.window == WindowKind::Small ? set.small_window_incidence : set.boundary_incidence;
     if (!(-pixel.normal.dot(point) > incidence * point.norm())) return;
     const float distance = pixel.normal.dot(point) + pixel.tangent_distance_mm;
     if (!has_surface_at(point - distance * pixel.normal)) return;
-    support(at, {point, pixel.normal, distance, set.boundary_share * pixel.weight, true}, outward);
+    support(at,
+            {point, pixel.normal, distance, set.boundary_share * pixel.weight, true, systematic},
+            outward);
   }
 
   /// Whether the view has a surface at a point that was projected onto a plane: at the boundary the
@@ -181,7 +158,8 @@ struct ViewSampler {
     const Eigen::Vector3f& normal;
     float distance_mm;
     float weight;
-    bool at_boundary;  ///< a neighbouring quad has no surface
+    bool at_boundary;     ///< a neighbouring quad has no surface
+    float systematic_mm;  ///< of the pixel, along its ray
   };
 
   void support(AccumulatorRef at, const Observation& observation, int outward) const {
@@ -209,6 +187,10 @@ struct ViewSampler {
     face.spacing += w * pixel_mm / std::sqrt(cosine);
     face.normal += w * normal;
     ++face.views;
+    if (!at.all.has_systematic()) return;
+    const bool first = &face == &at.all[at.number].first;
+    HermiteAccumulators::SystematicSums& sums = at.all.systematic_sums(at.number);
+    (first ? sums.first : sums.second) += w * cosine * observation.systematic_mm;
   }
 };
 
@@ -218,13 +200,15 @@ void accumulate_view(HermiteAccumulators& hermite,
                      const EdgeCrossings& crossings,
                      const LocalPlanes& view,
                      const CameraRays& camera,
-                     const HermiteOptions& options) {
+                     const HermiteOptions& options,
+                     const Image<float>& systematic_mm) {
   const ViewSampler sampler{view,
                             FastCameraModel(camera.model),
                             view.rig_from_object.linear().cast<float>(),
                             view.rig_from_object.translation().cast<float>(),
                             static_cast<float>(1.0 / camera.model.focal_px.mean()),
-                            SamplerSettings(options)};
+                            SamplerSettings(options),
+                            systematic_mm};
   parallel_chunks(
       hermite.size(), HermiteAccumulators::kChunk, [&](std::size_t begin, std::size_t end) {
         ViewSampler::Batch batch;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "frangia/core/image.h"
 #include "frangia/fusion/fusion_parameters.h"
 #include "frangia/fusion/internal/edge_crossings.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
@@ -17,10 +18,13 @@ struct HermiteOptions {
 ///
 /// A view votes for free space only when it observes free space all around the pixel: next to a
 /// silhouette, a small error of the pose looks like free space.
+///
+/// `systematic_mm` holds the systematic parts of the view's points along their rays, or is empty.
 void accumulate_view(HermiteAccumulators& hermite,
                      const EdgeCrossings& crossings,
                      const LocalPlanes& view,
                      const CameraRays& camera,
-                     const HermiteOptions& options);
+                     const HermiteOptions& options,
+                     const Image<float>& systematic_mm = {});
 
 }  // namespace frangia

@@ -9,11 +9,16 @@ namespace frangia {
 const HermiteAccumulator::PlaneSum HermiteAccumulators::kNoPlane{
     0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, Eigen::Vector3f::Zero(), 0};
 
-HermiteAccumulators::HermiteAccumulators(std::size_t count)
-    : all_(count), secondary_((count + kChunk - 1) / kChunk) {
+HermiteAccumulators::HermiteAccumulators(std::size_t count, bool with_systematic)
+    : all_(count),
+      systematic_(with_systematic ? count : 0),
+      secondary_((count + kChunk - 1) / kChunk) {
   parallel_chunks(count, 16384, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       all_[i] = {kNoPlane, 0.0F, 0.0F, 0};
+    if (!with_systematic) return;
+    for (std::size_t i = begin; i < end; ++i)
+      systematic_[i] = {0.0F, 0.0F};
   });
 }
 

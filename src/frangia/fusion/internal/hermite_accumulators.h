@@ -43,8 +43,25 @@ class HermiteAccumulators {
   /// Crossings whose second faces share a vector: only one thread at a time may add to it.
   static constexpr std::size_t kChunk = 4096;
 
-  /// Creates empty accumulators.
-  explicit HermiteAccumulators(std::size_t count);
+  /// The systematic parts of the two faces near a crossing: sums of w s over the views, with s the
+  /// systematic part of d.
+  struct SystematicSums {
+    float first;
+    float second;
+  };
+
+  /// Creates empty accumulators; `with_systematic` adds the sums of systematic parts.
+  explicit HermiteAccumulators(std::size_t count, bool with_systematic = false);
+
+  /// Whether systematic parts are summed.
+  [[nodiscard]] bool has_systematic() const { return systematic_.size() > 0; }
+  [[nodiscard]] SystematicSums& systematic_sums(std::size_t i) { return systematic_[i]; }
+  /// The systematic part of the face with the larger weight: the weighted mean over the views,
+  /// which their number does not reduce.
+  [[nodiscard]] float systematic_mm(std::size_t i) const {
+    const bool first = &dominant(i) == &all_[i].first;
+    return (first ? systematic_[i].first : systematic_[i].second) / dominant(i).weight;
+  }
 
   [[nodiscard]] std::size_t size() const { return all_.size(); }
   [[nodiscard]] HermiteAccumulator& operator[](std::size_t i) { return all_[i]; }
@@ -76,6 +93,7 @@ class HermiteAccumulators {
   static const HermiteAccumulator::PlaneSum kNoPlane;
 
   ChunkedVector<HermiteAccumulator> all_;
+  ChunkedVector<SystematicSums> systematic_;  ///< empty unless asked for
   std::vector<std::vector<HermiteAccumulator::PlaneSum>>
       secondary_;  ///< one vector for each `kChunk` crossings
 };

@@ -159,6 +159,8 @@ std::uint32_t copy_vertex_to(Mesh& mesh, const Eigen::Vector3f& point, std::uint
   mesh.vertices_mm.push_back(point);
   mesh.normals.push_back(mesh.normals[like]);
   mesh.sigma_mm.push_back(mesh.sigma_mm[like]);
+  if (!mesh.sigma_systematic_mm.empty())
+    mesh.sigma_systematic_mm.push_back(mesh.sigma_systematic_mm[like]);
   mesh.views.push_back(mesh.views[like]);
   return static_cast<std::uint32_t>(mesh.vertices_mm.size() - 1);
 }

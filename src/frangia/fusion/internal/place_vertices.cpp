@@ -75,6 +75,7 @@ std::array<LoopSamples, 4> loops_at(const PlacementInput& input,
     const HermiteSample& sample = input.samples[i];
     if (!sample.supported) continue;
     loops[loop].add(sample);
+    if (input.hermite.has_systematic()) loops[loop].systematic_mm += input.hermite.systematic_mm(i);
     if (sample.has_lesser) {
       loops[loop].lesser[loops[loop].lesser_count++] =
           lesser_sample(input.crossings, input.hermite, i);
@@ -100,6 +101,8 @@ void place_vertex(PlacedVertices& placed,
       cell.contains(point) ? point : solve_position(loop, flat, input.min_eigenvalue, cell);
   mesh.normals[vertex] = loop.normal;
   mesh.sigma_mm[vertex] = std::sqrt(variance_of(loop, input));
+  if (input.hermite.has_systematic())
+    mesh.sigma_systematic_mm[vertex] = loop.systematic_mm / static_cast<float>(loop.count);
   mesh.views[vertex] = static_cast<std::uint16_t>(std::lround(mean_views(loop)));
 }
 
@@ -154,6 +157,7 @@ PlacedVertices place_vertices(const EdgeCrossings& crossings,
   placed.mesh.normals.resize(crossings.vertices);
   placed.in_cell_mm.resize(crossings.vertices);
   placed.mesh.sigma_mm.resize(crossings.vertices);
+  if (hermite.has_systematic()) placed.mesh.sigma_systematic_mm.resize(crossings.vertices);
   placed.mesh.views.resize(crossings.vertices);
   placed.sharp.resize(crossings.vertices);
   parallel_chunks(crossings.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {

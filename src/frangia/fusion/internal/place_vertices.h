@@ -10,7 +10,8 @@
 
 namespace frangia {
 
-/// Vertices with normals, sigma and views, but without triangles.
+/// Vertices with normals, sigma and views, but without triangles. `sigma_mm` is the noise; the
+/// systematic part stands beside it where one is known, until `fuse_views` combines them.
 struct PlacedVertices {
   Mesh mesh;
   LargeVector<Eigen::Vector3f> in_cell_mm;  ///< position of each vertex confined to its cell
@@ -21,9 +22,11 @@ struct PlacedVertices {
 ///
 /// Parallel planes are averaged. Planes of several faces put the vertex on their edge or corner. A
 /// vertex may leave its cell by half a voxel, since an edge of the object can run where the grid
-/// has no crossing. shape    `crossings.vertices` vertices missing  a vertex without a supported
-/// crossing is zero source   dual contouring: Ju et al. 2002; several vertices in a cell: Schaefer
-/// et al. 2007
+/// has no crossing. The systematic part of a vertex is the mean of those at its crossings.
+///
+/// @shape    `crossings.vertices` vertices
+/// @missing  a vertex without a supported crossing is zero
+/// @source   dual contouring: Ju et al. 2002; several vertices in a cell: Schaefer et al. 2007
 [[nodiscard]] PlacedVertices place_vertices(const EdgeCrossings& crossings,
                                             const HermiteAccumulators& hermite,
                                             const FusionParameters& parameters = {});

@@ -90,7 +90,8 @@ bool release_folding_vertices(SharpeningPlan& plan) {
 Vertex add_split_vertex(Mesh& mesh, const Eigen::Vector3f& point, Vertex a, Vertex b) {
   mesh.vertices_mm.push_back(point);
   mesh.normals.emplace_back((mesh.normals[a] + mesh.normals[b]).normalized());
-  mesh.sigma_mm.push_back(std::max(mesh.sigma_mm[a], mesh.sigma_mm[b]));
+  for (std::vector<float>* sigma : {&mesh.sigma_mm, &mesh.sigma_systematic_mm})
+    if (!sigma->empty()) sigma->push_back(std::max((*sigma)[a], (*sigma)[b]));
   mesh.views.push_back(std::min(mesh.views[a], mesh.views[b]));
   return static_cast<Vertex>(mesh.vertices_mm.size() - 1);
 }

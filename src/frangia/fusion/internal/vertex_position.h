@@ -31,6 +31,7 @@ struct LoopSamples {
   std::size_t lesser_count = 0;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< sum; after `close` the unit mean
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();  ///< sum; after `close` the mean point
+  float systematic_mm = 0.0F;  ///< sum over the samples; stays 0 where no systematic part is known
 
   void add(const HermiteSample& sample) {
     samples[count++] = &sample;

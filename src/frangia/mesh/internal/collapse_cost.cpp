@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/median.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kBoundaryWeight = 10.0;
 /// The median of the known sigmas; 0 without any.
 double median_sigma(const Mesh& mesh) {
   std::vector<float> known;
-  for (const float sigma : mesh.sigma_mm)
+  for (const float sigma : noise_mm_of(mesh))
     if (std::isfinite(sigma) && sigma > 0.0F) known.push_back(sigma);
   return static_cast<double>(median(std::move(known)));
 }
@@ -49,7 +50,7 @@ double CollapseCost::confidence(const Mesh::Triangle& triangle) const {
   if (!(median_sigma_mm_ > 0.0)) return 1.0;
   double sum = 0.0;
   for (const std::uint32_t vertex : triangle) {
-    const auto sigma = static_cast<double>(mesh_->sigma_mm[vertex]);
+    const auto sigma = static_cast<double>(noise_mm_of(*mesh_)[vertex]);
     const double ratio = sigma > 0.0 ? median_sigma_mm_ / sigma : 0.5;
     sum += std::clamp(ratio * ratio, 0.25, 4.0) / 3.0;
   }

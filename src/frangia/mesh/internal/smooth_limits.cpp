@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -64,8 +65,9 @@ SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const Smoot
   if (options.max_sigmas == 0.0) return;
   if (mesh.sigma_mm.empty()) return;
   const std::vector<float> shares = limit_shares(mesh, edges);
-  for (std::size_t v = 0; v < mesh.sigma_mm.size(); ++v) {
-    const float sigma = mesh.sigma_mm[v];
+  const std::vector<float>& noise_mm = noise_mm_of(mesh);
+  for (std::size_t v = 0; v < noise_mm.size(); ++v) {
+    const float sigma = noise_mm[v];
     const bool known = std::isfinite(sigma) && sigma > 0.0F;
     max_move_mm_.push_back(known ? shares[v] * static_cast<float>(options.max_sigmas) * sigma
                                  : 0.0F);

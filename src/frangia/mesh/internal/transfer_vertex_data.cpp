@@ -26,8 +26,18 @@ Eigen::Vector3f barycentric_of(const Mesh& mesh, const Mesh::Triangle& t, const 
 void transfer_at(Mesh& mesh, std::size_t vertex, const Mesh& from, const NearestPoint& near) {
   const Mesh::Triangle& t = from.triangles[near.triangle];
   if (!from.sigma_mm.empty()) {
-    const Eigen::Vector3f sigmas(from.sigma_mm[t[0]], from.sigma_mm[t[1]], from.sigma_mm[t[2]]);
-    mesh.sigma_mm[vertex] = barycentric_of(from, t, near.point_mm).dot(sigmas);
+    const Eigen::Vector3f barycentric = barycentric_of(from, t, near.point_mm);
+    const auto mean = [&](const std::vector<float>& values) {
+      return barycentric.dot(Eigen::Vector3f(values[t[0]], values[t[1]], values[t[2]]));
+    };
+    if (from.sigma_systematic_mm.empty()) {
+      mesh.sigma_mm[vertex] = mean(from.sigma_mm);
+    } else {
+      mesh.sigma_noise_mm[vertex] = mean(from.sigma_noise_mm);
+      mesh.sigma_systematic_mm[vertex] = mean(from.sigma_systematic_mm);
+      mesh.sigma_mm[vertex] =
+          combined_sigma(mesh.sigma_noise_mm[vertex], mesh.sigma_systematic_mm[vertex]);
+    }
   }
   if (!from.views.empty()) {
     mesh.views[vertex] = std::min({from.views[t[0]], from.views[t[1]], from.views[t[2]]});
@@ -46,6 +56,10 @@ void transfer_vertex_data(Mesh& mesh, const RayScene& scene, const Run& run) {
   const Mesh& from = scene.mesh();
   const std::size_t count = mesh.vertices_mm.size();
   if (!from.sigma_mm.empty()) mesh.sigma_mm.assign(count, 0.0F);
+  if (!from.sigma_systematic_mm.empty()) {
+    mesh.sigma_noise_mm.assign(count, 0.0F);
+    mesh.sigma_systematic_mm.assign(count, 0.0F);
+  }
   if (!from.views.empty()) mesh.views.assign(count, 0);
   if (!from.vertex_marks.empty()) mesh.vertex_marks.assign(count, Mark::Measured);
   parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {

@@ -1,5 +1,7 @@
 #include "frangia/rig/internal/calibration_table.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 namespace frangia {
@@ -14,7 +16,12 @@ Calibration read_calibration(TomlReader reader, const Run& run) {
   calibration.projector_rms_px = reader.number_or("projector_rms_px", 0.0);
   calibration.point_sigma_mm = reader.number_or("point_sigma_mm", 0.0);
   calibration.distance_mm = reader.number_or("distance_mm", 0.0);
-  if (reader.has("covariance")) calibration.covariance_file = reader.text("covariance");
+  if (reader.has("covariance")) {
+    calibration.covariance_file = reader.text("covariance");
+    if (std::filesystem::path(calibration.covariance_file).filename() !=
+        calibration.covariance_file)
+      reader.fail("covariance", "must be the name of a file in the same folder");
+  }
   if (reader.has("sigma")) {
     TomlReader sigma = reader.table("sigma");
     for (const std::string& name : sigma.keys())

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/pattern/pattern.h"
+#include "frangia/rig/rig.h"
+#include "frangia/views/view_store.h"
+
+namespace frangia {
+
+/// Returns a function that adds the uncertainty of the rig's parameters to the systematic parts of
+/// a view's points; an empty one when the covariance of the parameters is not known.
+///
+/// @shape    `pattern`: any fringe pattern in the direction that the views were measured with
+[[nodiscard]] std::function<void(View&)> calibration_part(const ViewStore& views,
+                                                          const Rig& rig,
+                                                          const Pattern& pattern,
+                                                          const Image<Eigen::Vector2f>& rays);
+
+}  // namespace frangia

@@ -1,0 +1,108 @@
+// The two parts of sigma through fusion.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/median.h"
+#include "frangia/fusion/fuse_views.h"
+#include "frangia/geometry/median_sigma.h"
+
+#include "support/analytic_views.h"
+
+namespace frangia {
+namespace {
+
+using testing::floor_at;
+using testing::look_from;
+using testing::small_camera_model;
+using testing::Snapshot;
+using testing::snapshots;
+
+constexpr double kDistance = 650.0;
+
+/// The same plane, seen `count` times from one latitude with a noise of its own each time.
+ViewStore views_of_plane(int count, double latitude_rad) {
+  return snapshots(floor_at(0.0),
+                   small_camera_model(160),
+                   std::vector<Eigen::Isometry3d>(static_cast<std::size_t>(count),
+                                                  look_from(0.3, latitude_rad, kDistance)),
+                   {.noise_mm = 0.05, .sigma_mm = 0.05});
+}
+
+/// Copies the views and gives each of them a systematic part.
+ViewStore with_systematic(const ViewStore& views, const std::vector<float>& systematic_mm) {
+  ViewStore out;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    View view = views.load(i);
+    const Image<float>& depth = view.range.depth_mm;
+    view.range.systematic_mm = Image<float>(depth.width(), depth.height(), kMissing);
+    for (std::size_t pixel = 0; pixel < depth.pixels().size(); ++pixel) {
+      if (!std::isnan(depth.pixels()[pixel]))
+        view.range.systematic_mm.pixels()[pixel] = systematic_mm[i % systematic_mm.size()];
+    }
+    out.add(view);
+  }
+  return out;
+}
+
+FusionOptions options() {
+  return {.voxel_mm = 1.0};
+}
+
+TEST(SystematicPart, StaysWhereNoiseFallsWithTheRootOfTheNumberOfViews) {
+  std::vector<double> noise;
+  std::vector<double> systematic;
+  for (const int count : {2, 8, 32}) {
+    const ViewStore views = with_systematic(views_of_plane(count, rad_from_deg(89.0)), {0.03F});
+    const MedianSigma sigma = median_sigma(fuse_views(views, small_camera_model(160), options()));
+    noise.push_back(sigma.noise_mm);
+    systematic.push_back(sigma.systematic_mm);
+  }
+  EXPECT_NEAR(noise[0] / noise[1], 2.0, 0.2);
+  EXPECT_NEAR(noise[1] / noise[2], 2.0, 0.2);
+  for (const double part : systematic)
+    EXPECT_NEAR(part, 0.03, 0.0003);  // the incidence is within 6 degrees
+}
+
+TEST(SystematicPart, IsProjectedOntoTheNormal) {
+  const ViewStore views = with_systematic(views_of_plane(1, rad_from_deg(30.0)), {0.03F});
+  const MedianSigma sigma = median_sigma(fuse_views(views, small_camera_model(160), options()));
+  EXPECT_NEAR(sigma.systematic_mm, 0.03 * std::sin(rad_from_deg(30.0)), 0.0005);
+}
+
+TEST(SystematicPart, OfViewsThatDifferIsTheirWeightedMean) {
+  const ViewStore views = with_systematic(views_of_plane(2, rad_from_deg(89.0)), {0.02F, 0.06F});
+  const MedianSigma sigma = median_sigma(fuse_views(views, small_camera_model(160), options()));
+  EXPECT_NEAR(sigma.systematic_mm, 0.04, 0.002);
+}
+
+TEST(SystematicPart, ChangesNoShapeAndCombinesWithTheNoise) {
+  const ViewStore views = views_of_plane(3, rad_from_deg(50.0));
+  const Mesh without = fuse_views(views, small_camera_model(160), options());
+  const Mesh with = fuse_views(with_systematic(views, {0.1F}), small_camera_model(160), options());
+  ASSERT_FALSE(without.empty());
+  EXPECT_TRUE(without.sigma_noise_mm.empty() && without.sigma_systematic_mm.empty());
+  EXPECT_EQ(with.vertices_mm, without.vertices_mm);
+  EXPECT_EQ(with.triangles, without.triangles);
+  EXPECT_EQ(with.sigma_noise_mm, without.sigma_mm);
+  ASSERT_EQ(with.sigma_systematic_mm.size(), with.vertices_mm.size());
+  for (std::size_t i = 0; i < with.sigma_mm.size(); ++i) {
+    EXPECT_FLOAT_EQ(with.sigma_mm[i],
+                    std::hypot(with.sigma_noise_mm[i], with.sigma_systematic_mm[i]));
+  }
+}
+
+TEST(SystematicPart, IsAddedByTheCallerToViewsThatDoNotStoreIt) {
+  FusionOptions how = options();
+  how.add_systematic = [](View& view) {
+    const Image<float>& depth = view.range.depth_mm;
+    view.range.systematic_mm = Image<float>(depth.width(), depth.height(), 0.07F);
+  };
+  const Mesh mesh = fuse_views(views_of_plane(2, rad_from_deg(89.0)), small_camera_model(160), how);
+  EXPECT_NEAR(median_sigma(mesh).systematic_mm, 0.07, 0.0007);
+}
+
+}  // namespace
+}  // namespace frangia

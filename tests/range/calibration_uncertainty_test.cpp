@@ -1,0 +1,193 @@
+#include "frangia/range/calibration_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/rig/paper_rig.h"
+#include "frangia/rig/rig_covariance.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+const Pattern kFringe{.name = "fringe", .fringes_per_degree = 1.0};
+const Pattern kColumns{.name = "columns", .period_px = 20.0};
+
+Rig digital_rig() {
+  Rig rig = make_paper_rig({});
+  rig.camera.model.distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0};
+  CameraModel projector;
+  projector.width_px = 1280;
+  projector.height_px = 800;
+  projector.focal_px = {2200.0, 2200.0};
+  projector.principal_point_px = {640.0, 400.0};
+  projector.distortion = {0.03, -0.02, 0.0, 0.0, 0.0};
+  rig.projector.model = projector;
+  return rig;
+}
+
+/// A covariance with the given standard deviations and correlations drawn at random.
+RigCovariance correlated(std::vector<std::string> names, const Eigen::VectorXd& sigma) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  const Eigen::Index count = sigma.size();
+  Eigen::MatrixXd root(count, count + 2);
+  for (double& value : root.reshaped())
+    value = normal(generator);
+  root.rowwise().normalize();
+  root = sigma.asDiagonal() * root;
+  return {std::move(names), root * root.transpose()};
+}
+
+RigCovariance digital_covariance() {
+  Eigen::VectorXd sigma(24);
+  sigma << 0.8, 1e-4, 1.0, 1.0, 2e-3, 1e-2, 1e-4, 1e-4, 1e-2,  // camera
+      1.2, 1e-4, 1.5, 1.5, 3e-3, 2e-2, 1e-4, 1e-4, 2e-2,       // projector
+      4e-4, 5e-4, 3e-4, 0.1, 0.1, 0.2;                         // relative pose
+  return correlated(rig_parameter_names(digital_rig()), sigma);
+}
+
+/// Points of a wavy surface that fills the measuring volume of the paper's rig.
+std::vector<Vector3d> measured_points() {
+  std::vector<Vector3d> points;
+  for (int i = -7; i <= 7; ++i) {
+    for (int j = -7; j <= 7; ++j)
+      points.emplace_back(9.0 * i, 9.0 * j, 490.0 + 30.0 * std::sin(0.6 * i) * std::cos(0.5 * j));
+  }
+  return points;
+}
+
+/// The RMS over rigs drawn from the covariance of the distance along its ray by which each point
+/// moves, after the best rigid motion (Umeyama 1991) of all points.
+std::vector<double> scatter_of(const Rig& rig,
+                               const Pattern& pattern,
+                               const std::vector<Vector3d>& points,
+                               int draws) {
+  const RigCovariance& known = rig.calibration->covariance;
+  const Eigen::LLT<Eigen::MatrixXd> root(known.covariance);
+  const Eigen::MatrixXd lower = root.matrixL();
+  std::mt19937 generator(9);
+  std::normal_distribution<double> normal;
+  std::vector<double> squares(points.size(), 0.0);
+  Eigen::Matrix3Xd nominal(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    nominal.col(static_cast<Eigen::Index>(i)) = points[i];
+  for (int draw = 0; draw < draws; ++draw) {
+    const Eigen::VectorXd z =
+        Eigen::VectorXd::NullaryExpr(lower.cols(), [&] { return normal(generator); });
+    const Rig other = change_parameters(rig, known.parameters, lower * z);
+    Eigen::Matrix3Xd seen = nominal;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector2d ray = other.camera.model.ray(rig.camera.model.project(points[i]));
+      const double phase = phase_at(points[i], pattern, rig.projector);
+      seen.col(static_cast<Eigen::Index>(i)) =
+          intersect_fringe(ray, phase, pattern, other.projector).depth_mm * ray.homogeneous();
+    }
+    const Eigen::Matrix4d motion = Eigen::umeyama(nominal, seen, false);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vector3d moved =
+          motion.topLeftCorner<3, 3>() * points[i] + motion.topRightCorner<3, 1>();
+      const double along =
+          (seen.col(static_cast<Eigen::Index>(i)) - moved).dot(points[i].normalized());
+      squares[i] += along * along / draws;
+    }
+  }
+  for (double& square : squares)
+    square = std::sqrt(square);
+  return squares;
+}
+
+void expect_scatter(const Rig& rig, const Pattern& pattern) {
+  const std::vector<Vector3d> points = measured_points();
+  const CalibrationUncertainty stated(rig, pattern, points);
+  const std::vector<double> scatter = scatter_of(rig, pattern, points, 800);
+  double stated_squares = 0.0;
+  double scatter_squares = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d pixel = rig.camera.model.project(points[i]);
+    const double sigma = stated.along_ray_mm(pixel.x(), pixel.y(), points[i].z());
+    EXPECT_NEAR(sigma / scatter[i], 1.0, 0.1) << points[i].transpose();
+    stated_squares += sigma * sigma;
+    scatter_squares += scatter[i] * scatter[i];
+  }
+  EXPECT_NEAR(std::sqrt(stated_squares / scatter_squares), 1.0, 0.05);
+}
+
+TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfADigitalRig) {
+  Rig rig = digital_rig();
+  rig.calibration = Calibration{.covariance = digital_covariance()};
+  expect_scatter(rig, kColumns);
+}
+
+TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfAnAngularRig) {
+  Rig rig = make_paper_rig({});
+  Eigen::VectorXd sigma(15);
+  sigma << 0.5, 1e-4, 0.8, 0.8, 2e-3, 1e-2, 1e-4, 1e-4, 1e-2, 3e-4, 4e-4, 3e-4, 0.1, 0.1, 0.2;
+  rig.calibration = Calibration{.covariance = correlated(rig_parameter_names(rig), sigma)};
+  expect_scatter(rig, kFringe);
+}
+
+TEST(CalibrationUncertainty, IsZeroForAChangeThatLeavesThePlanesOfLightWhereTheyAre) {
+  Rig rig = digital_rig();
+  std::get<PinholeModel>(rig.projector.model).distortion = {};
+  rig.calibration =
+      Calibration{.covariance = {{"projector.y_mm"}, Eigen::MatrixXd::Constant(1, 1, 4.0)}};
+  const CalibrationUncertainty none(rig, kColumns, measured_points());
+  EXPECT_LT(none.along_ray_mm(256.0, 256.0, 490.0), 1e-6);
+}
+
+TEST(CalibrationUncertainty, ExcludesTheRigidMotionOfThePart) {
+  // What remains of a displacement is strain, so a part of 1/50 of the size has 1/50 of it.
+  Rig rig = digital_rig();
+  rig.calibration = Calibration{
+      .covariance = {{"projector.rotation_y_rad"}, Eigen::MatrixXd::Constant(1, 1, 1e-6)}};
+  const auto largest_mm = [&](double scale) {
+    const Vector3d center(0.0, 0.0, 490.0);
+    std::vector<Vector3d> points = measured_points();
+    for (Vector3d& point : points)
+      point = center + scale * (point - center);
+    const CalibrationUncertainty stated(rig, kColumns, points);
+    double largest = 0.0;
+    for (const Vector3d& point : points) {
+      const Eigen::Vector2d pixel = rig.camera.model.project(point);
+      largest = std::max(largest, stated.along_ray_mm(pixel.x(), pixel.y(), point.z()));
+    }
+    return largest;
+  };
+  const double of_large = largest_mm(1.0);
+  EXPECT_GT(of_large, 0.01);
+  EXPECT_LT(largest_mm(0.02), 0.04 * of_large);
+}
+
+TEST(CalibrationUncertainty, AddsToTheSystematicPartOfEachPoint) {
+  Rig rig = digital_rig();
+  rig.calibration = Calibration{.covariance = digital_covariance()};
+  const CalibrationUncertainty stated(rig, kColumns, measured_points());
+  RangeGrid range{Image<float>(512, 512, 495.0F), Image<float>(512, 512, 0.01F)};
+  range.depth_mm(100, 200) = kMissing;
+  stated.add_to(range);
+  EXPECT_TRUE(std::isnan(range.systematic_mm(100, 200)));
+  for (const auto& [x, y] : {std::pair{0, 0}, {256, 256}, {301, 207}, {511, 511}})
+    EXPECT_NEAR(range.systematic_mm(x, y), stated.along_ray_mm(x, y, 495.0), 1e-6) << x << " " << y;
+  const float once = range.systematic_mm(256, 256);
+  EXPECT_GT(once, 0.001F);
+  stated.add_to(range);
+  EXPECT_FLOAT_EQ(range.systematic_mm(256, 256), std::sqrt(2.0F) * once);
+}
+
+TEST(CalibrationUncertainty, IsNotAddedWithoutACovariance) {
+  RangeGrid range{Image<float>(8, 8, 495.0F), Image<float>(8, 8, 0.01F)};
+  CalibrationUncertainty(digital_rig(), kColumns, measured_points()).add_to(range);
+  EXPECT_TRUE(range.systematic_mm.empty());
+}
+
+}  // namespace
+}  // namespace frangia
