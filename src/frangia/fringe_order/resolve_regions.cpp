@@ -40,7 +40,11 @@ bool at_border(const Image<std::int32_t>& region, std::size_t i) {
 
 ResolvedPhase with_orders(const RelativePhase& relative, const Orders& orders) {
   ResolvedPhase out;
-  out.phase = {relative.pattern, relative.phase_rad, relative.sigma_rad, relative.status};
+  out.phase = {relative.pattern,
+               relative.phase_rad,
+               relative.sigma_rad,
+               relative.status,
+               relative.systematic_rad};
   std::vector<UnresolvedRegion> unresolved(orders.size());
   const auto labels = relative.region.pixels();
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -61,6 +65,7 @@ ResolvedPhase with_orders(const RelativePhase& relative, const Orders& orders) {
     }
     phase = kMissing;
     sigma = kMissing;
+    if (!out.phase.systematic_rad.empty()) out.phase.systematic_rad.pixels()[i] = kMissing;
   }
   for (UnresolvedRegion& region : unresolved) {
     if (!region.pixel.empty()) out.unresolved.push_back(std::move(region));

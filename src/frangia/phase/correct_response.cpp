@@ -75,6 +75,7 @@ void correct_response(const ResponseTable& table, WrappedPhase& phase) {
       value = static_cast<float>(wrap_rad(static_cast<double>(
           value + table.correction_rad[k] + rise * (position - static_cast<float>(k)))));
       phase.sigma_rad(x, y) *= 1.0F + rise / step;
+      if (!phase.systematic_rad.empty()) phase.systematic_rad(x, y) *= 1.0F + rise / step;
     }
   });
 }

@@ -28,6 +28,9 @@ struct WrappedPhase {
   Image<float> modulation_counts;  ///< I0 gamma0 of the paper's equation (1), at every pixel
   Image<float> mean_counts;        ///< I0 plus ambient light, at every pixel
   Image<PixelStatus> status;       ///< why a pixel is missing
+  /// systematic standard uncertainty of phase_rad in rad; NaN where not measured; empty: no
+  /// systematic part is known
+  Image<float> systematic_rad;
 };
 
 /// A phase that is continuous within each region and known up to a whole number of fringes per
@@ -42,6 +45,9 @@ struct RelativePhase {
   /// Order in which quality-guided growth reached the pixels of a region, from 0; -1 where not
   /// measured. Empty unless requested.
   Image<std::int32_t> growth_order;
+  /// systematic standard uncertainty of phase_rad in rad; NaN where not measured; empty: no
+  /// systematic part is known
+  Image<float> systematic_rad;
 };
 
 /// The phase relative to the projection axis or the projector's first column. It is a separate type
@@ -51,6 +57,9 @@ struct AbsolutePhase {
   Image<float> phase_rad;     ///< NaN where not measured
   Image<float> sigma_rad;     ///< standard deviation of `phase_rad`; NaN where not measured
   Image<PixelStatus> status;  ///< why a pixel is missing
+  /// systematic standard uncertainty of phase_rad in rad; NaN where not measured; empty: no
+  /// systematic part is known
+  Image<float> systematic_rad;
 };
 
 }  // namespace frangia
