@@ -1,0 +1,133 @@
+#include "frangia/phase/internal/fringe_bins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "frangia/core/median.h"
+#include "frangia/phase/phase_algorithm.h"
+
+namespace frangia {
+namespace {
+
+/// Largest phase noise of a pixel that contributes, rad: as WrapOptions::max_sigma_rad.
+constexpr double kMaxBinnedSigma = 0.1;
+
+/// Largest departure of a pixel's log contrast from the median. A harmonic of 40 % changes it by
+/// 0.5; pixels on depth edges exceed it.
+constexpr double kMaxLogContrast = 0.7;
+
+/// Sampled pixels: their counts, one column per frame, and their tiles.
+struct GridSamples {
+  Eigen::ArrayXXf counts;
+  std::vector<std::int32_t> tile;
+};
+
+GridSamples sample_grid(const FrameStack& stack, std::size_t samples) {
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  const double all = static_cast<double>(width) * height;
+  const int stride = std::max(
+      1, static_cast<int>(std::sqrt(all / static_cast<double>(std::max<std::size_t>(1, samples)))));
+  const Eigen::Index rows =
+      Eigen::Index{(width + stride - 1) / stride} * ((height + stride - 1) / stride);
+  GridSamples out{Eigen::ArrayXXf(rows, std::ssize(stack.frames)), {}};
+  out.tile.reserve(static_cast<std::size_t>(rows));
+  for (int y = 0; y < height; y += stride) {
+    for (int x = 0; x < width; x += stride)
+      out.tile.push_back(y * kContrastTiles / height * kContrastTiles + x * kContrastTiles / width);
+  }
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    std::visit(
+        [&](const auto& image) {
+          Eigen::Index row = 0;
+          for (int y = 0; y < height; y += stride) {
+            for (int x = 0; x < width; x += stride)
+              out.counts(row++, static_cast<Eigen::Index>(k)) = static_cast<float>(image(x, y));
+          }
+        },
+        stack.frames[k]);
+  }
+  return out;
+}
+
+/// Pixels whose frames are neither saturated nor at 0, in order.
+std::vector<Eigen::Index> unclipped(const Eigen::ArrayXXf& counts, int white_level) {
+  const Eigen::ArrayXf brightest = counts.rowwise().maxCoeff();
+  const Eigen::ArrayXf darkest = counts.rowwise().minCoeff();
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < counts.rows(); ++i) {
+    if (brightest(i) < static_cast<float>(white_level) && darkest(i) > 0.0F) kept.push_back(i);
+  }
+  return kept;
+}
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+}
+
+}  // namespace
+
+FringeBins bin_fringes(const FrameStack& stack,
+                       const std::vector<double>& shifts_rad,
+                       const NoiseModel& noise,
+                       std::size_t samples) {
+  const PhaseAlgorithm fit = least_squares(shifts_rad);
+  const Eigen::Index frames = std::ssize(shifts_rad);
+  FringeBins out;
+  out.residual = Eigen::ArrayXXd::Zero(kPhaseBins, frames);
+  out.tile_count = Eigen::ArrayXXd::Zero(kPhaseBins, kContrastTiles * kContrastTiles);
+  out.tile_log_contrast = out.tile_count;
+  const GridSamples grid = sample_grid(stack, samples);
+  const std::vector<Eigen::Index> kept = unclipped(grid.counts, stack.white_level);
+
+  // Mean, cosine and sine of each pixel.
+  Eigen::MatrixX3d weights(frames, 3);
+  weights << vector_of(fit.mean), vector_of(fit.cosine), vector_of(fit.sine);
+  const Eigen::MatrixX3f fringes = grid.counts.matrix() * weights.cast<float>();
+  std::vector<Eigen::Index> modulated;
+  std::vector<float> contrasts;
+  for (const Eigen::Index i : kept) {
+    const double mean = fringes(i, 0);
+    const double modulation = std::hypot(fringes(i, 1), fringes(i, 2));
+    const double sigma = fit.noise_gain * std::sqrt(noise.variance(mean));
+    if (!(mean > 0.0) || !(sigma <= kMaxBinnedSigma * modulation)) continue;
+    modulated.push_back(i);
+    contrasts.push_back(static_cast<float>(std::log(modulation / mean)));
+  }
+  if (modulated.empty()) return out;
+  const double typical = median(contrasts);
+  const Eigen::VectorXd shift_cosine = vector_of(shifts_rad).array().cos().matrix();
+  const Eigen::VectorXd shift_sine = vector_of(shifts_rad).array().sin().matrix();
+  for (std::size_t j = 0; j < modulated.size(); ++j) {
+    const double log_contrast = contrasts[j];
+    if (std::abs(log_contrast - typical) > kMaxLogContrast) continue;
+    const Eigen::Index i = modulated[j];
+    const double mean = fringes(i, 0);
+    const double cosine = fringes(i, 1);
+    const double sine = fringes(i, 2);
+    const double modulation = std::hypot(cosine, sine);
+    const double phase = std::atan2(sine, cosine);
+    const int bin =
+        std::clamp(static_cast<int>((phase + kPi) / kTwoPi * kPhaseBins), 0, kPhaseBins - 1);
+    const double weight = modulation * modulation / noise.variance(mean);
+    out.weight(bin) += weight;
+    out.mean_over_modulation(bin) += weight * mean / modulation;
+    for (Eigen::Index k = 0; k < frames; ++k) {
+      const double model = mean + cosine * shift_cosine(k) - sine * shift_sine(k);
+      out.residual(bin, k) +=
+          weight * (static_cast<double>(grid.counts(i, k)) - model) / modulation;
+    }
+    out.tile_count(bin, grid.tile[static_cast<std::size_t>(i)]) += 1.0;
+    out.tile_log_contrast(bin, grid.tile[static_cast<std::size_t>(i)]) += log_contrast;
+    ++out.pixels;
+  }
+  for (int bin = 0; bin < kPhaseBins; ++bin) {
+    if (out.weight(bin) == 0.0) continue;
+    out.residual.row(bin) /= out.weight(bin);
+    out.mean_over_modulation(bin) /= out.weight(bin);
+  }
+  return out;
+}
+
+}  // namespace frangia
