@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "frangia/core/median.h"
+#include "frangia/phase/fit_waveform.h"
 #include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
@@ -26,20 +27,23 @@ using Bins = std::array<std::vector<float>, kBins>;
 
 using Weights = std::vector<double>;
 
-/// Linear combinations of the frames, of unit norm, that contain noise only.
+/// Linear combinations of the frames, of unit norm, that contain noise only, and for three frames
+/// the texture of the object.
 std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
   const std::size_t count = shifts_rad.size();
   std::vector<Weights> combinations;
-  if (count == 3) {
-    for (std::size_t k = 0; k < count; ++k) {
-      combinations.emplace_back(count, 0.0);
-      combinations.back()[k] = 1.0;
-    }
+  const PhaseAlgorithm fit = least_squares(shifts_rad);
+  if (count == 3) {  // the mean, in which the fringes cancel
+    double square = 0.0;
+    for (const double weight : fit.mean)
+      square += weight * weight;
+    combinations.push_back(fit.mean);
+    for (double& weight : combinations.back())
+      weight /= std::sqrt(square);
     return combinations;
   }
   // The residual of one frame after the fit of mean, cosine and sine; the frame with the largest
   // residual is used.
-  const PhaseAlgorithm fit = least_squares(shifts_rad);
   Weights best;
   double best_square = 0.0;
   for (std::size_t frame = 0; frame < count; ++frame) {
@@ -61,8 +65,55 @@ std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
   return combinations;
 }
 
+/// The harmonics of the fringes in a combination of the frames.
+class CombinedHarmonics {
+ public:
+  /// Finds the harmonics; there are none for fewer than four frames.
+  CombinedHarmonics(const FrameStack& stack, const Weights& weights)
+      : fit_(least_squares(stack.pattern.shifts_rad)),
+        shifts_(stack.pattern.shifts_rad),
+        weights_(weights) {
+    if (shifts_.size() < 4) return;
+    // The noise is not known yet; harmonics below a hundredth of the fringes leave less than noise.
+    constexpr std::size_t kHarmonicSamples = 10'000;
+    waveform_ =
+        fit_waveform(
+            stack, shifts_, NoiseModel{}, {.samples = kHarmonicSamples, .min_harmonic = 0.01})
+            .waveform;
+    for (const auto& harmonic : waveform_.harmonics)
+      found_ = found_ || harmonic != 0.0;
+  }
+  [[nodiscard]] bool found() const { return found_; }
+  /// Their value at a pixel, counts.
+  [[nodiscard]] double value_at(const FrameStack& stack, int x, int y) const {
+    double cosine = 0.0;
+    double sine = 0.0;
+    for (std::size_t k = 0; k < shifts_.size(); ++k) {
+      const double counts = counts_at(stack.frames[k], x, y);
+      cosine += fit_.cosine[k] * counts;
+      sine += fit_.sine[k] * counts;
+    }
+    const double phase = std::atan2(sine, cosine);
+    double value = 0.0;
+    for (std::size_t k = 0; k < shifts_.size(); ++k)
+      value += weights_[k] * waveform_.light_at(phase + shifts_[k]);
+    return std::hypot(cosine, sine) * value;
+  }
+
+ private:
+  PhaseAlgorithm fit_;
+  std::vector<double> shifts_;
+  Weights weights_;
+  FringeWaveform waveform_;
+  bool found_ = false;
+};
+
 /// Absolute second differences along one row, binned by brightness.
-void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bins) {
+void gather_row(const FrameStack& stack,
+                const Weights& weights,
+                const CombinedHarmonics& harmonics,
+                int y,
+                Bins& bins) {
   const int width = width_of(stack.frames.front());
   std::vector<double> sum(static_cast<std::size_t>(width), 0.0);
   std::vector<double> mean(sum);
@@ -80,6 +131,10 @@ void gather_row(const FrameStack& stack, const Weights& weights, int y, Bins& bi
           }
         },
         stack.frames[k]);
+  }
+  if (harmonics.found()) {
+    for (int x = 0; x < width; ++x)
+      sum[static_cast<std::size_t>(x)] -= harmonics.value_at(stack, x, y);
   }
   for (std::size_t i = 1; i + 1 < sum.size(); ++i) {
     if (std::max({brightest[i - 1], brightest[i], brightest[i + 1]}) >= stack.white_level) continue;
@@ -120,8 +175,9 @@ void NoiseSamples::add(const FrameStack& stack) {
   const int stride =
       std::max(1, static_cast<int>(static_cast<double>(width) * height / kRowSamples));
   for (const Weights& weights : noise_combinations(stack.pattern.shifts_rad)) {
+    const CombinedHarmonics harmonics(stack, weights);
     for (int y = stride / 2; y < height; y += stride)
-      gather_row(stack, weights, y, bins_);
+      gather_row(stack, weights, harmonics, y, bins_);
   }
 }
 

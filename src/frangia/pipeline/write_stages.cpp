@@ -129,6 +129,14 @@ void write_relative(const RelativePhase& relative, StageWriter& out) {
                           relative.region_count));
 }
 
+/// Noise and systematic part together.
+Image<float> combined_sigma(const AbsolutePhase& phase) {
+  Image<float> out = phase.sigma_rad;
+  for (std::size_t i = 0; i < phase.systematic_rad.pixels().size(); ++i)
+    out.pixels()[i] = std::hypot(out.pixels()[i], phase.systematic_rad.pixels()[i]);
+  return out;
+}
+
 }  // namespace
 
 std::vector<StageFile> write_stages(const DecodedView& decoded,
@@ -143,6 +151,10 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
   const auto fringes = fringe_orders(decoded.wrapped.back().phase_rad, decoded.phase.phase_rad);
   out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
   out.map("absolute", decoded.phase.phase_rad, "final phase", "rad");
+  out.map("absolute-sigma",
+          combined_sigma(decoded.phase),
+          "combined standard uncertainty of the final phase",
+          "rad");
   out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
   out.map("sigma", range.sigma_mm, "standard deviation of the point along its ray", "mm");
   write_page(folder / "index.html", out.written);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
@@ -16,9 +16,12 @@ namespace {
 /// Least share of a harmonic's variance in the residuals. Below it the frames do not determine it.
 constexpr double kMinShare = 0.02;
 
-/// Eigenvalues below this share of the largest belong to combinations that leave no residual, such
-/// as a gain common to all frames.
-constexpr double kMinEigenvalue = 1e-6;
+/// Prior standard deviations of a harmonic relative to the fundamental, of a gain, and of the error
+/// of a shift in rad. They decide only what the residuals do not determine, such as a gain common
+/// to all frames, or everything but the noise where the image shows part of a fringe.
+constexpr double kPriorHarmonic = 0.3;
+constexpr double kPriorGain = 0.02;
+constexpr double kPriorShift_rad = 0.02;
 
 /// Least share of the explained residual that gains alone must explain to be flicker.
 constexpr double kMinExplained = 0.7;
@@ -85,14 +88,14 @@ class ResidualFitter {
       out.chi2 += bins_.weight(bin) * residual.squaredNorm();
     }
     if (count == 0) return out;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-    const Eigen::VectorXd& values = eigen.eigenvalues();
-    const double least = kMinEigenvalue * values.maxCoeff();
-    const Eigen::VectorXd inverse =
-        values.unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
-    out.covariance = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+    Eigen::VectorXd prior = Eigen::VectorXd::Constant(count, kPriorHarmonic);
+    if (unknowns.gains) prior.segment(harmonics, frames).setConstant(kPriorGain);
+    if (unknowns.shifts) prior.tail(frames).setConstant(kPriorShift_rad);
+    Eigen::MatrixXd with_prior = normal;
+    with_prior.diagonal() += prior.cwiseAbs2().cwiseInverse();
+    out.covariance = with_prior.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
     out.value = out.covariance * right;
-    out.chi2 -= right.dot(out.value);
+    out.chi2 += out.value.dot(normal * out.value) - 2.0 * right.dot(out.value);
     return out;
   }
 
@@ -164,11 +167,23 @@ ResidualFit fit_residuals(const FringeBins& bins,
   const double mean = found.mean();
   for (const double gain : found)
     out.gains.push_back(gain - mean);
-  out.gain_sigma = std::sqrt(excess * with.covariance.diagonal().tail(frames).sum() /
-                             static_cast<double>(frames));
+  // The gain common to all frames is not determined, and its variance does not count.
+  const Eigen::MatrixXd covariance = with.covariance.bottomRightCorner(frames, frames);
+  const double variance = covariance.trace() - covariance.mean() * static_cast<double>(frames);
+  out.gain_sigma = std::sqrt(excess * std::max(variance, 0.0) / static_cast<double>(frames));
   out.gains_explain =
       with.chi2 < fitter.fit(shifts).chi2 && none - with.chi2 > kMinExplained * (none - full.chi2);
   return out;
+}
+
+double explained_residual(const FringeBins& bins, const std::vector<double>& shifts_rad) {
+  const ResidualFitter fitter(bins, shifts_rad);
+  Unknowns unknowns;
+  const auto frames = static_cast<int>(shifts_rad.size());
+  for (int order = 2; order <= std::clamp(frames - 1, 2, kMaxHarmonic); ++order) {
+    if (fitter.is_observable(order)) unknowns.harmonics.push_back(order);
+  }
+  return fitter.fit({}).chi2 - fitter.fit(unknowns).chi2;
 }
 
 }  // namespace frangia

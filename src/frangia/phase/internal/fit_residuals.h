@@ -25,4 +25,8 @@ struct ResidualFit {
                                         const std::vector<double>& shifts_rad,
                                         bool with_gains);
 
+/// The part of the weighted sum of squared residuals that harmonics explain.
+[[nodiscard]] double explained_residual(const FringeBins& bins,
+                                        const std::vector<double>& shifts_rad);
+
 }  // namespace frangia
