@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"
 
 namespace frangia {
@@ -97,6 +98,14 @@ TEST(NoiseSamples, PoolingOverViewsReducesTheScatter) {
 
 TEST(EstimateNoise, IsQuantizationNoiseWithoutFrames) {
   EXPECT_DOUBLE_EQ(estimate_noise({}).variance(100.0), 1.0 / 12.0);
+}
+
+TEST(EstimateNoise, IgnoresHarmonicsAndFineFringes) {
+  for (const int frames : {3, 4, 6}) {
+    const testing::DisplayScene scene{.period_px = 9.0, .gamma = 1.8, .texture = 0.3};
+    const FrameStack stack = display_frames(scene, equal_shifts(frames, kTwoPi / frames));
+    EXPECT_NEAR(estimate_noise({&stack, 1}).variance(70.0), 1.0 + 1.0 / 12.0, 0.15) << frames;
+  }
 }
 
 }  // namespace

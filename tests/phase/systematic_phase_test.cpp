@@ -45,8 +45,7 @@ PhaseErrors errors_of(const DisplayScene& scene, int frames, bool correct = fals
       if (map.status(x, y) != PixelStatus::Measured) continue;
       const double error =
           wrap_rad(static_cast<double>(map.phase_rad(x, y)) - display_phase(scene, x, y));
-      const double sigma =
-          std::hypot(static_cast<double>(map.sigma_rad(x, y)), out.systematic_rad);
+      const double sigma = std::hypot(static_cast<double>(map.sigma_rad(x, y)), out.systematic_rad);
       out.rms_rad += error * error;
       out.over_sigma += error * error / (sigma * sigma);
       count += 1.0;

@@ -40,7 +40,9 @@ void add_contrast_fit(const FringeBins& bins,
       amplitude > options.min_harmonic_sigmas * fit.harmonic_sigma)
     out.waveform.harmonics[i] = fit.harmonic;
   const double offset = std::abs(fit.offset);
-  const bool few = with_gains && shifts_rad.size() < kMinGainFrames;
+  // Four frames tell flicker from motion by its residual; three frames leave none.
+  const bool few = with_gains && shifts_rad.size() < kMinGainFrames &&
+                   (shifts_rad.size() == 3 || residuals.gains_explain);
   if (few && offset > kMinContrastHarmonic &&
       offset > options.min_flicker_sigmas * fit.offset_sigma)
     out.flicker_error_rad = offset / std::numbers::sqrt2;

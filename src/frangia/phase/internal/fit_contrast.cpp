@@ -51,7 +51,9 @@ class ContrastModel {
     std::array<double, kContrastPhases + 1> value{};
     for (std::size_t i = 0; i <= kContrastPhases; ++i) {
       const double phase = -kPi + kTwoPi * static_cast<double>(i) / kContrastPhases;
-      double mean = mean_;
+      // Gains that offset the wave by the mean times their first harmonic change the measured mean
+      // by half of the modulation times it.
+      double mean = mean_ + 0.5 * (offset * std::polar(1.0, -phase)).real() / mean_;
       std::complex<double> wave = offset;
       for (std::size_t k = 0; k < shifts_.size(); ++k) {
         const double light = waveform_.light_at(phase + shifts_[k]);

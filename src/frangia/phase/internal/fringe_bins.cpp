@@ -51,13 +51,18 @@ GridSamples sample_grid(const FrameStack& stack, std::size_t samples) {
   return out;
 }
 
-/// Pixels whose frames are neither saturated nor at 0, in order.
-std::vector<Eigen::Index> unclipped(const Eigen::ArrayXXf& counts, int white_level) {
+/// Pixels whose frames are neither saturated nor at 0, in order. A margin of three sigmas keeps
+/// pixels out that only their noise leaves unclipped, which would be a selection by phase.
+std::vector<Eigen::Index> unclipped(const Eigen::ArrayXXf& counts,
+                                    int white_level,
+                                    const NoiseModel& noise) {
+  const auto low = static_cast<float>(3.0 * std::sqrt(noise.variance(0.0)));
+  const auto high = static_cast<float>(white_level - 3.0 * std::sqrt(noise.variance(white_level)));
   const Eigen::ArrayXf brightest = counts.rowwise().maxCoeff();
   const Eigen::ArrayXf darkest = counts.rowwise().minCoeff();
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < counts.rows(); ++i) {
-    if (brightest(i) < static_cast<float>(white_level) && darkest(i) > 0.0F) kept.push_back(i);
+    if (brightest(i) < high && darkest(i) > low) kept.push_back(i);
   }
   return kept;
 }
@@ -79,7 +84,7 @@ FringeBins bin_fringes(const FrameStack& stack,
   out.tile_count = Eigen::ArrayXXd::Zero(kPhaseBins, kContrastTiles * kContrastTiles);
   out.tile_log_contrast = out.tile_count;
   const GridSamples grid = sample_grid(stack, samples);
-  const std::vector<Eigen::Index> kept = unclipped(grid.counts, stack.white_level);
+  const std::vector<Eigen::Index> kept = unclipped(grid.counts, stack.white_level, noise);
 
   // Mean, cosine and sine of each pixel.
   Eigen::MatrixX3d weights(frames, 3);
