@@ -17,7 +17,6 @@ namespace {
 
 using testing::run_program;
 using testing::TemporaryFolder;
-using testing::text_of;
 
 class ResponseProgram : public ::testing::Test {
  protected:
@@ -44,7 +43,7 @@ TEST_F(ResponseProgram, MeasuresAGammaFromGrayCodeAndThreeStepsAndKeepsTheRestOf
   EXPECT_NEAR(rig.projector.response->light_of(0.5), 0.287, 0.02);  // 0.5^1.8
   ASSERT_EQ(rig.projector.waveforms.size(), 1U);
   EXPECT_NEAR(rig.projector.waveforms[0].amplitude(2), 0.8 / 3.8, 0.01);
-  const std::string text = text_of(output());
+  const std::string text = testing::text_of(output());
   EXPECT_NE(text.find("# left shelf\n[devices.turntable]"), std::string::npos);
 }
 

@@ -55,6 +55,15 @@ TEST(FitWaveform, FindsTheThirdHarmonicOfASaturatingDisplay) {
   }
 }
 
+TEST(FitWaveform, TakesTheThirdHarmonicOfThreeFramesForNoSecondOne) {
+  const auto waveform = [](double phase) { return std::cos(phase) - 0.06 * std::cos(3.0 * phase); };
+  for (const double texture : {0.0, 0.5}) {
+    const WaveformFit found =
+        fit({.peak_counts = 160.0, .texture = texture, .waveform = waveform}, 3);
+    EXPECT_LT(found.waveform.amplitude(2), 0.012) << texture;
+  }
+}
+
 TEST(FitWaveform, FindsNothingInSoundFrames) {
   for (const int frames : {3, 4, 5, 6, 12}) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {

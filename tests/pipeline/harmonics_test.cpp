@@ -52,7 +52,7 @@ TEST(DecodeView, CarriesTheErrorOfHarmonicsToTheAbsolutePhaseOnEveryPath) {
   const double at_once = mean_systematic(plate.decode({.keep_maps = false}).phase);
   EXPECT_NEAR(separate, 0.148, 0.01);
   EXPECT_NEAR(at_once, separate, 0.002);
-  const DecodedPlate gray({.sequence = "gray", .shifts = 3, .fringes = 64.0}, 1.8);
+  const DecodedPlate gray({.sequence = "gray", .fringes = 64.0, .shifts = 3}, 1.8);
   EXPECT_NEAR(mean_systematic(gray.decode({}).phase), 0.149, 0.01);
   const DecodedPlate single({.periods_px = {20.0}, .shifts = 3}, 1.8);
   EXPECT_NEAR(mean_systematic(single.decode({}).phase), 0.149, 0.01);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
@@ -23,25 +24,39 @@ constexpr std::size_t kMinSamples =
     200;  ///< fewest samples of a bin; the variance then has a standard error of 10 %
 constexpr std::size_t kRowSamples = 400'000;  ///< approximate number of pixels sampled per stack
 
+/// Three frames: their mean is preferred if its apparent variance is below this share of that of
+/// the single frames. Without fine fringes and texture both are equal within a few percent.
+constexpr double kFineFringes = 0.8;
+
 using Bins = std::array<std::vector<float>, kBins>;
 
 using Weights = std::vector<double>;
 
-/// Linear combinations of the frames, of unit norm, that contain noise only, and for three frames
-/// the texture of the object.
-std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
-  const std::size_t count = shifts_rad.size();
+/// Each frame alone.
+std::vector<Weights> single_frames(std::size_t count) {
   std::vector<Weights> combinations;
-  const PhaseAlgorithm fit = least_squares(shifts_rad);
-  if (count == 3) {  // the mean, in which the fringes cancel
-    double square = 0.0;
-    for (const double weight : fit.mean)
-      square += weight * weight;
-    combinations.push_back(fit.mean);
-    for (double& weight : combinations.back())
-      weight /= std::sqrt(square);
-    return combinations;
+  for (std::size_t k = 0; k < count; ++k) {
+    combinations.emplace_back(count, 0.0);
+    combinations.back()[k] = 1.0;
   }
+  return combinations;
+}
+
+/// The mean of the frames, in which the fringes cancel, with unit norm.
+Weights mean_of_frames(const std::vector<double>& shifts_rad) {
+  Weights mean = least_squares(shifts_rad).mean;
+  double square = 0.0;
+  for (const double weight : mean)
+    square += weight * weight;
+  for (double& weight : mean)
+    weight /= std::sqrt(square);
+  return mean;
+}
+
+/// The combination of four frames or more, of unit norm, that contains noise only.
+Weights noise_combination(const std::vector<double>& shifts_rad) {
+  const std::size_t count = shifts_rad.size();
+  const PhaseAlgorithm fit = least_squares(shifts_rad);
   // The residual of one frame after the fit of mean, cosine and sine; the frame with the largest
   // residual is used.
   Weights best;
@@ -61,8 +76,7 @@ std::vector<Weights> noise_combinations(const std::vector<double>& shifts_rad) {
   }
   for (double& weight : best)
     weight /= std::sqrt(best_square);
-  combinations.push_back(best);
-  return combinations;
+  return best;
 }
 
 /// The harmonics of the fringes in a combination of the frames.
@@ -165,6 +179,13 @@ double robust_variance(std::vector<float> magnitudes) {
   return sigma * sigma;
 }
 
+double pooled_variance(const Bins& bins) {
+  std::vector<float> all;
+  for (const std::vector<float>& bin : bins)
+    all.insert(all.end(), bin.begin(), bin.end());
+  return robust_variance(std::move(all));
+}
+
 }  // namespace
 
 void NoiseSamples::add(const FrameStack& stack) {
@@ -174,10 +195,26 @@ void NoiseSamples::add(const FrameStack& stack) {
   const int width = width_of(stack.frames.front());
   const int stride =
       std::max(1, static_cast<int>(static_cast<double>(width) * height / kRowSamples));
-  for (const Weights& weights : noise_combinations(stack.pattern.shifts_rad)) {
+  const std::vector<double>& shifts = stack.pattern.shifts_rad;
+  const auto gather = [&](const Weights& weights, Bins& bins) {
     const CombinedHarmonics harmonics(stack, weights);
     for (int y = stride / 2; y < height; y += stride)
-      gather_row(stack, weights, harmonics, y, bins_);
+      gather_row(stack, weights, harmonics, y, bins);
+  };
+  if (shifts.size() > 3) {
+    gather(noise_combination(shifts), bins_);
+    return;
+  }
+  // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
+  Bins single;
+  Bins mean;
+  for (const Weights& weights : single_frames(shifts.size()))
+    gather(weights, single);
+  gather(mean_of_frames(shifts), mean);
+  const bool fine = pooled_variance(mean) < kFineFringes * pooled_variance(single);
+  for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
+    const std::vector<float>& from = fine ? mean[bin] : single[bin];
+    bins_[bin].insert(bins_[bin].end(), from.begin(), from.end());
   }
 }
 

@@ -83,6 +83,7 @@ FringeBins bin_fringes(const FrameStack& stack,
   out.residual = Eigen::ArrayXXd::Zero(kPhaseBins, frames);
   out.tile_count = Eigen::ArrayXXd::Zero(kPhaseBins, kContrastTiles * kContrastTiles);
   out.tile_log_contrast = out.tile_count;
+  out.tile_log_mean = out.tile_count;
   const GridSamples grid = sample_grid(stack, samples);
   const std::vector<Eigen::Index> kept = unclipped(grid.counts, stack.white_level, noise);
 
@@ -125,6 +126,7 @@ FringeBins bin_fringes(const FrameStack& stack,
     }
     out.tile_count(bin, grid.tile[static_cast<std::size_t>(i)]) += 1.0;
     out.tile_log_contrast(bin, grid.tile[static_cast<std::size_t>(i)]) += log_contrast;
+    out.tile_log_mean(bin, grid.tile[static_cast<std::size_t>(i)]) += std::log(mean);
     ++out.pixels;
   }
   for (int bin = 0; bin < kPhaseBins; ++bin) {

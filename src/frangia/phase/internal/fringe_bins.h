@@ -31,9 +31,10 @@ struct FringeBins {
   Eigen::ArrayXXd residual;
   /// Weighted mean of mean over modulation.
   Eigen::ArrayXd mean_over_modulation = Eigen::ArrayXd::Zero(kPhaseBins);
-  /// Number of pixels and sum of the logarithm of contrast, by bin (row) and tile (column).
+  /// Number of pixels, and sums of logarithms, by bin (row) and tile (column).
   Eigen::ArrayXXd tile_count;
   Eigen::ArrayXXd tile_log_contrast;
+  Eigen::ArrayXXd tile_log_mean;  ///< sum of the logarithm of the mean
 };
 
 /// Samples about `samples` pixels of a stack on a regular grid and bins them by the phase that
