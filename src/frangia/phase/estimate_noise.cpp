@@ -88,11 +88,11 @@ class CombinedHarmonics {
         shifts_(stack.pattern.shifts_rad),
         weights_(weights) {
     if (shifts_.size() < 4) return;
-    // The noise is not known yet; harmonics below a hundredth of the fringes leave less than noise.
+    // The noise is not known yet; the scatter of the residuals decides.
     constexpr std::size_t kHarmonicSamples = 10'000;
     waveform_ =
         fit_waveform(
-            stack, shifts_, NoiseModel{}, {.samples = kHarmonicSamples, .min_harmonic = 0.01})
+            stack, shifts_, NoiseModel{}, {.samples = kHarmonicSamples, .min_harmonic = 0.002})
             .waveform;
     for (const auto& harmonic : waveform_.harmonics)
       found_ = found_ || harmonic != 0.0;

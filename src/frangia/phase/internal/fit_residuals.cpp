@@ -16,6 +16,10 @@ namespace {
 /// Least share of a harmonic's variance in the residuals. Below it the frames do not determine it.
 constexpr double kMinShare = 0.02;
 
+/// Largest share that errors of the shifts alone may explain. Gains that leave no residual of
+/// multiple 0, which four frames may have, look like errors of the shifts.
+constexpr double kMaxExplainedByShifts = 0.8;
+
 /// Prior standard deviations of a harmonic relative to the fundamental, of a gain, and of the error
 /// of a shift in rad. They decide only what the residuals do not determine, such as a gain common
 /// to all frames, or everything but the noise where the image shows part of a fringe.
@@ -171,8 +175,10 @@ ResidualFit fit_residuals(const FringeBins& bins,
   const Eigen::MatrixXd covariance = with.covariance.bottomRightCorner(frames, frames);
   const double variance = covariance.trace() - covariance.mean() * static_cast<double>(frames);
   out.gain_sigma = std::sqrt(excess * std::max(variance, 0.0) / static_cast<double>(frames));
+  const double explained = none - full.chi2;
+  const double by_shifts = none - fitter.fit(shifts).chi2;
   out.gains_explain =
-      with.chi2 < fitter.fit(shifts).chi2 && none - with.chi2 > kMinExplained * (none - full.chi2);
+      none - with.chi2 > kMinExplained * explained && by_shifts < kMaxExplainedByShifts * explained;
   return out;
 }
 

@@ -1,7 +1,9 @@
 #include "frangia/phase/internal/fringe_bins.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "frangia/core/median.h"
@@ -51,21 +53,39 @@ GridSamples sample_grid(const FrameStack& stack, std::size_t samples) {
   return out;
 }
 
-/// Pixels whose frames are neither saturated nor at 0, in order. A margin of three sigmas keeps
-/// pixels out that only their noise leaves unclipped, which would be a selection by phase.
-std::vector<Eigen::Index> unclipped(const Eigen::ArrayXXf& counts,
-                                    int white_level,
-                                    const NoiseModel& noise) {
+/// Whether each pixel's frames are neither saturated nor at 0, by a margin of three sigmas.
+Eigen::Array<bool, Eigen::Dynamic, 1> unclipped(const Eigen::ArrayXXf& counts,
+                                                int white_level,
+                                                const NoiseModel& noise) {
   const auto low = static_cast<float>(3.0 * std::sqrt(noise.variance(0.0)));
   const auto high = static_cast<float>(white_level - 3.0 * std::sqrt(noise.variance(white_level)));
-  const Eigen::ArrayXf brightest = counts.rowwise().maxCoeff();
-  const Eigen::ArrayXf darkest = counts.rowwise().minCoeff();
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < counts.rows(); ++i) {
-    if (brightest(i) < high && darkest(i) > low) kept.push_back(i);
-  }
-  return kept;
+  return counts.rowwise().maxCoeff() < high && counts.rowwise().minCoeff() > low;
 }
+
+/// Levels of modulation, relative to the largest, of which few pixels are clipped. At other levels
+/// the phase decides which pixels are clipped, and the remaining ones are a selection by phase.
+class ModulationLevels {
+ public:
+  explicit ModulationLevels(double largest) : largest_(largest) {}
+  void add(double modulation, bool is_unclipped) {
+    all_[level_of(modulation)] += 1;
+    clipped_[level_of(modulation)] += is_unclipped ? 0 : 1;
+  }
+  [[nodiscard]] bool accepts(double modulation) const {
+    const std::size_t level = level_of(modulation);
+    return clipped_[level] <= kMaxClipped * all_[level];
+  }
+
+ private:
+  static constexpr std::size_t kLevels = 32;
+  static constexpr double kMaxClipped = 0.05;
+  [[nodiscard]] std::size_t level_of(double modulation) const {
+    return std::min(kLevels - 1, static_cast<std::size_t>(modulation / largest_ * kLevels));
+  }
+  double largest_;
+  std::array<double, kLevels> all_{};
+  std::array<double, kLevels> clipped_{};
+};
 
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
@@ -85,21 +105,29 @@ FringeBins bin_fringes(const FrameStack& stack,
   out.tile_log_contrast = out.tile_count;
   out.tile_log_mean = out.tile_count;
   const GridSamples grid = sample_grid(stack, samples);
-  const std::vector<Eigen::Index> kept = unclipped(grid.counts, stack.white_level, noise);
 
   // Mean, cosine and sine of each pixel.
   Eigen::MatrixX3d weights(frames, 3);
   weights << vector_of(fit.mean), vector_of(fit.cosine), vector_of(fit.sine);
   const Eigen::MatrixX3f fringes = grid.counts.matrix() * weights.cast<float>();
+  const Eigen::ArrayXf modulations = fringes.rightCols<2>().rowwise().norm();
+  const auto is_unclipped = unclipped(grid.counts, stack.white_level, noise);
+  const auto is_modulated = [&](Eigen::Index i) {
+    const double mean = fringes(i, 0);
+    const double sigma = fit.noise_gain * std::sqrt(noise.variance(mean));
+    return mean > 0.0 && sigma <= kMaxBinnedSigma * static_cast<double>(modulations(i));
+  };
+  ModulationLevels levels(std::max(1e-9, static_cast<double>(modulations.maxCoeff())));
+  for (Eigen::Index i = 0; i < fringes.rows(); ++i) {
+    if (is_modulated(i)) levels.add(static_cast<double>(modulations(i)), is_unclipped(i));
+  }
   std::vector<Eigen::Index> modulated;
   std::vector<float> contrasts;
-  for (const Eigen::Index i : kept) {
-    const double mean = fringes(i, 0);
-    const double modulation = std::hypot(fringes(i, 1), fringes(i, 2));
-    const double sigma = fit.noise_gain * std::sqrt(noise.variance(mean));
-    if (!(mean > 0.0) || !(sigma <= kMaxBinnedSigma * modulation)) continue;
+  for (Eigen::Index i = 0; i < fringes.rows(); ++i) {
+    const auto modulation = static_cast<double>(modulations(i));
+    if (!is_unclipped(i) || !is_modulated(i) || !levels.accepts(modulation)) continue;
     modulated.push_back(i);
-    contrasts.push_back(static_cast<float>(std::log(modulation / mean)));
+    contrasts.push_back(std::log(modulations(i) / fringes(i, 0)));
   }
   if (modulated.empty()) return out;
   const double typical = median(contrasts);
