@@ -118,12 +118,11 @@ TEST(FitWaveform, TakesMotionForNeitherHarmonicsNorFlicker) {
   }
 }
 
-TEST(FitWaveform, IgnoresClippedPixels) {
+TEST(FitWaveform, IgnoresSaturatedPixelsAndCountsThoseCutOffAtZero) {
   for (const int frames : {3, 4, 6}) {
-    const WaveformFit saturated = fit({.peak_counts = 330.0}, frames);
-    EXPECT_EQ(saturated.largest_harmonic(), 0) << frames;
-    const WaveformFit cut_off = fit({.peak_counts = 120.0, .dark_counts = -8.0}, frames);
-    EXPECT_EQ(cut_off.largest_harmonic(), 0) << frames;
+    EXPECT_EQ(fit({.peak_counts = 330.0}, frames).largest_harmonic(), 0) << frames;
+    EXPECT_EQ(fit({.peak_counts = 120.0, .dark_counts = -20.0}, frames).largest_harmonic(), 2)
+        << frames;
   }
 }
 

@@ -197,7 +197,7 @@ FrameAssessment assess_frames(const FrameStack& stack,
 bool needs_attention(const FrameAssessment& assessment) {
   return assessment.vibration_suspected || assessment.flicker_error_rad > 0.0 ||
          assessment.harmonic_error_rad > kMaterial_rad ||
-         (assessment.contrast > kMaxContrast && !assessment.harmonics_corrected);
+         (assessment.contrast > kMaxContrast && assessment.harmonic == 0);
 }
 
 std::vector<std::string> findings(const FrameAssessment& assessment) {

@@ -53,7 +53,7 @@ struct WaveformOptions {
 /// Its sigma is the scatter over the image (jackknife).
 ///
 /// @shape    one shift per frame; the actual shifts
-/// @missing  pixels that are saturated, at 0 counts or hardly modulated are ignored; nothing is
+/// @missing  pixels that are saturated or hardly modulated are ignored; nothing is
 ///           significant with fewer than 2000 others
 /// @source   Guo, He and Chen 2004 for gamma from the statistics of few frames
 [[nodiscard]] WaveformFit fit_waveform(const FrameStack& stack,

@@ -53,38 +53,39 @@ GridSamples sample_grid(const FrameStack& stack, std::size_t samples) {
   return out;
 }
 
-/// Whether each pixel's frames are neither saturated nor at 0, by a margin of three sigmas.
-Eigen::Array<bool, Eigen::Dynamic, 1> unclipped(const Eigen::ArrayXXf& counts,
-                                                int white_level,
-                                                const NoiseModel& noise) {
-  const auto low = static_cast<float>(3.0 * std::sqrt(noise.variance(0.0)));
+/// Whether each pixel's frames are below saturation, by a margin of three sigmas. Counts cut off at
+/// 0 stay: their phases are measured, and have the error of the harmonics that the cut makes.
+Eigen::Array<bool, Eigen::Dynamic, 1> unsaturated(const Eigen::ArrayXXf& counts,
+                                                  int white_level,
+                                                  const NoiseModel& noise) {
   const auto high = static_cast<float>(white_level - 3.0 * std::sqrt(noise.variance(white_level)));
-  return counts.rowwise().maxCoeff() < high && counts.rowwise().minCoeff() > low;
+  return counts.rowwise().maxCoeff() < high;
 }
 
-/// Levels of modulation, relative to the largest, of which few pixels are clipped. At other levels
-/// the phase decides which pixels are clipped, and the remaining ones are a selection by phase.
+/// Levels of modulation, relative to the largest, of which few pixels are saturated. At other
+/// levels the phase decides which pixels are saturated, and the remaining ones are a selection by
+/// phase.
 class ModulationLevels {
  public:
   explicit ModulationLevels(double largest) : largest_(largest) {}
-  void add(double modulation, bool is_unclipped) {
+  void add(double modulation, bool is_unsaturated) {
     all_[level_of(modulation)] += 1;
-    clipped_[level_of(modulation)] += is_unclipped ? 0 : 1;
+    saturated_[level_of(modulation)] += is_unsaturated ? 0 : 1;
   }
   [[nodiscard]] bool accepts(double modulation) const {
     const std::size_t level = level_of(modulation);
-    return clipped_[level] <= kMaxClipped * all_[level];
+    return saturated_[level] <= kMaxSaturated * all_[level];
   }
 
  private:
   static constexpr std::size_t kLevels = 32;
-  static constexpr double kMaxClipped = 0.05;
+  static constexpr double kMaxSaturated = 0.05;
   [[nodiscard]] std::size_t level_of(double modulation) const {
     return std::min(kLevels - 1, static_cast<std::size_t>(modulation / largest_ * kLevels));
   }
   double largest_;
   std::array<double, kLevels> all_{};
-  std::array<double, kLevels> clipped_{};
+  std::array<double, kLevels> saturated_{};
 };
 
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
@@ -111,7 +112,7 @@ FringeBins bin_fringes(const FrameStack& stack,
   weights << vector_of(fit.mean), vector_of(fit.cosine), vector_of(fit.sine);
   const Eigen::MatrixX3f fringes = grid.counts.matrix() * weights.cast<float>();
   const Eigen::ArrayXf modulations = fringes.rightCols<2>().rowwise().norm();
-  const auto is_unclipped = unclipped(grid.counts, stack.white_level, noise);
+  const auto is_unsaturated = unsaturated(grid.counts, stack.white_level, noise);
   const auto is_modulated = [&](Eigen::Index i) {
     const double mean = fringes(i, 0);
     const double sigma = fit.noise_gain * std::sqrt(noise.variance(mean));
@@ -119,13 +120,13 @@ FringeBins bin_fringes(const FrameStack& stack,
   };
   ModulationLevels levels(std::max(1e-9, static_cast<double>(modulations.maxCoeff())));
   for (Eigen::Index i = 0; i < fringes.rows(); ++i) {
-    if (is_modulated(i)) levels.add(static_cast<double>(modulations(i)), is_unclipped(i));
+    if (is_modulated(i)) levels.add(static_cast<double>(modulations(i)), is_unsaturated(i));
   }
   std::vector<Eigen::Index> modulated;
   std::vector<float> contrasts;
   for (Eigen::Index i = 0; i < fringes.rows(); ++i) {
     const auto modulation = static_cast<double>(modulations(i));
-    if (!is_unclipped(i) || !is_modulated(i) || !levels.accepts(modulation)) continue;
+    if (!is_unsaturated(i) || !is_modulated(i) || !levels.accepts(modulation)) continue;
     modulated.push_back(i);
     contrasts.push_back(std::log(modulations(i) / fringes(i, 0)));
   }
