@@ -17,6 +17,7 @@
 
 #include "check_can_write.h"
 #include "counted.h"
+#include "option_names.h"
 #include "option_values.h"
 #include "print_text.h"
 #include "reconstruct_options.h"
@@ -50,8 +51,9 @@ void print_result(const DecodedView& decoded,
                entry.color_name);
   }
   for (const FrameAssessment& assessment : decoded.assessments) {
-    json["assessments"].push_back(describe(assessment));
-    if (!terminal.json && !terminal.quiet) print_text("{}\n", describe(assessment));
+    const std::string text = with_flags(describe(assessment));
+    json["assessments"].push_back(text);
+    if (!terminal.json && !terminal.quiet) print_text("{}\n", text);
   }
   for (const StageFile& file : files) {
     json["files"].push_back(file.name);

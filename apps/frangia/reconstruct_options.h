@@ -35,14 +35,19 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
   verb.add_option_function<std::string>(
       "--undo-response",
       [&options](const std::string& path) {
-        options.response = read_rig(path).projector.response;
+        options.undo_own_response = path == "auto";
+        if (options.undo_own_response) return;
+        const Projector projector = read_rig(path).projector;
+        options.response = projector.response;
+        options.waveforms = projector.waveforms;
         if (!options.response) {
           throw Error(ErrorKind::Input,
                       path + " has no [projector.response]; measure one with `frangia response`");
         }
       },
       "a rig.toml with the [projector.response] of a projector that showed the patterns without a "
-      "look-up table; the response is corrected in the phase");
+      "look-up table; the response is corrected in the phase; auto: the harmonics that the frames "
+      "of the scan show are corrected");
   verb.add_option("--max-sigma",
                   options.wrap.max_sigma_rad,
                   "discard pixels whose phase has a larger standard deviation, rad")

@@ -175,6 +175,19 @@ void add_projector_faults(CLI::App& verb, SimulateArguments& arguments) {
       ->check(zero_or_more());
   add_fault(verb, kGroup, "--display-gamma", options.display_gamma, "gamma of a digital projector")
       ->check(above_zero());
+  add_fault(verb,
+            kGroup,
+            "--flicker",
+            options.flicker,
+            "rms relative error of the projector's light, independent per frame, such as 0.02")
+      ->check(from_to(0.0, 0.5));
+  add_fault(verb,
+            kGroup,
+            "--projector-blur",
+            options.projector_blur_px,
+            "sigma of the blur of fringes, px of a digital projector; it weakens harmonics of fine "
+            "fringes")
+      ->check(zero_or_more());
   add_fault(verb, kGroup, "--line-width", options.line_sigma_mm, "sigma of the laser sheet, mm")
       ->transform(length_above_zero());
 }

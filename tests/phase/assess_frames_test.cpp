@@ -3,16 +3,20 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/phase/wrap_phase.h"
 
+#include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"
 
 namespace frangia {
 namespace {
 
+using testing::display_frames;
 using testing::equal_shifts;
 using testing::render_frames;
 using testing::Scene;
@@ -73,6 +77,73 @@ TEST(AssessFrames, TheResidualOfFourQuarterStepsIsTheirAlternatingSum) {
 TEST(AssessFrames, TakesTimeLinearInTheFrames) {
   // 8 times the frames; 64 times the time, as before, would be their square.
   EXPECT_LT(AssessedFringes(256, 10).seconds(), 24.0 * AssessedFringes(32, 10).seconds());
+}
+
+FrameAssessment assess(const testing::DisplayScene& scene, int frames) {
+  const FrameStack stack = display_frames(scene, equal_shifts(frames, kTwoPi / frames));
+  const NoiseModel noise{.floor_counts2 = scene.noise_counts * scene.noise_counts + 1.0 / 12.0};
+  const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
+  return assess_frames(stack, fitted, wrap_phase(stack, fitted.algorithm, noise), noise);
+}
+
+bool contains(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(AssessFrames, NamesTheHarmonicOfAGammaAndNotMotion) {
+  for (const int frames : {3, 4, 5, 6}) {
+    const FrameAssessment found = assess({.gamma = 1.8}, frames);
+    EXPECT_FALSE(found.vibration_suspected) << frames;
+    EXPECT_EQ(found.harmonic, 2);
+    EXPECT_NEAR(found.harmonic_share, 0.21, 0.01);
+    EXPECT_TRUE(contains(describe(found), "a second harmonic of 2")) << describe(found);
+  }
+  const FrameAssessment three = assess({.gamma = 1.8}, 3);
+  EXPECT_NEAR(three.harmonic_error_rad, 0.149, 0.01);
+  EXPECT_TRUE(needs_attention(three));
+  EXPECT_TRUE(contains(describe(three), "set `undo_response` to auto")) << describe(three);
+  EXPECT_FALSE(needs_attention(assess({.gamma = 1.8, .dark_counts = 40.0}, 6)));
+}
+
+TEST(AssessFrames, NamesFlickerAndNotMotion) {
+  for (const int frames : {5, 6, 12}) {
+    testing::DisplayScene scene;
+    for (int k = 0; k < frames; ++k)
+      scene.gains.push_back(0.03 * std::sin(2.3 * k * k + 1.0));
+    const FrameAssessment found = assess(scene, frames);
+    EXPECT_GT(found.residual_ratio, 1.6) << frames;
+    EXPECT_FALSE(found.vibration_suspected) << frames;
+    EXPECT_TRUE(contains(describe(found), "the light flickered by")) << describe(found);
+  }
+}
+
+TEST(AssessFrames, WarnsOfFlickerThatFourFramesDoNotDetermine) {
+  const FrameAssessment found = assess({.gains = {0.03, -0.02, 0.0, 0.02}}, 4);
+  EXPECT_TRUE(needs_attention(found));
+  EXPECT_TRUE(contains(describe(found), "4 frames do not determine it")) << describe(found);
+}
+
+TEST(AssessFrames, NamesAContrastAboveThatOfAnySine) {
+  FrameAssessment assessment{.pattern = "p20", .algorithm = "least-squares", .contrast = 1.3};
+  EXPECT_TRUE(needs_attention(assessment));
+  EXPECT_TRUE(contains(describe(assessment), "a contrast of 1.30 is more than"))
+      << describe(assessment);
+  assessment.contrast = 0.95;
+  EXPECT_FALSE(needs_attention(assessment));
+}
+
+TEST(AssessFrames, StillSuspectsMotion) {
+  testing::DisplayScene scene;
+  std::vector<double> made = equal_shifts(6, kTwoPi / 6.0);
+  made[2] += 0.2;
+  FrameStack stack = display_frames(scene, made);
+  stack.pattern.shifts_rad = equal_shifts(6, kTwoPi / 6.0);
+  const NoiseModel noise{.floor_counts2 = 1.1};
+  const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
+  const FrameAssessment found =
+      assess_frames(stack, fitted, wrap_phase(stack, fitted.algorithm, noise), noise);
+  EXPECT_TRUE(found.vibration_suspected);
+  EXPECT_TRUE(contains(describe(found), "something moved between the frames"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"
 
 namespace frangia {
@@ -97,6 +98,17 @@ TEST(NoiseSamples, PoolingOverViewsReducesTheScatter) {
 
 TEST(EstimateNoise, IsQuantizationNoiseWithoutFrames) {
   EXPECT_DOUBLE_EQ(estimate_noise({}).variance(100.0), 1.0 / 12.0);
+}
+
+TEST(EstimateNoise, IgnoresHarmonicsAndFineFringes) {
+  for (const int frames : {3, 4, 6}) {
+    const testing::DisplayScene scene{.period_px = 9.0, .gamma = 1.8, .texture = 0.3};
+    const FrameStack stack = display_frames(scene, equal_shifts(frames, kTwoPi / frames));
+    // The true variance is 1.08. The third harmonic of three frames cannot be separated from their
+    // mean. Without the correction the variance is above 20.
+    EXPECT_GT(estimate_noise({&stack, 1}).variance(70.0), 0.95) << frames;
+    EXPECT_LT(estimate_noise({&stack, 1}).variance(70.0), frames == 3 ? 2.3 : 1.5) << frames;
+  }
 }
 
 }  // namespace

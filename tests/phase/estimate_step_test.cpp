@@ -6,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 
+#include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"
 
 namespace frangia {
@@ -41,6 +42,33 @@ TEST(EstimateStep, AcceptsMoreFramesDescendingStepsAndStepsBeyond180Degrees) {
     ASSERT_TRUE(step.found) << nominal;
     EXPECT_NEAR(step.gain_error(), 0.03, 1e-3) << nominal;
   }
+}
+
+/// Frames of a display with a second harmonic, 30 degrees apart.
+FrameStack harmonic_frames(int frames, double harmonic, double step_error = 0.0) {
+  std::vector<double> made = equal_shifts(frames, kPi / 6.0 * (1.0 + step_error));
+  testing::DisplayScene scene{.peak_counts = 130.0};
+  scene.waveform = [=](double phase) {
+    return std::cos(phase) + harmonic * std::cos(2.0 * phase + 0.4);
+  };
+  FrameStack stack = display_frames(scene, made);
+  stack.pattern.shifts_rad = equal_shifts(frames, kPi / 6.0);
+  return stack;
+}
+
+TEST(EstimateStep, DoesNotTakeASecondHarmonicForAStepError) {
+  for (const int frames : {4, 5, 6, 9, 12}) {
+    const StepEstimate step = estimate_step(harmonic_frames(frames, 0.26));
+    EXPECT_NEAR(step.step_rad, step.nominal_rad, 4.0 * step.sigma_rad) << frames;
+    EXPECT_LT(std::abs(step.gain_error()), 0.005) << frames;
+    EXPECT_EQ(step.jitter_rad, 0.0) << frames;
+  }
+}
+
+TEST(EstimateStep, FindsAStepErrorInSpiteOfASecondHarmonic) {
+  const StepEstimate step = estimate_step(harmonic_frames(12, 0.26, 0.03));
+  ASSERT_TRUE(step.found);
+  EXPECT_NEAR(step.gain_error(), 0.03, 0.002);
 }
 
 TEST(EstimateStep, FindsNothingWithoutFringesEqualStepsOrEnoughFrames) {

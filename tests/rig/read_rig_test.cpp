@@ -211,5 +211,27 @@ TEST(ReadRig, NamesAMissingFile) {
   }
 }
 
+TEST(WithResponse, ReplacesTheResponseAndKeepsCommentsAndDevices) {
+  const std::string before = "# measured on Monday\n" + kRig +
+                             "[projector.response]\nlight = [0.0, 0.9, 1.0]\n"
+                             "[devices.camera]  # left shelf\ndriver = \"simulated\"\n";
+  Projector projector;
+  projector.response = ResponseCurve{{0.0, 0.3, 1.0}};
+  projector.waveforms = {{20.0, FringeDirection::Horizontal, {{0.2, -0.01}, {-0.03, 0.0}}}};
+  const std::string after = with_response(before, projector);
+  EXPECT_NE(after.find("# measured on Monday\n" + kRig), std::string::npos);
+  EXPECT_NE(after.find("[devices.camera]  # left shelf\ndriver = \"simulated\"\n"),
+            std::string::npos);
+  EXPECT_EQ(after.find("0.9, 1.0"), std::string::npos);
+  const TemporaryFolder folder;
+  const Projector read = read_rig(save(folder, after)).projector;
+  EXPECT_EQ(read.response->light, projector.response->light);
+  ASSERT_EQ(read.waveforms.size(), 1U);
+  EXPECT_EQ(read.waveforms[0].period_px, 20.0);
+  EXPECT_EQ(read.waveforms[0].direction, FringeDirection::Horizontal);
+  EXPECT_EQ(read.waveforms[0].harmonics, projector.waveforms[0].harmonics);
+  EXPECT_EQ(with_response(after, projector), after);
+}
+
 }  // namespace
 }  // namespace frangia

@@ -1,8 +1,10 @@
 #include "frangia/phase/assess_frames.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,45 +12,96 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/median.h"
+#include "frangia/phase/systematic_phase.h"
 
 namespace frangia {
 namespace {
 
-/// Sum of the squared residuals of a pixel from its least-squares fringe; linear in the frames.
-double squared_residual(const PhaseAlgorithm& fit,
-                        const std::vector<Eigen::Vector2d>& directions,
-                        const std::vector<double>& counts) {
-  double mean = 0.0;
-  Eigen::Vector2d wave = Eigen::Vector2d::Zero();
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    mean += fit.mean[k] * counts[k];
-    wave += Eigen::Vector2d(fit.cosine[k], fit.sine[k]) * counts[k];
+/// The fringe model of one pattern with what its frames add to it.
+class ResidualModel {
+ public:
+  explicit ResidualModel(const FittedAlgorithm& fitted)
+      : fit_(least_squares(fitted.shifts_rad)),
+        waveform_(fitted.waveform.waveform),
+        has_harmonics_(fitted.waveform.largest_harmonic() > 0),
+        shifts_(fitted.shifts_rad),
+        gains_(fitted.waveform.gains) {
+    gains_.resize(shifts_.size(), 0.0);
+    for (const double shift : shifts_)
+      directions_.emplace_back(std::cos(shift), -std::sin(shift));
   }
-  double square = 0.0;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    const double residual = counts[k] - mean - directions[k].dot(wave);
-    square += residual * residual;
+  [[nodiscard]] bool explains_something() const {
+    return has_harmonics_ ||
+           std::any_of(gains_.begin(), gains_.end(), [](double gain) { return gain != 0.0; });
   }
-  return square;
-}
 
-/// Mean over the measured pixels of the squared residual over its expectation; 1 for camera noise
+  /// Sum of the squared residuals of a pixel from its least-squares fringe; linear in the frames.
+  [[nodiscard]] double squared_residual(const std::vector<double>& counts) const {
+    const auto [mean, wave] = fringe_of(counts);
+    double square = 0.0;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      const double residual = counts[k] - mean - directions_[k].dot(wave);
+      square += residual * residual;
+    }
+    return square;
+  }
+
+  /// The same after removing gains and harmonics from the counts.
+  [[nodiscard]] double unexplained_residual(std::vector<double>& counts) const {
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      counts[k] /= 1.0 + gains_[k];
+    if (has_harmonics_) {
+      const Eigen::Vector2d wave = fringe_of(counts).second;
+      const double modulation = wave.norm();
+      const double phase = std::atan2(wave.y(), wave.x());
+      for (std::size_t k = 0; k < counts.size(); ++k) {
+        const double angle = phase + shifts_[k];
+        counts[k] -= modulation * (waveform_.light_at(angle) - std::cos(angle));
+      }
+    }
+    return squared_residual(counts);
+  }
+
+ private:
+  [[nodiscard]] std::pair<double, Eigen::Vector2d> fringe_of(
+      const std::vector<double>& counts) const {
+    double mean = 0.0;
+    Eigen::Vector2d wave = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      mean += fit_.mean[k] * counts[k];
+      wave += Eigen::Vector2d(fit_.cosine[k], fit_.sine[k]) * counts[k];
+    }
+    return {mean, wave};
+  }
+
+  PhaseAlgorithm fit_;
+  FringeWaveform waveform_;
+  bool has_harmonics_;
+  std::vector<double> shifts_;
+  std::vector<double> gains_;
+  std::vector<Eigen::Vector2d> directions_;  ///< of the wave in the frames
+};
+
+/// Means over the measured pixels of the squared residual over its expectation; 1 for camera noise
 /// alone.
-double residual_ratio(const FrameStack& stack,
-                      const std::vector<double>& shifts,
-                      const WrappedPhase& map,
-                      const NoiseModel& noise,
-                      const AssessmentOptions& options) {
-  if (shifts.size() < 4) return 0.0;
-  const PhaseAlgorithm fit = least_squares(shifts);
-  std::vector<Eigen::Vector2d> directions;  // of the wave in the frames
-  for (const double shift : shifts)
-    directions.emplace_back(std::cos(shift), -std::sin(shift));
-  std::vector<double> counts(shifts.size());
-  const auto freedom = static_cast<double>(shifts.size() - 3);
+struct ResidualRatios {
+  double all = 0.0;
+  double unexplained = 0.0;
+};
+
+ResidualRatios residual_ratios(const FrameStack& stack,
+                               const FittedAlgorithm& fitted,
+                               const WrappedPhase& map,
+                               const NoiseModel& noise,
+                               const AssessmentOptions& options) {
+  ResidualRatios out;
+  if (fitted.shifts_rad.size() < 4) return out;
+  const ResidualModel model(fitted);
+  const bool explains = model.explains_something();
+  std::vector<double> counts(fitted.shifts_rad.size());
+  const auto freedom = static_cast<double>(counts.size() - 3);
   const std::size_t pixels = map.status.pixels().size();
   const std::size_t stride = std::max<std::size_t>(1, pixels / options.samples);
-  double ratio = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < pixels; i += stride) {
     if (map.status.pixels()[i] != PixelStatus::Measured) continue;
@@ -57,13 +110,41 @@ double residual_ratio(const FrameStack& stack,
           std::visit([&](const auto& image) { return static_cast<double>(image.pixels()[i]); },
                      stack.frames[k]);
     }
-    const double square = squared_residual(fit, directions, counts);
     const double expected =
         freedom * noise.variance(static_cast<double>(map.mean_counts.pixels()[i]));
-    ratio += std::min(square / expected, options.max_pixel_ratio);
+    const auto limited = [&](double square) {
+      return std::min(square / expected, options.max_pixel_ratio);
+    };
+    out.all += limited(model.squared_residual(counts));
+    if (explains) out.unexplained += limited(model.unexplained_residual(counts));
     count += 1.0;
   }
-  return count > 0.0 ? ratio / count : 0.0;
+  if (count == 0.0) return {};
+  out.all /= count;
+  out.unexplained = explains ? out.unexplained / count : out.all;
+  return out;
+}
+
+/// Phase error that deserves a warning: a third of the phase noise of bright 8-bit frames.
+constexpr double kMaterial_rad = 0.004;
+/// Contrast that no sine reaches, even with noise.
+constexpr double kMaxContrast = 1.03;
+
+std::string harmonic_finding(const FrameAssessment& assessment) {
+  constexpr std::array<const char*, 4> kOrdinals = {"second", "third", "fourth", "fifth"};
+  const std::string text =
+      fmt::format("a {} harmonic of {:.1f} % of the fringes",
+                  kOrdinals.at(static_cast<std::size_t>(assessment.harmonic - 2)),
+                  100.0 * assessment.harmonic_share);
+  if (assessment.harmonics_corrected) return text + " is corrected";
+  if (assessment.harmonic_error_rad <= kMaterial_rad)
+    return text + ", which hardly affects the phase by this algorithm";
+  return text + fmt::format(
+                    " shifts the phase by {:.3f} rad rms: the projector or the camera is not "
+                    "linear; set `undo_response` to auto, measure the response with `frangia "
+                    "response`, or {}",
+                    assessment.harmonic_error_rad,
+                    assessment.frames < 6 ? "take 6 steps" : "set `algorithm` to least-squares");
 }
 
 double median_contrast(const WrappedPhase& map, std::size_t samples) {
@@ -90,6 +171,7 @@ FrameAssessment assess_frames(const FrameStack& stack,
                               const NoiseModel& noise,
                               const AssessmentOptions& options) {
   FrameAssessment assessment{.pattern = stack.pattern.name, .algorithm = fitted.algorithm.name};
+  assessment.frames = static_cast<int>(fitted.shifts_rad.size());
   if (fitted.step.found) {
     assessment.nominal_deg = deg_from_rad(fitted.step.nominal_rad);
     assessment.step_deg = deg_from_rad(fitted.step.step_rad);
@@ -99,9 +181,49 @@ FrameAssessment assess_frames(const FrameStack& stack,
   assessment.contrast = median_contrast(map, options.samples);
   assessment.measured_fraction = fraction_of(map.status, PixelStatus::Measured);
   assessment.saturated_fraction = fraction_of(map.status, PixelStatus::Saturated);
-  assessment.residual_ratio = residual_ratio(stack, fitted.shifts_rad, map, noise, options);
-  assessment.vibration_suspected = assessment.residual_ratio > options.max_residual_ratio;
+  const ResidualRatios ratios = residual_ratios(stack, fitted, map, noise, options);
+  assessment.residual_ratio = ratios.all;
+  assessment.unexplained_ratio = ratios.unexplained;
+  const double left = options.max_unexplained_share * (ratios.all - ratios.unexplained);
+  assessment.vibration_suspected = ratios.unexplained > options.max_residual_ratio + left;
+  assessment.harmonic = fitted.waveform.largest_harmonic();
+  assessment.harmonic_share = fitted.waveform.waveform.amplitude(assessment.harmonic);
+  assessment.harmonic_error_rad = harmonic_phase_error(fitted, nullptr);
+  assessment.flicker = fitted.waveform.flicker();
+  assessment.flicker_error_rad = fitted.waveform.flicker_error_rad;
   return assessment;
+}
+
+bool needs_attention(const FrameAssessment& assessment) {
+  return assessment.vibration_suspected || assessment.flicker_error_rad > 0.0 ||
+         assessment.harmonic_error_rad > kMaterial_rad ||
+         (assessment.contrast > kMaxContrast && assessment.harmonic == 0);
+}
+
+std::vector<std::string> findings(const FrameAssessment& assessment) {
+  std::vector<std::string> out;
+  if (assessment.harmonic > 0) out.push_back(harmonic_finding(assessment));
+  if (assessment.contrast > kMaxContrast && assessment.harmonic == 0) {
+    out.push_back(fmt::format(
+        "a contrast of {:.2f} is more than that of any sine: the projector or the camera is not "
+        "linear, or the camera cuts dark pixels off at 0; measure the response with `frangia "
+        "response`, and raise the camera's black level",
+        assessment.contrast));
+  }
+  if (assessment.flicker > 0.0) {
+    out.push_back(
+        fmt::format("the light flickered by {:.1f} % rms between the frames, which is "
+                    "compensated",
+                    100.0 * assessment.flicker));
+  }
+  if (assessment.flicker_error_rad > 0.0) {
+    out.push_back(fmt::format(
+        "the light flickered between the frames, which shifts the phase by {:.3f} rad rms; {} "
+        "frames do not determine it: take 5 steps or more, or expose for whole periods of the lamp",
+        assessment.flicker_error_rad,
+        assessment.frames));
+  }
+  return out;
 }
 
 std::string describe(const FrameAssessment& assessment) {
@@ -120,12 +242,13 @@ std::string describe(const FrameAssessment& assessment) {
                       100.0 * assessment.measured_fraction,
                       100.0 * assessment.saturated_fraction);
   if (assessment.residual_ratio > 0.0) {
-    text += fmt::format(", {} (residual variance {:.2f} times the noise)",
-                        assessment.vibration_suspected
-                            ? "something moved or flickered between the frames"
-                            : "frames consistent",
-                        assessment.residual_ratio);
+    text += fmt::format(
+        ", {} (residual variance {:.2f} times the noise)",
+        assessment.vibration_suspected ? "something moved between the frames" : "frames consistent",
+        assessment.unexplained_ratio);
   }
+  for (const std::string& finding : findings(assessment))
+    text += "; " + finding;
   return text;
 }
 

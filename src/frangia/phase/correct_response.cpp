@@ -15,29 +15,23 @@ constexpr std::size_t kPhases =
     2880;  ///< projected phases per fringe at which the error is computed
 constexpr std::size_t kTableIntervals = 1024;  ///< intervals of the table
 
-/// The phase that the algorithm measures for a projected phase.
-double measured_phase(double phase,
-                      const ResponseCurve& response,
-                      const PhaseAlgorithm& algorithm,
-                      const std::vector<double>& shifts_rad) {
-  std::vector<double> light;
-  light.reserve(shifts_rad.size());
-  for (const double shift : shifts_rad)
-    light.push_back(response.light_of(0.5 + 0.5 * std::cos(phase + shift)));
-  return phase_of(algorithm, light);
-}
-
-}  // namespace
-
-ResponseTable response_table(const ResponseCurve& response,
-                             const PhaseAlgorithm& algorithm,
-                             const std::vector<double>& shifts_rad) {
+/// The table for fringes whose light over the phase is `light_of`.
+template <typename Light>
+ResponseTable table_of(const Light& light_of,
+                       const PhaseAlgorithm& algorithm,
+                       const std::vector<double>& shifts_rad) {
+  std::vector<double> light(shifts_rad.size());
+  const auto measured_phase = [&](double phase) {
+    for (std::size_t k = 0; k < light.size(); ++k)
+      light[k] = light_of(phase + shifts_rad[k]);
+    return phase_of(algorithm, light);
+  };
   // The measured phase is unwrapped, so that it rises over the whole fringe.
   std::vector<double> true_phase;
   std::vector<double> found;
   for (std::size_t i = 0; i <= kPhases; ++i) {
     const double phase = -kPi + kTwoPi * static_cast<double>(i) / kPhases;
-    const double seen = measured_phase(phase, response, algorithm, shifts_rad);
+    const double seen = measured_phase(phase);
     true_phase.push_back(phase);
     found.push_back(found.empty() ? phase + wrap_rad(seen - phase)
                                   : found.back() + wrap_rad(seen - found.back()));
@@ -61,6 +55,32 @@ ResponseTable response_table(const ResponseCurve& response,
   return table;
 }
 
+}  // namespace
+
+ResponseTable response_table(const ResponseCurve& response,
+                             const PhaseAlgorithm& algorithm,
+                             const std::vector<double>& shifts_rad) {
+  return table_of([&](double phase) { return response.light_of(0.5 + 0.5 * std::cos(phase)); },
+                  algorithm,
+                  shifts_rad);
+}
+
+ResponseTable response_table(const FringeWaveform& waveform,
+                             const PhaseAlgorithm& algorithm,
+                             const std::vector<double>& shifts_rad) {
+  return table_of([&](double phase) { return waveform.light_at(phase); }, algorithm, shifts_rad);
+}
+
+double correction_at(const ResponseTable& table, double phase_rad) {
+  const auto intervals = static_cast<double>(table.correction_rad.size() - 1);
+  const double position =
+      std::clamp((wrap_rad(phase_rad) + kPi) / kTwoPi * intervals, 0.0, intervals - 0.5);
+  const auto k = static_cast<std::size_t>(position);
+  return std::lerp(static_cast<double>(table.correction_rad[k]),
+                   static_cast<double>(table.correction_rad[k + 1]),
+                   position - static_cast<double>(k));
+}
+
 void correct_response(const ResponseTable& table, WrappedPhase& phase) {
   const auto intervals = static_cast<float>(table.correction_rad.size() - 1);
   const auto step = static_cast<float>(kTwoPi) / intervals;
@@ -75,6 +95,7 @@ void correct_response(const ResponseTable& table, WrappedPhase& phase) {
       value = static_cast<float>(wrap_rad(static_cast<double>(
           value + table.correction_rad[k] + rise * (position - static_cast<float>(k)))));
       phase.sigma_rad(x, y) *= 1.0F + rise / step;
+      if (!phase.systematic_rad.empty()) phase.systematic_rad(x, y) *= 1.0F + rise / step;
     }
   });
 }

@@ -4,6 +4,7 @@
 
 #include "frangia/phase/phase_algorithm.h"
 #include "frangia/phase/phase_map.h"
+#include "frangia/rig/fringe_waveform.h"
 #include "frangia/rig/response_curve.h"
 
 namespace frangia {
@@ -22,6 +23,18 @@ struct ResponseTable {
 [[nodiscard]] ResponseTable response_table(const ResponseCurve& response,
                                            const PhaseAlgorithm& algorithm,
                                            const std::vector<double>& shifts_rad);
+
+/// Computes the correction for a waveform of the fringes.
+///
+/// @errors   Error(Input) when two phases measure alike
+[[nodiscard]] ResponseTable response_table(const FringeWaveform& waveform,
+                                           const PhaseAlgorithm& algorithm,
+                                           const std::vector<double>& shifts_rad);
+
+/// Returns the correction at a measured phase.
+///
+/// @units    rad
+[[nodiscard]] double correction_at(const ResponseTable& table, double phase_rad);
 
 /// Corrects a wrapped phase and scales its sigma by the slope of the correction.
 ///

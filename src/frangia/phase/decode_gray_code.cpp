@@ -130,7 +130,11 @@ AbsolutePhase decode_gray_code(std::span<const FrameStack> gray,
                                const TemporalUnwrapOptions& options) {
   check(gray, fringes);
   const GrayCodeReader reader(gray, fringes, noise);
-  AbsolutePhase out{fringes.pattern, fringes.phase_rad, fringes.sigma_rad, fringes.status};
+  AbsolutePhase out{fringes.pattern,
+                    fringes.phase_rad,
+                    fringes.sigma_rad,
+                    fringes.status,
+                    fringes.systematic_rad};
   parallel_rows(out.status.height(), [&](int y) {
     for (int x = 0; x < out.status.width(); ++x) {
       if (out.status(x, y) != PixelStatus::Measured) continue;
@@ -139,6 +143,7 @@ AbsolutePhase decode_gray_code(std::span<const FrameStack> gray,
       out.phase_rad(x, y) = sure ? static_cast<float>(found.rad) : kMissing;
       if (sure) continue;
       out.sigma_rad(x, y) = kMissing;
+      if (!out.systematic_rad.empty()) out.systematic_rad(x, y) = kMissing;
       out.status(x, y) = PixelStatus::UncertainOrder;
     }
   });

@@ -183,6 +183,7 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const Frame& first = coarse_to_fine.front().stack->frames.front();
   AbsolutePhase out = std::move(recycled);
   out.pattern = patterns.back();
+  out.systematic_rad = {};
   resize_uninitialized(width_of(first), height_of(first), out.phase_rad);
   resize_uninitialized(width_of(first), height_of(first), out.sigma_rad);
   resize_uninitialized(width_of(first), height_of(first), out.status);

@@ -9,6 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/phase/frame_samples.h"
+#include "frangia/phase/internal/harmonic_step.h"
 
 namespace frangia {
 namespace {
@@ -117,6 +118,15 @@ StepEstimate estimate_step(const FrameStack& stack) {
   const double step = nearest_angle(0.5 * (slope - 1.0), out.nominal_rad);
   if (!(std::abs(step / out.nominal_rad - 1.0) < kMaxGainError)) return out;
   out.jitter_rad = jitter_of(counts, step);
+  const HarmonicStep harmonic = find_harmonic_step(stack, counts, out.nominal_rad, step);
+  if (harmonic.harmonics) {
+    out.jitter_rad = 0.0;  // the harmonics explain the residuals
+    if (!harmonic.found) return out;
+    out.step_rad = harmonic.step_rad;
+    out.sigma_rad = harmonic.sigma_rad;
+    out.found = true;
+    return out;
+  }
   const double line_sigma = std::sqrt(along * across / n) / (along - across);
   out.step_rad = step;
   out.sigma_rad = line_sigma * (1.0 + slope * slope) / (2.0 * std::abs(std::sin(step)));

@@ -28,6 +28,10 @@ struct StepEstimate {
 /// to I2 - I3 by an angle of their own size, which a wrong common step does not. This jitter lets
 /// `pooled_gain_error` decide how much of the step error is the gain of the shifter.
 ///
+/// Harmonics of the fringes also change the apparent step. Where harmonics at the nominal steps
+/// explain the frames better than a sine at the estimated step, six frames or more determine the
+/// step together with harmonics of each pixel; for fewer frames the nominal steps stand.
+///
 /// @missing  saturated pixels are ignored; `found` is false for fewer than four frames, unequal
 ///          nominal steps, or too weak fringes
 /// @source   Carré 1966; the step by total least squares over the image

@@ -113,9 +113,18 @@ Plane fit_plane(const AbsolutePhase& phase, const std::vector<Pixel>& boundary) 
 }
 
 void fill(AbsolutePhase& phase, const Hole& hole, const Plane& plane) {
-  float boundary_sigma = 0.0F;
-  for (const Pixel p : hole.boundary)
-    boundary_sigma = std::max(boundary_sigma, phase.sigma_rad(p.x, p.y));
+  const auto largest_at_boundary = [&](const Image<float>& sigma_rad) {
+    float largest = 0.0F;
+    for (const Pixel p : hole.boundary)
+      largest = std::max(largest, sigma_rad(p.x, p.y));
+    return largest;
+  };
+  const float boundary_sigma = largest_at_boundary(phase.sigma_rad);
+  if (!phase.systematic_rad.empty()) {
+    const float systematic_rad = largest_at_boundary(phase.systematic_rad);
+    for (const Pixel p : hole.inside)
+      phase.systematic_rad(p.x, p.y) = systematic_rad;
+  }
   for (const Pixel p : hole.inside) {
     const Eigen::Vector3d row(1.0, p.x - hole.boundary.front().x, p.y - hole.boundary.front().y);
     phase.phase_rad(p.x, p.y) = static_cast<float>(plane.coefficients.dot(row));

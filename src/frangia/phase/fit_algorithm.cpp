@@ -1,5 +1,7 @@
 #include "frangia/phase/fit_algorithm.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -13,6 +15,19 @@ namespace {
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Divides the weight of each frame by its gain.
+void compensate_gains(const std::vector<double>& gains, PhaseAlgorithm& algorithm) {
+  for (auto* weights : {&algorithm.sine, &algorithm.cosine, &algorithm.mean, &algorithm.outer}) {
+    for (std::size_t k = 0; k < std::min(weights->size(), gains.size()); ++k)
+      (*weights)[k] /= 1.0 + gains[k];
+  }
+}
+
+void fit_waveform_of(const FrameStack& stack, const NoiseModel& noise, FittedAlgorithm& out) {
+  out.waveform = fit_waveform(stack, out.shifts_rad, noise);
+  compensate_gains(out.waveform.gains, out.algorithm);
 }
 
 FittedAlgorithm fit_advanced_iterative(const FrameStack& stack,
@@ -32,6 +47,7 @@ FittedAlgorithm fit_advanced_iterative(const FrameStack& stack,
   FittedAlgorithm out{
       .algorithm = least_squares(shifts.shifts_rad), .step = {}, .shifts_rad = shifts.shifts_rad};
   out.algorithm.name = "aia";
+  fit_waveform_of(stack, noise, out);
   return out;
 }
 
@@ -65,6 +81,7 @@ FittedAlgorithm fit_algorithm(const std::string& name,
   subtract_phase_offset(constant, out.algorithm);
   for (const double shift : pattern.shifts_rad)
     out.shifts_rad.push_back(shift * (1.0 + own) + constant);
+  fit_waveform_of(stack, noise, out);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
 #include "frangia/phase/estimate_step.h"
+#include "frangia/phase/fit_waveform.h"
 #include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
@@ -18,6 +19,8 @@ struct FittedAlgorithm {
   StepEstimate step;               ///< step that the frames show
   double gain_error = 0.0;         ///< gain error of the phase shifter that `algorithm` assumes
   std::vector<double> shifts_rad;  ///< actual shifts of the frames
+  /// Harmonics of the fringes and flicker. `algorithm` compensates its gains.
+  WaveformFit waveform;
 };
 
 /// Returns the algorithm `name`, or for "auto" the one that suits the projector and the number of
@@ -26,7 +29,8 @@ struct FittedAlgorithm {
 /// For a phase shifter the step is estimated from the frames, and the constant phase that a gain
 /// error adds is subtracted. `gain_error` is the gain error pooled over all views; without it the
 /// frames alone determine it. The shifts of a digital projector are exact and are estimated only
-/// for "global-carre", "carre" and "aia".
+/// for "global-carre", "carre" and "aia". Harmonics of the fringes are fitted, and the weights of
+/// the frames compensate flicker that the frames determine.
 ///
 /// @errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept;
 /// the

@@ -87,6 +87,17 @@ bool determines_response(const Pattern& pattern) {
   return true;
 }
 
+ResponseCurve response_of_waveform(const FringeWaveform& waveform) {
+  std::vector<double> levels;
+  std::vector<double> light;
+  for (int k = 0; k < kKnots; ++k) {
+    const double level = static_cast<double>(k) / (kKnots - 1);
+    levels.push_back(level);
+    light.push_back(waveform.light_at(std::acos(2.0 * level - 1.0)));
+  }
+  return make_response_curve(levels, light);
+}
+
 ResponseCurve measure_fringe_response(std::span<const FrameStack> stacks) {
   require(
       !stacks.empty(),

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "frangia/frames/frame_stack.h"
+#include "frangia/rig/fringe_waveform.h"
 #include "frangia/rig/response_curve.h"
 
 namespace frangia {
@@ -18,6 +19,13 @@ inline constexpr std::size_t kMinResponseFrames = 6;
 /// @shape    stacks of at least kMinResponseFrames frames with equal steps over a whole turn
 /// @errors   Error(Input) when there is no such stack, or when too few pixels are illuminated
 [[nodiscard]] ResponseCurve measure_fringe_response(std::span<const FrameStack> stacks);
+
+/// Returns the response whose cosine fringes have this waveform: the harmonics are the coefficients
+/// of its Chebyshev series. It serves fringes of few frames, for which `measure_fringe_response` is
+/// not possible.
+///
+/// @errors   Error(Input) when the light at full drive is not above that at none
+[[nodiscard]] ResponseCurve response_of_waveform(const FringeWaveform& waveform);
 
 /// Returns whether a pattern has enough shifts, evenly spaced over a turn.
 [[nodiscard]] bool determines_response(const Pattern& pattern);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,6 +42,36 @@ PixelStatus status_of(std::span<const WrappedPhase> maps, std::size_t i) {
   return status;
 }
 
+/// The systematic uncertainty of the slope of phase over frequency: those of the maps, which are
+/// taken as independent, with the weights of `fit_frequency_slope`. Empty if no map has one.
+Image<float> slope_systematic(std::span<const WrappedPhase> maps,
+                              const Image<PixelStatus>& status) {
+  const bool known = std::any_of(maps.begin(), maps.end(), [](const WrappedPhase& map) {
+    return !map.systematic_rad.empty();
+  });
+  if (!known) return {};
+  Image<float> out(status.width(), status.height(), kMissing);
+  const double top = maps.back().pattern.fringes_per_unit();
+  parallel_rows(status.height(), [&](int y) {
+    for (int x = 0; x < status.width(); ++x) {
+      if (status(x, y) != PixelStatus::Measured) continue;
+      double weights = 0.0;
+      double square = 0.0;
+      for (const WrappedPhase& map : maps) {
+        const double ratio = map.pattern.fringes_per_unit() / top;
+        const double sigma = map.sigma_rad(x, y);
+        const double weight = ratio / (sigma * sigma);
+        weights += weight * ratio;
+        if (map.systematic_rad.empty()) continue;
+        const double part = weight * static_cast<double>(map.systematic_rad(x, y));
+        square += part * part;
+      }
+      out(x, y) = static_cast<float>(std::sqrt(square) / weights);
+    }
+  });
+  return out;
+}
+
 /// Unwraps all pixels, tile by tile, by a HierarchicalUnwrapper or an OrderSearch.
 template <class Unwrapper>
 AbsolutePhase unwrap_all(std::span<const WrappedPhase> coarse_to_fine, const Unwrapper& unwrapper) {
@@ -77,6 +108,7 @@ AbsolutePhase unwrap_all(std::span<const WrappedPhase> coarse_to_fine, const Unw
       }
     }
   });
+  out.systematic_rad = slope_systematic(coarse_to_fine, out.status);
   return out;
 }
 

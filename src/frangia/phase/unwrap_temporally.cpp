@@ -20,7 +20,7 @@ constexpr std::size_t kChunk = 1 << 16;
 
 /// The still wrapped phase of a level, in new memory.
 AbsolutePhase start_from(const WrappedPhase& level) {
-  return {level.pattern, level.phase_rad, level.sigma_rad, level.status};
+  return {level.pattern, level.phase_rad, level.sigma_rad, level.status, level.systematic_rad};
 }
 
 /// The still wrapped phase of a level, in the level's memory.
@@ -28,7 +28,8 @@ AbsolutePhase start_from(WrappedPhase&& level) {
   return {std::move(level.pattern),
           std::move(level.phase_rad),
           std::move(level.sigma_rad),
-          std::move(level.status)};
+          std::move(level.status),
+          std::move(level.systematic_rad)};
 }
 
 /// Unwraps the coarsest level. Near the ends of the single fringe, noise may wrap the phase to the
@@ -45,6 +46,7 @@ void unwrap_single_fringe(const Projector& projector, double min_sigmas, Absolut
       if (kPi - std::abs(from_center) > min_sigmas * sigma) continue;
       level.status.pixels()[i] = PixelStatus::UncertainOrder;
       phase = sigma = kMissing;
+      if (!level.systematic_rad.empty()) level.systematic_rad.pixels()[i] = kMissing;
     }
   });
 }
@@ -73,6 +75,7 @@ void unwrap_row(const CoarseRow& coarse, double max_sigma, int y, AbsolutePhase&
     fine.status(x, y) = invalid_before ? coarse.status[x] : PixelStatus::UncertainOrder;
     fine.phase_rad(x, y) = kMissing;
     fine.sigma_rad(x, y) = kMissing;
+    if (!fine.systematic_rad.empty()) fine.systematic_rad(x, y) = kMissing;
   }
 }
 

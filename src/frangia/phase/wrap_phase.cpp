@@ -105,6 +105,7 @@ WrappedPhase wrap_phase(const FrameStack& stack,
   const TileNoise noise_of_sums = tile_noise(stack, algorithm, noise);
   WrappedPhase out = std::move(recycled);
   out.pattern = stack.pattern;
+  out.systematic_rad = {};
   for (auto* map : {&out.phase_rad, &out.sigma_rad, &out.modulation_counts, &out.mean_counts})
     resize_uninitialized(width, height, *map);
   resize_uninitialized(width, height, out.status);

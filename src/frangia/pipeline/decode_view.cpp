@@ -1,6 +1,8 @@
 #include "frangia/pipeline/decode_view.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +15,8 @@
 #include "frangia/phase/frame_samples.h"
 #include "frangia/phase/merge_exposures.h"
 #include "frangia/phase/recover_saturated.h"
+#include "frangia/phase/share_waveforms.h"
+#include "frangia/phase/systematic_phase.h"
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/phase/unwrap_sequence.h"
 #include "frangia/range/fringe_ray.h"
@@ -108,23 +112,60 @@ FittedAlgorithm fit(const FrameStack& taken,
   return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
 }
 
-/// Removes the effect of the projector's response from the last wrapped map, if `response` is set.
-void apply_response_correction(const DecodeOptions& options,
-                               const PhaseAlgorithm& algorithm,
-                               const std::vector<double>& shifts_rad,
-                               DecodedView& out) {
-  if (options.response)
-    correct_response(response_table(*options.response, algorithm, shifts_rad), out.wrapped.back());
+/// The algorithms for all patterns' frames.
+std::vector<FittedAlgorithm> fit_all(std::span<const FrameStack* const> fringes,
+                                     const NoiseModel& noise,
+                                     const DecodeOptions& options,
+                                     const Run& run) {
+  std::vector<FittedAlgorithm> fits;
+  for (const FrameStack* stack : fringes) {
+    run.check();
+    fits.push_back(fit(*stack, noise, options, run));
+  }
+  share_waveforms(fits);
+  return fits;
+}
+
+/// The correction of the projector's response for one pattern, if the options ask for one.
+std::optional<ResponseTable> correction_of(const Pattern& pattern,
+                                           const FittedAlgorithm& fitted,
+                                           const DecodeOptions& options) {
+  const PhaseAlgorithm algorithm =
+      pattern.exposure_count() > 1 ? least_squares(fitted.shifts_rad) : fitted.algorithm;
+  if (options.undo_own_response) {
+    if (fitted.waveform.largest_harmonic() == 0) return {};
+    return response_table(fitted.waveform.waveform, algorithm, fitted.shifts_rad);
+  }
+  if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
+    return response_table(*waveform, algorithm, fitted.shifts_rad);
+  if (!options.response) return {};
+  return response_table(*options.response, algorithm, fitted.shifts_rad);
+}
+
+/// Removes the effect of the projector's response from the last wrapped map, where the options ask
+/// for it, and sets its systematic uncertainty.
+void finish_wrapped(const FittedAlgorithm& fitted, const DecodeOptions& options, DecodedView& out) {
+  WrappedPhase& map = out.wrapped.back();
+  const auto table = correction_of(map.pattern, fitted, options);
+  if (table) correct_response(*table, map);
+  const ResponseTable* applied = table ? &*table : nullptr;
+  map.systematic_rad = uniform_systematic(systematic_phase(fitted, applied), map.status);
+  FrameAssessment& assessment = out.assessments.back();
+  assessment.harmonics_corrected = table.has_value();
+  assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
 }
 
 /// Appends the wrapped phase and the frame assessment of one pattern to `out`.
-void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
-  const FittedAlgorithm fitted = fit(taken, out.noise, options, run);
+void wrap(const FrameStack& taken,
+          const FittedAlgorithm& fitted,
+          const DecodeOptions& options,
+          const Run& run,
+          DecodedView& out) {
   if (taken.pattern.exposure_count() > 1) {
     out.wrapped.push_back(
         merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
     out.assessments.push_back(assess_frames(taken, fitted, out.wrapped.back(), out.noise));
-    apply_response_correction(options, least_squares(fitted.shifts_rad), fitted.shifts_rad, out);
+    finish_wrapped(fitted, options, out);
     return;
   }
   FrameStack recovered;
@@ -137,30 +178,54 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
   const FrameStack& stack = options.recover_saturated ? recovered : taken;
   out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
   out.assessments.push_back(assess_frames(stack, fitted, out.wrapped.back(), out.noise));
-  apply_response_correction(options, fitted.algorithm, fitted.shifts_rad, out);
+  finish_wrapped(fitted, options, out);
+}
+
+/// The systematic uncertainty of the slope of phase over frequency through all maps, whose
+/// modulations are taken as equal.
+double sequence_systematic(std::span<const FrameStack* const> fringes,
+                           std::span<const FittedAlgorithm> fits) {
+  const double top = fringes.back()->pattern.fringes_per_unit();
+  double weights = 0.0;
+  double square = 0.0;
+  for (std::size_t m = 0; m < fits.size(); ++m) {
+    const double ratio = fringes[m]->pattern.fringes_per_unit() / top;
+    const double weight = ratio / std::pow(fits[m].algorithm.noise_gain, 2);
+    weights += weight * ratio;
+    square += std::pow(weight * systematic_phase(fits[m]), 2);
+  }
+  return std::sqrt(square) / weights;
 }
 
 /// Decodes all patterns in one pass; the assessments are computed from a sample of rows.
 void decode_in_one_pass(std::span<const FrameStack* const> fringes,
+                        std::span<const FittedAlgorithm> fits,
                         const Rig& rig,
                         const DecodeOptions& options,
-                        const Run& run,
                         DecodedView& out) {
   constexpr std::size_t kAssessedPixels = 200'000;
   std::vector<SequenceFrames> maps;
-  for (const FrameStack* stack : fringes) {
-    const FittedAlgorithm fitted = fit(*stack, out.noise, options, run);
+  for (std::size_t m = 0; m < fringes.size(); ++m) {
+    const FrameStack* stack = fringes[m];
+    const FittedAlgorithm& fitted = fits[m];
     const FrameStack some = sample_rows(*stack, kAssessedPixels);
     const WrappedPhase map = wrap_phase(some, fitted.algorithm, out.noise, options.wrap);
     out.assessments.push_back(assess_frames(some, fitted, map, out.noise));
     maps.push_back({stack, fitted.algorithm});
   }
   out.phase = decode_sequence(maps, out.noise, rig.projector, {options.wrap, options.temporal});
+  out.phase.systematic_rad =
+      uniform_systematic(sequence_systematic(fringes, fits), out.phase.status);
 }
 
 bool are_unprocessed_frames(std::span<const FrameStack* const> fringes,
+                            std::span<const FittedAlgorithm> fits,
                             const DecodeOptions& options) {
-  return !options.recover_saturated && !options.response &&
+  const bool has_harmonics = std::any_of(fits.begin(), fits.end(), [](const FittedAlgorithm& fit) {
+    return fit.waveform.largest_harmonic() > 0;
+  });
+  return !options.recover_saturated && !options.response && options.waveforms.empty() &&
+         !(options.undo_own_response && has_harmonics) &&
          std::all_of(fringes.begin(), fringes.end(), [](const FrameStack* stack) {
            return stack->pattern.exposure_count() == 1;
          });
@@ -196,16 +261,17 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   const auto patterns = patterns_of(fringes);
   const auto gray = gray_of(stacks, out.coarsest.direction);
   const bool pixelwise_safe = gray.empty() && is_pixelwise_safe(patterns, rig.projector, options);
-  if (pixelwise_safe && !options.keep_maps && are_unprocessed_frames(fringes, options)) {
-    decode_in_one_pass(fringes, rig, options, run, out);
+  const std::vector<FittedAlgorithm> fits = fit_all(fringes, out.noise, options, run);
+  if (pixelwise_safe && !options.keep_maps && are_unprocessed_frames(fringes, fits, options)) {
+    decode_in_one_pass(fringes, fits, rig, options, out);
     fill_enclosed(out.phase, options.fill);
     return out;
   }
   const bool unwraps_temporally =
       gray.empty() && !pixelwise_safe && is_absolute(out.coarsest, rig.projector);
-  for (const FrameStack* stack : fringes) {
+  for (std::size_t m = 0; m < fringes.size(); ++m) {
     run.check();
-    wrap(*stack, options, run, out);
+    wrap(*fringes[m], fits[m], options, run, out);
     if (options.keep_maps || !unwraps_temporally) continue;
     // Only the assessment needs them; the next pattern uses their memory.
     out.wrapped.back().modulation_counts = {};

@@ -19,6 +19,7 @@
 #include "frangia/phase/wrap_phase.h"
 #include "frangia/pipeline/survey_scan.h"
 #include "frangia/range/laser_profile.h"
+#include "frangia/rig/fringe_waveform.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
@@ -32,6 +33,11 @@ struct DecodeOptions {
   /// Response of a projector that showed the patterns without its look-up table; its effect on the
   /// phase is removed.
   std::optional<ResponseCurve> response;
+  /// Waveforms of such a projector's fringes, by period; they take precedence over `response`.
+  std::vector<FringeWaveform> waveforms;
+  /// Removes the effect of the harmonics that the frames themselves show; takes precedence over
+  /// `response` and `waveforms`.
+  bool undo_own_response = false;
   /// Keeps the wrapped maps. Otherwise a sequence is decoded in one pass over its frames if all its
   /// unwrapping levels are safe for every pixel that `wrap` keeps.
   bool keep_maps = true;

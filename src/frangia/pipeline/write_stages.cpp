@@ -152,6 +152,14 @@ void write_sigma(const RangeGrid& range, StageWriter& out) {
   out.map("sigma-systematic", range.systematic_mm, "systematic part of sigma", "mm");
 }
 
+/// Noise and systematic part together.
+Image<float> combined_sigma(const AbsolutePhase& phase) {
+  Image<float> out = phase.sigma_rad;
+  for (std::size_t i = 0; i < phase.systematic_rad.pixels().size(); ++i)
+    out.pixels()[i] = std::hypot(out.pixels()[i], phase.systematic_rad.pixels()[i]);
+  return out;
+}
+
 }  // namespace
 
 std::vector<StageFile> write_stages(const DecodedView& decoded,
@@ -166,6 +174,10 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
   const auto fringes = fringe_orders(decoded.wrapped.back().phase_rad, decoded.phase.phase_rad);
   out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
   out.map("absolute", decoded.phase.phase_rad, "final phase", "rad");
+  out.map("absolute-sigma",
+          combined_sigma(decoded.phase),
+          "combined standard uncertainty of the final phase",
+          "rad");
   out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
   write_sigma(range, out);
   write_page(folder / "index.html", out.written);

@@ -2,11 +2,13 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "frangia/pattern/pixel_layout.h"
 #include "frangia/rig/camera_model.h"
+#include "frangia/rig/fringe_waveform.h"
 #include "frangia/rig/response_curve.h"
 
 namespace frangia {
@@ -31,6 +33,8 @@ struct Projector {
   /// Response that a look-up table corrects before patterns are shown; none: patterns are shown
   /// uncorrected.
   std::optional<ResponseCurve> response = std::nullopt;
+  /// Waveforms of the fringes that were shown without the look-up table, one per measured period.
+  std::vector<FringeWaveform> waveforms{};
 
   /// Whether it is an interferometer, not a digital projector.
   [[nodiscard]] bool is_angular() const { return std::holds_alternative<AngularModel>(model); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -115,6 +116,21 @@ PixelLayout read_pixels(TomlReader& reader) {
   reader.fail("pixels", fmt::format(R"(is "{}"; it must be "square" or "diamond")", name));
 }
 
+FringeWaveform read_waveform(TomlReader& reader, const Run& run) {
+  FringeWaveform out;
+  out.period_px = reader.positive("period_px");
+  const std::string direction = reader.text("direction");
+  if (direction != "vertical" && direction != "horizontal")
+    reader.fail("direction", "must be \"vertical\" or \"horizontal\"");
+  out.direction = direction == "vertical" ? FringeDirection::Vertical : FringeDirection::Horizontal;
+  const std::vector<double> cosine = reader.numbers("cosine");
+  const std::vector<double> sine = reader.numbers("sine", cosine.size());
+  for (std::size_t i = 0; i < cosine.size(); ++i)
+    out.harmonics.emplace_back(cosine[i], sine[i]);
+  reader.warn_of_unused_keys(run);
+  return out;
+}
+
 Projector read_projector(TomlReader reader, RigContent content, const Run& run) {
   Projector projector;
   projector.position_mm.setConstant(std::nan(""));
@@ -142,6 +158,8 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
     if (light.size() < 2 || light.front() != 0.0 || light.back() != 1.0 || !rises)
       response.fail("light", "must rise from 0 to 1, one number per evenly spaced level");
     projector.response = ResponseCurve{light};
+    for (TomlReader& waveform : response.tables("waveform"))
+      projector.waveforms.push_back(read_waveform(waveform, run));
     response.warn_of_unused_keys(run);
   }
   if (projector.position_mm.norm() == 0.0) {
@@ -187,6 +205,33 @@ void put_camera(TomlWriter& writer, const Camera& camera) {
   writer.put("read_e", gain * std::sqrt(read2));
 }
 
+void put_response(TomlWriter& writer, const Projector& projector) {
+  if (!projector.response) return;
+  constexpr int kDigits = 6;  // a measured response is less certain than the sixth digit
+  const auto rounded = [&](const std::vector<double>& values) {
+    std::vector<double> out;
+    for (const double value : values)
+      out.push_back(rounded_to_digits(value, kDigits));
+    return out;
+  };
+  writer.begin_table("projector.response");
+  writer.put("light", rounded(projector.response->light));
+  for (const FringeWaveform& waveform : projector.waveforms) {
+    std::vector<double> cosine;
+    std::vector<double> sine;
+    for (const std::complex<double>& harmonic : waveform.harmonics) {
+      cosine.push_back(harmonic.real());
+      sine.push_back(harmonic.imag());
+    }
+    writer.begin_table_of_list("projector.response.waveform");
+    writer.put("period_px", waveform.period_px);
+    const bool vertical = waveform.direction == FringeDirection::Vertical;
+    writer.put("direction", std::string(vertical ? "vertical" : "horizontal"));
+    writer.put("cosine", rounded(cosine));
+    writer.put("sine", rounded(sine));
+  }
+}
+
 void put_projector(TomlWriter& writer, const Projector& projector) {
   const Eigen::Matrix3d& r = projector.rotation;
   writer.begin_table("projector");
@@ -206,13 +251,7 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
     put_camera_model(writer, std::get<PinholeModel>(projector.model));
     if (projector.pixels == PixelLayout::Diamond) writer.put("pixels", std::string("diamond"));
   }
-  if (!projector.response) return;
-  constexpr int kDigits = 6;  // a measured response is less certain than the sixth digit
-  std::vector<double> light;
-  for (const double value : projector.response->light)
-    light.push_back(rounded_to_digits(value, kDigits));
-  writer.begin_table("projector.response");
-  writer.put("light", light);
+  put_response(writer, projector);
 }
 
 TomlWriter composed_rig(const Rig& rig) {
@@ -278,6 +317,26 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
 
 std::string rig_text(const Rig& rig) {
   return composed_rig(rig).text();
+}
+
+std::string with_response(const std::string& rig_toml, const Projector& projector) {
+  std::string text;
+  std::istringstream lines(rig_toml);
+  bool replaced = false;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(" \t");
+    if (begin != std::string::npos && line[begin] == '[') {
+      std::string name = line.substr(begin, line.find(']', begin) - begin);
+      name.erase(0, name.find_first_not_of("[ \t"));
+      replaced = name == "projector.response" || name.starts_with("projector.response.");
+    }
+    if (!replaced) text += line + '\n';
+  }
+  TomlWriter writer;
+  put_response(writer, projector);
+  while (text.ends_with("\n\n"))
+    text.pop_back();
+  return text + writer.text();
 }
 
 void write_rig(const std::filesystem::path& path,

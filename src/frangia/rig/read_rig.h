@@ -34,6 +34,10 @@ enum class RigContent {
 /// are left out.
 [[nodiscard]] std::string rig_text(const Rig& rig);
 
+/// Returns the text of a rig.toml with the response and the waveforms of a projector in place of
+/// its own. All other tables, keys and comments stay as they are.
+[[nodiscard]] std::string with_response(const std::string& rig_toml, const Projector& projector);
+
 /// Writes `rig_text` to a file, and the covariance of the parameters, where it is known, to the CSV
 /// file beside it. The `[devices]` tables of the rig.toml `devices_from` are copied,
 /// if it is given.

@@ -21,12 +21,14 @@ struct SimulateOptions {
   double ambient = 0.0;          ///< ambient light on a white surface, as a share of white
 
   // The projector.
-  double contrast = 0.9;         ///< gamma0 of the fringes, 0 to 1
-  double step_error = 0.0;       ///< relative error of every shift
-  double step_jitter_rad = 0.0;  ///< rms, independent per frame
-  double display_gamma = 1.0;    ///< of a pinhole projector without linearisation
-  double line_sigma_mm = 0.25;   ///< of the laser sheet's profile, across the plane
-  double line_spill = 0.03;      ///< stray light of the laser sheet, as a share of its peak
+  double contrast = 0.9;           ///< gamma0 of the fringes, 0 to 1
+  double step_error = 0.0;         ///< relative error of every shift
+  double step_jitter_rad = 0.0;    ///< rms, independent per frame
+  double display_gamma = 1.0;      ///< of a pinhole projector without linearisation
+  double flicker = 0.0;            ///< rms relative error of the projector's light, per frame
+  double projector_blur_px = 0.0;  ///< sigma of the blur of patterns, px of a pinhole projector
+  double line_sigma_mm = 0.25;     ///< of the laser sheet's profile, across the plane
+  double line_spill = 0.03;        ///< stray light of the laser sheet, as a share of its peak
 
   // The surface.
   double texture = 0.0;           ///< 0: white; 1: smooth patches from white to black

@@ -15,6 +15,7 @@ std::size_t discard_residues(WrappedPhase& phase) {
       phase.status(x, y) = PixelStatus::Residue;
       phase.phase_rad(x, y) = kMissing;
       phase.sigma_rad(x, y) = kMissing;
+      if (!phase.systematic_rad.empty()) phase.systematic_rad(x, y) = kMissing;
       ++discarded;
     }
   }

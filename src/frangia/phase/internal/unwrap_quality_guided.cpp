@@ -65,7 +65,8 @@ RelativePhase unwrap_quality_guided(const WrappedPhase& phase,
                     .region = regions.label,
                     .region_count = regions.count,
                     .status = phase.status,
-                    .growth_order = {}};
+                    .growth_order = {},
+                    .systematic_rad = phase.systematic_rad};
   if (keep_growth_order) out.growth_order = Image<std::int32_t>(width, height, -1);
   std::int32_t reached = 0;
   const auto wrapped = phase.phase_rad.pixels();

@@ -86,7 +86,8 @@ RelativePhase unwrap_reliability_sorted(const WrappedPhase& phase, const Regions
                     .region = regions.label,
                     .region_count = regions.count,
                     .status = phase.status,
-                    .growth_order = {}};
+                    .growth_order = {},
+                    .systematic_rad = phase.systematic_rad};
   const auto labels = regions.label.pixels();
   for (std::size_t i = 0; i < rad.size(); ++i) {
     if (labels[i] < 0) continue;

@@ -175,7 +175,8 @@ RelativePhase unwrap_run_merging(WrappedPhase&& phase, Regions& regions) {
           .region = std::move(regions.label),
           .region_count = regions.count,
           .status = std::move(phase.status),
-          .growth_order = {}};
+          .growth_order = {},
+          .systematic_rad = std::move(phase.systematic_rad)};
 }
 
 }  // namespace frangia

@@ -37,14 +37,16 @@ std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatu
       share(status, PixelStatus::Saturated));
 }
 
-/// Reports the assessments of the first view, and of the other views only suspected vibration.
+/// Reports the assessments of the first view, and of the other views only motion and flicker: the
+/// harmonics are those of the first view.
 void report_assessments(const Scan& scan,
                         std::size_t view,
                         const std::vector<FrameAssessment>& assessments,
                         const Run& run) {
   for (const FrameAssessment& assessment : assessments) {
     const std::string folder = scan.views[view].folder.string();
-    if (assessment.vibration_suspected) {
+    const bool varies = assessment.vibration_suspected || assessment.flicker_error_rad > 0.0;
+    if (varies || (view == 0 && needs_attention(assessment))) {
       run.warn(fmt::format("{}: {}", folder, describe(assessment)));
     } else if (view == 0) {
       run.note(fmt::format("{}: {}", folder, describe(assessment)));

@@ -44,6 +44,8 @@ std::vector<Shot> shots_of(const Pattern& pattern,
   std::vector<Shot> shots(static_cast<std::size_t>(pattern.frame_count()));
   for (std::size_t i = 0; i < shots.size(); ++i) {
     shots[i].stream = noise_stream(options.seed, view.index, pattern.name, i);
+    shots[i].projector =
+        std::max(0.0, 1.0 + options.flicker * normal_from(hash(shots[i].stream, 2)));
     if (pattern.kind != PatternKind::Fringe) continue;
     const double shift = pattern.shifts_rad[i] * (1.0 + options.step_error) +
                          options.step_jitter_rad * normal_from(hash(shots[i].stream, 1));

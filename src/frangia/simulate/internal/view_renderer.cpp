@@ -1,6 +1,7 @@
 #include "frangia/simulate/internal/view_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -42,6 +43,33 @@ double displayed_light(double linear, const SimulatedScene& scene) {
   double level = std::clamp((linear - dark) / span, 0.0, 1.0);
   if (response) level = response->level_of(level);
   return dark + span * std::pow(level, scene.options.display_gamma);
+}
+
+/// Light of a fringe whose real part is the cosine of the phase.
+double fringe_light(const std::complex<double>& fringe, const SimulatedScene& scene) {
+  return displayed_light(1.0 + scene.options.contrast * fringe.real(), scene);
+}
+
+/// The same, blurred along the phase by a Gaussian (Gauss-Hermite quadrature).
+double blurred_light(const std::complex<double>& fringe,
+                     double period_px,
+                     const SimulatedScene& scene) {
+  struct Node {
+    double sigmas;
+    double weight;
+  };
+  constexpr std::array<Node, 4> kNodes = {{{0.0, 0.457142857142857},
+                                           {1.154405394739968, 0.240123178605013},
+                                           {2.366759410734541, 0.0307571239675865},
+                                           {3.750439717725742, 0.000548268855972218}}};
+  double light = 0.0;
+  for (const Node& node : kNodes) {
+    const double phase = kTwoPi * node.sigmas * scene.options.projector_blur_px / period_px;
+    const double ahead = fringe_light(fringe * std::polar(1.0, phase), scene);
+    const double behind = fringe_light(fringe * std::polar(1.0, -phase), scene);
+    light += node.weight * (node.sigmas == 0.0 ? ahead : ahead + behind);
+  }
+  return light;
 }
 
 /// Nominal light of one frame that is not a fringe.
@@ -195,10 +223,12 @@ void ViewRenderer::mean_light(const Pattern& pattern,
     const double phase = phase_at(pattern, sample);
     const std::complex<double> fringe = std::complex<double>(speckle.fringe) *
                                         std::complex<double>(std::cos(phase), std::sin(phase));
+    const bool blurred = options_.projector_blur_px > 0.0 && pattern.period_px > 0.0;
     for (std::size_t i = 0; i < shots.size(); ++i) {
-      const double cosine = fringe.real() * shots[i].cos_shift - fringe.imag() * shots[i].sin_shift;
-      light[i] += other + shots[i].projector * reflected *
-                              displayed_light(1.0 + options_.contrast * cosine, scene_);
+      const std::complex<double> shift(shots[i].cos_shift, shots[i].sin_shift);
+      const double shown = blurred ? blurred_light(fringe * shift, pattern.period_px, scene_)
+                                   : fringe_light(fringe * shift, scene_);
+      light[i] += other + shots[i].projector * reflected * shown;
     }
   }
   for (std::size_t i = 0; i < light.size(); ++i)

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "frangia/phase/internal/fringe_bins.h"
+#include "frangia/rig/fringe_waveform.h"
+
+namespace frangia {
+
+/// A harmonic and an offset that change the apparent contrast with the phase.
+struct ContrastFit {
+  std::complex<double> harmonic = 0.0;  ///< relative to the fundamental
+  double harmonic_sigma = 0.0;          ///< of its amplitude
+  /// Added to modulation times exp(i phase), relative to the modulation: the effect of unequal
+  /// gains of the frames.
+  std::complex<double> offset = 0.0;
+  double offset_sigma = 0.0;  ///< of its amplitude
+  bool determined = false;    ///< enough tiles see enough of a fringe
+};
+
+/// Fits the harmonic of this order, given the others of `known`, to the contrasts within tiles.
+[[nodiscard]] ContrastFit fit_contrast(const FringeBins& bins,
+                                       const std::vector<double>& shifts_rad,
+                                       const FringeWaveform& known,
+                                       int order);
+
+}  // namespace frangia

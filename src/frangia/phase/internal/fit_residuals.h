@@ -1,0 +1,32 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "frangia/phase/internal/fringe_bins.h"
+
+namespace frangia {
+
+/// Largest order of a fitted harmonic.
+inline constexpr int kMaxHarmonic = 5;
+
+/// Harmonics and gains from the residuals of the fringe fit.
+struct ResidualFit {
+  std::vector<bool> observable;                 ///< of harmonics 2, 3, ...
+  std::vector<std::complex<double>> harmonics;  ///< 0 where not observable
+  std::vector<double> sigma;                    ///< of each amplitude; NaN where not observable
+  std::vector<double> gains;                    ///< relative, mean 0; empty unless fitted
+  double gain_sigma = 0.0;                      ///< rms standard deviation of the gains
+  bool gains_explain = false;  ///< gains fit the residuals, and better than errors of the shifts
+};
+
+/// Fits the binned residuals, with gains of the frames if `with_gains`.
+[[nodiscard]] ResidualFit fit_residuals(const FringeBins& bins,
+                                        const std::vector<double>& shifts_rad,
+                                        bool with_gains);
+
+/// The part of the weighted sum of squared residuals that harmonics explain.
+[[nodiscard]] double explained_residual(const FringeBins& bins,
+                                        const std::vector<double>& shifts_rad);
+
+}  // namespace frangia

@@ -1,0 +1,135 @@
+#include "frangia/phase/fit_waveform.h"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/display_fringes.h"
+#include "support/synthetic_fringes.h"
+
+namespace frangia {
+namespace {
+
+using testing::display_frames;
+using testing::DisplayScene;
+using testing::equal_shifts;
+using testing::gamma_harmonic;
+
+NoiseModel noise_of(const DisplayScene& scene) {
+  return {.floor_counts2 = scene.noise_counts * scene.noise_counts + 1.0 / 12.0};
+}
+
+WaveformFit fit(const DisplayScene& scene, int frames) {
+  const std::vector<double> shifts = equal_shifts(frames, kTwoPi / frames);
+  return fit_waveform(display_frames(scene, shifts), shifts, noise_of(scene));
+}
+
+std::vector<double> some_gains(int frames) {
+  std::vector<double> gains;
+  for (int k = 0; k < frames; ++k)
+    gains.push_back(0.02 * std::sin(2.3 * k * k + 1.0));
+  return gains;
+}
+
+TEST(FitWaveform, FindsTheSecondHarmonicOfAGammaFromThreeFramesOrMore) {
+  for (const double gamma : {1.4, 1.8, 2.2}) {
+    for (const int frames : {3, 4, 5, 6, 12}) {
+      const WaveformFit found = fit({.gamma = gamma}, frames);
+      EXPECT_EQ(found.largest_harmonic(), 2) << frames;
+      EXPECT_NEAR(found.waveform.harmonics[0].real(), gamma_harmonic(gamma, 2), 0.008) << frames;
+      EXPECT_NEAR(found.waveform.harmonics[0].imag(), 0.0, 0.003) << frames;
+      EXPECT_EQ(found.flicker(), 0.0) << frames;
+      EXPECT_EQ(found.flicker_error_rad, 0.0) << frames;
+    }
+  }
+}
+
+TEST(FitWaveform, FindsTheThirdHarmonicOfASaturatingDisplay) {
+  const auto waveform = [](double phase) { return std::cos(phase) - 0.06 * std::cos(3.0 * phase); };
+  for (const int frames : {4, 5, 6, 12}) {
+    const WaveformFit found = fit({.peak_counts = 160.0, .waveform = waveform}, frames);
+    EXPECT_EQ(found.largest_harmonic(), 3) << frames;
+    EXPECT_NEAR(found.waveform.harmonics[1].real(), -0.06, 0.006) << frames;
+  }
+}
+
+TEST(FitWaveform, TakesTheThirdHarmonicOfThreeFramesForNoSecondOne) {
+  const auto waveform = [](double phase) { return std::cos(phase) - 0.06 * std::cos(3.0 * phase); };
+  for (const double texture : {0.0, 0.5}) {
+    const WaveformFit found =
+        fit({.peak_counts = 160.0, .texture = texture, .waveform = waveform}, 3);
+    EXPECT_LT(found.waveform.amplitude(2), 0.012) << texture;
+  }
+}
+
+TEST(FitWaveform, FindsNothingInSoundFrames) {
+  for (const int frames : {3, 4, 5, 6, 12}) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+      const WaveformFit found = fit({.texture = 0.8, .defocus = 0.3, .seed = seed}, frames);
+      EXPECT_EQ(found.largest_harmonic(), 0) << frames;
+      EXPECT_TRUE(found.gains.empty()) << frames;
+      EXPECT_EQ(found.flicker_error_rad, 0.0) << frames;
+    }
+  }
+}
+
+TEST(FitWaveform, FindsTheGainsOfFiveFramesOrMore) {
+  for (const int frames : {5, 6, 12}) {
+    const std::vector<double> gains = some_gains(frames);
+    const WaveformFit found = fit({.dark_counts = 0.5, .gains = gains}, frames);
+    EXPECT_EQ(found.largest_harmonic(), 0) << frames;
+    ASSERT_EQ(found.gains.size(), gains.size());
+    const double mean =
+        std::accumulate(gains.begin(), gains.end(), 0.0) / static_cast<double>(frames);
+    for (std::size_t k = 0; k < gains.size(); ++k)
+      EXPECT_NEAR(found.gains[k], gains[k] - mean, 1e-3) << frames;
+  }
+}
+
+TEST(FitWaveform, FindsThePhaseErrorOfFlickerInThreeAndFourFrames) {
+  for (const int frames : {3, 4}) {
+    const std::vector<double> gains = some_gains(frames);
+    const WaveformFit found = fit({.dark_counts = 0.5, .gains = gains}, frames);
+    EXPECT_TRUE(found.gains.empty());
+    // sum of g_k A exp(-i shift_k) 2 / N, over B; A / B lies between 0.95 and 1.15.
+    std::complex<double> offset = 0.0;
+    for (int k = 0; k < frames; ++k)
+      offset +=
+          gains[static_cast<std::size_t>(k)] * 2.0 / frames * std::polar(1.0, -kTwoPi * k / frames);
+    EXPECT_NEAR(found.flicker_error_rad / (std::abs(offset) / std::sqrt(2.0)), 1.05, 0.15);
+  }
+}
+
+TEST(FitWaveform, TakesMotionForNeitherHarmonicsNorFlicker) {
+  for (const int frames : {4, 5, 6, 12}) {
+    const std::vector<double> nominal = equal_shifts(frames, kTwoPi / frames);
+    std::vector<double> made = nominal;
+    for (std::size_t k = 0; k < made.size(); ++k)
+      made[k] += 0.03 * std::sin(5.1 * static_cast<double>(k * k) + 2.0);
+    const DisplayScene scene;
+    FrameStack stack = display_frames(scene, made);
+    stack.pattern.shifts_rad = nominal;
+    const WaveformFit found = fit_waveform(stack, nominal, noise_of(scene));
+    EXPECT_EQ(found.largest_harmonic(), 0) << frames;
+    EXPECT_TRUE(found.gains.empty()) << frames;
+    EXPECT_EQ(found.flicker_error_rad, 0.0) << frames;
+  }
+}
+
+TEST(FitWaveform, IgnoresSaturatedPixelsAndCountsThoseCutOffAtZero) {
+  for (const int frames : {3, 4, 6}) {
+    EXPECT_EQ(fit({.peak_counts = 330.0}, frames).largest_harmonic(), 0) << frames;
+    EXPECT_EQ(fit({.peak_counts = 120.0, .dark_counts = -20.0}, frames).largest_harmonic(), 2)
+        << frames;
+  }
+}
+
+TEST(FitWaveform, FindsNothingInTooFewPixels) {
+  const WaveformFit found = fit({.width = 30, .height = 20, .gamma = 2.2}, 4);
+  EXPECT_EQ(found.largest_harmonic(), 0);
+}
+
+}  // namespace
+}  // namespace frangia

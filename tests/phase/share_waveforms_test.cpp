@@ -1,0 +1,38 @@
+#include "frangia/phase/share_waveforms.h"
+
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace frangia {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+FittedAlgorithm fit_of(double period_px, double second, double sigma) {
+  FittedAlgorithm fit;
+  fit.waveform.waveform = {period_px, FringeDirection::Vertical, {second}};
+  fit.waveform.sigma = {sigma};
+  return fit;
+}
+
+TEST(ShareWaveforms, GivesUndeterminedHarmonicsThoseOfTheNearestPeriod) {
+  std::vector<FittedAlgorithm> fits = {
+      fit_of(1280.0, 0.0, kUnknown), fit_of(160.0, 0.2, 0.001), fit_of(20.0, 0.1, 0.001)};
+  share_waveforms(fits);
+  EXPECT_EQ(fits[0].waveform.waveform.amplitude(2), 0.2);
+  EXPECT_EQ(fits[0].waveform.sigma[0], 0.001);
+  EXPECT_EQ(fits[1].waveform.waveform.amplitude(2), 0.2);
+  EXPECT_EQ(fits[2].waveform.waveform.amplitude(2), 0.1);
+}
+
+TEST(ShareWaveforms, KeepsHarmonicsThatNoPatternDetermines) {
+  std::vector<FittedAlgorithm> fits = {fit_of(1280.0, 0.0, kUnknown), fit_of(20.0, 0.03, 0.05)};
+  share_waveforms(fits);
+  EXPECT_EQ(fits[0].waveform.waveform.amplitude(2), 0.0);
+  EXPECT_EQ(fits[1].waveform.waveform.amplitude(2), 0.03);
+}
+
+}  // namespace
+}  // namespace frangia

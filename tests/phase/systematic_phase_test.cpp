@@ -1,0 +1,108 @@
+#include "frangia/phase/systematic_phase.h"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/phase/wrap_phase.h"
+
+#include "support/display_fringes.h"
+#include "support/synthetic_fringes.h"
+
+namespace frangia {
+namespace {
+
+using testing::display_frames;
+using testing::display_phase;
+using testing::DisplayScene;
+using testing::equal_shifts;
+
+/// Errors of the phases of a scene's frames against the formula that made them.
+struct PhaseErrors {
+  double rms_rad = 0.0;
+  double over_sigma = 0.0;  ///< rms of the error over the combined sigma
+  double systematic_rad = 0.0;
+};
+
+PhaseErrors errors_of(const DisplayScene& scene, int frames, bool correct = false) {
+  const std::vector<double> shifts = equal_shifts(frames, kTwoPi / frames);
+  const FrameStack stack = display_frames(scene, shifts);
+  const NoiseModel noise{.floor_counts2 = scene.noise_counts * scene.noise_counts + 1.0 / 12.0};
+  const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
+  WrappedPhase map = wrap_phase(stack, fitted.algorithm, noise);
+  std::optional<ResponseTable> table;
+  if (correct && fitted.waveform.largest_harmonic() > 0) {
+    table = response_table(fitted.waveform.waveform, fitted.algorithm, shifts);
+    correct_response(*table, map);
+  }
+  PhaseErrors out;
+  out.systematic_rad = systematic_phase(fitted, table ? &*table : nullptr);
+  double count = 0.0;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      if (map.status(x, y) != PixelStatus::Measured) continue;
+      const double error =
+          wrap_rad(static_cast<double>(map.phase_rad(x, y)) - display_phase(scene, x, y));
+      const double sigma = std::hypot(static_cast<double>(map.sigma_rad(x, y)), out.systematic_rad);
+      out.rms_rad += error * error;
+      out.over_sigma += error * error / (sigma * sigma);
+      count += 1.0;
+    }
+  }
+  EXPECT_GT(count, 10000.0);
+  out.rms_rad = std::sqrt(out.rms_rad / count);
+  out.over_sigma = std::sqrt(out.over_sigma / count);
+  return out;
+}
+
+TEST(SystematicPhase, OfAGammaOf1_8CoversTheErrorOfThreeToSixFrames) {
+  for (const int frames : {3, 4, 5, 6}) {
+    const PhaseErrors found = errors_of({.gamma = 1.8}, frames);
+    EXPECT_GT(found.over_sigma, 0.7) << frames;
+    EXPECT_LT(found.over_sigma, 1.5) << frames;
+  }
+  EXPECT_GT(errors_of({.gamma = 1.8}, 3).systematic_rad, 0.1);
+}
+
+TEST(SystematicPhase, IsZeroForSoundFrames) {
+  for (const int frames : {3, 4, 5, 6, 12})
+    EXPECT_EQ(errors_of({}, frames).systematic_rad, 0.0) << frames;
+}
+
+TEST(SystematicPhase, AfterTheCorrectionOfTheFramesOwnHarmonicsIsTheNoiseOfALinearDisplay) {
+  for (const int frames : {3, 4, 5, 6}) {
+    const PhaseErrors linear = errors_of({}, frames);
+    const PhaseErrors corrected = errors_of({.gamma = 1.8}, frames, true);
+    EXPECT_LT(corrected.rms_rad, 1.5 * linear.rms_rad) << frames;
+    EXPECT_GT(corrected.over_sigma, 0.7) << frames;
+    EXPECT_LT(corrected.over_sigma, 1.5) << frames;
+  }
+}
+
+TEST(SystematicPhase, FlickerOfTwelveFramesIsCompensated) {
+  const double none = errors_of({}, 12).rms_rad;
+  double worst = 0.0;
+  for (const double start : {1.0, 2.0, 3.0}) {
+    DisplayScene scene;
+    for (int k = 0; k < 12; ++k)
+      scene.gains.push_back(0.028 * std::sin(2.3 * k * k + start));
+    worst = std::max(worst, errors_of(scene, 12).rms_rad);
+  }
+  EXPECT_LT(worst, 1.3 * none);
+}
+
+TEST(SystematicPhase, CountsFlickerOfThreeAndFourFrames) {
+  for (const int frames : {3, 4}) {
+    DisplayScene scene;
+    for (int k = 0; k < frames; ++k)
+      scene.gains.push_back(0.03 * std::sin(2.3 * k * k + 1.0));
+    const PhaseErrors found = errors_of(scene, frames);
+    EXPECT_GT(found.over_sigma, 0.7) << frames;
+    EXPECT_LT(found.over_sigma, 1.5) << frames;
+  }
+}
+
+}  // namespace
+}  // namespace frangia
