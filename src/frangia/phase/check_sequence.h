@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frangia/frames/noise_model.h"
+#include "frangia/phase/decode_sequence.h"
+#include "frangia/rig/projector.h"
+
+namespace frangia {
+
+/// In which respect the frames of a pattern differ from scan.toml.
+enum class SequenceFaultKind {
+  Start,      ///< the phase of the first frame
+  Direction,  ///< the sign of the shifts
+  Order,      ///< the order of the frames
+  Period,     ///< the period of the fringes
+  Exchanged   ///< the frames of two patterns are exchanged
+};
+
+/// Returns the word for a kind in JSON: "start", "direction", "order", "period" or "exchanged".
+[[nodiscard]] std::string name_of(SequenceFaultKind kind);
+
+/// A declaration that fits the frames where that of scan.toml does not.
+struct SequenceFault {
+  SequenceFaultKind kind = SequenceFaultKind::Start;  ///< what differs
+  std::vector<std::string> patterns;                  ///< names of the patterns that differ
+  /// What fits, after "the pattern fits": "a start of 180 degrees, not 0 degrees".
+  std::string what;
+  std::vector<std::string> same_as;  ///< other descriptions of the same frames
+  /// The keys of scan.toml that would fit: "shifts_deg = [180, 270, 0, 90]".
+  std::string keys;
+};
+
+/// How well the patterns of one direction agree with each other.
+struct SequenceCheck {
+  bool decided = false;     ///< the frames suffice to tell agreement from chance
+  bool consistent = true;   ///< the patterns agree, or the frames do not decide it
+  double misfit_rad = 0.0;  ///< median distance of the phases from those of one place of the field
+  double chance_rad = 0.0;  ///< the same for phases that have nothing to do with each other
+  double fitted_rad = 0.0;  ///< the misfit with the best of `fits`
+  /// Share of the rows of pixels in which the two ends of the field meet on the object.
+  double split_rows = 0.0;
+  std::vector<std::string> patterns;  ///< names of the patterns that were compared
+  std::vector<SequenceFault> fits;  ///< declarations that fit equally well; empty if none is found
+};
+
+/// Limits and sampling of `check_sequence`.
+struct SequenceCheckOptions {
+  std::size_t pixels = 60'000;   ///< sampled in whole rows
+  std::size_t compared = 3000;   ///< sampled pixels whose distances are computed
+  std::size_t rows = 24;         ///< in which the ends of the field are looked for
+  std::size_t min_pixels = 300;  ///< fewer measured pixels decide nothing
+  /// Misfit over chance above which patterns disagree. Sound scans, also real ones with harmonics
+  /// of 0.2 rad, stay below 0.4; a wrong start of 90 degrees gives 0.55 and more
+  /// (`./run figures sequence_faults`).
+  double max_misfit = 0.5;
+  /// The misfit of a declaration that fits, over that of scan.toml.
+  double max_fitted = 0.6;
+  /// Misfits within this factor of the best one fit equally well.
+  double tie = 1.1;
+  /// Share of the rows in which the ends of the field may meet: at a depth edge that happens to
+  /// show both.
+  double max_split_rows = 0.25;
+};
+
+/// Compares the wrapped phases of the fringe patterns of one direction with each other.
+///
+/// All phases of a pixel belong to one place of the projector's field. The distance from the
+/// nearest such combination is small if period, start, direction of shift and order of frames of
+/// all patterns are those of scan.toml. If it is not, other declarations are tried, and those that
+/// fit decisively better are returned.
+///
+/// @shape    coarse to fine, all frames w x h
+/// @missing  not decided for a single pattern with three frames, for too few measured pixels, and
+///           where the phases of unrelated patterns would fit as well
+[[nodiscard]] SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
+                                           const NoiseModel& noise,
+                                           const Projector& projector,
+                                           const WrapOptions& wrap = {},
+                                           const SequenceCheckOptions& options = {});
+
+/// Formats the result of a check that found a disagreement as one clause without a full stop.
+[[nodiscard]] std::string describe(const SequenceCheck& check);
+
+}  // namespace frangia
