@@ -76,25 +76,40 @@ std::vector<SequenceTrial> all_trials(const SequenceSample& sample) {
   return trials;
 }
 
-/// The start of each map that fits best, for starts that are no multiples of a quarter turn.
-std::vector<SequenceTrial> free_starts(const SequenceSample& sample) {
+/// The start of one map that fits best, to a degree.
+SequenceTrial free_start(const SequenceSample& sample, std::size_t map) {
+  double best_deg = 0.0;
+  double least = std::numeric_limits<double>::max();
+  const auto look = [&](double from_deg, double to_deg, double step_deg) {
+    for (double start = from_deg; start <= to_deg; start += step_deg) {
+      const double found = sample.misfit(start_trial(sample.patterns(), map, rad_from_deg(start)));
+      if (found >= least) continue;
+      least = found;
+      best_deg = start;
+    }
+  };
+  look(10.0, 350.0, 10.0);
+  look(best_deg - 8.0, best_deg + 8.0, 2.0);
+  look(best_deg - 1.0, best_deg + 1.0, 1.0);
+  return start_trial(sample.patterns(), map, rad_from_deg(best_deg));
+}
+
+/// Starts that are no multiples of a quarter turn: of all maps, or of the map whose start `found`
+/// names, if they fit decisively better.
+std::vector<SequenceTrial> free_starts(const SequenceSample& sample,
+                                       const std::vector<RankedTrial>& found) {
+  constexpr double kBetter = 0.8;  // misfit over that of the quarter turn
   std::vector<SequenceTrial> trials;
-  for (std::size_t map = 0; map < sample.patterns().size(); ++map) {
-    double best_deg = 0.0;
-    double least = std::numeric_limits<double>::max();
-    const auto look = [&](double from_deg, double to_deg, double step_deg) {
-      for (double start = from_deg; start <= to_deg; start += step_deg) {
-        const double found =
-            sample.misfit(start_trial(sample.patterns(), map, rad_from_deg(start)));
-        if (found >= least) continue;
-        least = found;
-        best_deg = start;
-      }
-    };
-    look(10.0, 350.0, 10.0);
-    look(best_deg - 8.0, best_deg + 8.0, 2.0);
-    look(best_deg - 1.0, best_deg + 1.0, 1.0);
-    trials.push_back(start_trial(sample.patterns(), map, rad_from_deg(best_deg)));
+  if (found.empty()) {
+    for (std::size_t map = 0; map < sample.patterns().size(); ++map)
+      trials.push_back(free_start(sample, map));
+    return trials;
+  }
+  for (const RankedTrial& one : found) {
+    const bool start = one.trial.fault.kind == SequenceFaultKind::Start;
+    if (!start || one.trial.changes.size() != 1) continue;
+    SequenceTrial trial = free_start(sample, one.trial.changes.front().map);
+    if (sample.misfit(trial) < kBetter * one.misfit_rad) trials.push_back(std::move(trial));
   }
   return trials;
 }
@@ -255,9 +270,10 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);
   found =
       plausible(sample, fitting(sample, all_trials(sample), limit, options), options.tie, absolute);
-  if (found.empty() && disagree) {
-    found = plausible(
-        sample, fitting(sample, free_starts(sample), limit, options), options.tie, absolute);
+  if (disagree) {
+    auto free = plausible(
+        sample, fitting(sample, free_starts(sample, found), limit, options), options.tie, absolute);
+    if (!free.empty()) found = std::move(free);
   }
   return with_fits(std::move(out), std::move(found));
 }

@@ -1,10 +1,12 @@
 #include "frangia/pipeline/decode_view.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/correct_response.h"
 #include "frangia/phase/decode_gray_code.h"
 #include "frangia/phase/decode_sequence.h"
@@ -15,27 +17,23 @@
 #include "frangia/phase/recover_saturated.h"
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/phase/unwrap_sequence.h"
+#include "frangia/pipeline/internal/fringe_directions.h"
 #include "frangia/range/fringe_ray.h"
+#include "frangia/rig/has_geometry.h"
 #include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
 
-/// The vertical fringe patterns, or the horizontal ones if there are no vertical ones, coarse to
-/// fine.
-std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks) {
+/// The fringe patterns of one direction, coarse to fine.
+std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks,
+                                          FringeDirection direction) {
   std::vector<const FrameStack*> fringes;
-  for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
-    for (const FrameStack& stack : stacks) {
-      const bool first = stack.exposure == 0;
-      if (first && stack.pattern.kind == PatternKind::Fringe &&
-          stack.pattern.direction == direction) {
-        fringes.push_back(&stack);
-      }
-    }
-    if (!fringes.empty()) break;
+  for (const FrameStack& stack : stacks) {
+    const bool first = stack.exposure == 0;
+    if (first && stack.pattern.kind == PatternKind::Fringe && stack.pattern.direction == direction)
+      fringes.push_back(&stack);
   }
-  require(!fringes.empty(), "scan.toml has no pattern of kind \"fringe\"; add one");
   std::stable_sort(fringes.begin(), fringes.end(), [](const auto* a, const auto* b) {
     return a->pattern.fringes_per_unit() < b->pattern.fringes_per_unit();
   });
@@ -117,15 +115,19 @@ void apply_response_correction(const DecodeOptions& options,
     correct_response(response_table(*options.response, algorithm, shifts_rad), out.wrapped.back());
 }
 
-/// Appends the wrapped phase and the frame assessment of one pattern to `out`.
-void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run, DecodedView& out) {
+/// Appends the wrapped phase and the frame assessment of one pattern to `out`. Returns the
+/// algorithm of its frames.
+PhaseAlgorithm wrap(const FrameStack& taken,
+                    const DecodeOptions& options,
+                    const Run& run,
+                    DecodedView& out) {
   const FittedAlgorithm fitted = fit(taken, out.noise, options, run);
   if (taken.pattern.exposure_count() > 1) {
     out.wrapped.push_back(
         merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
     out.assessments.push_back(assess_frames(taken, fitted, out.wrapped.back(), out.noise));
     apply_response_correction(options, least_squares(fitted.shifts_rad), fitted.shifts_rad, out);
-    return;
+    return fitted.algorithm;
   }
   FrameStack recovered;
   if (options.recover_saturated) {
@@ -138,6 +140,7 @@ void wrap(const FrameStack& taken, const DecodeOptions& options, const Run& run,
   out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
   out.assessments.push_back(assess_frames(stack, fitted, out.wrapped.back(), out.noise));
   apply_response_correction(options, fitted.algorithm, fitted.shifts_rad, out);
+  return fitted.algorithm;
 }
 
 /// Decodes all patterns in one pass; the assessments are computed from a sample of rows.
@@ -155,6 +158,8 @@ void decode_in_one_pass(std::span<const FrameStack* const> fringes,
     out.assessments.push_back(assess_frames(some, fitted, map, out.noise));
     maps.push_back({stack, fitted.algorithm});
   }
+  out.checks = {
+      check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   out.phase = decode_sequence(maps, out.noise, rig.projector, {options.wrap, options.temporal});
 }
 
@@ -166,31 +171,40 @@ bool are_unprocessed_frames(std::span<const FrameStack* const> fringes,
          });
 }
 
-}  // namespace
-
-bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
-  std::vector<Pattern> fringes;
-  for (const Pattern& pattern : patterns) {
-    if (pattern.kind == PatternKind::Line || pattern.kind == PatternKind::Gray ||
-        is_absolute(pattern, projector))
-      return true;
-    if (pattern.kind != PatternKind::Fringe) continue;
-    if (fringes.empty() || pattern.direction == fringes.front().direction)
-      fringes.push_back(pattern);
+/// The fringe orders of a spatially unwrapped phase: from the laser sheet, from the distance, or
+/// none for a rig without geometry.
+ResolvedPhase resolve_orders(std::span<const FrameStack> stacks,
+                             const Rig& rig,
+                             const Image<Eigen::Vector2f>& rays,
+                             const DecodeOptions& options,
+                             const Run& run,
+                             DecodedView& out) {
+  RelativePhase& relative = *out.relative;
+  if (!has_geometry(rig)) {
+    run.warn(
+        "the patterns do not determine fringe orders, and the rig has no geometry that does: the "
+        "phase of each region has an offset of its own");
+    return {{relative.pattern, relative.phase_rad, relative.sigma_rad, relative.status}, {}};
   }
-  std::stable_sort(fringes.begin(), fringes.end(), [](const Pattern& a, const Pattern& b) {
-    return a.fringes_per_unit() < b.fringes_per_unit();
-  });
-  return determine_absolute_phase(fringes, projector);
+  const FrameStack* line = line_of(stacks);
+  if (line == nullptr) {
+    return resolve_by_distance(relative, rig, rays, crossing_distance(relative.pattern, rig));
+  }
+  out.profile = laser_profile(*line, out.wrapped.front().mean_counts, rig, out.noise, options.line);
+  const SequenceCheck start = check_start_by_sheet(out.wrapped.front(), out.profile, rig.projector);
+  if (!start.consistent) out.checks = {start};
+  return resolve_by_laser_sheet(relative, out.profile, rig.projector, options.fringe_order);
 }
 
-DecodedView decode_view(std::span<const FrameStack> stacks,
-                        const Rig& rig,
-                        const Image<Eigen::Vector2f>& rays,
-                        const DecodeOptions& options,
-                        const Run& run) {
+/// Decodes the fringes of one direction.
+DecodedView decode_direction(std::span<const FrameStack> stacks,
+                             FringeDirection direction,
+                             const Rig& rig,
+                             const Image<Eigen::Vector2f>& rays,
+                             const DecodeOptions& options,
+                             const Run& run) {
   DecodedView out;
-  const auto fringes = fringes_of(stacks);
+  const auto fringes = fringes_of(stacks, direction);
   out.noise = noise_of(stacks, rig, options);
   out.coarsest = fringes.front()->pattern;
   const auto patterns = patterns_of(fringes);
@@ -203,14 +217,17 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   }
   const bool unwraps_temporally =
       gray.empty() && !pixelwise_safe && is_absolute(out.coarsest, rig.projector);
+  std::vector<SequenceFrames> maps;
   for (const FrameStack* stack : fringes) {
     run.check();
-    wrap(*stack, options, run, out);
+    maps.push_back({stack, wrap(*stack, options, run, out)});
     if (options.keep_maps || !unwraps_temporally) continue;
     // Only the assessment needs them; the next pattern uses their memory.
     out.wrapped.back().modulation_counts = {};
     out.wrapped.back().mean_counts = {};
   }
+  out.checks = {
+      check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   if (!gray.empty()) {
     out.phase = unwrap_finer_levels(
         decode_gray_code(gray, out.wrapped.front(), out.noise, options.temporal),
@@ -224,23 +241,44 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.temporal);
   } else {
     out.relative = unwrap_spatially(out.wrapped.front(), options.spatial);
-    const FrameStack* line = line_of(stacks);
-    if (line != nullptr) {
-      out.profile =
-          laser_profile(*line, out.wrapped.front().mean_counts, rig, out.noise, options.line);
-    }
-    ResolvedPhase resolved =
-        line != nullptr
-            ? resolve_by_laser_sheet(
-                  *out.relative, out.profile, rig.projector, options.fringe_order)
-            : resolve_by_distance(
-                  *out.relative, rig, rays, crossing_distance(out.relative->pattern, rig));
+    ResolvedPhase resolved = resolve_orders(stacks, rig, rays, options, run, out);
     const auto finer = std::span(out.wrapped).subspan(1);
     out.phase = unwrap_finer_levels(std::move(resolved.phase), finer, options.temporal);
     out.unresolved = std::move(resolved.unresolved);
   }
   if (!options.keep_maps) out.wrapped.clear();
   fill_enclosed(out.phase, options.fill);
+  return out;
+}
+
+}  // namespace
+
+bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
+  const bool line = std::any_of(patterns.begin(), patterns.end(), [](const Pattern& pattern) {
+    return pattern.kind == PatternKind::Line;
+  });
+  return line || is_absolute_direction(patterns, FringeDirection::Vertical, projector) ||
+         is_absolute_direction(patterns, FringeDirection::Horizontal, projector);
+}
+
+DecodedView decode_view(std::span<const FrameStack> stacks,
+                        const Rig& rig,
+                        const Image<Eigen::Vector2f>& rays,
+                        const DecodeOptions& options,
+                        const Run& run) {
+  std::vector<Pattern> patterns;
+  for (const FrameStack& stack : stacks)
+    patterns.push_back(stack.pattern);
+  const auto directions = directions_to_decode(patterns, rig.projector, options.directions);
+  DecodedView out = decode_direction(stacks, directions.front(), rig, rays, options, run);
+  if (directions.size() == 1) return out;
+  DecodedView second = decode_direction(stacks, directions.back(), rig, rays, options, run);
+  out.second_phase = std::move(second.phase);
+  out.checks.insert(out.checks.end(), second.checks.begin(), second.checks.end());
+  std::move(out.wrapped.begin(), out.wrapped.end(), std::back_inserter(second.wrapped));
+  out.wrapped = std::move(second.wrapped);
+  out.assessments.insert(
+      out.assessments.begin(), second.assessments.begin(), second.assessments.end());
   return out;
 }
 

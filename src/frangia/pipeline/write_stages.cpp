@@ -143,8 +143,16 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
   const auto fringes = fringe_orders(decoded.wrapped.back().phase_rad, decoded.phase.phase_rad);
   out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
   out.map("absolute", decoded.phase.phase_rad, "final phase", "rad");
-  out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
-  out.map("sigma", range.sigma_mm, "standard deviation of the point along its ray", "mm");
+  if (decoded.second_phase) {
+    out.map("absolute-horizontal",
+            decoded.second_phase->phase_rad,
+            "final phase of the horizontal fringes",
+            "rad");
+  }
+  if (!range.depth_mm.empty()) {
+    out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
+    out.map("sigma", range.sigma_mm, "standard deviation of the point along its ray", "mm");
+  }
   write_page(folder / "index.html", out.written);
   out.written.push_back({"index.html", "all pictures on one page"});
   return std::move(out.written);

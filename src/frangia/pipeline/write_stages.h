@@ -21,7 +21,9 @@ struct StageFile {
 ///
 /// each pattern                 NAME-wrapped, NAME-residues, NAME-modulation, NAME-sigma
 /// spatially unwrapped phase    relative, regions, and growth if the growth order was kept
-/// every view                   mask, fringes, absolute, depth, sigma
+/// every view                   mask, fringes, absolute
+/// both directions of fringes   absolute-horizontal
+/// points                       depth, sigma, unless `range` is empty
 /// @errors   Error(File) when the folder cannot be created or written
 std::vector<StageFile> write_stages(const DecodedView& decoded,
                                     const RangeGrid& range,
