@@ -221,9 +221,15 @@ std::string name_of(SequenceFaultKind kind) {
     case SequenceFaultKind::Period:
       return "period";
     case SequenceFaultKind::Exchanged:
+      return "exchanged";
+    case SequenceFaultKind::Inversion:
+      return "inversion";
+    case SequenceFaultKind::Code:
+      return "code";
+    case SequenceFaultKind::Missing:
       break;
   }
-  return "exchanged";
+  return "missing";
 }
 
 SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,

@@ -17,10 +17,14 @@ enum class SequenceFaultKind {
   Direction,  ///< the sign of the shifts
   Order,      ///< the order of the frames
   Period,     ///< the period of the fringes
-  Exchanged   ///< the frames of two patterns are exchanged
+  Exchanged,  ///< the frames of two patterns are exchanged
+  Inversion,  ///< a frame of a Gray code is inverted
+  Code,       ///< Gray code and binary code
+  Missing     ///< a frame of a Gray code is missing
 };
 
-/// Returns the word for a kind in JSON: "start", "direction", "order", "period" or "exchanged".
+/// Returns the word for a kind in JSON: "start", "direction", "order", "period", "exchanged",
+/// "inversion", "code" or "missing".
 [[nodiscard]] std::string name_of(SequenceFaultKind kind);
 
 /// A declaration that fits the frames where that of scan.toml does not.
@@ -40,6 +44,7 @@ struct SequenceCheck {
   bool consistent = true;   ///< the patterns agree, or the frames do not decide it
   double misfit_rad = 0.0;  ///< median distance of the phases from those of one place of the field
   double chance_rad = 0.0;  ///< the same for phases that have nothing to do with each other
+  double agreement = 0.0;   ///< of a Gray code: share of the pixels and borders that fit
   double fitted_rad = 0.0;  ///< the misfit with the best of `fits`
   /// Share of the rows of pixels in which the two ends of the field meet on the object.
   double split_rows = 0.0;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/fringe_order/check_start_by_sheet.h"
+#include "frangia/phase/check_gray_code.h"
 #include "frangia/phase/correct_response.h"
 #include "frangia/phase/decode_gray_code.h"
 #include "frangia/phase/decode_sequence.h"
@@ -18,6 +19,7 @@
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/phase/unwrap_sequence.h"
 #include "frangia/pipeline/internal/fringe_directions.h"
+#include "frangia/range/check_orientation.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/has_geometry.h"
 #include "frangia/rig/phase_range.h"
@@ -196,6 +198,23 @@ ResolvedPhase resolve_orders(std::span<const FrameStack> stacks,
   return resolve_by_laser_sheet(relative, out.profile, rig.projector, options.fringe_order);
 }
 
+/// Uses the rig where the frames do not decide between shifts in the opposite direction and other
+/// suppositions: the direction in which the measured phase rises shows which it is.
+void decide_by_orientation(const WrappedPhase& fringes,
+                           const Rig& rig,
+                           const Image<Eigen::Vector2f>& rays,
+                           SequenceCheck& check) {
+  if (check.fits.size() < 2 || !has_geometry(rig)) return;
+  const OrientationCheck found = check_orientation(
+      {fringes.pattern, fringes.phase_rad, fringes.sigma_rad, fringes.status}, rig, rays);
+  if (!found.decided) return;
+  const auto contradicts = [&](const SequenceFault& fault) {
+    return (fault.kind == SequenceFaultKind::Direction) == found.consistent;
+  };
+  if (!std::all_of(check.fits.begin(), check.fits.end(), contradicts))
+    std::erase_if(check.fits, contradicts);
+}
+
 /// Decodes the fringes of one direction.
 DecodedView decode_direction(std::span<const FrameStack> stacks,
                              FringeDirection direction,
@@ -229,6 +248,9 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
   out.checks = {
       check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   if (!gray.empty()) {
+    SequenceCheck code = check_gray_code(gray.front(), out.wrapped.front());
+    decide_by_orientation(out.wrapped.front(), rig, rays, code);
+    if (out.checks.front().consistent) out.checks = {code};
     out.phase = unwrap_finer_levels(
         decode_gray_code(gray, out.wrapped.front(), out.noise, options.temporal),
         std::span(out.wrapped).subspan(1),

@@ -70,8 +70,9 @@ OrientationCheck check_orientation(const AbsolutePhase& phase,
   for (int y = 0; y + kStep < rays.height(); y += stride) {
     for (int x = 0; x + kStep < rays.width(); x += stride) {
       const double here = phase.phase_rad(x, y);
-      const Eigen::Vector2d measured(phase.phase_rad(x + kStep, y) - here,
-                                     phase.phase_rad(x, y + kStep) - here);
+      const double right = phase.phase_rad(x + kStep, y);
+      const double below = phase.phase_rad(x, y + kStep);
+      const Eigen::Vector2d measured(wrap_rad(right - here), wrap_rad(below - here));
       if (!measured.allFinite()) continue;
       const double expected_here = expected_at(x, y);
       const Eigen::Vector2d expected(expected_at(x + kStep, y) - expected_here,

@@ -24,7 +24,7 @@ struct OrientationCheck {
   std::string fits{};   ///< what would fit, as a clause; empty if consistent
 };
 
-/// Compares the gradient of an absolute phase with that of a plane at the distance where the axes
+/// Compares the gradient of a phase, absolute or wrapped, with that of a plane at the distance where the axes
 /// of camera and projector cross.
 ///
 /// @shape    `rays` as rays_of(rig.camera.model)
