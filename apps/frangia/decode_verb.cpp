@@ -9,11 +9,12 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/stage_pictures.h"
+#include "frangia/pipeline/triangulate_view.h"
 #include "frangia/pipeline/write_stages.h"
 #include "frangia/range/remove_mixed_pixels.h"
-#include "frangia/range/triangulate.h"
 #include "frangia/rig/has_geometry.h"
 
 #include "check_can_write.h"
@@ -32,16 +33,6 @@ struct DecodeArguments {
   std::filesystem::path folder;
   DecodeOptions options;
 };
-
-/// Why the phases are not to be trusted; empty if the patterns agree or the user accepts them.
-std::string reason_of(const DecodedView& decoded, bool accept_inconsistent) {
-  std::string reason;
-  for (const SequenceCheck& check : decoded.checks) {
-    if (check.consistent || accept_inconsistent) continue;
-    reason += (reason.empty() ? "" : "; ") + describe(check);
-  }
-  return reason;
-}
 
 nlohmann::ordered_json json_of(const SequenceCheck& check) {
   nlohmann::ordered_json json{{"patterns", check.patterns},
@@ -120,14 +111,23 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   run.stage("phase");
   const auto frames = read_frames(scan, arguments.view, run);
   DecodedView decoded = decode_view(frames, scan.rig, rays, options, run);
-  std::string reason = reason_of(decoded, options.accept_inconsistent);
+  std::string reason;
   RangeGrid range;
-  if (geometry && reason.empty()) {
+  if (geometry) {
     run.stage("range");
-    range = triangulate(decoded.phase, scan.rig, rays);
-    remove_mixed_pixels(range, rays, decoded.phase.status);
-  } else if (!geometry) {
+    const ViewFit fit = check_view(decoded, scan.rig, rays, options.accept_inconsistent);
+    reason = fit.reason;
+    if (fit.fits()) {
+      range = triangulate_view(decoded, fit, scan.rig, rays, options.directions).range;
+      remove_mixed_pixels(range, rays, decoded.phase.status);
+    }
+    if (fit.accepted) {
+      run.warn(reason + "; triangulated because `accept_inconsistent` is set");
+      reason.clear();
+    }
+  } else {
     run.note("rig.toml holds no geometry: no depth is computed");
+    reason = options.accept_inconsistent ? "" : describe(decoded.checks);
   }
   run.stage("files");
   const auto files = write_stages(decoded, range, arguments.folder, run);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "frangia/core/angles.h"
@@ -12,39 +11,15 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
 #include "frangia/phase/frame_samples.h"
+#include "frangia/phase/internal/best_frequency.h"
 #include "frangia/phase/internal/fringe_curve.h"
+#include "frangia/phase/internal/is_split.h"
+#include "frangia/phase/internal/sample_columns.h"
 #include "frangia/phase/unwrap_sequence.h"
 #include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
-
-/// Evenly spaced columns as rows, so that a row of the result runs across horizontal fringes.
-FrameStack sample_columns(const FrameStack& stack, std::size_t wanted) {
-  const int width = width_of(stack.frames.front());
-  const int height = height_of(stack.frames.front());
-  const auto most = std::max<std::size_t>(1, wanted / static_cast<std::size_t>(height));
-  const int stride =
-      static_cast<int>(std::max<std::size_t>(1, static_cast<std::size_t>(width) / most));
-  const int kept = (width + stride - 1) / stride;
-  FrameStack out{.pattern = stack.pattern,
-                 .frames = {},
-                 .white_level = stack.white_level,
-                 .exposure = stack.exposure};
-  for (const Frame& frame : stack.frames) {
-    std::visit(
-        [&](const auto& image) {
-          std::remove_cvref_t<decltype(image)> some(height, kept, Uninitialized{});
-          for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < kept; ++x)
-              some(y, x) = image(x * stride, y);
-          }
-          out.frames.emplace_back(std::move(some));
-        },
-        frame);
-  }
-  return out;
-}
 
 double counts_of(const Frame& frame, std::size_t pixel) {
   return std::visit([&](const auto& image) { return static_cast<double>(image.pixels()[pixel]); },
@@ -77,6 +52,12 @@ SequenceSample::SequenceSample(std::span<const SequenceFrames> maps,
   choose_pixels(options);
 }
 
+bool SequenceSample::is_measured(std::size_t pixel) const {
+  return std::all_of(maps_.begin(), maps_.end(), [&](const WrappedPhase& map) {
+    return map.status.pixels()[pixel] == PixelStatus::Measured;
+  });
+}
+
 void SequenceSample::choose_pixels(const SequenceCheckOptions& options) {
   const int width = maps_.front().status.width();
   std::vector<std::size_t> measured;
@@ -85,12 +66,9 @@ void SequenceSample::choose_pixels(const SequenceCheckOptions& options) {
   for (int y = 0; y < maps_.front().status.height(); ++y) {
     const std::size_t before = measured.size();
     for (int x = 0; x < width; ++x) {
-      const bool all = std::all_of(maps_.begin(), maps_.end(), [&](const WrappedPhase& map) {
-        return map.status(x, y) == PixelStatus::Measured;
-      });
-      if (all)
-        measured.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(x));
+      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                         static_cast<std::size_t>(x);
+      if (is_measured(pixel)) measured.push_back(pixel);
     }
     if (measured.size() - before >= kMinLine) lit_lines.push_back(y);
   }
@@ -194,9 +172,6 @@ double SequenceSample::expected_misfit(double systematic_rad) const {
 }
 
 double SequenceSample::split_lines(const SequenceTrial& trial) const {
-  constexpr int kBeside = 5;          // pixels on both sides that belong to the surface
-  constexpr double kSameSide = 0.2;   // of the field
-  constexpr double kAtTheEnd = 0.05;  // of the field: what two neighbouring pixels span
   const int width = maps_.front().status.width();
   const double field = last_ - first_;
   FringeCurve curve(frequencies_of(trial), first_, last_);
@@ -209,23 +184,12 @@ double SequenceSample::split_lines(const SequenceTrial& trial) const {
     const Phases phases = phases_of(trial, pixels);
     std::vector<double> places(pixels.size(), kMissing);
     for (std::size_t x = 0; x < pixels.size(); ++x) {
-      const bool all = std::all_of(maps_.begin(), maps_.end(), [&](const WrappedPhase& map) {
-        return map.status.pixels()[pixels[x]] == PixelStatus::Measured;
-      });
-      if (!all) continue;
+      if (!is_measured(pixels[x])) continue;
       for (std::size_t m = 0; m < phases.size(); ++m)
         pixel[m] = phases[m][x];
       places[x] = (static_cast<double>(curve.nearest(pixel).unit) - first_) / field;
     }
-    for (int x = kBeside; x + kBeside < width - 1; ++x) {
-      const auto at = [&](int column) { return places[static_cast<std::size_t>(column)]; };
-      const bool jump = std::abs(std::abs(at(x) - at(x + 1)) - 1.0) < kAtTheEnd;
-      if (!jump || !(std::abs(at(x) - at(x - kBeside)) < kSameSide) ||
-          !(std::abs(at(x + 1) - at(x + 1 + kBeside)) < kSameSide))
-        continue;
-      ++split;
-      break;
-    }
+    if (is_split(places)) ++split;
   }
   return lines_.empty() ? 0.0 : static_cast<double>(split) / static_cast<double>(lines_.size());
 }
@@ -280,32 +244,7 @@ double SequenceSample::shown_frequency(std::size_t map) const {
       pixel[m] = phases[m][i];
     places.push_back(static_cast<double>(curve.nearest(pixel).unit));
   }
-  // The frequency whose fringes fit best, with the declared start and direction.
-  constexpr double kFinest = 4.0;  // of the declared frequency
-  const double declared = patterns_[map].fringes_per_unit();
-  const auto agreement = [&](double frequency, std::size_t stride) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < places.size(); i += stride)
-      sum += std::cos(static_cast<double>(all[map][i]) - kTwoPi * frequency * places[i]);
-    return sum * static_cast<double>(stride) / static_cast<double>(places.size());
-  };
-  const double step = 0.2 / (last_ - first_);
-  double best = 0.0;
-  double most = 0.0;
-  for (double frequency = step; frequency < kFinest * declared; frequency += step) {
-    const double found = agreement(frequency, 4);
-    if (found <= most) continue;
-    most = found;
-    best = frequency;
-  }
-  for (double width = 0.5 * step; width > 1e-4 * step; width *= 0.5) {
-    for (const double frequency : {best - width, best + width}) {
-      const double found = agreement(frequency, 1);
-      if (found > agreement(best, 1)) best = frequency;
-    }
-  }
-  constexpr double kMinAgreement = 0.5;
-  return agreement(best, 1) > kMinAgreement ? best : 0.0;
+  return best_frequency(places, all[map], patterns_[map].fringes_per_unit(), last_ - first_);
 }
 
 }  // namespace frangia

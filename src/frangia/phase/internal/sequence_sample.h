@@ -52,6 +52,7 @@ class SequenceSample {
   [[nodiscard]] std::vector<double> frequencies_of(const SequenceTrial& trial) const;
   [[nodiscard]] double median_distance(const std::vector<double>& per_unit,
                                        const Phases& phases) const;
+  [[nodiscard]] bool is_measured(std::size_t pixel) const;  ///< in all maps
   void choose_pixels(const SequenceCheckOptions& options);
 
   const Projector& projector_;

@@ -9,12 +9,11 @@
 #include <fmt/format.h>
 
 #include "frangia/core/median.h"
-#include "frangia/pipeline/internal/check_view.h"
+#include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/internal/view_decoder.h"
 #include "frangia/pipeline/survey_scan.h"
-#include "frangia/range/fuse_directions.h"
+#include "frangia/pipeline/triangulate_view.h"
 #include "frangia/range/recover_edge_pixels.h"
-#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {
@@ -74,27 +73,6 @@ struct MeasuredView {
   std::size_t points = 0;
 };
 
-/// The points of the directions that fit. Marks in `decoded.phase.status` the pixels that have
-/// none.
-RangeGrid triangulate_directions(DecodedView& decoded,
-                                 const ViewFit& fit,
-                                 const Scan& scan,
-                                 const Image<Eigen::Vector2f>& rays,
-                                 const DecodeOptions& options,
-                                 DirectionDisagreement& disagreement) {
-  if (!fit.uses_first) {
-    decoded.phase = std::move(*decoded.second_phase);
-    return triangulate(decoded.phase, scan.rig, rays);
-  }
-  RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
-  if (!fit.uses_second) return range;
-  const RangeGrid second = triangulate(*decoded.second_phase, scan.rig, rays);
-  const auto fusion = options.directions == DirectionChoice::Best ? DirectionFusion::Best
-                                                                  : DirectionFusion::LeastSquares;
-  disagreement = fuse_directions(second, rays, {.fusion = fusion}, range, decoded.phase.status);
-  return range;
-}
-
 /// Marks in `decoded.phase.status` the pixels that triangulation and the mixed-pixel filter reject.
 MeasuredView measure_view(DecodedView& decoded,
                           const ViewFit& fit,
@@ -103,7 +81,10 @@ MeasuredView measure_view(DecodedView& decoded,
                           const DecodeOptions& options,
                           const MixedPixelOptions& mixed_pixels) {
   MeasuredView out;
-  out.range = triangulate_directions(decoded, fit, scan, rays, options, out.disagreement);
+  TriangulatedView triangulated =
+      triangulate_view(decoded, fit, scan.rig, rays, options.directions);
+  out.range = std::move(triangulated.range);
+  out.disagreement = triangulated.disagreement;
   const auto removed = remove_mixed_pixels(out.range, rays, decoded.phase.status, mixed_pixels);
   out.edge_pixels = recover_edge_pixels(
       out.range, rays, removed, {.max_incidence_deg = mixed_pixels.max_incidence_deg});

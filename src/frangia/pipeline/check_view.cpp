@@ -1,4 +1,4 @@
-#include "frangia/pipeline/internal/check_view.h"
+#include "frangia/pipeline/check_view.h"
 
 #include <cstddef>
 
