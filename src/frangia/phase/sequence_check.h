@@ -31,6 +31,8 @@ struct SequenceFault {
   std::vector<std::string> same_as;  ///< other descriptions of the same frames
   /// The keys of scan.toml that would fit: "shifts_deg = [180, 270, 0, 90]".
   std::string keys;
+  /// Two things differ, such as direction and start.
+  bool is_compound = false;
 };
 
 /// How well the patterns of one direction agree with each other.

@@ -29,7 +29,7 @@ def toml_of(patterns):
 
 def small_rig(study):
     """The digital rig with a camera of 320 x 256 pixels."""
-    text = (study.simulated("plate", "digital", "rig-source", "--views", 1, "--samples", 1) / "rig.toml").read_text()
+    text = (study.made("rig-source", "simulate", "plate", "--views", 1, "--samples", 1) / "rig.toml").read_text()
     camera, rest = text.split("[camera.noise]")
     numbers = lambda values: [float(value) for value in values.split(",")]
     camera = re.sub(r"size_px = \[(.*?)\]", "size_px = [320, 256]", camera)
@@ -69,6 +69,17 @@ class Scene:
         code = number if binary else number ^ (number >> 1)
         bright = (code >> (bits - 1 - bit)) & 1
         return self.mean + self.modulation * np.where((bright == 1) != inverse, 1, -1)
+
+
+def wall(generator):
+    """A bumpy wall that fills nearly the whole field, so that the borders of the widest stripes are seen."""
+    scene = Scene.__new__(Scene)
+    y, x = np.mgrid[0:256, 0:320]
+    bumps = sum(generator.uniform(5, 15) * np.sin(x * generator.uniform(0.01, 0.04) + y * generator.uniform(0.01, 0.04)) for _ in range(3))
+    scene.column = 20 + 1240 * x / 319 + bumps
+    scene.modulation = 60 + 20 * np.sin(0.02 * y)
+    scene.mean = 1.2 * scene.modulation + 20
+    return scene
 
 
 def fringes(counts, steps=4):
@@ -124,7 +135,7 @@ def any_start(i, patterns, generator):
 
 def direction(i, patterns, generator):
     """shifts in the opposite direction."""
-    pattern = patterns[i % len(patterns)]
+    pattern = patterns[1 + i % (len(patterns) - 1)]  # the start of the coarsest one is not seen by the others
     pattern["shown"]["shifts"] = [-shift for shift in pattern["shown"]["shifts"]]
     return "direction", [pattern["keys"]["name"]], "shifts in the opposite direction"
 
@@ -250,8 +261,8 @@ def is_named(answer, kind, names, what):
 
 def faults(study, rig, scenes):
     study.add(f"`./run figures sequence_faults`: {', '.join(PARTS)}, rendered at 320 x 256 pixels; {SCANS} scans of each fault, over the parts, "
-              "sequences of 1, 8, 64; 53, 58, 64; 1, 6, 36 (five frames); and 1, 4, 16, 64 fringes, and a Gray code of six bits; noise as in the "
-              "sample scans.\n")
+              "sequences of 1, 8, 64; 53, 58, 64; 1, 6, 36 (five frames); and 1, 4, 16, 64 fringes, and a Gray code of six bits, on walls "
+              "that fill the field; noise as in the sample scans.\n")
     study.table("fault", "named, and nothing else", "wanted")
     for fault in FRINGE_FAULTS + GRAY_FAULTS:
         named = 0
@@ -259,7 +270,8 @@ def faults(study, rig, scenes):
             generator = np.random.default_rng(1000 + i)
             patterns = gray() if fault in GRAY_FAULTS else SEQUENCES[i // 2 % 4]()
             wanted = fault(i, patterns, generator)
-            write_scan(study.work / "fault", scenes[i % len(scenes)], patterns, rig, generator)
+            scene = wall(generator) if fault in GRAY_FAULTS else scenes[i % len(scenes)]
+            write_scan(study.work / "fault", scene, patterns, rig, generator)
             answer = decode(study, study.work / "fault")
             if is_named(answer, *wanted):
                 named += 1

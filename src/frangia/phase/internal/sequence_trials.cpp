@@ -142,12 +142,15 @@ std::vector<SequenceTrial> shift_trials(std::span<const Pattern> patterns, std::
   const std::vector<double> reversed = reversed_direction(pattern.shifts_rad);
   out.add(SequenceFaultKind::Direction, "shifts in the opposite direction", reversed);
   add_orders(pattern, out);
+  const std::size_t simple = out.trials.size();
   for (const double start_deg : kStarts) {
     out.add(SequenceFaultKind::Direction,
             fmt::format("shifts in the opposite direction and {}",
                         start_text(pattern, rad_from_deg(start_deg))),
             shifted(reversed, rad_from_deg(start_deg)));
   }
+  for (std::size_t i = simple; i < out.trials.size(); ++i)
+    out.trials[i].fault.is_compound = true;
   return std::move(out.trials);
 }
 
