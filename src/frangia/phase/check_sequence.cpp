@@ -89,7 +89,7 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
     if (out.decided) {
       found = plausible(sample,
                         fitting(sample, orders, options.max_misfit * out.chance_rad, options),
-                        options.tie,
+                        options,
                         absolute);
     }
     if (found.empty()) {
@@ -109,7 +109,7 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);
   std::vector<RankedTrial> fits = fitting(sample, all_trials(sample), limit, options);
   if (disagree) fits = ranked(sample, with_free_starts(sample, std::move(fits)), limit, options);
-  found = plausible(sample, std::move(fits), options.tie, absolute);
+  found = plausible(sample, std::move(fits), options, absolute);
   return with_fits(std::move(out), std::move(found));
 }
 

@@ -22,8 +22,10 @@ struct SequenceCheckOptions {
   double max_misfit = 0.5;
   /// The misfit of a declaration that fits, over that of scan.toml.
   double max_fitted = 0.6;
-  /// Misfits within this factor of the best one fit equally well.
+  /// Misfits within this factor of the best one fit equally well; `noise_tie` holds where the best
+  /// one is that of noise alone, so that systematic errors do not blur the comparison.
   double tie = 1.1;
+  double noise_tie = 1.04;  ///< the medians of 3000 pixels differ by 1.5 % by chance
   /// Share of the rows in which the ends of the field may meet: at a depth edge that happens to
   /// show both.
   double max_split_rows = 0.25;

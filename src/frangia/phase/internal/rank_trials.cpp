@@ -140,9 +140,10 @@ std::vector<RankedTrial> with_free_starts(const SequenceSample& sample,
 
 std::vector<RankedTrial> plausible(const SequenceSample& sample,
                                    std::vector<RankedTrial> fitting,
-                                   double tie,
+                                   const SequenceCheckOptions& options,
                                    bool absolute) {
   constexpr double kConsidered = 1.6;  // times the least misfit
+  constexpr double kNoise = 1.2;       // times the misfit of noise alone
   if (fitting.empty()) return fitting;
   const double limit = kConsidered * fitting.front().misfit_rad;
   std::erase_if(fitting, [&](const RankedTrial& one) { return one.misfit_rad > limit; });
@@ -154,6 +155,8 @@ std::vector<RankedTrial> plausible(const SequenceSample& sample,
   }
   if (fitting.empty()) return fitting;
   const double best = fitting.front().misfit_rad;
+  const bool noise_alone = best <= kNoise * sample.expected_misfit(0.0);
+  const double tie = noise_alone ? options.noise_tie : options.tie;
   std::erase_if(fitting, [&](const RankedTrial& one) { return one.misfit_rad > tie * best; });
   const auto is_compound = [](const RankedTrial& one) { return one.trial.fault.is_compound; };
   if (!std::all_of(fitting.begin(), fitting.end(), is_compound))

@@ -38,7 +38,7 @@ struct RankedTrial {
 /// and of these the simple ones.
 [[nodiscard]] std::vector<RankedTrial> plausible(const SequenceSample& sample,
                                                  std::vector<RankedTrial> fitting,
-                                                 double tie,
+                                                 const SequenceCheckOptions& options,
                                                  bool absolute);
 
 }  // namespace frangia
