@@ -9,11 +9,13 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/stage_pictures.h"
+#include "frangia/pipeline/triangulate_view.h"
 #include "frangia/pipeline/write_stages.h"
 #include "frangia/range/remove_mixed_pixels.h"
-#include "frangia/range/triangulate.h"
+#include "frangia/rig/has_geometry.h"
 
 #include "check_can_write.h"
 #include "counted.h"
@@ -33,8 +35,25 @@ struct DecodeArguments {
   DecodeOptions options;
 };
 
+nlohmann::ordered_json json_of(const SequenceCheck& check) {
+  nlohmann::ordered_json json{{"patterns", check.patterns},
+                              {"decided", check.decided},
+                              {"consistent", check.consistent},
+                              {"misfit_rad", check.misfit_rad},
+                              {"chance_rad", check.chance_rad}};
+  for (const SequenceFault& fault : check.fits) {
+    json["fits"].push_back({{"kind", name_of(fault.kind)},
+                            {"patterns", fault.patterns},
+                            {"what", fault.what},
+                            {"same_as", fault.same_as},
+                            {"keys", fault.keys}});
+  }
+  return json;
+}
+
 void print_result(const DecodedView& decoded,
                   const std::vector<StageFile>& files,
+                  const std::string& reason,
                   const DecodeArguments& arguments,
                   Terminal& terminal) {
   const auto status = decoded.phase.status.pixels();
@@ -55,6 +74,10 @@ void print_result(const DecodedView& decoded,
     json["assessments"].push_back(text);
     if (!terminal.json && !terminal.quiet) print_text("{}\n", text);
   }
+  for (const SequenceCheck& check : decoded.checks)
+    json["checks"].push_back(json_of(check));
+  json["trustworthy"] = reason.empty();
+  if (!reason.empty()) json["reason"] = reason;
   for (const StageFile& file : files) {
     json["files"].push_back(file.name);
     json["captions"][file.name] = file.caption;
@@ -72,7 +95,7 @@ void print_result(const DecodedView& decoded,
 
 void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  const Scan scan = read_scan(arguments.scan, run);
+  const Scan scan = read_scan(arguments.scan, run, RigContent::PhaseOnly);
   if (arguments.view >= scan.views.size()) {
     throw Error(ErrorKind::Input,
                 fmt::format("{} has no `view` {}; its views are 0 to {}",
@@ -82,19 +105,36 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   }
   make_folder(arguments.folder);
   check_can_write(arguments.folder / "index.html");
-  const auto rays = rays_of(scan.rig.camera.model);
+  const bool geometry = has_geometry(scan.rig);
+  const auto rays = geometry ? rays_of(scan.rig.camera.model) : Image<Eigen::Vector2f>();
   DecodeOptions options = arguments.options;
   run.stage("survey");
   options.survey = survey_scan(scan, run);
   run.stage("phase");
   const auto frames = read_frames(scan, arguments.view, run);
   DecodedView decoded = decode_view(frames, scan.rig, rays, options, run);
-  run.stage("range");
-  RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
-  remove_mixed_pixels(range, rays, decoded.phase.status);
+  std::string reason;
+  RangeGrid range;
+  if (geometry) {
+    run.stage("range");
+    const ViewFit fit = check_view(decoded, scan.rig, rays, options.accept_inconsistent);
+    reason = fit.reason;
+    if (fit.fits()) {
+      range = triangulate_view(decoded, fit, scan.rig, rays, options.directions).range;
+      remove_mixed_pixels(range, rays, decoded.phase.status);
+    }
+    if (fit.accepted) {
+      run.warn(reason + "; triangulated because `accept_inconsistent` is set");
+      reason.clear();
+    }
+  } else {
+    run.note("rig.toml holds no geometry: no depth is computed");
+    reason = options.accept_inconsistent ? "" : describe(decoded.checks);
+  }
   run.stage("files");
   const auto files = write_stages(decoded, range, arguments.folder, run);
-  print_result(decoded, files, arguments, terminal);
+  terminal.assess(reason);
+  print_result(decoded, files, reason, arguments, terminal);
 }
 
 }  // namespace
@@ -104,7 +144,8 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
   CLI::App* verb =
       program.add_subcommand("decode", "write the images of each decoding stage of one view");
   verb->footer("example:\n  frangia decode ball-bar --view 3 -o stages");
-  verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
+  verb->add_option(
+          "SCAN", arguments->scan, "the scan folder, with scan.toml; without rig.toml, phases only")
       ->required();
   verb->add_option("--view", arguments->view, "number of the view, counted from 0")
       ->check(zero_or_more())

@@ -48,6 +48,20 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
       "a rig.toml with the [projector.response] of a projector that showed the patterns without a "
       "look-up table; the response is corrected in the phase; auto: the harmonics that the frames "
       "of the scan show are corrected");
+  static const std::map<std::string, DirectionChoice> kDirections = {
+      {"fused", DirectionChoice::Fused},
+      {"best", DirectionChoice::Best},
+      {"vertical", DirectionChoice::Vertical},
+      {"horizontal", DirectionChoice::Horizontal}};
+  verb.add_option("--directions",
+                  options.directions,
+                  "of a scan with vertical and horizontal fringes: fused (default; least squares "
+                  "over both), best (at each pixel the one with the smaller sigma), vertical or "
+                  "horizontal")
+      ->transform(named(kDirections));
+  verb.add_flag("--accept-inconsistent",
+                options.accept_inconsistent,
+                "triangulate frames that do not fit the patterns of scan.toml or the rig");
   verb.add_option("--max-sigma",
                   options.wrap.max_sigma_rad,
                   "discard pixels whose phase has a larger standard deviation, rad")

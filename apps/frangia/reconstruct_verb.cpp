@@ -134,6 +134,10 @@ void print_result(const Reconstruction& result,
     json["vertices"] = result.mesh.vertices_mm.size();
     json["triangles"] = result.mesh.triangles.size();
     json["median_sigma"] = json_of(result.sigma);
+    if (!std::isnan(result.disagreement_mm)) {
+      json["directions"] = {{"disagreement_mm", result.disagreement_mm},
+                            {"over_noise", result.disagreement_over_noise}};
+    }
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
     if (result.registration) json["registration"] = json_of(*result.registration);
     if (!std::isnan(result.turntable_top_height_mm))
@@ -149,6 +153,15 @@ void print_result(const Reconstruction& result,
              counted(result.views, "view"),
              result.mesh.triangles.size(),
              text_of(result.sigma));
+  if (!std::isnan(result.disagreement_mm)) {
+    constexpr double kSound = 2.0;  // times the noise: calibrations of real rigs add as much again
+    print_text("directions of fringes: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
+               result.disagreement_mm,
+               result.disagreement_over_noise,
+               result.disagreement_over_noise <= kSound
+                   ? "the rig is consistent"
+                   : "errors of the rig's calibration or of the phases exceed the noise");
+  }
   print_mesh_summary(terminal, arguments.outputs.paths);
   if (!arguments.raw.empty()) terminal.print_written(arguments.raw.string());
 }

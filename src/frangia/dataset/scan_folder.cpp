@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/dataset/internal/assume_rig.h"
 #include "frangia/dataset/internal/leads_outside.h"
 #include "frangia/dataset/internal/read_board.h"
 #include "frangia/dataset/internal/read_pattern.h"
@@ -34,10 +35,10 @@ void refuse_renamed(const TomlReader& reader, std::initializer_list<RenamedKey> 
   }
 }
 
-ScanView read_view(TomlReader reader, const Scan& scan, const Run& run) {
+ScanView read_view(TomlReader reader, const Scan& scan, bool only_view, const Run& run) {
   refuse_renamed(reader, {{"round", "setup"}});
   ScanView view;
-  const bool needs_angle = scan.rig.turntable && !scan.board;
+  const bool needs_angle = scan.rig.turntable && !scan.board && !only_view;
   view.angle_rad =
       rad_from_deg(needs_angle ? reader.number("angle_deg") : reader.number_or("angle_deg", 0.0));
   view.folder = reader.text("folder");
@@ -131,18 +132,31 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
   refuse_renamed(reader, {{"round", "[[setup]]"}});
   Scan scan;
   scan.folder = folder;
-  scan.rig = read_rig(folder / "rig.toml", run, content);
+  const bool has_rig = std::filesystem::exists(folder / "rig.toml");
+  if (!has_rig && content == RigContent::Complete) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: is missing; triangulation needs a calibrated rig, only `frangia "
+                            "decode` does not",
+                            (folder / "rig.toml").string()));
+  }
+  scan.rig = has_rig || content != RigContent::PhaseOnly
+                 ? read_rig(folder / "rig.toml", run, content)
+                 : unknown_rig();
+  if (content == RigContent::PhaseOnly) choose_projector_model(reader, scan.rig.projector);
   if (reader.has("board")) scan.board = read_board(reader.table("board"), run);
   if (reader.has("name")) scan.name = reader.text("name");
   for (const TomlReader& pattern : reader.tables("pattern"))
     scan.patterns.push_back(read_pattern(pattern, scan.rig, run));
-  for (const TomlReader& view : reader.tables("view"))
-    scan.views.push_back(read_view(view, scan, run));
+  const std::vector<TomlReader> views = reader.tables("view");
+  for (const TomlReader& view : views)
+    scan.views.push_back(read_view(view, scan, views.size() == 1, run));
   for (const TomlReader& setup : reader.tables("setup"))
     read_part_pose(setup, scan.part_poses, run);
   if (scan.patterns.empty()) reader.fail("[[pattern]]", "is missing; a scan needs at least one");
   if (scan.views.empty()) reader.fail("[[view]]", "is missing; a scan needs at least one");
   require_distinct_names(reader, scan.patterns);
+  if (!has_rig && content == RigContent::PhaseOnly) take_camera_from_frames(scan, run);
+  if (content == RigContent::PhaseOnly) assume_field(scan, run);
   reader.warn_of_unused_keys(run);
   return scan;
 }

@@ -41,7 +41,9 @@ struct Scan {
 };
 
 /// Reads scan.toml and rig.toml of a scan folder, see docs/scan-format.md. Unknown keys are warned
-/// of by name and ignored. `content` states how much rig.toml must hold.
+/// of by name and ignored. `content` states how much rig.toml must hold; with
+/// `RigContent::PhaseOnly` there may be none: the camera's size is then that of the frames, and the
+/// projector's field the length after which all patterns repeat.
 ///
 /// @errors   Error(Input) that names the file and the key: a missing or wrong value, a key of
 ///          version 1 that was renamed, a newer version, a view's folder outside of the scan;

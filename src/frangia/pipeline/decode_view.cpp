@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "frangia/fringe_order/check_start_by_sheet.h"
+#include "frangia/phase/check_gray_code.h"
 #include "frangia/phase/correct_response.h"
 #include "frangia/phase/decode_gray_code.h"
 #include "frangia/phase/decode_sequence.h"
@@ -19,27 +22,24 @@
 #include "frangia/phase/systematic_phase.h"
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/phase/unwrap_sequence.h"
+#include "frangia/pipeline/internal/fringe_directions.h"
+#include "frangia/range/check_orientation.h"
 #include "frangia/range/fringe_ray.h"
+#include "frangia/rig/has_geometry.h"
 #include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
 
-/// The vertical fringe patterns, or the horizontal ones if there are no vertical ones, coarse to
-/// fine.
-std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks) {
+/// The fringe patterns of one direction, coarse to fine.
+std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks,
+                                          FringeDirection direction) {
   std::vector<const FrameStack*> fringes;
-  for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
-    for (const FrameStack& stack : stacks) {
-      const bool first = stack.exposure == 0;
-      if (first && stack.pattern.kind == PatternKind::Fringe &&
-          stack.pattern.direction == direction) {
-        fringes.push_back(&stack);
-      }
-    }
-    if (!fringes.empty()) break;
+  for (const FrameStack& stack : stacks) {
+    const bool first = stack.exposure == 0;
+    if (first && stack.pattern.kind == PatternKind::Fringe && stack.pattern.direction == direction)
+      fringes.push_back(&stack);
   }
-  require(!fringes.empty(), "scan.toml has no pattern of kind \"fringe\"; add one");
   std::stable_sort(fringes.begin(), fringes.end(), [](const auto* a, const auto* b) {
     return a->pattern.fringes_per_unit() < b->pattern.fringes_per_unit();
   });
@@ -213,6 +213,8 @@ void decode_in_one_pass(std::span<const FrameStack* const> fringes,
     out.assessments.push_back(assess_frames(some, fitted, map, out.noise));
     maps.push_back({stack, fitted.algorithm});
   }
+  out.checks = {
+      check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   out.phase = decode_sequence(maps, out.noise, rig.projector, {options.wrap, options.temporal});
   out.phase.systematic_rad =
       uniform_systematic(sequence_systematic(fringes, fits), out.phase.status);
@@ -231,31 +233,62 @@ bool are_unprocessed_frames(std::span<const FrameStack* const> fringes,
          });
 }
 
-}  // namespace
-
-bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
-  std::vector<Pattern> fringes;
-  for (const Pattern& pattern : patterns) {
-    if (pattern.kind == PatternKind::Line || pattern.kind == PatternKind::Gray ||
-        is_absolute(pattern, projector))
-      return true;
-    if (pattern.kind != PatternKind::Fringe) continue;
-    if (fringes.empty() || pattern.direction == fringes.front().direction)
-      fringes.push_back(pattern);
+/// The fringe orders of a spatially unwrapped phase: from the laser sheet, from the distance, or
+/// none for a rig without geometry.
+ResolvedPhase resolve_orders(std::span<const FrameStack> stacks,
+                             const Rig& rig,
+                             const Image<Eigen::Vector2f>& rays,
+                             const DecodeOptions& options,
+                             const Run& run,
+                             DecodedView& out) {
+  RelativePhase& relative = *out.relative;
+  if (!has_geometry(rig)) {
+    run.warn(
+        "the patterns do not determine fringe orders, and the rig has no geometry that does: the "
+        "phase of each region has an offset of its own");
+    return {{relative.pattern,
+             relative.phase_rad,
+             relative.sigma_rad,
+             relative.status,
+             relative.systematic_rad},
+            {}};
   }
-  std::stable_sort(fringes.begin(), fringes.end(), [](const Pattern& a, const Pattern& b) {
-    return a.fringes_per_unit() < b.fringes_per_unit();
-  });
-  return determine_absolute_phase(fringes, projector);
+  const FrameStack* line = line_of(stacks);
+  if (line == nullptr) {
+    return resolve_by_distance(relative, rig, rays, crossing_distance(relative.pattern, rig));
+  }
+  out.profile = laser_profile(*line, out.wrapped.front().mean_counts, rig, out.noise, options.line);
+  const SequenceCheck start = check_start_by_sheet(out.wrapped.front(), out.profile, rig.projector);
+  if (!start.consistent) out.checks = {start};
+  return resolve_by_laser_sheet(relative, out.profile, rig.projector, options.fringe_order);
 }
 
-DecodedView decode_view(std::span<const FrameStack> stacks,
-                        const Rig& rig,
-                        const Image<Eigen::Vector2f>& rays,
-                        const DecodeOptions& options,
-                        const Run& run) {
+/// Uses the rig where the frames do not decide between shifts in the opposite direction and other
+/// suppositions: the direction in which the measured phase rises shows which it is.
+void decide_by_orientation(const WrappedPhase& fringes,
+                           const Rig& rig,
+                           const Image<Eigen::Vector2f>& rays,
+                           SequenceCheck& check) {
+  if (check.fits.size() < 2 || !has_geometry(rig)) return;
+  const OrientationCheck found = check_orientation(
+      {fringes.pattern, fringes.phase_rad, fringes.sigma_rad, fringes.status}, rig, rays);
+  if (!found.decided) return;
+  const auto contradicts = [&](const SequenceFault& fault) {
+    return (fault.kind == SequenceFaultKind::Direction) == found.consistent;
+  };
+  if (!std::all_of(check.fits.begin(), check.fits.end(), contradicts))
+    std::erase_if(check.fits, contradicts);
+}
+
+/// Decodes the fringes of one direction.
+DecodedView decode_direction(std::span<const FrameStack> stacks,
+                             FringeDirection direction,
+                             const Rig& rig,
+                             const Image<Eigen::Vector2f>& rays,
+                             const DecodeOptions& options,
+                             const Run& run) {
   DecodedView out;
-  const auto fringes = fringes_of(stacks);
+  const auto fringes = fringes_of(stacks, direction);
   out.noise = noise_of(stacks, rig, options);
   out.coarsest = fringes.front()->pattern;
   const auto patterns = patterns_of(fringes);
@@ -269,15 +302,22 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   }
   const bool unwraps_temporally =
       gray.empty() && !pixelwise_safe && is_absolute(out.coarsest, rig.projector);
+  std::vector<SequenceFrames> maps;
   for (std::size_t m = 0; m < fringes.size(); ++m) {
     run.check();
     wrap(*fringes[m], fits[m], options, run, out);
+    maps.push_back({fringes[m], fits[m].algorithm});
     if (options.keep_maps || !unwraps_temporally) continue;
     // Only the assessment needs them; the next pattern uses their memory.
     out.wrapped.back().modulation_counts = {};
     out.wrapped.back().mean_counts = {};
   }
+  out.checks = {
+      check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   if (!gray.empty()) {
+    SequenceCheck code = check_gray_code(gray.front(), out.wrapped.front());
+    decide_by_orientation(out.wrapped.front(), rig, rays, code);
+    if (out.checks.front().consistent) out.checks = {code};
     out.phase = unwrap_finer_levels(
         decode_gray_code(gray, out.wrapped.front(), out.noise, options.temporal),
         std::span(out.wrapped).subspan(1),
@@ -290,23 +330,44 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.temporal);
   } else {
     out.relative = unwrap_spatially(out.wrapped.front(), options.spatial);
-    const FrameStack* line = line_of(stacks);
-    if (line != nullptr) {
-      out.profile =
-          laser_profile(*line, out.wrapped.front().mean_counts, rig, out.noise, options.line);
-    }
-    ResolvedPhase resolved =
-        line != nullptr
-            ? resolve_by_laser_sheet(
-                  *out.relative, out.profile, rig.projector, options.fringe_order)
-            : resolve_by_distance(
-                  *out.relative, rig, rays, crossing_distance(out.relative->pattern, rig));
+    ResolvedPhase resolved = resolve_orders(stacks, rig, rays, options, run, out);
     const auto finer = std::span(out.wrapped).subspan(1);
     out.phase = unwrap_finer_levels(std::move(resolved.phase), finer, options.temporal);
     out.unresolved = std::move(resolved.unresolved);
   }
   if (!options.keep_maps) out.wrapped.clear();
   fill_enclosed(out.phase, options.fill);
+  return out;
+}
+
+}  // namespace
+
+bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& projector) {
+  const bool line = std::any_of(patterns.begin(), patterns.end(), [](const Pattern& pattern) {
+    return pattern.kind == PatternKind::Line;
+  });
+  return line || is_absolute_direction(patterns, FringeDirection::Vertical, projector) ||
+         is_absolute_direction(patterns, FringeDirection::Horizontal, projector);
+}
+
+DecodedView decode_view(std::span<const FrameStack> stacks,
+                        const Rig& rig,
+                        const Image<Eigen::Vector2f>& rays,
+                        const DecodeOptions& options,
+                        const Run& run) {
+  std::vector<Pattern> patterns;
+  for (const FrameStack& stack : stacks)
+    patterns.push_back(stack.pattern);
+  const auto directions = directions_to_decode(patterns, rig.projector, options.directions);
+  DecodedView out = decode_direction(stacks, directions.front(), rig, rays, options, run);
+  if (directions.size() == 1) return out;
+  DecodedView second = decode_direction(stacks, directions.back(), rig, rays, options, run);
+  out.second_phase = std::move(second.phase);
+  out.checks.insert(out.checks.end(), second.checks.begin(), second.checks.end());
+  std::move(out.wrapped.begin(), out.wrapped.end(), std::back_inserter(second.wrapped));
+  out.wrapped = std::move(second.wrapped);
+  out.assessments.insert(
+      out.assessments.begin(), second.assessments.begin(), second.assessments.end());
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/fringe_order/resolve_regions.h"
 #include "frangia/phase/assess_frames.h"
+#include "frangia/phase/check_sequence.h"
 #include "frangia/phase/fill_enclosed.h"
 #include "frangia/phase/phase_map.h"
 #include "frangia/phase/unwrap_spatially.h"
@@ -23,6 +24,14 @@
 #include "frangia/rig/rig.h"
 
 namespace frangia {
+
+/// Which directions of fringes of a scan that has both are used.
+enum class DirectionChoice {
+  Fused,      ///< both, combined by least squares in triangulation
+  Best,       ///< at each pixel, the one whose point has the smaller standard deviation
+  Vertical,   ///< vertical fringes only
+  Horizontal  ///< horizontal fringes only
+};
 
 /// Options of the stages from frames to absolute phase.
 struct DecodeOptions {
@@ -41,24 +50,34 @@ struct DecodeOptions {
   /// Keeps the wrapped maps. Otherwise a sequence is decoded in one pass over its frames if all its
   /// unwrapping levels are safe for every pixel that `wrap` keeps.
   bool keep_maps = true;
-  ScanSurvey survey;                ///< noise and gain error pooled over several views
-  WrapOptions wrap;                 ///< limit of the phase noise
-  TemporalUnwrapOptions temporal;   ///< temporal unwrapping
-  SpatialUnwrapOptions spatial;     ///< spatial unwrapping, for scans without a sequence
-  LaserProfileOptions line;         ///< detection of the laser line
-  FringeOrderOptions fringe_order;  ///< fringe orders from the laser line
-  FillOptions fill;                 ///< interpolation of enclosed pixels
+  DirectionChoice directions = DirectionChoice::Fused;  ///< of a scan that has both directions
+  /// Triangulates frames that do not fit scan.toml.
+  bool accept_inconsistent = false;
+  SequenceCheckOptions sequence_check;  ///< comparison of the patterns with each other
+  ScanSurvey survey;                    ///< noise and gain error pooled over several views
+  WrapOptions wrap;                     ///< limit of the phase noise
+  TemporalUnwrapOptions temporal;       ///< temporal unwrapping
+  SpatialUnwrapOptions spatial;         ///< spatial unwrapping, for scans without a sequence
+  LaserProfileOptions line;             ///< detection of the laser line
+  FringeOrderOptions fringe_order;      ///< fringe orders from the laser line
+  FillOptions fill;                     ///< interpolation of enclosed pixels
 };
 
 /// The phase of one view and the intermediate results.
 struct DecodedView {
   NoiseModel noise;  ///< noise of the camera: from rig.toml, the survey or the frames
   Pattern coarsest;  ///< the coarsest fringe pattern
-  std::vector<WrappedPhase> wrapped;         ///< coarse to fine; empty unless `keep_maps`
-  std::vector<FrameAssessment> assessments;  ///< one per fringe pattern, coarse to fine
+  /// Those of `second_phase` first; each direction coarse to fine; empty unless `keep_maps`.
+  std::vector<WrappedPhase> wrapped;
+  std::vector<FrameAssessment> assessments;  ///< one per fringe pattern, in the same order
   std::optional<RelativePhase> relative;     ///< of a spatially unwrapped scan
   std::vector<ProfilePoint> profile;         ///< of the laser sheet, where the scan has one
   AbsolutePhase phase;                       ///< of the finest fringes
+  /// Of the finest horizontal fringes, where `phase` is that of vertical ones and both were
+  /// decoded.
+  std::optional<AbsolutePhase> second_phase;
+  /// Comparison of the patterns with each other: one per decoded direction, that of `phase` first.
+  std::vector<SequenceCheck> checks;
   std::vector<UnresolvedRegion> unresolved;  ///< regions without a fringe order
 };
 
@@ -66,12 +85,19 @@ struct DecodedView {
 ///
 /// Fringe orders come from Gray code or from temporal unwrapping, where the patterns allow it.
 /// Otherwise the phase is unwrapped spatially and its order comes from the laser sheet, or, without
-/// one, from the distance at which the axes of camera and projector cross.
+/// one, from the distance at which the axes of camera and projector cross. A rig without geometry
+/// leaves the orders of a spatially unwrapped phase open: each region then has an offset of its
+/// own.
 ///
-/// @shape    `stacks` as read_frames returns them; `rays` as rays_of(rig.camera.model)
+/// The patterns of each direction are compared with each other; `checks` holds the result, and the
+/// caller decides whether a phase that does not fit is used.
+///
+/// @shape    `stacks` as read_frames returns them; `rays` as rays_of(rig.camera.model), or empty
+/// for
+///           a rig without geometry
 /// @units    rad, counts
 /// @missing  NaN in a phase; `status` gives the reason
-/// @errors   Error(Input) when no pattern holds fringes
+/// @errors   Error(Input) when no pattern holds fringes, or none in the chosen direction
 [[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
                                       const Rig& rig,
                                       const Image<Eigen::Vector2f>& rays,

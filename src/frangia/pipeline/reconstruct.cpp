@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/median.h"
+#include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/internal/calibration_part.h"
@@ -25,6 +27,14 @@ void warn_of_relative_distances(const Scan& scan, const Run& run) {
   run.warn(
       "the scan holds neither an absolute pattern nor the laser sheet: distances are relative "
       "to the fringe through the projection axis");
+}
+
+void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
+  constexpr double kMedianOfNormal = 0.6745;  // of the absolute value, over the deviation
+  if (measured.disagreements_mm.empty()) return;
+  out.disagreement_mm = static_cast<double>(median(measured.disagreements_mm));
+  out.disagreement_over_noise =
+      static_cast<double>(median(measured.disagreements_over_sigma)) / kMedianOfNormal;
 }
 
 /// Removes what is not the part from the views of one setup, and registers them on the turntable.
@@ -72,6 +82,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   release_cached_pixels();
   out.views = measured.views.size();
   out.view_summaries = std::move(measured.summaries);
+  report_disagreement(measured, out);
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");

@@ -54,6 +54,11 @@ struct Reconstruction {
   std::optional<RegistrationReport> registration;  ///< empty when not done
   double turntable_top_height_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed
+  /// Median over the views of the median distance between the points of vertical and of horizontal
+  /// fringes along their rays; NaN where no view has both. It checks the rig.
+  double disagreement_mm = std::numeric_limits<double>::quiet_NaN();
+  /// The same over what phase noise explains: about 1 for a sound rig.
+  double disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };

@@ -178,8 +178,16 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
           combined_sigma(decoded.phase),
           "combined standard uncertainty of the final phase",
           "rad");
-  out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
-  write_sigma(range, out);
+  if (decoded.second_phase) {
+    out.map("absolute-horizontal",
+            decoded.second_phase->phase_rad,
+            "final phase of the horizontal fringes",
+            "rad");
+  }
+  if (!range.depth_mm.empty()) {
+    out.map("depth", range.depth_mm, "depth along the camera's axis", "mm");
+    write_sigma(range, out);
+  }
   write_page(folder / "index.html", out.written);
   out.written.push_back({"index.html", "all pictures on one page"});
   return std::move(out.written);

@@ -22,8 +22,10 @@ struct StageFile {
 /// each pattern                 NAME-wrapped, NAME-residues, NAME-modulation, NAME-sigma, and
 ///                              NAME-systematic if a systematic part is known
 /// spatially unwrapped phase    relative, regions, and growth if the growth order was kept
-/// every view                   mask, fringes, absolute, depth, sigma, and sigma-noise and
-///                              sigma-systematic if a systematic part is known
+/// every view                   mask, fringes, absolute, absolute-sigma
+/// both directions of fringes   absolute-horizontal
+/// points                       depth, sigma, and sigma-noise and sigma-systematic if a
+///                              systematic part is known; unless `range` is empty
 /// @errors   Error(File) when the folder cannot be created or written
 std::vector<StageFile> write_stages(const DecodedView& decoded,
                                     const RangeGrid& range,

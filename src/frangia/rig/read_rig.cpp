@@ -4,13 +4,16 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <initializer_list>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
@@ -169,6 +172,45 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
   return projector;
 }
 
+/// Names the keys of a calibrated rig that are missing, if there are several: a rig of sizes only
+/// was not mistyped, it was never calibrated.
+void refuse_uncalibrated(const TomlReader& reader,
+                         const toml::table& table,
+                         const std::filesystem::path& path) {
+  std::vector<std::string> missing;
+  const auto look = [&](std::string_view name, std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys) {
+      if (!table[name].as_table()->contains(key)) missing.push_back(fmt::format("{}.{}", name, key));
+    }
+  };
+  if (table["camera"].is_table()) look("camera", {"focal_px", "principal_point_px"});
+  if (table["projector"].is_table()) {
+    look("projector", {"position_mm", "rotation"});
+  } else if (!reader.has("projector")) {
+    missing.emplace_back("[projector]");
+  }
+  if (missing.size() < 2) return;
+  const std::string last = std::move(missing.back());
+  missing.pop_back();
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: {} and {} are missing; triangulation needs a calibrated rig, only "
+                          "`frangia decode` does not",
+                          path.string(),
+                          fmt::join(missing, ", "),
+                          last));
+}
+
+/// A projector of which nothing is known.
+Projector unknown_projector() {
+  Projector projector;
+  projector.position_mm.setConstant(std::nan(""));
+  projector.rotation.setConstant(std::nan(""));
+  PinholeModel model;
+  model.focal_px = model.principal_point_px = Eigen::Vector2d::Constant(std::nan(""));
+  projector.model = model;
+  return projector;
+}
+
 std::vector<double> list_of(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -291,9 +333,12 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
   TomlReader reader(path, "", table);
   for (const auto* known : {"format", "version", "devices"})
     reader.ignore(known);
+  if (content == RigContent::Complete) refuse_uncalibrated(reader, table, path);
   Rig rig;
   rig.camera = read_camera(reader.table("camera"), content, run);
-  rig.projector = read_projector(reader.table("projector"), content, run);
+  const bool no_projector = content == RigContent::PhaseOnly && !reader.has("projector");
+  rig.projector =
+      no_projector ? unknown_projector() : read_projector(reader.table("projector"), content, run);
   if (reader.has("line")) {
     TomlReader line = reader.table("line");
     rig.laser_sheet = LaserSheet{direction(line, "normal"), line.number("offset_mm")};

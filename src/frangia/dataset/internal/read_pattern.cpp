@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/rig/has_geometry.h"
 
 namespace frangia {
 namespace {
@@ -145,7 +146,7 @@ Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
     read_fringes(reader, rig, pattern);
   } else if (kind == "line") {
     pattern.kind = PatternKind::Line;
-    if (!rig.laser_sheet)
+    if (!rig.laser_sheet && has_geometry(rig))
       reader.fail("kind", "is \"line\", but rig.toml has no [line] with the laser sheet's plane");
   } else if (kind == "gray") {
     read_gray(reader, rig, pattern);

@@ -9,10 +9,11 @@
 #include <fmt/format.h>
 
 #include "frangia/core/median.h"
+#include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/internal/view_decoder.h"
 #include "frangia/pipeline/survey_scan.h"
+#include "frangia/pipeline/triangulate_view.h"
 #include "frangia/range/recover_edge_pixels.h"
-#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {
@@ -70,22 +71,75 @@ double median_sigma_mm(const RangeGrid& range) {
 struct MeasuredView {
   RangeGrid range;
   std::vector<RangePixel> edge_pixels;
+  DirectionDisagreement disagreement;
   std::size_t points = 0;
 };
 
 /// Marks in `decoded.phase.status` the pixels that triangulation and the mixed-pixel filter reject.
 MeasuredView measure_view(DecodedView& decoded,
+                          const ViewFit& fit,
                           const Scan& scan,
                           const Image<Eigen::Vector2f>& rays,
+                          const DecodeOptions& options,
                           const MixedPixelOptions& mixed_pixels) {
   MeasuredView out;
-  out.range = triangulate(decoded.phase, scan.rig, rays);
+  TriangulatedView triangulated =
+      triangulate_view(decoded, fit, scan.rig, rays, options.directions);
+  out.range = std::move(triangulated.range);
+  out.disagreement = triangulated.disagreement;
   const auto removed = remove_mixed_pixels(out.range, rays, decoded.phase.status, mixed_pixels);
   out.edge_pixels = recover_edge_pixels(
       out.range, rays, removed, {.max_incidence_deg = mixed_pixels.max_incidence_deg});
   out.points = count_points(out.range);
   return out;
 }
+
+/// Collects what the views say about scan.toml, and ends a scan of which no view fits it.
+class ScanFit {
+ public:
+  ScanFit(const Scan& scan, const Run& run) : scan_(scan), run_(run) {}
+
+  /// Whether the view is to be triangulated; warns if something in it does not fit.
+  bool add(std::size_t view, const ViewFit& fit) {
+    const std::string folder = scan_.views[view].folder.string();
+    if (fit.accepted) {
+      run_.warn(fmt::format(
+          "{}: {}; triangulated because `accept_inconsistent` is set", folder, fit.reason));
+      return true;
+    }
+    if (fit.fits()) {
+      if (fit.decided) fitting_ = true;
+      if (!fit.reason.empty())
+        run_.warn(fmt::format("{}: {}; this direction is not used", folder, fit.reason));
+      return true;
+    }
+    if (first_reason_.empty()) first_reason_ = fit.reason;
+    run_.warn(fmt::format("{}: {}; the view is left out", folder, fit.reason));
+    ++unfit_;
+    constexpr std::size_t kEnough = 3;
+    if (unfit_ == kEnough && !fitting_) end();
+    return false;
+  }
+  /// Throws if views do not fit and none does.
+  void finish() const {
+    if (unfit_ > 0 && !fitting_) end();
+  }
+
+ private:
+  [[noreturn]] void end() const {
+    throw Error(ErrorKind::Numeric,
+                fmt::format("{}: {}; nothing is triangulated: correct scan.toml, or set "
+                            "`accept_inconsistent`",
+                            scan_.folder.string(),
+                            first_reason_));
+  }
+
+  const Scan& scan_;
+  const Run& run_;
+  bool fitting_ = false;
+  std::size_t unfit_ = 0;
+  std::string first_reason_;
+};
 
 }  // namespace
 
@@ -101,11 +155,27 @@ MeasuredViews measure_views(const Scan& scan,
   run.stage("range");
   ViewDecoder decoder(scan, rays, decode_options, run);
   MeasuredViews all;
+  ScanFit scan_fit(scan, run);
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
     DecodedView decoded = decoder.next();
     report_assessments(scan, i, decoded.assessments, run);
-    MeasuredView measured = measure_view(decoded, scan, rays, mixed_pixels);
+    const ViewFit fit = check_view(decoded, scan.rig, rays, decode.accept_inconsistent);
+    if (!scan_fit.add(i, fit)) {
+      all.summaries.push_back({scan.views[i].folder.string(),
+                               scan.views[i].angle_rad,
+                               scan.views[i].setup,
+                               0,
+                               kMissing,
+                               true});
+      continue;
+    }
+    MeasuredView measured = measure_view(decoded, fit, scan, rays, decode_options, mixed_pixels);
+    if (measured.disagreement.pixels > 0) {
+      all.disagreements_mm.push_back(static_cast<float>(measured.disagreement.median_mm));
+      all.disagreements_over_sigma.push_back(
+          static_cast<float>(measured.disagreement.median_over_sigma));
+    }
     all.summaries.push_back({scan.views[i].folder.string(),
                              scan.views[i].angle_rad,
                              scan.views[i].setup,
@@ -118,7 +188,7 @@ MeasuredViews measure_views(const Scan& scan,
     }
     for (UnresolvedRegion& region : decoded.unresolved)
       all.unresolved.push_back({all.views.size(), std::move(region)});
-    all.coarsest = decoded.coarsest;
+    all.coarsest = fit.uses_first ? decoded.coarsest : decoded.phase.pattern;
     all.unwrapped_spatially = decoded.relative.has_value();
     all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
     all.setups.push_back(scan.views[i].setup);
@@ -127,6 +197,7 @@ MeasuredViews measure_views(const Scan& scan,
                    std::move(measured.edge_pixels)});
     all.points += measured.points;
   }
+  scan_fit.finish();
   return all;
 }
 

@@ -27,14 +27,20 @@ struct MeasuredViews {
   Pattern coarsest;                              ///< coarsest fringe pattern
   bool unwrapped_spatially = false;              ///< whole patches may then be wrong by fringes
   std::size_t points = 0;
+  /// Disagreement of the two directions of fringes, mm and over its noise, one per view that has
+  /// both.
+  std::vector<float> disagreements_mm;
+  std::vector<float> disagreements_over_sigma;
   std::vector<ViewSummary> summaries;  ///< of all views of the scan, also of those left out
 };
 
 /// Reads, decodes and triangulates all views of a scan. The next view is read and decoded while one
 /// is triangulated, within the memory of two views.
 ///
-/// @missing  a view without a lit pixel is left out with a warning
-/// @errors   as read_frames and decode_view
+/// @missing  a view without a lit pixel is left out with a warning, and so is a view whose frames
+/// do
+///           not fit scan.toml or the rig, unless `accept_inconsistent` is set
+/// @errors   as read_frames and decode_view; Error(Numeric) when no view fits
 [[nodiscard]] MeasuredViews measure_views(const Scan& scan,
                                           const Image<Eigen::Vector2f>& rays,
                                           const DecodeOptions& decode,

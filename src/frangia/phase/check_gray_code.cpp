@@ -1,0 +1,215 @@
+#include "frangia/phase/check_gray_code.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/pattern/gray_code.h"
+#include "frangia/phase/internal/gray_trials.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kGap = 3;  ///< px between the two sides of a border
+
+/// One sampled pixel: which frames are bright, and the wrapped phase.
+struct CodedPixel {
+  std::uint64_t bright = 0;  ///< one bit per frame
+  float phase_rad = 0.0F;
+  int line = 0;
+  int place = 0;  ///< along the line
+};
+
+class GrayCodeSample {
+ public:
+  GrayCodeSample(const FrameStack& gray,
+                 const WrappedPhase& fringes,
+                 const GrayCodeCheckOptions& options)
+      : gray_(gray), fringes_(fringes), options_(options) {
+    const bool columns = gray.pattern.direction == FringeDirection::Horizontal;
+    const int across = columns ? fringes.status.width() : fringes.status.height();
+    const int along = columns ? fringes.status.height() : fringes.status.width();
+    const int stride = std::max(1, across / options.lines);
+    for (int line = stride / 2; line < across; line += stride) {
+      for (int place = 0; place < along; ++place) {
+        CodedPixel pixel{.line = line, .place = place};
+        if (read(columns ? line : place, columns ? place : line, pixel)) pixels.push_back(pixel);
+      }
+    }
+  }
+
+  /// The least of the shares that agree with the fringes, that lie between neighbouring stripes,
+  /// and whose stripes rise with the phase.
+  [[nodiscard]] double score(const GrayTrial& trial) const {
+    std::vector<std::uint32_t> stripes;
+    stripes.reserve(pixels.size());
+    for (const CodedPixel& pixel : pixels)
+      stripes.push_back(stripe_of(trial, pixel));
+    return std::min({fringe_agreement(trial, stripes),
+                     border_agreement(stripes),
+                     rising_agreement(trial, stripes)});
+  }
+  /// Whether a frame is bright, or dark, at nearly every pixel.
+  [[nodiscard]] bool is_blank(std::size_t frame) const {
+    const auto bright = static_cast<double>(
+        std::count_if(pixels.begin(), pixels.end(), [&](const CodedPixel& pixel) {
+          return (pixel.bright >> frame & 1U) != 0;
+        }));
+    const double share = bright / static_cast<double>(pixels.size());
+    return share < 0.005 || share > 0.995;
+  }
+  /// Whether two frames are bright at the same pixels.
+  [[nodiscard]] bool are_equal(std::size_t a, std::size_t b) const {
+    const auto different = static_cast<double>(
+        std::count_if(pixels.begin(), pixels.end(), [&](const CodedPixel& pixel) {
+          return ((pixel.bright >> a ^ pixel.bright >> b) & 1U) != 0;
+        }));
+    return different < 0.005 * static_cast<double>(pixels.size());
+  }
+
+  std::vector<CodedPixel> pixels;
+
+ private:
+  bool read(int x, int y, CodedPixel& pixel) const {
+    if (fringes_.status(x, y) != PixelStatus::Measured) return false;
+    pixel.phase_rad = fringes_.phase_rad(x, y);
+    const double mean = fringes_.mean_counts(x, y);
+    const double level = options_.min_level * static_cast<double>(fringes_.modulation_counts(x, y));
+    for (std::size_t k = 0; k < gray_.frames.size(); ++k) {
+      const double above = counts_at(gray_.frames[k], x, y) - mean;
+      if (std::abs(above) < level) return false;
+      if (above > 0.0) pixel.bright |= std::uint64_t{1} << k;
+    }
+    return true;
+  }
+  [[nodiscard]] std::uint32_t stripe_of(const GrayTrial& trial, const CodedPixel& pixel) const {
+    std::uint32_t code = 0;
+    for (int bit = 0; bit < trial.code.bits; ++bit) {
+      const auto declared = static_cast<std::size_t>(frame_of_bit(trial.code, bit, false));
+      const std::size_t frame = trial.frame_of[declared];
+      const bool bright = ((pixel.bright >> frame & 1U) != 0) != trial.inverted[frame];
+      code = 2 * code + (bright ? 1U : 0U);
+    }
+    return stripe_of_code(trial.code, code);
+  }
+  [[nodiscard]] double fringe_agreement(const GrayTrial& trial,
+                                        const std::vector<std::uint32_t>& stripes) const {
+    const double period = fringes_.pattern.period_px;
+    const double limit = kPi * trial.code.stripe_px / period + options_.margin_rad;
+    std::size_t agreeing = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const double column = (stripes[i] + 0.5) * trial.code.stripe_px - 0.5;
+      const double measured = static_cast<double>(pixels[i].phase_rad);
+      const double phase = (trial.reversed ? -measured : measured) - trial.start_rad;
+      if (std::abs(wrap_rad(phase - kTwoPi * column / period)) <= limit) ++agreeing;
+    }
+    return static_cast<double>(agreeing) / static_cast<double>(pixels.size());
+  }
+  /// The least share, over the frames, of the borders of their stripes that lie between
+  /// neighbouring stripes.
+  [[nodiscard]] double border_agreement(const std::vector<std::uint32_t>& stripes) const {
+    std::vector<std::size_t> borders(gray_.frames.size());
+    std::vector<std::size_t> good(gray_.frames.size());
+    for (std::size_t i = 1; i < pixels.size(); ++i) {
+      const CodedPixel& a = pixels[i - 1];
+      const CodedPixel& b = pixels[i];
+      const std::uint64_t changed = a.bright ^ b.bright;
+      if (changed == 0 || a.line != b.line || b.place - a.place > kGap) continue;
+      const bool neighbours = std::abs(static_cast<std::int64_t>(stripes[i]) -
+                                       static_cast<std::int64_t>(stripes[i - 1])) <= 1;
+      for (std::size_t frame = 0; frame < borders.size(); ++frame) {
+        if ((changed >> frame & 1U) == 0) continue;
+        ++borders[frame];
+        good[frame] += neighbours ? 1 : 0;
+      }
+    }
+    double least = 1.0;
+    for (std::size_t frame = 0; frame < borders.size(); ++frame) {
+      if (borders[frame] < options_.min_borders) continue;
+      least =
+          std::min(least, static_cast<double>(good[frame]) / static_cast<double>(borders[frame]));
+    }
+    return least;
+  }
+
+  /// Share of the borders between neighbouring stripes where number and phase rise together.
+  [[nodiscard]] double rising_agreement(const GrayTrial& trial,
+                                        const std::vector<std::uint32_t>& stripes) const {
+    std::size_t borders = 0;
+    std::size_t rising = 0;
+    for (std::size_t i = 1; i < pixels.size(); ++i) {
+      const CodedPixel& a = pixels[i - 1];
+      const CodedPixel& b = pixels[i];
+      if (a.line != b.line || b.place - a.place > kGap) continue;
+      const auto step =
+          static_cast<std::int64_t>(stripes[i]) - static_cast<std::int64_t>(stripes[i - 1]);
+      if (std::abs(step) != 1) continue;
+      const double change = wrap_rad(static_cast<double>(b.phase_rad - a.phase_rad));
+      ++borders;
+      rising += ((change > 0.0) != trial.reversed) == (step > 0) ? 1 : 0;
+    }
+    if (borders < options_.min_borders) return 1.0;
+    return static_cast<double>(rising) / static_cast<double>(borders);
+  }
+
+  const FrameStack& gray_;
+  const WrappedPhase& fringes_;
+  const GrayCodeCheckOptions& options_;
+};
+
+/// Frames that show no stripes, or those of the frame before: a frame is missing.
+void add_missing_frames(const GrayCodeSample& sample, const Pattern& code, SequenceCheck& out) {
+  for (std::size_t frame = 0; frame < static_cast<std::size_t>(code.frame_count()); ++frame) {
+    const bool repeats = frame > 0 && sample.are_equal(frame, frame - 1);
+    if (!repeats && !sample.is_blank(frame)) continue;
+    out.fits.push_back(
+        {SequenceFaultKind::Missing,
+         {code.name},
+         repeats ? fmt::format("a missing frame: frame {} repeats frame {}", frame, frame - 1)
+                 : fmt::format("a missing frame: frame {} shows no stripes", frame),
+         {},
+         fmt::format("capture {}-{}.png again", code.name, frame)});
+  }
+}
+
+}  // namespace
+
+SequenceCheck check_gray_code(const FrameStack& gray,
+                              const WrappedPhase& fringes,
+                              const GrayCodeCheckOptions& options) {
+  const Pattern& code = gray.pattern;
+  constexpr int kMaxFrames = 64;  // bits of CodedPixel::bright
+  require(static_cast<int>(gray.frames.size()) == code.frame_count() &&
+              code.frame_count() <= kMaxFrames,
+          "check_gray_code: the number of frames differs from the pattern");
+  SequenceCheck out;
+  out.patterns = {code.name, fringes.pattern.name};
+  const GrayCodeSample sample(gray, fringes, options);
+  if (sample.pixels.size() < options.min_pixels) return out;
+  const double declared = sample.score(declared_trial(code));
+  out.decided = true;
+  out.agreement = declared;
+  if (declared >= options.min_agreement) return out;
+  out.consistent = false;
+  std::vector<GrayTrial> trials = gray_trials(code, fringes.pattern);
+  double best = std::max(options.min_agreement, declared + options.min_gain);
+  std::vector<std::pair<double, SequenceFault>> found;
+  for (GrayTrial& trial : trials) {
+    const double score = sample.score(trial);
+    best = std::max(best, score);
+    found.emplace_back(score, std::move(trial.fault));
+  }
+  for (auto& [score, fault] : found)
+    if (score >= best - options.tie) out.fits.push_back(std::move(fault));
+  if (out.fits.empty()) add_missing_frames(sample, code, out);
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,116 @@
+#include "frangia/phase/check_sequence.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "frangia/phase/internal/rank_trials.h"
+#include "frangia/phase/internal/sequence_sample.h"
+#include "frangia/phase/internal/sequence_trials.h"
+#include "frangia/phase/unwrap_sequence.h"
+
+namespace frangia {
+namespace {
+
+/// Systematic phase error, rad, that a sound map may have: harmonics of a display, errors of steps.
+constexpr double kSystematic_rad = 0.05;
+
+/// Largest expected misfit of a sound sequence, over chance, for which the check decides.
+constexpr double kMaxExpected = 0.4;
+
+/// Residual of the fringe fit over the modulation: frames of another order have 0.5 and more,
+/// harmonics of 10 % leave 0.1.
+constexpr double kMaxFitResidual = 0.3;
+constexpr double kFittedResidual = 0.4;  ///< of a declaration that fits, over that of scan.toml
+
+/// The pattern whose frames fit their shifts worst, if they are not in the declared order.
+std::optional<std::size_t> misordered_map(const SequenceSample& sample, double& residual) {
+  std::optional<std::size_t> worst;
+  residual = kMaxFitResidual;
+  for (std::size_t map = 0; map < sample.patterns().size(); ++map) {
+    const double declared = sample.fit_residual(sample.patterns()[map], map);
+    if (declared <= residual) continue;
+    residual = declared;
+    worst = map;
+  }
+  return worst;
+}
+
+/// The orders of the frames of one pattern that leave the least residual of the fringe fit. Orders
+/// that reverse or delay the fringes leave the same residual.
+std::vector<SequenceTrial> fitting_orders(const SequenceSample& sample,
+                                          std::size_t map,
+                                          double declared_residual) {
+  constexpr double kSameResidual = 1.2;
+  std::vector<std::pair<double, SequenceTrial>> found;
+  double least = kFittedResidual * declared_residual;
+  for (SequenceTrial& trial : shift_trials(sample.patterns(), map)) {
+    if (trial.fault.kind != SequenceFaultKind::Order) continue;
+    const double residual = sample.fit_residual(trial.changes.front().pattern, map);
+    least = std::min(least, residual);
+    found.emplace_back(residual, std::move(trial));
+  }
+  std::vector<SequenceTrial> trials;
+  for (auto& [residual, trial] : found)
+    if (residual <= kSameResidual * least) trials.push_back(std::move(trial));
+  return trials;
+}
+
+SequenceCheck with_fits(SequenceCheck check, std::vector<RankedTrial> found) {
+  if (!found.empty()) check.fitted_rad = found.front().misfit_rad;
+  for (RankedTrial& one : found)
+    check.fits.push_back(std::move(one.trial.fault));
+  return check;
+}
+
+}  // namespace
+
+SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
+                             const NoiseModel& noise,
+                             const Projector& projector,
+                             const WrapOptions& wrap,
+                             const SequenceCheckOptions& options) {
+  SequenceCheck out;
+  for (const SequenceFrames& map : coarse_to_fine)
+    out.patterns.push_back(map.stack->pattern.name);
+  if (coarse_to_fine.empty()) return out;
+  const SequenceSample sample(coarse_to_fine, noise, projector, wrap, options);
+  if (sample.size() < options.min_pixels) return out;
+  if (coarse_to_fine.size() > 1) {
+    out.misfit_rad = sample.misfit();
+    out.chance_rad = sample.chance();
+    out.decided = sample.expected_misfit(kSystematic_rad) <= kMaxExpected * out.chance_rad;
+  }
+  const bool absolute = determine_absolute_phase(sample.patterns(), projector);
+  std::vector<RankedTrial> found;
+  double residual = 0.0;
+  if (const auto map = misordered_map(sample, residual)) {
+    std::vector<SequenceTrial> orders = fitting_orders(sample, *map, residual);
+    if (out.decided) {
+      found = plausible(sample,
+                        fitting(sample, orders, options.max_misfit * out.chance_rad, options),
+                        options,
+                        absolute);
+    }
+    if (found.empty()) {
+      for (SequenceTrial& trial : orders)
+        found.push_back({std::move(trial), 0.0});
+    }
+    out.decided = true;
+    out.consistent = false;
+    out.patterns = {sample.patterns()[*map].name};
+    return with_fits(std::move(out), std::move(found));
+  }
+  const bool disagree = out.decided && out.misfit_rad > options.max_misfit * out.chance_rad;
+  if (out.decided && !disagree && absolute) out.split_rows = sample.split_lines();
+  if (!disagree && out.split_rows <= options.max_split_rows) return out;
+  out.consistent = false;
+  constexpr double kNotWorse = 1.3;  // misfit of a declaration that does not split the surface
+  const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);
+  std::vector<RankedTrial> fits = fitting(sample, all_trials(sample), limit, options);
+  if (disagree) fits = ranked(sample, with_free_starts(sample, std::move(fits)), limit, options);
+  found = plausible(sample, std::move(fits), options, absolute);
+  return with_fits(std::move(out), std::move(found));
+}
+
+}  // namespace frangia

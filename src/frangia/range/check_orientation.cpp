@@ -1,0 +1,106 @@
+#include "frangia/range/check_orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/median.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/rig/phase_range.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kStep = 2;                  // px between the pixels that are compared
+constexpr std::size_t kSamples = 20'000;  // of the image
+constexpr std::size_t kMinPixels = 200;   // fewer decide nothing
+constexpr double kMajority = 0.8;
+constexpr double kExchanged = 3.0;  // change across over change along; expected: below 1
+constexpr double kMinSigmas = 3.0;  // of a difference that counts
+
+/// The distance at which the axes of camera and projector cross, or a plausible one.
+double working_distance(const Pattern& pattern, const Rig& rig) {
+  const double middle = phase_range(pattern, rig.projector).center_rad();
+  const double found = intersect_fringe({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
+  const double baseline = rig.projector.position_mm.norm();
+  return found > 0.3 * baseline && found < 30.0 * baseline ? found : 3.0 * baseline;
+}
+
+std::string what_fits(bool is_exchanged, FringeDirection direction) {
+  const bool vertical = direction == FringeDirection::Vertical;
+  if (is_exchanged) {
+    return vertical ? "the fringes that scan.toml calls vertical run horizontally: direction = "
+                      "\"horizontal\" fits"
+                    : "the fringes that scan.toml calls horizontal run vertically: direction = "
+                      "\"vertical\" fits";
+  }
+  return vertical
+             ? "the phase of the vertical fringes falls where the rig makes it rise: shifts in "
+               "the opposite direction fit in all their patterns, or a projector that is "
+               "mirrored left to right"
+             : "the phase of the horizontal fringes falls where the rig makes it rise: shifts "
+               "in the opposite direction fit in all their patterns, or a projector that is "
+               "mirrored upside down";
+}
+
+}  // namespace
+
+OrientationCheck check_orientation(const AbsolutePhase& phase,
+                                   const Rig& rig,
+                                   const Image<Eigen::Vector2f>& rays) {
+  require(same_size(phase.phase_rad, rays), "check_orientation: phase and rays differ in size");
+  OrientationCheck out;
+  const double distance = working_distance(phase.pattern, rig);
+  const auto expected_at = [&](int x, int y) {
+    const Eigen::Vector2d ray = rays(x, y).cast<double>();
+    return phase_at(
+        distance * Eigen::Vector3d(ray.x(), ray.y(), 1.0), phase.pattern, rig.projector);
+  };
+  const std::size_t pixels = phase.phase_rad.pixels().size();
+  const int stride = std::max(
+      1, static_cast<int>(std::sqrt(static_cast<double>(pixels) / static_cast<double>(kSamples))));
+  std::size_t rising = 0;
+  std::size_t voting = 0;
+  std::vector<float> along;
+  std::vector<float> across;
+  std::vector<float> expected_ratio;
+  for (int y = 0; y + kStep < rays.height(); y += stride) {
+    for (int x = 0; x + kStep < rays.width(); x += stride) {
+      const double here = phase.phase_rad(x, y);
+      const double right = phase.phase_rad(x + kStep, y);
+      const double below = phase.phase_rad(x, y + kStep);
+      const Eigen::Vector2d measured(wrap_rad(right - here), wrap_rad(below - here));
+      if (!measured.allFinite()) continue;
+      const double expected_here = expected_at(x, y);
+      const Eigen::Vector2d expected(expected_at(x + kStep, y) - expected_here,
+                                     expected_at(x, y + kStep) - expected_here);
+      if (!expected.allFinite()) continue;
+      const int main = std::abs(expected.x()) >= std::abs(expected.y()) ? 0 : 1;
+      along.push_back(static_cast<float>(std::abs(measured(main))));
+      across.push_back(static_cast<float>(std::abs(measured(1 - main))));
+      expected_ratio.push_back(
+          static_cast<float>(std::abs(expected(1 - main)) / std::abs(expected(main))));
+      const double noise = phase.sigma_rad(x, y) * std::numbers::sqrt2;
+      if (std::abs(measured(main)) < kMinSigmas * noise) continue;
+      ++voting;
+      if ((measured(main) > 0.0) == (expected(main) > 0.0)) ++rising;
+    }
+  }
+  if (along.size() < kMinPixels) return out;
+  const auto main_change = static_cast<double>(median_in_place(std::span(along)));
+  out.across = static_cast<double>(median_in_place(std::span(across))) / main_change;
+  out.rising = voting == 0 ? 0.0 : static_cast<double>(rising) / static_cast<double>(voting);
+  const bool is_plain = median_in_place(std::span(expected_ratio)) < 0.5F;
+  const bool is_exchanged = is_plain && out.across > kExchanged;
+  const bool agree =
+      voting >= kMinPixels && (out.rising >= kMajority || out.rising <= 1.0 - kMajority);
+  out.decided = is_exchanged || agree;
+  out.consistent = !is_exchanged && !(agree && out.rising <= 1.0 - kMajority);
+  if (!out.consistent) out.fits = what_fits(is_exchanged, phase.pattern.direction);
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,171 @@
+#include "frangia/phase/check_gray_code.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/phase/wrap_phase.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kCodedWidth = 320;
+constexpr int kCodedHeight = 64;
+constexpr double kCodedPeriod = 20.0;
+
+/// The projector column, of 640, that lights a pixel.
+double coded_column(int x, int y) {
+  return 20.0 + 1.85 * x + 8.0 * std::sin(0.03 * x + 0.1 * y);
+}
+
+/// The frames of a Gray code of 10 px stripes and fringes of 20 px, by their published formulas.
+struct CodedScene {
+  FrameStack gray;
+  FrameStack fringes;
+
+  explicit CodedScene(InvertedFrames inverted = InvertedFrames::None, bool is_binary = false) {
+    std::mt19937 generator(3);
+    std::normal_distribution<double> noise(0.0, 1.5);
+    const auto image_of = [&](const auto& light) {
+      Image<std::uint8_t> image(kCodedWidth, kCodedHeight);
+      for (int y = 0; y < kCodedHeight; ++y) {
+        for (int x = 0; x < kCodedWidth; ++x) {
+          image(x, y) = static_cast<std::uint8_t>(
+              std::lround(110.0 + 70.0 * light(coded_column(x, y)) + noise(generator)));
+        }
+      }
+      return image;
+    };
+    gray.pattern = {.name = "gray", .kind = PatternKind::Gray, .bits = 6, .stripe_px = 10.0};
+    gray.pattern.inverted = inverted;
+    gray.pattern.is_binary = is_binary;
+    fringes.pattern = {
+        .name = "f", .period_px = kCodedPeriod, .shifts_rad = {0.0, 0.5 * kPi, kPi, 1.5 * kPi}};
+    const auto add_bit = [&](int bit, double sign) {
+      gray.frames.emplace_back(image_of([&](double column) {
+        const auto number = static_cast<unsigned>(std::floor((column + 0.5) / 10.0));
+        const unsigned code = is_binary ? number : number ^ (number / 2);
+        return (code >> static_cast<unsigned>(5 - bit)) % 2 == 1 ? sign : -sign;
+      }));
+    };
+    const bool alternating = inverted == InvertedFrames::Alternating;
+    for (int bit = 0; bit < 6; ++bit) {
+      add_bit(bit, 1.0);
+      if (alternating) add_bit(bit, -1.0);
+    }
+    for (int bit = 0; bit < 6 && inverted == InvertedFrames::After; ++bit)
+      add_bit(bit, -1.0);
+    for (const double shift : fringes.pattern.shifts_rad) {
+      fringes.frames.emplace_back(image_of(
+          [&](double column) { return std::cos(kTwoPi * column / kCodedPeriod + shift); }));
+    }
+  }
+
+  [[nodiscard]] SequenceCheck check() const {
+    const NoiseModel noise{2.3, 0.0};
+    return check_gray_code(gray,
+                           wrap_phase(fringes, least_squares(fringes.pattern.shifts_rad), noise));
+  }
+};
+
+void expect_only_fit(const SequenceCheck& found, const std::string& what) {
+  EXPECT_TRUE(found.decided);
+  EXPECT_FALSE(found.consistent);
+  ASSERT_EQ(found.fits.size(), 1U) << describe(found);
+  EXPECT_EQ(found.fits.front().what, what) << describe(found);
+}
+
+TEST(CheckGrayCode, BlamesNoSoundCode) {
+  for (const auto inverted :
+       {InvertedFrames::None, InvertedFrames::After, InvertedFrames::Alternating}) {
+    for (const bool is_binary : {false, true}) {
+      const SequenceCheck found = CodedScene(inverted, is_binary).check();
+      EXPECT_TRUE(found.decided);
+      EXPECT_TRUE(found.consistent) << describe(found);
+      EXPECT_GT(found.agreement, 0.95);
+    }
+  }
+}
+
+TEST(CheckGrayCode, NamesTwoFramesThatAreExchanged) {
+  for (std::size_t a = 0; a < 6; ++a) {
+    for (std::size_t b = a + 1; b < 6; ++b) {
+      CodedScene scene;
+      std::swap(scene.gray.frames[a], scene.gray.frames[b]);
+      expect_only_fit(scene.check(),
+                      "frames " + std::to_string(a) + " and " + std::to_string(b) + " exchanged");
+    }
+  }
+}
+
+TEST(CheckGrayCode, NamesAFrameThatIsInverted) {
+  for (std::size_t frame = 1; frame < 6; ++frame) {
+    CodedScene scene;
+    for (std::uint8_t& counts : std::get<0>(scene.gray.frames[frame]).pixels())
+      counts = static_cast<std::uint8_t>(220 - counts);
+    expect_only_fit(scene.check(), "frame " + std::to_string(frame) + " inverted");
+  }
+}
+
+TEST(CheckGrayCode, DoesNotDecideBetweenAnInvertedFirstFrameAndReversedFringes) {
+  // Both mirror the code relative to the fringes; only the rig shows which one is mirrored.
+  CodedScene scene;
+  for (std::uint8_t& counts : std::get<0>(scene.gray.frames[0]).pixels())
+    counts = static_cast<std::uint8_t>(220 - counts);
+  const SequenceCheck found = scene.check();
+  ASSERT_EQ(found.fits.size(), 2U) << describe(found);
+  EXPECT_EQ(found.fits.front().what, "frame 0 inverted");
+  EXPECT_EQ(found.fits.back().what, "shifts in the opposite direction");
+}
+
+TEST(CheckGrayCode, NamesBitsInTheOppositeOrder) {
+  CodedScene scene;
+  scene.gray.pattern.order = BitOrder::LeastSignificantFirst;
+  const SequenceCheck found = scene.check();
+  expect_only_fit(found, "its bits in the opposite order");
+  EXPECT_EQ(found.fits.front().keys, "order = \"msb-first\"");
+}
+
+TEST(CheckGrayCode, NamesABinaryCode) {
+  CodedScene scene(InvertedFrames::None, true);
+  scene.gray.pattern.is_binary = false;
+  const SequenceCheck found = scene.check();
+  expect_only_fit(found, "the other code");
+  EXPECT_EQ(found.fits.front().keys, "code = \"binary\"");
+}
+
+TEST(CheckGrayCode, NamesThePlaceOfInvertedFrames) {
+  CodedScene scene(InvertedFrames::Alternating);
+  scene.gray.pattern.inverted = InvertedFrames::After;
+  expect_only_fit(scene.check(), "inverted frames that alternate");
+}
+
+TEST(CheckGrayCode, NamesAFrameThatShowsNoStripes) {
+  CodedScene scene;
+  for (std::uint8_t& counts : std::get<0>(scene.gray.frames[4]).pixels())
+    counts = 40;
+  expect_only_fit(scene.check(), "a missing frame: frame 4 shows no stripes");
+}
+
+TEST(CheckGrayCode, NamesAFrameThatIsRepeated) {
+  CodedScene scene;
+  scene.gray.frames[3] = scene.gray.frames[2];
+  expect_only_fit(scene.check(), "a missing frame: frame 3 repeats frame 2");
+}
+
+TEST(CheckGrayCode, NamesTheStartOfTheFringes) {
+  CodedScene scene;
+  for (double& shift : scene.fringes.pattern.shifts_rad)
+    shift -= kPi;
+  const SequenceCheck found = scene.check();
+  ASSERT_EQ(found.fits.size(), 1U) << describe(found);
+  EXPECT_EQ(found.fits.front().kind, SequenceFaultKind::Start);
+  EXPECT_EQ(found.fits.front().patterns, std::vector<std::string>{"f"});
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,220 @@
+#include "frangia/phase/check_sequence.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kViewWidth = 320;
+constexpr int kViewHeight = 60;
+constexpr double kDisplayColumns = 640.0;  ///< projector columns
+
+Projector checked_display() {
+  Projector projector;
+  projector.model = CameraModel{.width_px = 640, .height_px = 480, .focal_px = {800.0, 800.0}};
+  return projector;
+}
+
+std::vector<double> shifts_over_a_turn(int frames) {
+  std::vector<double> shifts;
+  for (int k = 0; k < frames; ++k)
+    shifts.push_back(kTwoPi * k / frames);
+  return shifts;
+}
+
+/// The projector column that lights a pixel: a step and a bulge over most of the field.
+double column_at(int x, int y) {
+  const double bulge = 30.0 * std::sin(0.02 * x + 0.05 * y);
+  return 60.0 + 1.6 * x + bulge + (x > 200 ? 25.0 : 0.0);
+}
+
+/// The frames that a projector shows with `shown`, declared as `declared`.
+FrameStack shown_frames(const Pattern& shown, const Pattern& declared, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> noise(0.0, 1.5);
+  FrameStack stack{.pattern = declared, .frames = {}, .white_level = 255};
+  for (const double shift : shown.shifts_rad) {
+    Image<std::uint8_t> image(kViewWidth, kViewHeight);
+    for (int y = 0; y < kViewHeight; ++y) {
+      for (int x = 0; x < kViewWidth; ++x) {
+        const double phase = kTwoPi * column_at(x, y) / shown.period_px;
+        image(x, y) = static_cast<std::uint8_t>(
+            std::lround(120.0 + 80.0 * std::cos(phase + shift) + noise(generator)));
+      }
+    }
+    stack.frames.emplace_back(std::move(image));
+  }
+  return stack;
+}
+
+std::vector<Pattern> whole_counts(const std::vector<double>& fringes, int frames = 4) {
+  std::vector<Pattern> patterns;
+  for (const double count : fringes) {
+    patterns.push_back({.name = "p" + std::to_string(patterns.size()),
+                        .period_px = kDisplayColumns / count,
+                        .shifts_rad = shifts_over_a_turn(frames)});
+  }
+  return patterns;
+}
+
+SequenceCheck checked(const std::vector<Pattern>& shown,
+                      const std::vector<Pattern>& declared,
+                      unsigned seed = 1) {
+  const NoiseModel noise{1.5 * 1.5 + 1.0 / 12.0, 0.0};
+  std::vector<FrameStack> stacks;
+  for (std::size_t m = 0; m < shown.size(); ++m)
+    stacks.push_back(shown_frames(shown[m], declared[m], seed + static_cast<unsigned>(m)));
+  std::vector<SequenceFrames> maps;
+  for (const FrameStack& stack : stacks)
+    maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
+  return check_sequence(maps, noise, checked_display());
+}
+
+void expect_only(const SequenceCheck& found, const std::string& pattern, const std::string& keys) {
+  EXPECT_TRUE(found.decided);
+  EXPECT_FALSE(found.consistent);
+  ASSERT_EQ(found.fits.size(), 1U) << describe(found);
+  EXPECT_EQ(found.fits.front().patterns, std::vector{pattern}) << describe(found);
+  EXPECT_EQ(found.fits.front().keys, keys) << describe(found);
+}
+
+TEST(CheckSequence, BlamesNoSoundSequence) {
+  for (const std::vector<double>& fringes :
+       {std::vector{1.0, 8.0, 64.0}, {53.0, 58.0, 64.0}, {1.0, 2.0, 4.0, 8.0, 16.0}, {1.0, 16.0}}) {
+    for (const int frames : {3, 4, 5}) {
+      const auto patterns = whole_counts(fringes, frames);
+      const SequenceCheck found = checked(patterns, patterns);
+      EXPECT_TRUE(found.decided) << fringes.back() << " " << frames;
+      EXPECT_TRUE(found.consistent) << describe(found);
+    }
+  }
+}
+
+TEST(CheckSequence, NamesThePatternThatBegan180DegreesLate) {
+  for (const std::vector<double>& fringes : {std::vector{1.0, 8.0, 64.0}, {53.0, 58.0, 64.0}}) {
+    for (std::size_t late = 1; late < 3; ++late) {
+      const auto declared = whole_counts(fringes);
+      auto shown = declared;
+      for (double& shift : shown[late].shifts_rad)
+        shift += kPi;
+      expect_only(
+          checked(shown, declared), "p" + std::to_string(late), "shifts_deg = [180, 270, 0, 90]");
+    }
+  }
+}
+
+TEST(CheckSequence, NamesTheCoarsestPatternThatBeganLateByTheEndsOfTheField) {
+  const auto declared = whole_counts({1.0, 8.0, 64.0});
+  auto shown = declared;
+  for (double& shift : shown[0].shifts_rad)
+    shift += kPi;
+  const SequenceCheck found = checked(shown, declared);
+  EXPECT_GT(found.split_rows, 0.9);
+  expect_only(found, "p0", "shifts_deg = [180, 270, 0, 90]");
+}
+
+TEST(CheckSequence, NamesAStartThatIsNoMultipleOfAQuarterTurn) {
+  const auto declared = whole_counts({1.0, 6.0, 36.0});
+  auto shown = declared;
+  for (double& shift : shown[2].shifts_rad)
+    shift += rad_from_deg(130.0);
+  const SequenceCheck found = checked(shown, declared);
+  ASSERT_EQ(found.fits.size(), 1U) << describe(found);
+  EXPECT_EQ(found.fits.front().patterns, std::vector<std::string>{"p2"});
+  EXPECT_NEAR(std::stod(found.fits.front().what.substr(11)), 130.0, 2.0) << describe(found);
+}
+
+TEST(CheckSequence, NamesReversedShifts) {
+  const auto declared = whole_counts({1.0, 8.0, 64.0}, 5);
+  for (std::size_t turned = 0; turned < 3; ++turned) {
+    auto shown = declared;
+    for (double& shift : shown[turned].shifts_rad)
+      shift = -shift;
+    const SequenceCheck found = checked(shown, declared);
+    expect_only(found, "p" + std::to_string(turned), "shifts_deg = [0, 288, 216, 144, 72]");
+    if (!found.fits.empty()) {
+      EXPECT_EQ(found.fits.front().kind, SequenceFaultKind::Direction);
+    }
+  }
+}
+
+TEST(CheckSequence, NamesTwoFramesThatAreExchanged) {
+  const auto declared = whole_counts({1.0, 8.0, 64.0});
+  for (std::size_t map = 0; map < 3; ++map) {
+    auto shown = declared;
+    std::swap(shown[map].shifts_rad[0], shown[map].shifts_rad[1]);
+    expect_only(
+        checked(shown, declared), "p" + std::to_string(map), "shifts_deg = [90, 0, 180, 270]");
+  }
+}
+
+TEST(CheckSequence, NamesAWrongPeriod) {
+  const auto declared = whole_counts({1.0, 8.0, 64.0});
+  for (const double period : {7.0, 12.5, 20.0}) {
+    auto shown = declared;
+    shown[2].period_px = period;
+    expect_only(checked(shown, declared), "p2", fmt::format("period_px = {:g}", period));
+  }
+}
+
+TEST(CheckSequence, NamesPatternsThatAreExchanged) {
+  const auto declared = whole_counts({53.0, 58.0, 64.0});
+  auto shown = declared;
+  std::swap(shown[0].period_px, shown[2].period_px);
+  const SequenceCheck found = checked(shown, declared);
+  ASSERT_EQ(found.fits.size(), 1U) << describe(found);
+  EXPECT_EQ(found.fits.front().kind, SequenceFaultKind::Exchanged);
+  EXPECT_EQ(found.fits.front().patterns, (std::vector<std::string>{"p0", "p2"}));
+}
+
+TEST(CheckSequence, NamesBothStartsBetweenWhichTheFramesDoNotDecide) {
+  // Half a fringe in 2 is a quarter of a fringe in 1, and 4 fringes do not see it.
+  const auto declared = whole_counts({2.0, 4.0, 8.0});
+  auto shown = declared;
+  for (double& shift : shown[1].shifts_rad)
+    shift += kPi;
+  const SequenceCheck found = checked(shown, declared);
+  EXPECT_FALSE(found.consistent);
+  EXPECT_GT(found.fits.size(), 1U) << describe(found);
+}
+
+TEST(CheckSequence, NamesTheOrdersThatTheFramesOfASinglePatternFit) {
+  // Two exchanges differ by the direction of the fringes only, which one pattern does not show.
+  const auto declared = whole_counts({32.0}, 5);
+  auto shown = declared;
+  std::swap(shown[0].shifts_rad[1], shown[0].shifts_rad[2]);
+  const SequenceCheck found = checked(shown, declared);
+  EXPECT_FALSE(found.consistent);
+  ASSERT_EQ(found.fits.size(), 2U) << describe(found);
+  EXPECT_EQ(found.fits.front().what, "frames 0 and 3 exchanged");
+  EXPECT_EQ(found.fits.back().what, "frames 1 and 2 exchanged");
+}
+
+TEST(CheckSequence, SaysThatUnrelatedPatternsDisagree) {
+  const auto declared = whole_counts({1.0, 8.0, 64.0});
+  auto shown = declared;
+  shown[1].period_px = 33.0;
+  shown[1].shifts_rad = {0.3, 1.0, 2.9, 4.0};
+  shown[2].period_px = 17.0;
+  const SequenceCheck found = checked(shown, declared);
+  EXPECT_FALSE(found.consistent);
+  EXPECT_TRUE(found.fits.empty()) << describe(found);
+}
+
+TEST(CheckSequence, DecidesNothingForFringesThatNoiseMakesUnrelated) {
+  const auto declared = whole_counts({1.0, 200.0});
+  const SequenceCheck found = checked(declared, declared);
+  EXPECT_FALSE(found.decided);
+  EXPECT_TRUE(found.consistent);
+}
+
+}  // namespace
+}  // namespace frangia
