@@ -28,6 +28,7 @@ void put_pattern(TomlWriter& writer, const Pattern& pattern) {
   if (pattern.kind == PatternKind::Gray) {
     writer.put("bits", pattern.bits);
     writer.put("stripe_px", pattern.stripe_px);
+    if (pattern.offset_px != 0.0) writer.put("offset_px", pattern.offset_px);
     static constexpr std::array kInverted = {"none", "after", "alternating"};
     writer.put("inverted", std::string(kInverted.at(static_cast<std::size_t>(pattern.inverted))));
     if (pattern.is_binary) writer.put("code", std::string("binary"));
