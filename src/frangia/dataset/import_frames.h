@@ -22,10 +22,10 @@ struct PatternValue {
 
 /// How a folder of images is read as a scan.
 struct ImportOptions {
-  std::string names;   ///< template of the file names, see NameTemplate; empty: guessed
-  std::string layout;  ///< name of a known layout; empty: none
-  std::filesystem::path patterns;     ///< file with the [[pattern]] tables of scan.toml
-  std::vector<PatternValue> fringes;  ///< fringes over the projector's width, without `patterns`
+  std::string names;               ///< template of the file names, see NameTemplate; empty: guessed
+  std::string layout;              ///< name of a known layout; empty: none
+  std::filesystem::path patterns;  ///< file with the [[pattern]] tables of scan.toml
+  std::vector<PatternValue> fringes;    ///< fringes over the projector's width, without `patterns`
   std::vector<PatternValue> period_px;  ///< periods of the fringes, without `patterns`
   std::vector<double> shifts_rad;       ///< of each frame; empty: equal steps over 360°
   bool reverse_shifts = false;          ///< shifts of the opposite sign
@@ -51,15 +51,15 @@ struct ImportedFrame {
 
 /// What an import will do.
 struct ImportPlan {
-  std::filesystem::path folder;       ///< folder or file with the images
-  ImportOptions options;              ///< as given
-  std::string names;                  ///< template of the file names
-  bool guessed = false;               ///< the template was guessed
-  Rig rig;                            ///< of `options.rig`, or with the sizes alone
-  bool rig_has_projector = false;     ///< the size of the projector is known
-  std::vector<Pattern> patterns;      ///< in the order of the frames
-  std::size_t views = 1;              ///< number of views
-  std::vector<ImportedFrame> frames;  ///< view by view, pattern by pattern
+  std::filesystem::path folder;                 ///< folder or file with the images
+  ImportOptions options;                        ///< as given
+  std::string names;                            ///< template of the file names
+  bool guessed = false;                         ///< the template was guessed
+  Rig rig;                                      ///< of `options.rig`, or with the sizes alone
+  bool rig_has_projector = false;               ///< the size of the projector is known
+  std::vector<Pattern> patterns;                ///< in the order of the frames
+  std::size_t views = 1;                        ///< number of views
+  std::vector<ImportedFrame> frames;            ///< view by view, pattern by pattern
   std::vector<std::filesystem::path> left_out;  ///< images that a scan does not hold
   ImageInfo image;                              ///< size and type of every image
   int jpeg_quality = 0;                         ///< the lowest of all JPEGs; 0: none is a JPEG
@@ -78,7 +78,7 @@ struct ImportPlan {
 
 /// What an import wrote.
 struct ImportResult {
-  Scan scan;                        ///< as in the folder
+  Scan scan;                         ///< as in the folder
   double compression_counts2 = 0.0;  ///< variance that JPEG adds, in counts of the scan
 };
 

@@ -161,7 +161,9 @@ const std::vector<KnownLayout>& known_layouts() {
        "{frame:04}.jpg",
        "3DUNDERWORLD-SLS: white, black, columns, then rows, each bit followed by its inverse"},
       {kSlStudioGray, "frameSeq_{frame}.bmp", "SLStudio: white, black, columns, then rows"},
-      {kSlStudioThree, "frameSeq_{frame}.bmp", "SLStudio: one fringe over the columns, three steps"},
+      {kSlStudioThree,
+       "frameSeq_{frame}.bmp",
+       "SLStudio: one fringe over the columns, three steps"},
       {kSlStudioTwice,
        "frameSeq_{frame}.bmp",
        "SLStudio: 16 fringes and one fringe over the columns, then perhaps over the rows, three "
@@ -181,14 +183,15 @@ ImportLayout make_layout(const KnownLayout& layout,
                          const ProjectorSize& projector_px) {
   ImportLayout made = layout_for(layout.name, images, projector_px);
   if (made.images.size() != images) {
-    throw Error(ErrorKind::Input,
-                fmt::format("the layout {} has {} images for a projector of {} x {} pixels, but the "
-                            "folder has {}; correct `projector` or choose another `layout`",
-                            layout.name,
-                            made.images.size(),
-                            projector_px[0],
-                            projector_px[1],
-                            images));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("the layout {} has {} images for a projector of {} x {} pixels, but the "
+                    "folder has {}; correct `projector` or choose another `layout`",
+                    layout.name,
+                    made.images.size(),
+                    projector_px[0],
+                    projector_px[1],
+                    images));
   }
   return made;
 }

@@ -126,10 +126,10 @@ void NameTemplate::read_on(std::size_t token, std::size_t at, Search& search) co
   }
   for (std::size_t end = at + 1; end <= name.size() && name[end - 1] != '/'; ++end) {
     search.fields.pattern = name.substr(at, end - at);
-    const bool known = search.patterns.empty() ||
-                       std::find(search.patterns.begin(),
-                                 search.patterns.end(),
-                                 search.fields.pattern) != search.patterns.end();
+    const bool known =
+        search.patterns.empty() ||
+        std::find(search.patterns.begin(), search.patterns.end(), search.fields.pattern) !=
+            search.patterns.end();
     if (known) read_on(token + 1, end, search);
   }
 }

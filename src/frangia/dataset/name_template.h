@@ -20,8 +20,8 @@ struct NameFields {
 /// A template of file names such as "{pattern}_{frame:02}.bmp", relative to a folder.
 ///
 /// The fields are {pattern}, a text, {frame} and {view}, numbers. {frame:02} is a number that
-/// printf's "%02d" writes. "{{" and "}}" stand for braces. Other letters stand for themselves, small
-/// or capital. Names may lead into subfolders: "view{view:03}/{frame}.png".
+/// printf's "%02d" writes. "{{" and "}}" stand for braces. Other letters stand for themselves,
+/// small or capital. Names may lead into subfolders: "view{view:03}/{frame}.png".
 class NameTemplate {
  public:
   /// Parses a template.
@@ -30,7 +30,7 @@ class NameTemplate {
   ///           occurs twice, a brace without its partner
   explicit NameTemplate(const std::string& text);
 
-  [[nodiscard]] const std::string& text() const { return text_; }  ///< the template as given
+  [[nodiscard]] const std::string& text() const { return text_; }        ///< the template as given
   [[nodiscard]] bool has_pattern() const { return has(Kind::Pattern); }  ///< holds {pattern}
   [[nodiscard]] bool has_frame() const { return has(Kind::Frame); }      ///< holds {frame}
   [[nodiscard]] bool has_view() const { return has(Kind::View); }        ///< holds {view}

@@ -92,15 +92,16 @@ std::vector<NamedFile> matching_files(const fs::path& folder,
     const std::vector<NameFields> readings = names.match(name, patterns);
     if (readings.empty()) continue;
     if (readings.size() > 1) {
-      refuse_import(fmt::format("{} fits the template \"{}\" in two ways, as pattern \"{}\" frame "
-                                "{} and as pattern \"{}\" frame {}; set `patterns`, or a template "
-                                "with text between the fields",
-                                (folder / name).string(),
-                                names.text(),
-                                readings[0].pattern,
-                                readings[0].frame.value_or(0),
-                                readings[1].pattern,
-                                readings[1].frame.value_or(0)));
+      refuse_import(
+          fmt::format("{} fits the template \"{}\" in two ways, as pattern \"{}\" frame "
+                      "{} and as pattern \"{}\" frame {}; set `patterns`, or a template "
+                      "with text between the fields",
+                      (folder / name).string(),
+                      names.text(),
+                      readings[0].pattern,
+                      readings[0].frame.value_or(0),
+                      readings[1].pattern,
+                      readings[1].frame.value_or(0)));
     }
     files.push_back({folder / name, name, readings.front()});
   }
@@ -146,11 +147,12 @@ void check_images(std::vector<NamedFile>& files, ImportPlan& plan, const Run& ru
     const ImageInfo& image = infos[i];
     if (image.width_px != plan.image.width_px || image.height_px != plan.image.height_px ||
         image.bits != plan.image.bits) {
-      refuse_import(fmt::format("{} has {}, but {} has {}; frames of a scan have one size and depth",
-                                files[i].path.string(),
-                                kind_of(image),
-                                files.front().path.string(),
-                                kind_of(plan.image)));
+      refuse_import(
+          fmt::format("{} has {}, but {} has {}; frames of a scan have one size and depth",
+                      files[i].path.string(),
+                      kind_of(image),
+                      files.front().path.string(),
+                      kind_of(plan.image)));
     }
     if (image.jpeg_quality) {
       const int lowest = plan.jpeg_quality > 0 ? plan.jpeg_quality : *image.jpeg_quality;
@@ -173,19 +175,21 @@ std::map<int, std::map<std::string, ImageSequence>> sequences_of(
     ImageSequence& sequence = views[fields.view.value_or(0)][fields.pattern];
     const bool paged = files[i].pages > 1;
     if (paged && fields.frame) {
-      refuse_import(fmt::format("{}: holds {} images, but its name gives one frame; leave {{frame}} "
-                                "out of `names`, or save each image as a file",
-                                files[i].path.string(),
-                                files[i].pages));
+      refuse_import(
+          fmt::format("{}: holds {} images, but its name gives one frame; leave {{frame}} "
+                      "out of `names`, or save each image as a file",
+                      files[i].path.string(),
+                      files[i].pages));
     }
     for (std::size_t page = 0; page < files[i].pages; ++page) {
       const int number = fields.frame.value_or(static_cast<int>(page));
       const auto [same, is_new] = sequence.emplace(number, NamedImage{i, page});
       if (is_new) continue;
-      refuse_import(fmt::format("{} and {} are the same frame by the template; remove one or correct "
-                                "`names`",
-                                files[same->second.file].path.string(),
-                                files[i].path.string()));
+      refuse_import(
+          fmt::format("{} and {} are the same frame by the template; remove one or correct "
+                      "`names`",
+                      files[same->second.file].path.string(),
+                      files[i].path.string()));
     }
   }
   return views;
@@ -279,10 +283,11 @@ std::vector<std::size_t> frames_per_pattern(const std::map<std::string, ImageSeq
   const std::size_t all = view.begin()->second.size();
   const std::size_t patterns = std::max(options.fringes.size(), options.period_px.size());
   if (patterns > 0 && all % patterns != 0) {
-    refuse_import(fmt::format("{} images cannot be shared evenly by {} patterns; set `patterns` to "
-                              "a file that describes them",
-                              all,
-                              patterns));
+    refuse_import(
+        fmt::format("{} images cannot be shared evenly by {} patterns; set `patterns` to "
+                    "a file that describes them",
+                    all,
+                    patterns));
   }
   return std::vector<std::size_t>(patterns, patterns > 0 ? all / patterns : 0);
 }
@@ -321,12 +326,13 @@ class FrameAssigner {
       }
     }
     if (places.size() != images.size()) {
-      refuse_import(fmt::format("the patterns have {} frames, but {} {} found, {}; a file is missing "
-                                "or surplus, or the patterns are described wrongly",
-                                places.size(),
-                                images.size(),
-                                images.size() == 1 ? "was" : "were",
-                                range_text(images, files_)));
+      refuse_import(
+          fmt::format("the patterns have {} frames, but {} {} found, {}; a file is missing "
+                      "or surplus, or the patterns are described wrongly",
+                      places.size(),
+                      images.size(),
+                      images.size() == 1 ? "was" : "were",
+                      range_text(images, files_)));
     }
     std::size_t at = 0;
     for (const auto& [number, image] : images) {
@@ -343,20 +349,22 @@ class FrameAssigner {
       const Pattern& described = plan_.patterns[pattern];
       const auto found = images.find(described.name);
       if (found == images.end()) {
-        refuse_import(fmt::format("{}: no file shows the pattern \"{}\"; correct its name or `names`",
-                                  plan_.folder.string(),
-                                  described.name));
+        refuse_import(
+            fmt::format("{}: no file shows the pattern \"{}\"; correct its name or `names`",
+                        plan_.folder.string(),
+                        described.name));
       }
       require_consecutive(found->second, described.name, files_);
       const auto frames = static_cast<std::size_t>(described.frame_count());
       if (found->second.size() != frames) {
-        refuse_import(fmt::format("pattern \"{}\" has {} frames, but {} {} found, {}; a file is "
-                                  "missing or surplus, or the pattern is described wrongly",
-                                  described.name,
-                                  frames,
-                                  found->second.size(),
-                                  found->second.size() == 1 ? "was" : "were",
-                                  range_text(found->second, files_)));
+        refuse_import(
+            fmt::format("pattern \"{}\" has {} frames, but {} {} found, {}; a file is "
+                        "missing or surplus, or the pattern is described wrongly",
+                        described.name,
+                        frames,
+                        found->second.size(),
+                        found->second.size() == 1 ? "was" : "were",
+                        range_text(found->second, files_)));
       }
       std::size_t frame = 0;
       for (const auto& [number, image] : found->second)
@@ -377,8 +385,8 @@ void check_views(const ImportPlan& plan) {
                               plan.views == 1 ? "" : "s"));
   }
   if (angles == 0 && plan.views > 1 && plan.rig.turntable) {
-    refuse_import(fmt::format("the folder has {} views on a turntable; set `angles` to theirs",
-                              plan.views));
+    refuse_import(
+        fmt::format("the folder has {} views on a turntable; set `angles` to theirs", plan.views));
   }
   const CameraModel& camera = plan.rig.camera.model;
   if (!plan.options.rig.empty() &&
@@ -410,8 +418,7 @@ ImportPlan plan_import(const fs::path& source, const ImportOptions& options, con
     plan.patterns = read_patterns_file(options.patterns, plan.rig, run);
   plan.names = options.names;
   if (plan.names.empty() && known != nullptr) plan.names = known->names;
-  if (plan.names.empty() && is_file)
-    plan.names = guess_name_template({source.filename().string()});
+  if (plan.names.empty() && is_file) plan.names = guess_name_template({source.filename().string()});
   if (plan.names.empty()) {
     plan.names = guess_name_template(images_below(plan.folder, options.files.raw.has_value()));
     plan.guessed = true;

@@ -46,7 +46,7 @@ struct Pattern {
   double stripe_px = 1.0;           ///< Gray code: width of a stripe
   /// Gray code: added to a column before its stripe is numbered, for codes centred in their range.
   double offset_px = 0.0;
-  bool is_binary = false;           ///< Gray code: the stripe's number in binary code instead
+  bool is_binary = false;  ///< Gray code: the stripe's number in binary code instead
   InvertedFrames inverted = InvertedFrames::None;   ///< Gray code: inverted frames
   BitOrder order = BitOrder::MostSignificantFirst;  ///< Gray code: order of the bits
   std::vector<double> levels;                       ///< ramp: projector levels from 0 to 1

@@ -132,21 +132,21 @@ std::vector<Pattern> patterns_from_options(const ImportOptions& options,
     if (!(value.value > 0.0) || !std::isfinite(value.value))
       refuse_option(fmt::format("the periods of fringes must be above 0, not {}", value.value));
     if (!known)
-      refuse_option(fmt::format("no file shows the pattern \"{}\"; correct its name", value.pattern));
+      refuse_option(
+          fmt::format("no file shows the pattern \"{}\"; correct its name", value.pattern));
   }
   std::vector<Pattern> patterns;
   std::size_t at = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     Pattern pattern;
     const PatternValue* const own = names.empty() ? &values[i] : nullptr;
-    pattern.name = own == nullptr           ? names[i]
-                   : own->pattern.empty()   ? fmt::format("fringes-{}", i + 1)
-                                            : own->pattern;
+    pattern.name = own == nullptr         ? names[i]
+                   : own->pattern.empty() ? fmt::format("fringes-{}", i + 1)
+                                          : own->pattern;
     const double value = own != nullptr
                              ? own->value
                              : period_of(values, pattern.name, at, by_count ? "fringes" : "period");
-    pattern.period_px =
-        by_count ? field_px(options, rig, rig_has_projector) / value : value;
+    pattern.period_px = by_count ? field_px(options, rig, rig_has_projector) / value : value;
     if (options.horizontal) pattern.direction = FringeDirection::Horizontal;
     pattern.shifts_rad = shifts_of(options, pattern.name, frames[i]);
     patterns.push_back(std::move(pattern));
