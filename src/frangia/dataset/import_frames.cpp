@@ -33,10 +33,10 @@ struct WrittenFrame {
   std::size_t bytes = 0;
   std::uint32_t crc32 = 0;
   std::optional<int> jpeg_quality{};
-  int bits = 8;           ///< of the frame in the scan; 32: floating point
-  int stated_white = 0;   ///< full scale that the original states
-  int largest = 0;        ///< of whole numbers
-  unsigned all_bits = 0;  ///< of whole numbers: every bit that any pixel sets
+  int bits = 8;                 ///< of the frame in the scan; 32: floating point
+  int stated_white = 0;         ///< full scale that the original states
+  int largest = 0;              ///< of whole numbers
+  unsigned all_bits = 0;        ///< of whole numbers: every bit that any pixel sets
   double least_value = 0.0;     ///< of floating point
   double greatest_value = 0.0;  ///< of floating point
 };
@@ -76,7 +76,9 @@ void note_range(const Samples& samples, WrittenFrame& written) {
 }
 
 /// Writes one frame into `folder`.
-WrittenFrame write_frame(const ImportPlan& plan, const ImportedFrame& frame, const fs::path& folder) {
+WrittenFrame write_frame(const ImportPlan& plan,
+                         const ImportedFrame& frame,
+                         const fs::path& folder) {
   const ImageFile file(frame.file, plan.options.files);
   const ImageInfo& info = file.info();
   if (info.width_px != plan.image.width_px || info.height_px != plan.image.height_px) {
@@ -282,15 +284,8 @@ void write_record(const fs::path& path,
 ImportResult import_frames(const ImportPlan& plan, const fs::path& target, const Run& run) {
   require(!plan.frames.empty(), "import_frames: the plan has no frames");
   NewFolder folder(target);
-  run.stage("frames");
+  run.stage("import");
   const std::vector<WrittenFrame> written = write_all_frames(plan, folder.temporary(), run);
-  for (const WrittenFrame& frame : written) {
-    if (frame.bits != written.front().bits) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("{} is grey but other images have colour; export all images in one way",
-                              plan.frames.front().file.string()));
-    }
-  }
   ImportResult result{scan_of(plan, written, run)};
   Scan& scan = result.scan;
   result.compression_counts2 = scan.frames.compression_counts2;
@@ -300,8 +295,7 @@ ImportResult import_frames(const ImportPlan& plan, const fs::path& target, const
   Scan inside = scan;
   inside.folder = folder.temporary();
   write_scan(inside);
-  if (!plan.rig_has_projector)
-    write_camera_only(folder.temporary() / "rig.toml", scan.rig.camera);
+  if (!plan.rig_has_projector) write_camera_only(folder.temporary() / "rig.toml", scan.rig.camera);
   folder.commit();
   return result;
 }

@@ -124,7 +124,7 @@ std::string kind_of(const ImageInfo& image) {
                      image.width_px,
                      image.height_px,
                      image.bits,
-                     image.channels == 3 ? ", three channels" : "");
+                     image.channels == 3 ? " of three channels" : "");
 }
 
 /// Opens every file, several at a time: number of pages, and one size and depth for all.
@@ -146,7 +146,7 @@ void check_images(std::vector<NamedFile>& files, ImportPlan& plan, const Run& ru
     files[i].pages = infos[i].pages;
     const ImageInfo& image = infos[i];
     if (image.width_px != plan.image.width_px || image.height_px != plan.image.height_px ||
-        image.bits != plan.image.bits) {
+        image.bits != plan.image.bits || image.channels != plan.image.channels) {
       refuse_import(
           fmt::format("{} has {}, but {} has {}; frames of a scan have one size and depth",
                       files[i].path.string(),

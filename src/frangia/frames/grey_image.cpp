@@ -130,18 +130,17 @@ Samples grey_image(RasterImage image, const ColorChoice& choice) {
         [&](const auto& samples) { return Samples(demosaiced_luminance(samples, choice.mosaic)); },
         image.samples);
   }
-  const bool colored = has_color(image);
-  require(!colored || choice.from != GreyFrom::Nothing,
-          "is a colour image; set `color` to red, green, blue or luminance");
-  require(!colored || choice.from != GreyFrom::Demosaic,
-          "is a colour image, not a mosaic; set `color` to red, green, blue or luminance");
+  const GreyFrom from = choice.from;
+  if (from == GreyFrom::Nothing || from == GreyFrom::Demosaic) {
+    require(!has_color(image),
+            from == GreyFrom::Nothing
+                ? "is a colour image; set `color` to red, green, blue or luminance"
+                : "is a colour image, not a mosaic; set `color` to red, green, blue or luminance");
+  }
   return std::visit(
       [&](const auto& samples) -> Samples {
-        if (colored && choice.from == GreyFrom::Luminance) return luminance_of(samples);
-        const int channel = choice.from == GreyFrom::Green  ? 1
-                            : choice.from == GreyFrom::Blue ? 2
-                                                            : 0;
-        return one_channel(samples, colored ? channel : 0);
+        if (from == GreyFrom::Luminance) return luminance_of(samples);
+        return one_channel(samples, from == GreyFrom::Green ? 1 : from == GreyFrom::Blue ? 2 : 0);
       },
       image.samples);
 }

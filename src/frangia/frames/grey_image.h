@@ -30,13 +30,13 @@ struct ColorChoice {
 /// Returns whether an image has colour: channels that differ anywhere.
 [[nodiscard]] bool has_color(const RasterImage& image);
 
-/// Converts an image to grey. An image with three equal channels is grey whatever the choice.
+/// Converts an image to grey. An image with three equal channels needs no choice.
 ///
 /// Bilinear interpolation gives the colours of a mosaic. A computed value has fractions: 8-bit
 /// samples become 16-bit ones, 257 times as large, so that 255 becomes 65535.
 /// @shape    one sample per pixel
-/// @errors   Error(Input) when the image has colour and `choice` is Nothing or a mosaic, or when an
-///          image of an even number of pixels a side is needed
+/// @errors   Error(Input) when the image has colour and `choice` is Nothing or a mosaic, or when a
+///          mosaic has fewer than 2 x 2 pixels
 /// @source   ITU-R BT.601 for the weights
 [[nodiscard]] Samples grey_image(RasterImage image, const ColorChoice& choice);
 

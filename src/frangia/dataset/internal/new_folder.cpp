@@ -19,9 +19,8 @@ void require_free(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
   if (fs::is_directory(path, error) && fs::is_empty(path, error)) return;
-  throw Error(
-      ErrorKind::File,
-      fmt::format("{}: exists already; remove it or choose another name", path.string()));
+  throw Error(ErrorKind::File,
+              fmt::format("{}: exists already; remove it or choose another name", path.string()));
 }
 
 }  // namespace
