@@ -8,12 +8,15 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/parse_length.h"
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/pipeline/merge_scans.h"
 
 #include "allow_memory.h"
+#include "check_can_write.h"
 #include "counted.h"
 #include "mesh_result.h"
 #include "option_values.h"
@@ -26,14 +29,43 @@ namespace {
 
 struct MergeArguments {
   std::vector<std::filesystem::path> scans;
+  double unit_mm = 1.0;
+  std::filesystem::path poses;
   MeshOutputs outputs;
   bool no_register = false;
   MergeScansOptions options;
   ReadOptions read;
 };
 
+/// A unit of length, in mm: "m", or a length such as "25.4mm".
+CLI::Validator unit_length() {
+  return {[](std::string& input) -> std::string {
+            if (input == "ft") {
+              input = "304.8";
+              return {};
+            }
+            const bool is_name = !input.empty() && input.find_first_of("0123456789") == input.npos;
+            double unit_mm = 0.0;
+            try {
+              unit_mm = parse_length_mm(is_name ? "1" + input : input);
+            } catch (const Error&) {
+              unit_mm = 0.0;
+            }
+            if (!(unit_mm > 0.0)) {
+              return fmt::format(
+                  "is \"{}\"; it must be um, mm, cm, m, in, ft or a length such as "
+                  "25.4mm",
+                  input);
+            }
+            input = fmt::format("{}", unit_mm);
+            return {};
+          },
+          ""};
+}
+
 std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
-                                const ReadOptions& options) {
+                                const ReadOptions& options,
+                                double unit_mm) {
   std::vector<RangeScan> scans;
   for (const auto& path : paths) {
     if (lowercase_extension(path) == ".conf") {
@@ -43,7 +75,32 @@ std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
       scans.push_back(read_range_scan(path));
     }
   }
+  if (unit_mm != 1.0) {
+    for (RangeScan& scan : scans)
+      scale_range_scan(scan, unit_mm);
+  }
   return scans;
+}
+
+/// A length with at least three digits that count: "0.0421", "0.000138".
+std::string readable_mm(double value_mm) {
+  constexpr int kMostDecimals = 12;
+  int decimals = 4;
+  for (double least = 0.01; value_mm > 0.0 && value_mm < least && decimals < kMostDecimals;
+       least /= 10.0)
+    ++decimals;
+  return fmt::format("{:.{}f}", value_mm, decimals);
+}
+
+/// Rows of a rotation and a translation, as in scan.toml.
+nlohmann::ordered_json json_of_pose(const Eigen::Isometry3d& world_from_scan) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (int row = 0; row < 3; ++row) {
+    const Eigen::Vector3d values = world_from_scan.linear().row(row).transpose();
+    rows.push_back({values.x(), values.y(), values.z()});
+  }
+  const Eigen::Vector3d shift = world_from_scan.translation();
+  return {{"rotation", rows}, {"translation_mm", {shift.x(), shift.y(), shift.z()}}};
 }
 
 nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
@@ -51,7 +108,13 @@ nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
   for (const MergedScan& scan : scans) {
     json.push_back({{"scan", scan.name},
                     {"points", scan.points},
+                    {"points_read", scan.points_read},
+                    {"dropped",
+                     {{"unconnected", scan.dropped.unconnected},
+                      {"hidden", scan.dropped.hidden},
+                      {"too_dense", scan.dropped.too_dense}}},
                     {"noise_mm", scan.noise_mm},
+                    {"pose", json_of_pose(scan.world_from_scan)},
                     {"left_out", scan.left_out}});
   }
   return json;
@@ -61,15 +124,58 @@ nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
 std::string table_of(const std::vector<MergedScan>& scans) {
   TextColumn name{"scan", {}, false};
   TextColumn points{"points", {}};
+  TextColumn dropped{"dropped", {}};
   TextColumn noise{"noise mm", {}};
   TextColumn state{"", {}, false};
   for (const MergedScan& scan : scans) {
     name.values.push_back(scan.name);
     points.values.push_back(fmt::format("{}", scan.points));
-    noise.values.push_back(fmt::format("{:.4f}", scan.noise_mm));
+    dropped.values.push_back(fmt::format("{}", scan.dropped.total()));
+    noise.values.push_back(readable_mm(scan.noise_mm));
     state.values.emplace_back(scan.left_out ? "left out" : "");
   }
-  return text_table({name, points, noise, state});
+  return text_table({name, points, dropped, noise, state});
+}
+
+/// Why points of the files are in no view; empty if all are.
+std::string dropped_text(const std::vector<MergedScan>& scans) {
+  DroppedPoints all;
+  std::size_t points_read = 0;
+  for (const MergedScan& scan : scans) {
+    points_read += scan.points_read;
+    all.unconnected += scan.dropped.unconnected;
+    all.hidden += scan.dropped.hidden;
+    all.too_dense += scan.dropped.too_dense;
+  }
+  if (all.total() == 0) return {};
+  std::vector<std::string> reasons;
+  if (all.unconnected > 0)
+    reasons.push_back(fmt::format("{} without a neighbour to connect to", all.unconnected));
+  if (all.hidden > 0)
+    reasons.push_back(fmt::format("{} hidden by their own scan or seen from behind", all.hidden));
+  if (all.too_dense > 0)
+    reasons.push_back(fmt::format("{} closer together than the resampling", all.too_dense));
+  return fmt::format("dropped {} of {}: {}\n",
+                     all.total(),
+                     counted(points_read, "point"),
+                     fmt::join(reasons, ", "));
+}
+
+/// Warns of scans so small that their unit is hardly the millimetre.
+void warn_of_small_scans(const std::vector<RangeScan>& scans, double unit_mm, const Run& run) {
+  constexpr double kSmall_mm = 2.0;  // no scanner that merging is for measures such a part
+  double size = 0.0;
+  for (const RangeScan& scan : scans) {
+    Eigen::AlignedBox3f box;
+    for (const auto& point : scan.mesh.vertices_mm)
+      box.extend(point);
+    if (!box.isEmpty()) size = std::max(size, static_cast<double>(box.diagonal().norm()));
+  }
+  if (unit_mm != 1.0 || !(size > 0.0) || size >= kSmall_mm) return;
+  run.warn(
+      fmt::format("the largest scan is {} mm large; if the unit of the files is another, set "
+                  "`units` to it, such as m or in",
+                  readable_mm(size)));
 }
 
 void print_result(const MergedScans& result, const MergeArguments& arguments, Terminal& terminal) {
@@ -97,11 +203,14 @@ void print_result(const MergedScans& result, const MergeArguments& arguments, Te
   }
   if (terminal.quiet) return;
   write_output(table_of(result.scans));
+  write_output(dropped_text(result.scans));
   print_text("{} points from {} -> {} triangles\n",
              result.points,
              counted(result.scans.size(), "scan"),
              result.mesh.triangles.size());
-  print_mesh_summary(terminal, arguments.outputs.paths);
+  std::vector<std::filesystem::path> written = arguments.outputs.paths;
+  if (!arguments.poses.empty()) written.push_back(arguments.poses);
+  print_mesh_summary(terminal, written);
 }
 
 void merge(MergeArguments& arguments, Terminal& terminal) {
@@ -109,11 +218,22 @@ void merge(MergeArguments& arguments, Terminal& terminal) {
   arguments.options.register_poses = !arguments.no_register;
   const Run run = terminal.run();
   run.stage("files");
-  const std::vector<RangeScan> scans = read_all(arguments.scans, arguments.read);
+  if (!arguments.poses.empty()) check_can_write(arguments.poses);
+  std::vector<RangeScan> scans = read_all(arguments.scans, arguments.read, arguments.unit_mm);
+  warn_of_small_scans(scans, arguments.unit_mm, run);
   terminal.hold();
   const MergedScans result = merge_scans(scans, arguments.options, run);
   run.stage("files");
   arguments.outputs.write_all(result.mesh, run);
+  if (!arguments.poses.empty()) {
+    std::vector<RangeScan> posed;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (result.scans[i].left_out) continue;
+      scans[i].world_from_scan = result.scans[i].world_from_scan;
+      posed.push_back(std::move(scans[i]));
+    }
+    write_posed_scans(arguments.poses, posed, 1.0 / arguments.unit_mm);
+  }
   terminal.assess(result.untrusted_reason);
   print_result(result, arguments, terminal);
 }
@@ -141,6 +261,14 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
                    "poses of the scans: given, as in the files; shape, found from the shape of the "
                    "scans; auto (default), found from the shape if the given ones cannot be right")
       ->transform(named(kPoses));
+  verb->add_option("--units",
+                   arguments->unit_mm,
+                   "unit of the scans: um, mm (default), cm, m, in, ft, or its length, such as "
+                   "25.4mm; the mesh is written in mm")
+      ->transform(unit_length());
+  verb->add_option("--write-poses",
+                   arguments->poses,
+                   "write the refined poses to a .conf that lists the scans, in their unit");
   verb->add_flag("--no-register", arguments->no_register, "do not refine the poses");
   verb->add_option(
           "--max-distance",

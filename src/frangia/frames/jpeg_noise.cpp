@@ -41,8 +41,12 @@ int jpeg_quality(const std::array<int, 64>& steps) {
 }
 
 double jpeg_noise_counts2(int quality) {
-  static_cast<void>(quality);
-  return 1.0;
+  // The steps of the table are proportional to this scale. Rounding to whole counts is there at any
+  // quality.
+  const double scale = quality < 50 ? 50.0 / quality : (200.0 - 2.0 * quality) / 100.0;
+  constexpr double kRounding_counts2 = 0.05;
+  constexpr double kAtScaleOne_counts2 = 12.0;
+  return kRounding_counts2 + kAtScaleOne_counts2 * std::pow(scale, 1.5);
 }
 
 }  // namespace frangia
