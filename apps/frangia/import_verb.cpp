@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
@@ -18,12 +16,11 @@
 
 #include "ask.h"
 #include "counted.h"
-#include "exit_codes.h"
-#include "option_names.h"
+#include "import_table.h"
+#include "import_values.h"
 #include "option_values.h"
 #include "print_text.h"
 #include "shell_quoted.h"
-#include "text_table.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -45,40 +42,6 @@ struct ImportArguments {
   bool yes = false;
 };
 
-/// "64" or "fine=64".
-std::vector<PatternValue> values_of(const std::vector<std::string>& texts, const char* option) {
-  std::vector<PatternValue> values;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.rfind('=');
-    const std::string number = equals == std::string::npos ? text : text.substr(equals + 1);
-    char* end = nullptr;
-    const double value = std::strtod(number.c_str(), &end);
-    if (number.empty() || *end != '\0' || !std::isfinite(value) || !(value > 0.0)) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("`{}` holds \"{}\"; write numbers above 0, such as 64,58,53 or "
-                              "fine=64,coarse=8",
-                              option,
-                              text));
-    }
-    values.push_back({equals == std::string::npos ? "" : text.substr(0, equals), value});
-  }
-  return values;
-}
-
-ProjectorSize projector_size_of(const std::string& text) {
-  ProjectorSize size{};
-  char* end = nullptr;
-  const long width = std::strtol(text.c_str(), &end, 10);
-  const long height = *end == 'x' ? std::strtol(end + 1, &end, 10) : 0;
-  if (*end != '\0' || width < 1 || height < 1 || width > 65535 || height > 65535) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("`projector` is \"{}\"; write WIDTHxHEIGHT in pixels, such as 1280x800", text));
-  }
-  size = {static_cast<int>(width), static_cast<int>(height)};
-  return size;
-}
-
 ImportOptions options_of(const ImportArguments& arguments) {
   ImportOptions options = arguments.options;
   options.fringes = values_of(arguments.fringes, "fringes");
@@ -96,60 +59,6 @@ ImportOptions options_of(const ImportArguments& arguments) {
     options.white_level =
         static_cast<int>(std::clamp(std::round(arguments.white_level), 1.0, 65535.0));
   return options;
-}
-
-/// The parameters of a pattern in a few words.
-std::string parameters_of(const Pattern& pattern) {
-  if (pattern.kind == PatternKind::White) return "full light";
-  if (pattern.kind == PatternKind::Line) return "laser line";
-  if (pattern.kind == PatternKind::Ramp) return counted(pattern.levels.size(), "level");
-  const char* const lines = pattern.direction == FringeDirection::Horizontal ? "rows" : "columns";
-  if (pattern.kind == PatternKind::Gray) {
-    return fmt::format("{} of {}, stripes of {:g} px{}",
-                       counted(pattern.bits, "bit"),
-                       lines,
-                       pattern.stripe_px,
-                       pattern.inverted == InvertedFrames::None ? "" : ", with inverses");
-  }
-  std::vector<std::string> shifts;
-  for (const double shift : pattern.shifts_rad)
-    shifts.push_back(fmt::format("{:.6g}", deg_from_rad(shift)));
-  constexpr std::size_t kShownShifts = 4;
-  if (shifts.size() > kShownShifts) {
-    shifts = {shifts[0], shifts[1], shifts[2], "...", shifts.back()};
-  }
-  return fmt::format(
-      "fringes over {}, {:.6g} {}, shifts {}°",
-      lines,
-      pattern.fringes_per_degree > 0.0 ? pattern.fringes_per_degree : pattern.period_px,
-      pattern.fringes_per_degree > 0.0 ? "per degree" : "px",
-      fmt::join(shifts, ", "));
-}
-
-/// The first view's frames, pattern by pattern.
-std::string table_of(const ImportPlan& plan) {
-  TextColumn name{"pattern", {}, false};
-  TextColumn frames{"frames", {}};
-  TextColumn first{"first", {}, false};
-  TextColumn last{"last", {}, false};
-  TextColumn parameters{"shows", {}, false};
-  const auto file_of = [&](const ImportedFrame& frame) {
-    const std::string file = frame.file.lexically_relative(plan.folder).generic_string();
-    return frame.page > 0 ? fmt::format("{} image {}", file, frame.page) : file;
-  };
-  for (std::size_t i = 0; i < plan.patterns.size(); ++i) {
-    const auto is_shown = [&](const ImportedFrame& frame) {
-      return frame.pattern == i && frame.view == 0;
-    };
-    const auto begin = std::find_if(plan.frames.begin(), plan.frames.end(), is_shown);
-    const auto end = std::find_if(plan.frames.rbegin(), plan.frames.rend(), is_shown);
-    name.values.push_back(plan.patterns[i].name);
-    frames.values.push_back(fmt::format("{}", plan.patterns[i].frame_count()));
-    first.values.push_back(file_of(*begin));
-    last.values.push_back(file_of(*end));
-    parameters.values.push_back(parameters_of(plan.patterns[i]));
-  }
-  return text_table({name, frames, first, last, parameters});
 }
 
 /// Shows a guessed template and asks whether it is right.
@@ -238,7 +147,7 @@ void import_folder(const ImportArguments& arguments, Terminal& terminal) {
   if (!terminal.json && !terminal.quiet) {
     print_text(
         "{} fit {}\n", counted(plan.frames.size() + plan.left_out.size(), "image"), plan.names);
-    write_output(table_of(plan));
+    write_output(import_table(plan));
     flush_output();
   }
   confirm(plan, arguments, run);

@@ -8,20 +8,18 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/parse_length.h"
 #include "frangia/files/lowercase_extension.h"
 #include "frangia/pipeline/merge_scans.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"
 #include "counted.h"
+#include "merge_table.h"
 #include "mesh_result.h"
 #include "option_values.h"
 #include "print_text.h"
-#include "text_table.h"
 #include "write_options.h"
 
 namespace frangia {
@@ -36,32 +34,6 @@ struct MergeArguments {
   MergeScansOptions options;
   ReadOptions read;
 };
-
-/// A unit of length, in mm: "m", or a length such as "25.4mm".
-CLI::Validator unit_length() {
-  return {[](std::string& input) -> std::string {
-            if (input == "ft") {
-              input = "304.8";
-              return {};
-            }
-            const bool is_name = !input.empty() && input.find_first_of("0123456789") == input.npos;
-            double unit_mm = 0.0;
-            try {
-              unit_mm = parse_length_mm(is_name ? "1" + input : input);
-            } catch (const Error&) {
-              unit_mm = 0.0;
-            }
-            if (!(unit_mm > 0.0)) {
-              return fmt::format(
-                  "is \"{}\"; it must be um, mm, cm, m, in, ft or a length such as "
-                  "25.4mm",
-                  input);
-            }
-            input = fmt::format("{}", unit_mm);
-            return {};
-          },
-          ""};
-}
 
 std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
                                 const ReadOptions& options,
@@ -80,16 +52,6 @@ std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
       scale_range_scan(scan, unit_mm);
   }
   return scans;
-}
-
-/// A length with at least three digits that count: "0.0421", "0.000138".
-std::string readable_mm(double value_mm) {
-  constexpr int kMostDecimals = 12;
-  int decimals = 4;
-  for (double least = 0.01; value_mm > 0.0 && value_mm < least && decimals < kMostDecimals;
-       least /= 10.0)
-    ++decimals;
-  return fmt::format("{:.{}f}", value_mm, decimals);
 }
 
 /// Rows of a rotation and a translation, as in scan.toml.
@@ -118,47 +80,6 @@ nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
                     {"left_out", scan.left_out}});
   }
   return json;
-}
-
-/// One line for each scan.
-std::string table_of(const std::vector<MergedScan>& scans) {
-  TextColumn name{"scan", {}, false};
-  TextColumn points{"points", {}};
-  TextColumn dropped{"dropped", {}};
-  TextColumn noise{"noise mm", {}};
-  TextColumn state{"", {}, false};
-  for (const MergedScan& scan : scans) {
-    name.values.push_back(scan.name);
-    points.values.push_back(fmt::format("{}", scan.points));
-    dropped.values.push_back(fmt::format("{}", scan.dropped.total()));
-    noise.values.push_back(readable_mm(scan.noise_mm));
-    state.values.emplace_back(scan.left_out ? "left out" : "");
-  }
-  return text_table({name, points, dropped, noise, state});
-}
-
-/// Why points of the files are in no view; empty if all are.
-std::string dropped_text(const std::vector<MergedScan>& scans) {
-  DroppedPoints all;
-  std::size_t points_read = 0;
-  for (const MergedScan& scan : scans) {
-    points_read += scan.points_read;
-    all.unconnected += scan.dropped.unconnected;
-    all.hidden += scan.dropped.hidden;
-    all.too_dense += scan.dropped.too_dense;
-  }
-  if (all.total() == 0) return {};
-  std::vector<std::string> reasons;
-  if (all.unconnected > 0)
-    reasons.push_back(fmt::format("{} without a neighbour to connect to", all.unconnected));
-  if (all.hidden > 0)
-    reasons.push_back(fmt::format("{} hidden by their own scan or seen from behind", all.hidden));
-  if (all.too_dense > 0)
-    reasons.push_back(fmt::format("{} closer together than the resampling", all.too_dense));
-  return fmt::format("dropped {} of {}: {}\n",
-                     all.total(),
-                     counted(points_read, "point"),
-                     fmt::join(reasons, ", "));
 }
 
 /// Warns of scans so small that their unit is hardly the millimetre.
@@ -202,7 +123,7 @@ void print_result(const MergedScans& result, const MergeArguments& arguments, Te
     return;
   }
   if (terminal.quiet) return;
-  write_output(table_of(result.scans));
+  write_output(merge_table(result.scans));
   write_output(dropped_text(result.scans));
   print_text("{} points from {} -> {} triangles\n",
              result.points,

@@ -247,7 +247,7 @@ TEST_F(ImportFrames, LeavesNothingWhenItIsStoppedOrAFrameIsDamaged) {
   write_fringes("a", 12);
   const ImportPlan plan = plan_import(images(), options);
   std::stop_source source;
-  Run run;
+  frangia::Run run;
   run.stop = source.get_token();
   run.progress = [&](double done) {
     if (done > 0.5) source.request_stop();

@@ -42,7 +42,7 @@ void expect_grey(const RasterImage& image, double scale, const std::string& name
   ASSERT_EQ(image.height_px(), 6) << name;
   for (int y = 0; y < 6; ++y) {
     for (int x = 0; x < 11; ++x)
-      EXPECT_FLOAT_EQ(sample_at(image, x, y), scale * grey_at(x, y)) << name << x << ' ' << y;
+      EXPECT_NEAR(sample_at(image, x, y), scale * grey_at(x, y), 1e-6) << name << x << ' ' << y;
   }
 }
 

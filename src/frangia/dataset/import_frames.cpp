@@ -1,145 +1,22 @@
 #include "frangia/dataset/import_frames.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
-#include <exception>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/core/parallel.h"
 #include "frangia/dataset/internal/new_folder.h"
+#include "frangia/dataset/internal/write_imported_frames.h"
 #include "frangia/dataset/write_scan.h"
-#include "frangia/frames/float_tiff.h"
 #include "frangia/frames/jpeg_noise.h"
-#include "frangia/frames/png.h"
 #include "frangia/rig/toml_writer.h"
 
 namespace frangia {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What is known of a frame after it was written.
-struct WrittenFrame {
-  std::string file;  ///< relative to the scan
-  std::string codec;
-  std::size_t bytes = 0;
-  std::uint32_t crc32 = 0;
-  std::optional<int> jpeg_quality{};
-  int bits = 8;                 ///< of the frame in the scan; 32: floating point
-  int stated_white = 0;         ///< full scale that the original states
-  int largest = 0;              ///< of whole numbers
-  unsigned all_bits = 0;        ///< of whole numbers: every bit that any pixel sets
-  double least_value = 0.0;     ///< of floating point
-  double greatest_value = 0.0;  ///< of floating point
-};
-
-std::string view_folder(std::size_t view) {
-  return fmt::format("views/{:03}", view);
-}
-
-/// Notes the range of the values of a frame.
-void note_range(const Samples& samples, WrittenFrame& written) {
-  if (const auto* const values = std::get_if<Image<float>>(&samples)) {
-    written.bits = 32;
-    double least = std::numeric_limits<double>::infinity();
-    double greatest = -least;
-    for (const float value : values->pixels()) {
-      if (!std::isfinite(value)) continue;
-      least = std::min(least, static_cast<double>(value));
-      greatest = std::max(greatest, static_cast<double>(value));
-    }
-    written.least_value = std::min(least, greatest);
-    written.greatest_value = std::max(least, greatest);
-    if (least > greatest) written.least_value = written.greatest_value = 0.0;
-    return;
-  }
-  const auto note = [&](const auto& image) {
-    for (const auto value : image.pixels()) {
-      written.largest = std::max(written.largest, static_cast<int>(value));
-      written.all_bits |= static_cast<unsigned>(value);
-    }
-  };
-  if (const auto* const narrow = std::get_if<Image<std::uint8_t>>(&samples)) {
-    note(*narrow);
-  } else {
-    written.bits = 16;
-    note(std::get<Image<std::uint16_t>>(samples));
-  }
-}
-
-/// Writes one frame into `folder`.
-WrittenFrame write_frame(const ImportPlan& plan,
-                         const ImportedFrame& frame,
-                         const fs::path& folder) {
-  const ImageFile file(frame.file, plan.options.files);
-  const ImageInfo& info = file.info();
-  if (info.width_px != plan.image.width_px || info.height_px != plan.image.height_px) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: changed during the import; import again", frame.file.string()));
-  }
-  Samples samples;
-  try {
-    samples = grey_image(file.read(frame.page), plan.options.color);
-  } catch (const Error& error) {
-    const std::string what = error.what();
-    const bool named = what.find(frame.file.string()) != std::string::npos;
-    if (named || error.kind() != ErrorKind::Input) throw;
-    throw Error(error.kind(), fmt::format("{}: {}", frame.file.string(), what));
-  }
-  WrittenFrame written{.codec = info.codec,
-                       .bytes = file.bytes(),
-                       .crc32 = file.crc32(),
-                       .jpeg_quality = info.jpeg_quality,
-                       .stated_white = info.white_level};
-  note_range(samples, written);
-  fs::path name = fs::path(view_folder(frame.view)) /
-                  frame_file_name(plan.patterns[frame.pattern], static_cast<int>(frame.frame));
-  if (auto* const values = std::get_if<Image<float>>(&samples)) {
-    name.replace_extension(".tiff");
-    write_float_tiff(folder / name, *values);
-  } else if (auto* const narrow = std::get_if<Image<std::uint8_t>>(&samples)) {
-    write_png(folder / name, Frame(std::move(*narrow)));
-  } else {
-    write_png(folder / name, Frame(std::move(std::get<Image<std::uint16_t>>(samples))));
-  }
-  written.file = name.generic_string();
-  return written;
-}
-
-/// Writes all frames, several at a time. The error of the first frame that failed is thrown.
-std::vector<WrittenFrame> write_all_frames(const ImportPlan& plan,
-                                           const fs::path& folder,
-                                           const Run& run) {
-  constexpr std::size_t kBatch = 8;  // between reports of progress
-  for (std::size_t view = 0; view < plan.views; ++view)
-    make_folder(folder / view_folder(view));
-  std::vector<WrittenFrame> written(plan.frames.size());
-  for (std::size_t begin = 0; begin < plan.frames.size(); begin += kBatch) {
-    run.report(static_cast<double>(begin) / static_cast<double>(plan.frames.size()));
-    const std::size_t count = std::min(kBatch, plan.frames.size() - begin);
-    std::array<std::exception_ptr, kBatch> errors{};
-    parallel_chunks(count, 1, [&](std::size_t i, std::size_t) {
-      try {
-        run.check();
-        written[begin + i] = write_frame(plan, plan.frames[begin + i], folder);
-      } catch (...) {
-        errors[i] = std::current_exception();
-      }
-    });
-    for (const std::exception_ptr& error : errors)
-      if (error) std::rethrow_exception(error);
-  }
-  run.report(1.0);
-  return written;
-}
 
 /// The full scale of whole numbers: what the files state, or the least of the usual depths that
 /// holds every value. Samples that are shifted to the left leave low bits unset.
@@ -285,7 +162,7 @@ ImportResult import_frames(const ImportPlan& plan, const fs::path& target, const
   require(!plan.frames.empty(), "import_frames: the plan has no frames");
   NewFolder folder(target);
   run.stage("import");
-  const std::vector<WrittenFrame> written = write_all_frames(plan, folder.temporary(), run);
+  const std::vector<WrittenFrame> written = write_imported_frames(plan, folder.temporary(), run);
   ImportResult result{scan_of(plan, written, run)};
   Scan& scan = result.scan;
   result.compression_counts2 = scan.frames.compression_counts2;
