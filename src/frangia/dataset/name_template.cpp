@@ -62,7 +62,7 @@ void NameTemplate::add_field(const std::string& field) {
   const std::string name = field.substr(0, colon);
   std::string width = colon == std::string::npos ? "" : field.substr(colon + 1);
   static const std::map<std::string, Kind> kKinds = {
-      {"pattern", Kind::Pattern}, {"frame", Kind::Frame}, {"view", Kind::View}};
+      {"pattern", Kind::PatternText}, {"frame", Kind::FrameNumber}, {"view", Kind::ViewNumber}};
   const auto kind = kKinds.find(name);
   if (kind == kKinds.end()) {
     refuse_template(
@@ -74,7 +74,7 @@ void NameTemplate::add_field(const std::string& field) {
   if (width.ends_with('d')) width.pop_back();
   const bool number = width.size() <= 2 && std::all_of(width.begin(), width.end(), is_digit);
   const std::size_t digits = number && !width.empty() ? std::stoul(width) : 0;
-  if (!number || digits > kMaxDigits || (kind->second == Kind::Pattern && digits > 0)) {
+  if (!number || digits > kMaxDigits || (kind->second == Kind::PatternText && digits > 0)) {
     refuse_template(
         text_,
         fmt::format("in which {{{}}} has no valid width; write a number as in {{frame:02}}",
@@ -120,7 +120,7 @@ void NameTemplate::read_on(std::size_t token, std::size_t at, Search& search) co
     if (fits) read_on(token + 1, at + now.literal.size(), search);
     return;
   }
-  if (now.kind != Kind::Pattern) {
+  if (now.kind != Kind::PatternText) {
     read_number(token, at, search);
     return;
   }
@@ -137,7 +137,8 @@ void NameTemplate::read_on(std::size_t token, std::size_t at, Search& search) co
 void NameTemplate::read_number(std::size_t token, std::size_t at, Search& search) const {
   const Token& now = tokens_[token];
   const std::string& name = search.name;
-  std::optional<int>& field = now.kind == Kind::Frame ? search.fields.frame : search.fields.view;
+  std::optional<int>& field =
+      now.kind == Kind::FrameNumber ? search.fields.frame : search.fields.view;
   int value = 0;
   for (std::size_t digits = 1; digits <= kMaxDigits && at + digits <= name.size(); ++digits) {
     const char letter = name[at + digits - 1];

@@ -30,10 +30,10 @@ class NameTemplate {
   ///           occurs twice, a brace without its partner
   explicit NameTemplate(const std::string& text);
 
-  [[nodiscard]] const std::string& text() const { return text_; }        ///< the template as given
-  [[nodiscard]] bool has_pattern() const { return has(Kind::Pattern); }  ///< holds {pattern}
-  [[nodiscard]] bool has_frame() const { return has(Kind::Frame); }      ///< holds {frame}
-  [[nodiscard]] bool has_view() const { return has(Kind::View); }        ///< holds {view}
+  [[nodiscard]] const std::string& text() const { return text_; }  ///< the template as given
+  [[nodiscard]] bool has_pattern() const { return has(Kind::PatternText); }  ///< holds {pattern}
+  [[nodiscard]] bool has_frame() const { return has(Kind::FrameNumber); }    ///< holds {frame}
+  [[nodiscard]] bool has_view() const { return has(Kind::ViewNumber); }      ///< holds {view}
   [[nodiscard]] int depth() const;  ///< number of folders that names lead into
 
   /// Returns every reading of a name; none if it does not fit. A reading whose numbers have exactly
@@ -43,7 +43,7 @@ class NameTemplate {
                                               const std::vector<std::string>& patterns = {}) const;
 
  private:
-  enum class Kind { Literal, Pattern, Frame, View };
+  enum class Kind { Literal, PatternText, FrameNumber, ViewNumber };
   struct Token {
     Kind kind = Kind::Literal;
     std::string literal;
