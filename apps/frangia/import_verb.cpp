@@ -75,10 +75,10 @@ void confirm(const ImportPlan& plan, const ImportArguments& arguments, const Run
     throw Error(ErrorKind::Input, "nothing is imported; set `names` to the template of the files");
 }
 
-/// Warns of the noise that JPEG adds, in relation to that of the camera.
+/// Warns of the noise that JPEG adds, beside that which the frames of the first view show.
 void warn_of_compression(const ImportPlan& plan, const ImportResult& result, const Run& run) {
   if (plan.jpeg_quality == 0) return;
-  double times = 0.0;
+  std::string beside;
   const bool has_fringes =
       std::any_of(result.scan.patterns.begin(), result.scan.patterns.end(), [](const Pattern& p) {
         return p.kind == PatternKind::Fringe;
@@ -86,15 +86,16 @@ void warn_of_compression(const ImportPlan& plan, const ImportResult& result, con
   if (has_fringes) {
     const std::vector<FrameStack> stacks = read_frames(result.scan, 0, run);
     const double middle = 0.5 * result.scan.rig.camera.white_level;
-    const double camera = estimate_noise(stacks).variance(middle);
-    times = std::sqrt(1.0 + result.compression_counts2 / camera);
+    beside = fmt::format(" beside the {:.2g} counts that the frames show",
+                         std::sqrt(estimate_noise(stacks).variance(middle)));
   }
-  run.warn(fmt::format(
-      "the frames are JPEGs of quality {}: the compression adds noise of {:.2g} counts to each "
-      "pixel, which sigma counts{}; capture PNG, TIFF or BMP for the full accuracy",
-      plan.jpeg_quality,
-      std::sqrt(result.compression_counts2),
-      times > 0.0 ? fmt::format(" and which makes it {:.2g} times as large", times) : ""));
+  run.warn(
+      fmt::format("the frames are JPEGs of quality {}: the compression adds noise of {:.2g} counts "
+                  "to each pixel{}, and sigma counts it; capture PNG, TIFF or BMP for the full "
+                  "accuracy",
+                  plan.jpeg_quality,
+                  std::sqrt(result.compression_counts2),
+                  beside));
 }
 
 void print_result(const ImportPlan& plan,
