@@ -67,6 +67,7 @@ TEST(GuessNameTemplate, FindsTheUsualForms) {
   EXPECT_EQ(guess_name_template({"v00/1.png", "v00/2.png", "v01/1.png", "v01/2.png"}),
             "v{view:02}/{frame}.png");
   EXPECT_EQ(guess_name_template({"stack.tif"}), "stack.tif");
+  EXPECT_EQ(guess_name_template({"shot0", "shot1"}), "shot{frame}");  // raw files
 }
 
 TEST(GuessNameTemplate, RefusesNamesThatShowNothing) {

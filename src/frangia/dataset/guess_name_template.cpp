@@ -65,7 +65,7 @@ std::string template_of_files(const std::vector<std::string>& files,
   std::vector<CutText> cuts;
   std::set<std::string> prefixes;
   for (const std::string& file : files) {
-    const std::size_t dot = file.rfind('.');
+    const std::size_t dot = std::min(file.rfind('.'), file.size());  // raw files may have none
     cuts.push_back(cut_at_last_number(file.substr(0, dot)));
     cuts.back().after += file.substr(dot);
     prefixes.insert(cuts.back().before);
