@@ -10,11 +10,14 @@
 
 #include "frangia/acquisition/internal/capture_manifest.h"
 #include "frangia/core/error.h"
+#include "frangia/dataset/name_template.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/range_scan.h"
+#include "frangia/frames/grey_image.h"
+#include "frangia/frames/image_file.h"
 #include "frangia/frames/png.h"
 #include "frangia/phase/correct_response.h"
 #include "frangia/phase/phase_algorithm.h"
@@ -101,23 +104,51 @@ void read_covariance(const Path& path) {
     static_cast<void>(change_parameters(rig, covariance.parameters, factor.col(i)));
 }
 
-constexpr std::array<FuzzReader, 19> kReaders{{
+/// Every page of an image, as an import reads it.
+void read_image(const Path& path) {
+  const ImageFile file(path);
+  constexpr std::size_t kMaxPages = 4;
+  for (std::size_t page = 0; page < std::min(file.info().pages, kMaxPages); ++page)
+    static_cast<void>(grey_image(file.read(page), {GreyFrom::Luminance}));
+}
+
+/// The first line is a template of file names, which is given every name of the other lines.
+void read_names(const Path& path) {
+  std::ifstream lines(path);
+  std::string line;
+  std::getline(lines, line);
+  const NameTemplate names(line.substr(0, 200));
+  std::vector<std::string> files;
+  while (std::getline(lines, line) && files.size() < 20)
+    files.push_back(line.substr(0, 80));
+  for (const std::string& file : files)
+    static_cast<void>(names.match(file));
+  static_cast<void>(NameTemplate(guess_name_template(files)));
+}
+
+constexpr std::array<FuzzReader, 26> kReaders{{
     {"3mf", "input.3mf", read_mesh_file},
+    {"bmp", "input.bmp", read_image},
     {"conf", "input.conf", [](const Path& path) { static_cast<void>(read_posed_scans(path)); }},
     {"covariance", "input.csv", read_covariance},
     {"dxf", "input.dxf", read_mesh_file},
     {"glb", "input.glb", read_mesh_file},
     {"gltf", "input.gltf", read_mesh_file},
+    {"image", "input.png", read_image},
+    {"jpeg", "input.jpg", read_image},
     {"manifest",
      "capture/manifest.txt",
      [](const Path& path) {
        CaptureManifest manifest(path.parent_path().parent_path());
        static_cast<void>(manifest.retries());
      }},
+    {"names", "input.txt", read_names},
+    {"npy", "input.npy", read_image},
     {"obj", "input.obj", read_mesh_file},
     {"off", "input.off", read_mesh_file},
     {"pcd", "input.pcd", read_mesh_file},
     {"ply", "input.ply", read_mesh_file},
+    {"pnm", "input.pgm", read_image},
     {"png", "input.png", [](const Path& path) { static_cast<void>(read_png(path)); }},
     {"range", "input.ply", read_range_file},
     {"response", "response.toml", read_response},
@@ -125,6 +156,7 @@ constexpr std::array<FuzzReader, 19> kReaders{{
     {"scan", "scan.toml", read_scan_file},
     {"script", "input.json", [](const Path& path) { static_cast<void>(read_edit_script(path)); }},
     {"stl", "input.stl", read_mesh_file},
+    {"tiff", "input.tiff", read_image},
     {"xyz", "input.xyz", read_mesh_file},
 }};
 

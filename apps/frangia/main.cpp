@@ -84,6 +84,7 @@ int run_program(int argc, char** argv) {
   add_demo_verb(program, terminal);
   add_simulate_verb(program, terminal);
   add_reconstruct_verb(program, terminal);
+  add_import_verb(program, terminal);
   add_decode_verb(program, terminal);
   add_inspect_verb(program, terminal);
   add_algorithms_verb(program, terminal);

@@ -14,11 +14,12 @@
 #include "frangia/pipeline/merge_scans.h"
 
 #include "allow_memory.h"
+#include "check_can_write.h"
 #include "counted.h"
+#include "merge_table.h"
 #include "mesh_result.h"
 #include "option_values.h"
 #include "print_text.h"
-#include "text_table.h"
 #include "write_options.h"
 
 namespace frangia {
@@ -26,6 +27,8 @@ namespace {
 
 struct MergeArguments {
   std::vector<std::filesystem::path> scans;
+  double unit_mm = 1.0;
+  std::filesystem::path poses;
   MeshOutputs outputs;
   bool no_register = false;
   MergeScansOptions options;
@@ -33,7 +36,8 @@ struct MergeArguments {
 };
 
 std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
-                                const ReadOptions& options) {
+                                const ReadOptions& options,
+                                double unit_mm) {
   std::vector<RangeScan> scans;
   for (const auto& path : paths) {
     if (lowercase_extension(path) == ".conf") {
@@ -43,7 +47,22 @@ std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
       scans.push_back(read_range_scan(path));
     }
   }
+  if (unit_mm != 1.0) {
+    for (RangeScan& scan : scans)
+      scale_range_scan(scan, unit_mm);
+  }
   return scans;
+}
+
+/// Rows of a rotation and a translation, as in scan.toml.
+nlohmann::ordered_json json_of_pose(const Eigen::Isometry3d& world_from_scan) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (int row = 0; row < 3; ++row) {
+    const Eigen::Vector3d values = world_from_scan.linear().row(row).transpose();
+    rows.push_back({values.x(), values.y(), values.z()});
+  }
+  const Eigen::Vector3d shift = world_from_scan.translation();
+  return {{"rotation", rows}, {"translation_mm", {shift.x(), shift.y(), shift.z()}}};
 }
 
 nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
@@ -51,25 +70,33 @@ nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
   for (const MergedScan& scan : scans) {
     json.push_back({{"scan", scan.name},
                     {"points", scan.points},
+                    {"points_read", scan.points_read},
+                    {"dropped",
+                     {{"unconnected", scan.dropped.unconnected},
+                      {"hidden", scan.dropped.hidden},
+                      {"too_dense", scan.dropped.too_dense}}},
                     {"noise_mm", scan.noise_mm},
+                    {"pose", json_of_pose(scan.world_from_scan)},
                     {"left_out", scan.left_out}});
   }
   return json;
 }
 
-/// One line for each scan.
-std::string table_of(const std::vector<MergedScan>& scans) {
-  TextColumn name{"scan", {}, false};
-  TextColumn points{"points", {}};
-  TextColumn noise{"noise mm", {}};
-  TextColumn state{"", {}, false};
-  for (const MergedScan& scan : scans) {
-    name.values.push_back(scan.name);
-    points.values.push_back(fmt::format("{}", scan.points));
-    noise.values.push_back(fmt::format("{:.4f}", scan.noise_mm));
-    state.values.emplace_back(scan.left_out ? "left out" : "");
+/// Warns of scans so small that their unit is hardly the millimetre.
+void warn_of_small_scans(const std::vector<RangeScan>& scans, double unit_mm, const Run& run) {
+  constexpr double kSmall_mm = 2.0;  // no scanner that merging is for measures such a part
+  double size = 0.0;
+  for (const RangeScan& scan : scans) {
+    Eigen::AlignedBox3f box;
+    for (const auto& point : scan.mesh.vertices_mm)
+      box.extend(point);
+    if (!box.isEmpty()) size = std::max(size, static_cast<double>(box.diagonal().norm()));
   }
-  return text_table({name, points, noise, state});
+  if (unit_mm != 1.0 || !(size > 0.0) || size >= kSmall_mm) return;
+  run.warn(
+      fmt::format("the largest scan is {} mm large; if the unit of the files is another, set "
+                  "`units` to it, such as m or in",
+                  readable_mm(size)));
 }
 
 void print_result(const MergedScans& result, const MergeArguments& arguments, Terminal& terminal) {
@@ -96,12 +123,15 @@ void print_result(const MergedScans& result, const MergeArguments& arguments, Te
     return;
   }
   if (terminal.quiet) return;
-  write_output(table_of(result.scans));
+  write_output(merge_table(result.scans));
+  write_output(dropped_text(result.scans));
   print_text("{} points from {} -> {} triangles\n",
              result.points,
              counted(result.scans.size(), "scan"),
              result.mesh.triangles.size());
-  print_mesh_summary(terminal, arguments.outputs.paths);
+  std::vector<std::filesystem::path> written = arguments.outputs.paths;
+  if (!arguments.poses.empty()) written.push_back(arguments.poses);
+  print_mesh_summary(terminal, written);
 }
 
 void merge(MergeArguments& arguments, Terminal& terminal) {
@@ -109,11 +139,22 @@ void merge(MergeArguments& arguments, Terminal& terminal) {
   arguments.options.register_poses = !arguments.no_register;
   const Run run = terminal.run();
   run.stage("files");
-  const std::vector<RangeScan> scans = read_all(arguments.scans, arguments.read);
+  if (!arguments.poses.empty()) check_can_write(arguments.poses);
+  std::vector<RangeScan> scans = read_all(arguments.scans, arguments.read, arguments.unit_mm);
+  warn_of_small_scans(scans, arguments.unit_mm, run);
   terminal.hold();
   const MergedScans result = merge_scans(scans, arguments.options, run);
   run.stage("files");
   arguments.outputs.write_all(result.mesh, run);
+  if (!arguments.poses.empty()) {
+    std::vector<RangeScan> posed;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (result.scans[i].left_out) continue;
+      scans[i].world_from_scan = result.scans[i].world_from_scan;
+      posed.push_back(std::move(scans[i]));
+    }
+    write_posed_scans(arguments.poses, posed, 1.0 / arguments.unit_mm);
+  }
   terminal.assess(result.untrusted_reason);
   print_result(result, arguments, terminal);
 }
@@ -141,6 +182,14 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
                    "poses of the scans: given, as in the files; shape, found from the shape of the "
                    "scans; auto (default), found from the shape if the given ones cannot be right")
       ->transform(named(kPoses));
+  verb->add_option("--units",
+                   arguments->unit_mm,
+                   "unit of the scans: um, mm (default), cm, m, in, ft, or its length, such as "
+                   "25.4mm; the mesh is written in mm")
+      ->transform(unit_length());
+  verb->add_option("--write-poses",
+                   arguments->poses,
+                   "write the refined poses to a .conf that lists the scans, in their unit");
   verb->add_flag("--no-register", arguments->no_register, "do not refine the poses");
   verb->add_option(
           "--max-distance",

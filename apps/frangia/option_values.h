@@ -34,6 +34,10 @@ namespace frangia {
 [[nodiscard]] CLI::Validator length_above_zero();
 [[nodiscard]] CLI::Validator length_zero_or_more();
 
+/// A unit of length: um, mm, cm, m, in, ft, or a length such as "25.4mm". For
+/// CLI::Option::transform: the option's variable receives mm.
+[[nodiscard]] CLI::Validator unit_length();
+
 /// A size of memory: "2GB", "500 MB", or a number of bytes. For CLI::Option::transform: the
 /// option's variable receives bytes.
 [[nodiscard]] CLI::Validator size_above_zero();

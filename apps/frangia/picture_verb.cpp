@@ -1,14 +1,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/frames/png.h"
+#include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspect/contact_sheet.h"
 #include "frangia/inspect/render_mesh.h"
 
@@ -28,7 +31,31 @@ struct PictureArguments {
   double elevation_deg = 20.0;
   RenderOptions shade;
   ReadOptions read;
+  std::string up = "z";
 };
+
+/// The rotation that turns the direction `text`, such as "y", "-x" or "0,1,0.2", to z.
+Eigen::Isometry3d upright(const std::string& text) {
+  const bool negative = text.starts_with('-');
+  const std::string axis = negative ? text.substr(1) : text;
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  if (axis == "x" || axis == "y" || axis == "z") {
+    up[axis.front() - 'x'] = negative ? -1.0 : 1.0;
+  } else {
+    std::istringstream words(text);
+    char comma = ',';
+    words >> up.x() >> comma >> up.y() >> comma >> up.z();
+    const bool complete = !words.fail() && (words >> std::ws).eof() && comma == ',';
+    if (!complete) up.setZero();
+  }
+  if (!up.allFinite() || !(up.norm() > 0.0)) {
+    throw Error(ErrorKind::Input,
+                fmt::format("`up` is \"{}\"; it must be x, y, z, -x, -y, -z or three numbers such "
+                            "as 0,1,0",
+                            text));
+  }
+  return Eigen::Isometry3d(Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()));
+}
 
 void draw(PictureArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
@@ -38,7 +65,9 @@ void draw(PictureArguments arguments, Terminal& terminal) {
   std::vector<Image<Rgb>> pictures;
   for (const auto& path : arguments.meshes) {
     run.stage(path.filename().string());
-    pictures.push_back(render_mesh(read_surface(path, run, arguments.read), arguments.shade, run));
+    const Mesh mesh =
+        transform_mesh(read_surface(path, run, arguments.read), upright(arguments.up));
+    pictures.push_back(render_mesh(mesh, arguments.shade, run));
   }
   if (pictures.size() == 1) {
     write_png(arguments.output, pictures.front());
@@ -70,6 +99,10 @@ void add_picture_verb(CLI::App& program, Terminal& terminal) {
                    arguments->elevation_deg,
                    "direction of the viewer above the ground, degrees")
       ->check(from_to(-90.0, 90.0))
+      ->capture_default_str();
+  verb->add_option("--up",
+                   arguments->up,
+                   "direction that points up: x, y, z, -x, -y, -z or three numbers such as 0,1,0")
       ->capture_default_str();
   verb->add_flag("--edges", arguments->shade.show_edges, "draw the edges of the triangles");
   verb->add_flag("--marks",

@@ -20,6 +20,7 @@ void add_picture_verb(CLI::App& program, Terminal& terminal);
 void add_edit_verb(CLI::App& program, Terminal& terminal);
 void add_scan_verb(CLI::App& program, Terminal& terminal);
 void add_devices_verb(CLI::App& program, Terminal& terminal);
+void add_import_verb(CLI::App& program, Terminal& terminal);
 void add_calibrate_verb(CLI::App& program, Terminal& terminal);
 
 }  // namespace frangia

@@ -1,6 +1,7 @@
 // Pictures by `frangia inspect` and `frangia picture`.
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -107,6 +108,26 @@ TEST_F(PictureProgram, AddsAColorScaleUnlessToldNotTo) {
   EXPECT_EQ(run_program(command + " --no-legend --picture " + at("bare.png")).exit_code, 0);
   EXPECT_GT(width_of(at("scale.png")), 1300);
   EXPECT_EQ(width_of(at("bare.png")), 1200);
+}
+
+TEST_F(PictureProgram, TurnsTheDirectionUpUpright) {
+  // A box that stands along y, and the same box standing along z.
+  write_mesh(at("y.ply"), testing::box({0, 0, 0}, {10, 30, 20}));
+  write_mesh(at("z.ply"), testing::box({0, -20, 0}, {10, 0, 30}));
+  const auto picture = [&](const std::string& mesh, const std::string& up) {
+    const Answer answer = run_program("picture " + at(mesh) + " --width 200 --height 160 --up " +
+                                      up + " -o " + at("a.png"));
+    EXPECT_EQ(answer.exit_code, 0) << answer.output;
+    std::ifstream in(at("a.png"), std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  EXPECT_EQ(picture("y.ply", "y"), picture("z.ply", "z"));
+  EXPECT_EQ(picture("y.ply", "0,1,0"), picture("z.ply", "0,0,2"));
+  EXPECT_NE(picture("y.ply", "y"), picture("y.ply", "z"));
+  const Answer answer = run_program("picture " + at("y.ply") + " --up w -o " + at("a.png"));
+  EXPECT_EQ(answer.exit_code, 3);
+  EXPECT_NE(answer.output.find("--up is \"w\"; it must be x, y, z"), std::string::npos)
+      << answer.output;
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <regex>
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "frangia/files/ply.h"
 
@@ -107,6 +109,40 @@ TEST_F(RegistrationProgram, MergeWritesEveryFileKindAndCapsADxf) {
       run_program("merge " + path("one.ply") + " --dxf mesh --dxf-faces 500 --stl-text -o " +
                   path("a.dxf") + " -o " + path("a.stl") + " -o " + path("a.glb"));
   expect_told(answer, 0, "from the original surface");
+}
+
+TEST_F(RegistrationProgram, MergeTakesTheUnitOfTheFilesAndKeepsSmallFiguresReadable) {
+  write_relief("one.ply", dome);
+  const auto noise_mm = [&](const std::string& options) {
+    const Answer answer = run_program("--json merge " + path("one.ply") + " " + options + " -o " +
+                                      path("a.ply") + " 2>/dev/null");
+    EXPECT_EQ(answer.exit_code, 0) << answer.output;
+    return nlohmann::json::parse(answer.output)["per_scan"][0]["noise_mm"].get<double>();
+  };
+  const double plain = noise_mm("");
+  EXPECT_NEAR(noise_mm("--units cm") / plain, 10.0, 0.01);
+  EXPECT_NEAR(noise_mm("--units 25.4mm") / noise_mm("--units in"), 1.0, 1e-6);
+  const Answer tiny = run_program("merge " + path("one.ply") + " --units um -o " + path("b.ply"));
+  EXPECT_TRUE(std::regex_search(tiny.output, std::regex("0\\.0000*[1-9][0-9][0-9]")))
+      << tiny.output;
+  EXPECT_EQ(
+      run_program("merge " + path("one.ply") + " --units furlong -o " + path("c.ply")).exit_code,
+      2);
+}
+
+TEST_F(RegistrationProgram, MergeWritesTheRefinedPosesAndWhyItDroppedPoints) {
+  write_relief("one.ply", dome);
+  write_relief("two.ply", dome);
+  const Answer answer = run_program("--json merge " + path("one.ply") + " " + path("two.ply") +
+                                    " --poses given --write-poses " + path("out.conf") + " -o " +
+                                    path("a.ply") + " 2>/dev/null");
+  const auto json = nlohmann::json::parse(answer.output);
+  for (const auto& scan : json["per_scan"]) {
+    EXPECT_GT(scan["points_read"], 0) << answer.output;
+    EXPECT_EQ(scan["pose"]["rotation"].size(), 3U);
+    EXPECT_TRUE(scan["dropped"].contains("hidden"));
+  }
+  expect_told(run_program("merge " + path("out.conf") + " -o " + path("b.ply")), 0, "triangles");
 }
 
 TEST_F(RegistrationProgram, AVoxelThatNeedsTooMuchMemoryIsRefusedWithOneThatFits) {

@@ -64,6 +64,22 @@ TEST(RangeScan, RotatesByTheConjugateOfTheQuaternionInAConf) {
   EXPECT_TRUE(turned.isApprox(Eigen::Vector3d(1.0, 1.0, 3.0), 1e-6)) << turned.transpose();
 }
 
+TEST(RangeScan, WritesAConfThatReadsBack) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "sub");
+  write(folder.path() / "grid.ply", small_grid(3));
+  write(folder.path() / "all.conf", "bmesh grid.ply 1 2 3 0.1 0.2 0.3 0.9\n");
+  auto scans = read_posed_scans(folder.path() / "all.conf");
+  const Eigen::Isometry3d pose = scans[0].world_from_scan;
+  scale_range_scan(scans[0], 1000.0);  // from metres
+  EXPECT_NEAR(scans[0].world_from_scan.translation().z(), 3000.0, 1e-9);
+  write_posed_scans(folder.path() / "sub" / "new.conf", scans, 0.001);
+  const auto again = read_posed_scans(folder.path() / "sub" / "new.conf");
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_TRUE(again[0].world_from_scan.isApprox(pose, 1e-8));
+  EXPECT_EQ(again[0].mesh.vertices_mm.size(), scans[0].mesh.vertices_mm.size());
+}
+
 void read_text(const std::string& text) {
   const TemporaryFolder folder;
   write(folder.path() / "grid.ply", text);

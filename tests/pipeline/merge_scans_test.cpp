@@ -1,7 +1,9 @@
 #include "frangia/pipeline/merge_scans.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
@@ -101,6 +103,50 @@ TEST(MergeScans, PutsPosesRightThatAreOff) {
   EXPECT_LT(surface_error(merged.mesh, part).rms_mm, 0.07);
   ASSERT_TRUE(merged.registration.has_value());
   EXPECT_LT(merged.registration->rms_after_mm, 0.3 * merged.registration->rms_before_mm);
+  // The refined poses agree with the true ones: the first is held.
+  const std::vector<RangeScan> truth = scans_of(part, true);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const Eigen::Vector3d corner(20.0, -20.0, 10.0);
+    EXPECT_LT((merged.scans[i].world_from_scan * corner - truth[i].world_from_scan * corner).norm(),
+              0.2)
+        << i;
+  }
+}
+
+TEST(MergeScans, CountsDroppedPointsByTheReason) {
+  // A plate of 41 x 41 points, 1 mm apart, with the back of the plate 10 mm below, seen from
+  // behind.
+  RangeScan scan;
+  constexpr std::uint32_t kSide = 41;
+  const auto add_plate = [&](float z, bool faces_up) {
+    const auto first = static_cast<std::uint32_t>(scan.mesh.vertices_mm.size());
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i)
+      scan.mesh.vertices_mm.emplace_back(
+          static_cast<float>(i % kSide), static_cast<float>(i / kSide), z);
+    for (std::uint32_t row = 0; row + 1 < kSide; ++row) {
+      for (std::uint32_t column = 0; column + 1 < kSide; ++column) {
+        const std::uint32_t a = first + row * kSide + column;
+        const std::uint32_t b = a + 1;
+        const std::uint32_t c = b + kSide;
+        const std::uint32_t d = a + kSide;
+        scan.mesh.triangles.push_back(faces_up ? std::array{a, b, c} : std::array{a, c, b});
+        scan.mesh.triangles.push_back(faces_up ? std::array{a, c, d} : std::array{a, d, c});
+      }
+    }
+  };
+  add_plate(0.0F, true);
+  add_plate(0.001F, true);                 // as dense again: the same pixels
+  add_plate(-10.0F, false);                // fewer of them would leave the mean normal up
+  for (std::uint32_t i = 0; i < 200; ++i)  // half of the back
+    scan.mesh.triangles.pop_back();
+  scan.mesh.vertices_mm.emplace_back(5.0F, 5.0F, 3.0F);  // in no triangle
+  const MergedScans merged = merge_scans({scan}, {.register_poses = false});
+  const MergedScan& only = merged.scans.front();
+  EXPECT_EQ(only.points_read, 3U * kSide * kSide + 1U);
+  EXPECT_GE(only.dropped.unconnected, 1U);
+  EXPECT_NEAR(static_cast<double>(only.dropped.hidden), kSide * kSide, 200.0);
+  EXPECT_NEAR(static_cast<double>(only.dropped.too_dense), kSide * kSide, 200.0);
+  EXPECT_NEAR(only.size_mm, std::hypot(40.0, 40.0, 10.0), 4.0);
 }
 
 /// Scans from all sides and a little above, each in its own unknown frame.

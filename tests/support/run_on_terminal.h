@@ -11,8 +11,9 @@
 
 namespace frangia::testing {
 
-/// The program with a pseudo-terminal as its input and output: it shows its progress.
-inline Answer run_on_terminal(const std::string& arguments) {
+/// The program with a pseudo-terminal as its input and output: it shows its progress and reads
+/// `typed`.
+inline Answer run_on_terminal(const std::string& arguments, const std::string& typed = {}) {
   const std::string command = std::string("exec ") + FRANGIA_PROGRAM + " " + arguments;
   Answer answer;
   int terminal = -1;
@@ -22,6 +23,7 @@ inline Answer run_on_terminal(const std::string& arguments) {
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);  // NOLINT(*-vararg)
     ::_exit(127);
   }
+  if (!typed.empty() && ::write(terminal, typed.data(), typed.size()) < 0) return answer;
   std::array<char, 4096> buffer{};
   for (ssize_t got = 0; (got = ::read(terminal, buffer.data(), buffer.size())) > 0;)
     answer.output.append(buffer.data(), static_cast<std::size_t>(got));

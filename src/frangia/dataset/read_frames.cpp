@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -13,14 +14,18 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/dataset/internal/leads_outside.h"
+#include "frangia/frames/image_file.h"
 #include "frangia/frames/png.h"
 
 namespace frangia {
 namespace {
 
+constexpr std::string_view kFloatEnding = ".tiff";
+
 /// The frame number in "NAME-12.png" or "NAME-12@1.png", or -1.
-int frame_number(const std::string& file, const std::string& pattern_name) {
-  const std::string_view ending = ".png";
+int frame_number(const std::string& file,
+                 const std::string& pattern_name,
+                 std::string_view ending) {
   const std::size_t begin = pattern_name.size() + 1;
   if (file.size() <= begin + ending.size() || file.size() > begin + ending.size() + 9) return -1;
   if (file.compare(0, begin, pattern_name + "-") != 0) return -1;
@@ -35,11 +40,12 @@ int frame_number(const std::string& file, const std::string& pattern_name) {
 
 /// A surplus frame means that scan.toml and the files disagree on the shifts.
 void refuse_surplus_frames(const std::filesystem::path& folder,
-                           const std::vector<Pattern>& patterns) {
+                           const std::vector<Pattern>& patterns,
+                           std::string_view ending) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();
     for (const Pattern& pattern : patterns) {
-      if (frame_number(file, pattern.name) < pattern.frame_count()) continue;
+      if (frame_number(file, pattern.name, ending) < pattern.frame_count()) continue;
       throw Error(ErrorKind::Input,
                   fmt::format("{}: is a surplus frame: pattern \"{}\" has {} in scan.toml; remove "
                               "the file or correct scan.toml",
@@ -62,6 +68,39 @@ int brightest(const Frame& frame) {
   throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), what));
 }
 
+/// Refuses a frame whose size is not that of the rig's camera.
+void check_size(const Camera& camera, const std::filesystem::path& path, int width, int height) {
+  const CameraModel& model = camera.model;
+  if (width == model.width_px && height == model.height_px) return;
+  refuse(path,
+         fmt::format("is {} x {} pixels, but camera.size_px in rig.toml is {} x {}",
+                     width,
+                     height,
+                     model.width_px,
+                     model.height_px));
+}
+
+/// Reads a floating-point frame as counts. A value that is not finite becomes saturated, so that
+/// its pixel is missing.
+Frame read_float_frame(const Scan& scan, const std::filesystem::path& path) {
+  const ImageFile file(path);
+  check_size(scan.rig.camera, path, file.info().width_px, file.info().height_px);
+  const RasterImage image = file.read();
+  const auto* const values = std::get_if<Image<float>>(&image.samples);
+  if (values == nullptr || image.channels != 1)
+    refuse(path, "is not a grey floating-point TIFF, as [frames] in scan.toml states");
+  const double white = kFloatWhiteLevel;
+  const double counts_per_unit = white / (scan.frames.full_scale - scan.frames.zero);
+  Image<std::uint16_t> counts(values->width(), values->height(), Uninitialized{});
+  for (std::size_t i = 0; i < counts.pixels().size(); ++i) {
+    const double value = static_cast<double>(values->pixels()[i]);
+    const double scaled =
+        std::isfinite(value) ? (value - scan.frames.zero) * counts_per_unit : white;
+    counts.pixels()[i] = static_cast<std::uint16_t>(std::lround(std::clamp(scaled, 0.0, white)));
+  }
+  return counts;
+}
+
 /// Reads a frame inside the scan folder, of the size of the rig's camera.
 Frame read_frame(const Scan& scan, const std::filesystem::path& relative) {
   const std::filesystem::path path = scan.folder / relative;
@@ -69,15 +108,9 @@ Frame read_frame(const Scan& scan, const std::filesystem::path& relative) {
   if (std::filesystem::is_symlink(path, ignored) && leads_outside(scan.folder, relative)) {
     refuse(path, "is a link to a file outside of the scan folder; copy the file into the folder");
   }
-  const CameraModel& model = scan.rig.camera.model;
+  if (scan.frames.is_float) return read_float_frame(scan, path);
   return read_png(path, [&](int width_px, int height_px) {
-    if (width_px == model.width_px && height_px == model.height_px) return;
-    refuse(path,
-           fmt::format("is {} x {} pixels, but camera.size_px in rig.toml is {} x {}",
-                       width_px,
-                       height_px,
-                       model.width_px,
-                       model.height_px));
+    check_size(scan.rig.camera, path, width_px, height_px);
   });
 }
 
@@ -136,20 +169,23 @@ std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Ru
                             "remove the view from scan.toml",
                             folder.string()));
   }
-  refuse_surplus_frames(folder, scan.patterns);
+  refuse_surplus_frames(folder, scan.patterns, scan.frames.is_float ? kFloatEnding : ".png");
   std::vector<FrameStack> stacks;
   for (const Pattern& pattern : scan.patterns) {
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
       stacks.push_back({pattern,
                         std::vector<Frame>(static_cast<std::size_t>(pattern.frame_count())),
                         scan.rig.camera.white_level,
-                        exposure});
+                        exposure,
+                        scan.frames.compression_counts2});
     }
   }
   std::vector<FrameFile> files;
   for (FrameStack& stack : stacks) {
     for (std::size_t i = 0; i < stack.frames.size(); ++i) {
-      const std::string name = frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure);
+      std::filesystem::path name =
+          frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure);
+      if (scan.frames.is_float) name.replace_extension(kFloatEnding);
       files.push_back({scan.views[view].folder / name, &stack.frames[i]});
     }
   }

@@ -99,6 +99,33 @@ void require_complete(const std::filesystem::path& folder) {
                   verb));
 }
 
+/// The [frames] table.
+FrameStorage read_frame_storage(TomlReader reader, const Rig& rig, const Run& run) {
+  FrameStorage storage;
+  if (reader.has("format")) {
+    const std::string format = reader.text("format");
+    if (format != "png" && format != "float")
+      reader.fail("format", fmt::format(R"(is "{}"; it must be "png" or "float")", format));
+    storage.is_float = format == "float";
+  }
+  if (storage.is_float) {
+    storage.zero = reader.number_or("zero", 0.0);
+    storage.full_scale = reader.number("full_scale");
+    if (!(storage.full_scale > storage.zero)) reader.fail("full_scale", "must be above zero");
+    if (rig.camera.white_level != kFloatWhiteLevel) {
+      reader.fail("format",
+                  fmt::format("is \"float\", for which camera.white_level in rig.toml must be {}, "
+                              "not {}",
+                              kFloatWhiteLevel,
+                              rig.camera.white_level));
+    }
+  }
+  storage.compression_counts2 = reader.number_or("compression_counts2", 0.0);
+  if (storage.compression_counts2 < 0.0) reader.fail("compression_counts2", "must be 0 or above");
+  reader.warn_of_unused_keys(run);
+  return storage;
+}
+
 void require_distinct_names(const TomlReader& reader, const std::vector<Pattern>& patterns) {
   std::set<std::string> names;
   for (const Pattern& pattern : patterns) {
@@ -144,6 +171,7 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
                  : unknown_rig();
   if (content == RigContent::PhaseOnly) choose_projector_model(reader, scan.rig.projector);
   if (reader.has("board")) scan.board = read_board(reader.table("board"), run);
+  if (reader.has("frames")) scan.frames = read_frame_storage(reader.table("frames"), scan.rig, run);
   if (reader.has("name")) scan.name = reader.text("name");
   for (const TomlReader& pattern : reader.tables("pattern"))
     scan.patterns.push_back(read_pattern(pattern, scan.rig, run));

@@ -27,6 +27,24 @@ struct ScanView {
   int setup = 0;                 ///< views of one setup share one pose of the part on the turntable
 };
 
+/// The white level of a scan with floating-point frames: full scale of the 16 bits to which they
+/// are scaled.
+inline constexpr int kFloatWhiteLevel = 65535;
+
+/// How the frames of a scan are stored, where that differs from plain PNG: `[frames]`.
+struct FrameStorage {
+  /// Frames are 32-bit floating-point TIFFs, whose values are scaled to whole counts from 0 to the
+  /// camera's white level when they are read.
+  bool is_float = false;
+  double zero = 0.0;        ///< value that becomes 0 counts
+  double full_scale = 1.0;  ///< value that becomes the white level
+  /// Variance that a lossy compression before the import added to each pixel, counts squared.
+  double compression_counts2 = 0.0;
+
+  /// Whether all members are equal.
+  friend bool operator==(const FrameStorage&, const FrameStorage&) = default;
+};
+
 /// The content of scan.toml and rig.toml: everything but the images.
 struct Scan {
   std::filesystem::path folder;   ///< folder that contains scan.toml
@@ -38,6 +56,7 @@ struct Scan {
   /// setup, both in the object frame.
   std::map<int, Eigen::Isometry3d> part_poses{};
   std::optional<Board> board{};  ///< of a scan whose views are poses for calibration
+  FrameStorage frames{};         ///< how the frames are stored
 };
 
 /// Reads scan.toml and rig.toml of a scan folder, see docs/scan-format.md. Unknown keys are warned

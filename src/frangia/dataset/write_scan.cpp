@@ -28,6 +28,7 @@ void put_pattern(TomlWriter& writer, const Pattern& pattern) {
   if (pattern.kind == PatternKind::Gray) {
     writer.put("bits", pattern.bits);
     writer.put("stripe_px", pattern.stripe_px);
+    if (pattern.offset_px != 0.0) writer.put("offset_px", pattern.offset_px);
     static constexpr std::array kInverted = {"none", "after", "alternating"};
     writer.put("inverted", std::string(kInverted.at(static_cast<std::size_t>(pattern.inverted))));
     if (pattern.is_binary) writer.put("code", std::string("binary"));
@@ -73,12 +74,25 @@ void put_board(TomlWriter& writer, const Board& board) {
   writer.put(circles ? "spacing_mm" : "square_mm", board.square_mm);
 }
 
+void put_frame_storage(TomlWriter& writer, const FrameStorage& frames) {
+  if (frames == FrameStorage{}) return;
+  writer.begin_table("frames");
+  writer.put("format", std::string(frames.is_float ? "float" : "png"));
+  if (frames.is_float) {
+    writer.put("zero", frames.zero);
+    writer.put("full_scale", frames.full_scale);
+  }
+  if (frames.compression_counts2 > 0.0)
+    writer.put("compression_counts2", rounded(frames.compression_counts2));
+}
+
 TomlWriter composed(const Scan& scan) {
   TomlWriter writer;
   writer.put("format", std::string("frangia-scan"));
   writer.put("version", kScanVersion);
   writer.put("name", scan.name);
   if (scan.board) put_board(writer, *scan.board);
+  put_frame_storage(writer, scan.frames);
   for (const Pattern& pattern : scan.patterns)
     put_pattern(writer, pattern);
   for (const ScanView& view : scan.views) {

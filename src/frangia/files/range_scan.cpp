@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/core/memory_budget.h"
@@ -234,6 +235,43 @@ std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path,
                used_bytes / share + merging_bytes(listed.size()));
   }
   return scans;
+}
+
+void scale_range_scan(RangeScan& scan, double factor) {
+  for (auto& point : scan.mesh.vertices_mm)
+    point *= static_cast<float>(factor);
+  for (float& sigma_mm : scan.mesh.sigma_mm)
+    sigma_mm *= static_cast<float>(factor);
+  scan.world_from_scan.translation() *= factor;
+}
+
+void write_posed_scans(const std::filesystem::path& path,
+                       const std::vector<RangeScan>& scans,
+                       double units_per_mm) {
+  AtomicFile file(path);
+  const auto folder = std::filesystem::absolute(path).parent_path().lexically_normal();
+  for (const RangeScan& scan : scans) {
+    const auto absolute = std::filesystem::absolute(scan.path).lexically_normal();
+    const std::string name = absolute.lexically_relative(folder).generic_string();
+    if (name.find_first_of(" \t\n") != std::string::npos) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: a .conf cannot list a file with a blank in its path; rename it",
+                              scan.path.string()));
+    }
+    // The format holds the conjugate of the rotation.
+    const Eigen::Quaterniond q(scan.world_from_scan.linear().transpose().eval());
+    const Eigen::Vector3d t = units_per_mm * scan.world_from_scan.translation();
+    file.stream() << fmt::format("bmesh {} {:.9g} {:.9g} {:.9g} {:.12g} {:.12g} {:.12g} {:.12g}\n",
+                                 name,
+                                 t.x(),
+                                 t.y(),
+                                 t.z(),
+                                 q.x(),
+                                 q.y(),
+                                 q.z(),
+                                 q.w());
+  }
+  file.commit();
 }
 
 }  // namespace frangia

@@ -38,4 +38,18 @@ struct RangeScan {
 [[nodiscard]] std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path,
                                                       const ReadOptions& options = {});
 
+/// Scales a scan and the translation of its pose, as to convert metres to millimetres.
+void scale_range_scan(RangeScan& scan, double factor);
+
+/// Writes a `.conf` that lists scans with their poses, as `read_posed_scans` reads it. Paths are
+/// relative to the folder of the `.conf`.
+///
+/// @units    translations times `units_per_mm`: 0.001 for scans in metres
+/// @errors   Error(File) when it cannot be written; Error(Input) when a path holds a blank, which
+/// the
+///          format cannot state
+void write_posed_scans(const std::filesystem::path& path,
+                       const std::vector<RangeScan>& scans,
+                       double units_per_mm = 1.0);
+
 }  // namespace frangia

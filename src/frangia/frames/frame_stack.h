@@ -14,6 +14,8 @@ struct FrameStack {
   std::vector<Frame> frames;  ///< pattern.frame_count() images of one size and depth
   int white_level = 255;      ///< a pixel at or above this level is saturated
   int exposure = 0;           ///< index into pattern.exposures_ms
+  /// Variance that a lossy compression added to each pixel, counts squared.
+  double compression_counts2 = 0.0;
 
   /// Exposure time relative to the first exposure of the pattern.
   [[nodiscard]] double gain() const {

@@ -21,8 +21,12 @@ std::uint32_t stripe_of_code(const Pattern& gray, std::uint32_t code) {
   return gray.is_binary ? code : gray_to_binary(code);
 }
 
+double column_of_code(const Pattern& gray, std::uint32_t code) {
+  return (stripe_of_code(gray, code) + 0.5) * gray.stripe_px - 0.5 - gray.offset_px;
+}
+
 bool is_stripe_bright(const Pattern& gray, int frame, double column) {
-  const double stripe = std::floor((column + 0.5) / gray.stripe_px);
+  const double stripe = std::floor((column + 0.5 + gray.offset_px) / gray.stripe_px);
   const double last = std::ldexp(1.0, gray.bits) - 1.0;
   const std::uint32_t code =
       code_of_stripe(gray, static_cast<std::uint32_t>(std::clamp(stripe, 0.0, last)));

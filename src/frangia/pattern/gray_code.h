@@ -29,6 +29,10 @@ namespace frangia {
 /// Inverts `code_of_stripe`.
 [[nodiscard]] std::uint32_t stripe_of_code(const Pattern& gray, std::uint32_t code);
 
+/// Returns the projector column (or row) at the centre of the stripe with a code. Column k has its
+/// centre at k.
+[[nodiscard]] double column_of_code(const Pattern& gray, std::uint32_t code);
+
 /// Returns whether a frame of a Gray code pattern lights the stripe at `column` (or row) of the
 /// projector. Column k has its centre at k.
 [[nodiscard]] bool is_stripe_bright(const Pattern& gray, int frame, double column);

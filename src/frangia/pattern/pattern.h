@@ -44,7 +44,9 @@ struct Pattern {
   std::vector<double> shifts_rad;   ///< sigma_i of the paper's equation (1), one per frame
   int bits = 0;                     ///< Gray code: number of bits
   double stripe_px = 1.0;           ///< Gray code: width of a stripe
-  bool is_binary = false;           ///< Gray code: the stripe's number in binary code instead
+  /// Gray code: added to a column before its stripe is numbered, for codes centred in their range.
+  double offset_px = 0.0;
+  bool is_binary = false;  ///< Gray code: the stripe's number in binary code instead
   InvertedFrames inverted = InvertedFrames::None;   ///< Gray code: inverted frames
   BitOrder order = BitOrder::MostSignificantFirst;  ///< Gray code: order of the bits
   std::vector<double> levels;                       ///< ramp: projector levels from 0 to 1

@@ -91,8 +91,7 @@ class GrayCodeReader {
  private:
   /// Phase at the centre of the stripe with this code.
   [[nodiscard]] double expected_rad(std::uint32_t code) const {
-    const double column = (stripe_of_code(code_, code) + 0.5) * code_.stripe_px - 0.5;
-    return kTwoPi * column / fringes_.pattern.period_px;
+    return kTwoPi * column_of_code(code_, code) / fringes_.pattern.period_px;
   }
   [[nodiscard]] Bit read(int i, int x, int y) const {
     double best = 0.0;  // of the exposure with the largest margin

@@ -68,11 +68,15 @@ std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDi
 }
 
 /// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
+/// Lossy compression adds its own.
 NoiseModel noise_of(std::span<const FrameStack> stacks,
                     const Rig& rig,
                     const DecodeOptions& options) {
-  if (rig.camera.noise) return *rig.camera.noise;
-  return options.survey.noise ? *options.survey.noise : estimate_noise(stacks);
+  NoiseModel noise = rig.camera.noise       ? *rig.camera.noise
+                     : options.survey.noise ? *options.survey.noise
+                                            : estimate_noise(stacks);
+  noise.floor_counts2 += stacks.front().compression_counts2;
+  return noise;
 }
 
 /// Distance at which the camera's axis crosses the centre of the projected field: x0 of the paper.

@@ -48,8 +48,8 @@ std::vector<std::string> names_of(const std::vector<RangeScan>& scans) {
 ScanViews resample_all(MergedScans& out,
                        const std::vector<RangeScan>& scans,
                        ScanQuality& quality,
+                       std::vector<VirtualCamera>& cameras,
                        const Run& run) {
-  std::vector<VirtualCamera> cameras;
   bool points_only = false;
   for (const RangeScan& scan : scans) {
     cameras.push_back(virtual_camera_of(scan));
@@ -62,7 +62,13 @@ ScanViews resample_all(MergedScans& out,
     run.report(static_cast<double>(i) / static_cast<double>(scans.size()));
     ResampledScan resampled = resample_scan(scans[i], cameras[i], all.model);
     all.views.add(std::move(resampled.view));
-    out.scans.push_back({all.names[i], resampled.points, resampled.noise_mm, /*left_out=*/false});
+    out.scans.push_back({.name = all.names[i],
+                         .points = resampled.points,
+                         .noise_mm = resampled.noise_mm,
+                         .points_read = scans[i].mesh.vertices_mm.size(),
+                         .dropped = resampled.dropped,
+                         .size_mm = 2.0 * cameras[i].radius_mm,
+                         .world_from_scan = scans[i].world_from_scan});
     out.points += resampled.points;
     quality.noise_mm = std::max(quality.noise_mm, resampled.noise_mm);
   }
@@ -108,9 +114,15 @@ MergedScans merge_scans(const std::vector<RangeScan>& scans,
   require(!scans.empty(), "there is no scan to merge; name at least one");
   MergedScans out;
   ScanQuality quality;
-  ScanViews all = resample_all(out, scans, quality, run);
+  std::vector<VirtualCamera> cameras;
+  ScanViews all = resample_all(out, scans, quality, cameras, run);
   run.stage("views");
   register_scans(out, all, quality, options, run);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!out.scans[i].left_out)
+      out.scans[i].world_from_scan =
+          all.views.rig_from_object(i).inverse() * cameras[i].rig_from_scan;
+  }
   run.stage("surface");
   out.mesh =
       finish_mesh(fuse_views(all.views, all.model, options.fusion, run), options.finish, run);

@@ -39,12 +39,27 @@ struct MergeScansOptions {
   FinishOptions finish;                 ///< hole filling and decimation
 };
 
+/// Points of a range scan that its resampled view does not hold, by the reason.
+struct DroppedPoints {
+  std::size_t unconnected = 0;  ///< in no triangle: no neighbour within six spacings
+  std::size_t hidden = 0;  ///< behind a nearer surface of the scan, or on a side seen from behind
+  std::size_t too_dense = 0;  ///< nearer to another point than the pixels of the resampling
+
+  /// Returns the number of all dropped points.
+  [[nodiscard]] std::size_t total() const { return unconnected + hidden + too_dense; }
+};
+
 /// One of the scans that were merged.
 struct MergedScan {
-  std::string name;        ///< path of its file, or "scan 0" without one
-  std::size_t points = 0;  ///< after resampling
-  double noise_mm = 0.0;   ///< standard deviation of a point, from the scatter of neighbours
-  bool left_out = false;   ///< its pose was not found
+  std::string name;             ///< path of its file, or "scan 0" without one
+  std::size_t points = 0;       ///< after resampling
+  double noise_mm = 0.0;        ///< standard deviation of a point, from the scatter of neighbours
+  bool left_out = false;        ///< its pose was not found
+  std::size_t points_read = 0;  ///< in the file
+  DroppedPoints dropped{};      ///< why points of the file are not among those of the view
+  double size_mm = 0.0;         ///< diagonal of the bounding box
+  /// Refined pose; the given one for a scan that is left out.
+  Eigen::Isometry3d world_from_scan = Eigen::Isometry3d::Identity();
 };
 
 /// The fused surface of several range scans and how they were registered.

@@ -90,9 +90,11 @@ void read_gray(TomlReader& reader, const Rig& rig, Pattern& pattern) {
   if (read_word(reader, "order", {"msb-first", "lsb-first"}) == 1)
     pattern.order = BitOrder::LeastSignificantFirst;
   if (reader.has("stripe_px")) pattern.stripe_px = reader.positive("stripe_px");
+  pattern.offset_px = reader.number_or("offset_px", 0.0);
+  if (pattern.offset_px < 0.0) reader.fail("offset_px", "must be 0 or above");
   const bool rows = pattern.direction == FringeDirection::Horizontal;
   const int side = rows ? model->height_px : model->width_px;
-  if (std::ldexp(pattern.stripe_px, pattern.bits) < side * (1.0 - 1e-9)) {
+  if (std::ldexp(pattern.stripe_px, pattern.bits) < (side + pattern.offset_px) * (1.0 - 1e-9)) {
     reader.fail("bits",
                 fmt::format("is {}, too few to number the projector's {} {}",
                             pattern.bits,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -101,6 +103,46 @@ double noise_of(const Image<float>& depth) {
   return median(std::move(second_differences)) / kSigmas;
 }
 
+/// Counts the points that no pixel stands for. A point behind the depth of its pixel by more than a
+/// few pixels is hidden. Of the points in one pixel, one counts as kept.
+DroppedPoints count_dropped(const Mesh& mesh,
+                            const VirtualCamera& camera,
+                            const CameraModel& model,
+                            const Image<float>& depth) {
+  constexpr double kSameSurface = 6.0;  // spacings, as the longest edge of a range grid
+  DroppedPoints dropped;
+  std::vector<bool> connected(mesh.vertices_mm.size(), mesh.triangles.empty());
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle)
+      connected[corner] = true;
+  }
+  Image<std::uint8_t> taken(depth.width(), depth.height());
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    if (!connected[i]) {
+      ++dropped.unconnected;
+      continue;
+    }
+    const Eigen::Vector3d seen = camera.rig_from_scan * mesh.vertices_mm[i].cast<double>();
+    const Eigen::Vector2d pixel = model.project(seen);
+    const auto x = static_cast<int>(std::lround(std::clamp(pixel.x(), 0.0, depth.width() - 1.0)));
+    const auto y = static_cast<int>(std::lround(std::clamp(pixel.y(), 0.0, depth.height() - 1.0)));
+    double nearest = std::numeric_limits<double>::infinity();  // of the surface at the point
+    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, depth.height() - 1); ++row) {
+      for (int column = std::max(x - 1, 0); column <= std::min(x + 1, depth.width() - 1);
+           ++column) {
+        const double there = static_cast<double>(depth(column, row));
+        if (!std::isnan(there)) nearest = std::min(nearest, std::abs(seen.z() - there));
+      }
+    }
+    if (!(nearest <= kSameSurface * camera.spacing_mm)) {
+      ++dropped.hidden;
+    } else if (std::exchange(taken(x, y), std::uint8_t{1}) != 0) {
+      ++dropped.too_dense;
+    }
+  }
+  return dropped;
+}
+
 }  // namespace
 
 VirtualCamera virtual_camera_of(const RangeScan& scan) {
@@ -187,6 +229,7 @@ ResampledScan resample_scan(const RangeScan& scan,
     view.range.sigma_mm.pixels()[i] = static_cast<float>(out.noise_mm);
     ++out.points;
   }
+  out.dropped = count_dropped(scan.mesh, camera, model, view.range.depth_mm);
   view.rig_from_object = camera.rig_from_scan * scan.world_from_scan.inverse();
   return out;
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/files/range_scan.h"
+#include "frangia/pipeline/merge_scans.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/views/view_store.h"
 
@@ -38,6 +39,7 @@ struct ResampledScan {
   View view;
   std::size_t points = 0;  ///< pixels with a depth
   double noise_mm = 0.0;   ///< standard deviation of the depth, from the scatter of neighbours
+  DroppedPoints dropped;   ///< points of the scan that no pixel stands for
 };
 
 /// Resamples a scan on the pixel grid of the common camera.

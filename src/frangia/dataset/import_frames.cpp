@@ -1,0 +1,180 @@
+#include "frangia/dataset/import_frames.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/dataset/internal/new_folder.h"
+#include "frangia/dataset/internal/write_imported_frames.h"
+#include "frangia/dataset/write_scan.h"
+#include "frangia/frames/jpeg_noise.h"
+#include "frangia/rig/toml_writer.h"
+
+namespace frangia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The full scale of whole numbers: what the files state, or the least of the usual depths that
+/// holds every value. Samples that are shifted to the left leave low bits unset.
+int white_level_of(const std::vector<WrittenFrame>& frames, const Run& run) {
+  int largest = 0;
+  int stated = 0;
+  unsigned all_bits = 0;
+  for (const WrittenFrame& frame : frames) {
+    largest = std::max(largest, frame.largest);
+    stated = std::max(stated, frame.stated_white);
+    all_bits |= frame.all_bits;
+  }
+  if (frames.front().bits == 8) return stated > 0 ? stated : 255;
+  if (stated > 0) return stated;
+  int white = 65535;
+  for (const int depth : {10, 12, 14}) {
+    if (largest < (1 << depth)) {
+      white = (1 << depth) - 1;
+      break;
+    }
+  }
+  constexpr int kMaxShift = 6;  // 10 bits in 16
+  int shift = 0;
+  while (shift < kMaxShift && (all_bits >> static_cast<unsigned>(shift) & 1U) == 0)
+    ++shift;
+  if (white == 65535) white &= ~((1 << shift) - 1);
+  run.note(
+      fmt::format("the white level of the 16-bit frames is assumed to be {}, the least full scale "
+                  "that holds their largest value, {}; set `white_level` if it is another",
+                  white,
+                  largest));
+  return white;
+}
+
+/// The range of floating-point frames.
+FrameStorage float_storage(const std::vector<WrittenFrame>& frames,
+                           const ImportOptions& options,
+                           const Run& run) {
+  FrameStorage storage;
+  storage.is_float = true;
+  double greatest = 0.0;
+  for (const WrittenFrame& frame : frames) {
+    storage.zero = std::min(storage.zero, frame.least_value);
+    greatest = std::max(greatest, frame.greatest_value);
+  }
+  storage.full_scale = options.float_white;
+  if (storage.full_scale > 0.0) return storage;
+  storage.full_scale = greatest > 0.0 ? greatest : 1.0;
+  for (const double usual : {1.0, 255.0, 1023.0, 4095.0, 16383.0, 65535.0}) {
+    if (greatest <= usual) {
+      storage.full_scale = usual;
+      break;
+    }
+  }
+  run.note(
+      fmt::format("the white level of the floating-point frames is assumed to be {}, the least "
+                  "usual one above their largest value, {:.6g}; set `white_level` if it is another",
+                  storage.full_scale,
+                  greatest));
+  return storage;
+}
+
+/// The scan of a plan whose frames were written.
+Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& frames, const Run& run) {
+  Scan scan;
+  scan.rig = plan.rig;
+  scan.patterns = plan.patterns;
+  for (std::size_t view = 0; view < plan.views; ++view) {
+    const double angle = plan.options.angles_rad.empty() ? 0.0 : plan.options.angles_rad[view];
+    scan.views.push_back({angle, view_folder(view)});
+  }
+  Camera& camera = scan.rig.camera;
+  camera.model.width_px = plan.image.width_px;
+  camera.model.height_px = plan.image.height_px;
+  const int bits = frames.front().bits;
+  if (bits == 32) {
+    scan.frames = float_storage(frames, plan.options, run);
+    if (camera.noise) {
+      run.warn(
+          "camera.noise of the rig is left out: its counts are not those of floating-point frames");
+    }
+    camera.noise.reset();
+    camera.white_level = kFloatWhiteLevel;
+  } else if (plan.options.white_level > 0) {
+    camera.white_level = plan.options.white_level;
+  } else {
+    int largest = 0;
+    for (const WrittenFrame& frame : frames)
+      largest = std::max(largest, frame.largest);
+    const bool fits = camera.white_level >= largest && (bits == 16) == (camera.white_level > 255);
+    if (plan.options.rig.empty() || !fits) camera.white_level = white_level_of(frames, run);
+  }
+  if (plan.jpeg_quality > 0) {
+    const double scale = bits == 16 ? 257.0 : 1.0;  // computed grey values have 16 bits
+    scan.frames.compression_counts2 = scale * scale * jpeg_noise_counts2(plan.jpeg_quality);
+  }
+  return scan;
+}
+
+/// A rig.toml of the camera's size and white level alone.
+void write_camera_only(const fs::path& path, const Camera& camera) {
+  TomlWriter writer;
+  writer.put("format", std::string("frangia-rig"));
+  writer.put("version", 1);
+  writer.begin_table("camera");
+  writer.put("size_px", std::vector<int>{camera.model.width_px, camera.model.height_px});
+  writer.put("white_level", camera.white_level);
+  writer.save(path);
+}
+
+void write_record(const fs::path& path,
+                  const ImportPlan& plan,
+                  const std::vector<WrittenFrame>& written) {
+  nlohmann::ordered_json json{{"format", "frangia-import"},
+                              {"version", 1},
+                              {"source", fs::absolute(plan.folder).lexically_normal().string()},
+                              {"names", plan.names}};
+  if (!plan.options.layout.empty()) json["layout"] = plan.options.layout;
+  json["frames"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const WrittenFrame& frame = written[i];
+    nlohmann::ordered_json entry{
+        {"file", frame.file},
+        {"original", plan.frames[i].file.lexically_relative(plan.folder).generic_string()},
+        {"page", plan.frames[i].page},
+        {"bytes", frame.bytes},
+        {"crc32", fmt::format("{:08x}", frame.crc32)},
+        {"codec", frame.codec}};
+    if (frame.jpeg_quality) entry["jpeg_quality"] = *frame.jpeg_quality;
+    json["frames"].push_back(std::move(entry));
+  }
+  json["left_out"] = nlohmann::ordered_json::array();
+  for (const fs::path& file : plan.left_out)
+    json["left_out"].push_back(file.lexically_relative(plan.folder).generic_string());
+  AtomicFile file(path);
+  file.stream() << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  file.commit();
+}
+
+}  // namespace
+
+ImportResult import_frames(const ImportPlan& plan, const fs::path& target, const Run& run) {
+  require(!plan.frames.empty(), "import_frames: the plan has no frames");
+  NewFolder folder(target);
+  run.stage("import");
+  const std::vector<WrittenFrame> written = write_imported_frames(plan, folder.temporary(), run);
+  ImportResult result{scan_of(plan, written, run)};
+  Scan& scan = result.scan;
+  result.compression_counts2 = scan.frames.compression_counts2;
+  scan.folder = target.has_filename() ? target : target.parent_path();
+  scan.name = scan.folder.filename().string();
+  write_record(folder.temporary() / "import.json", plan, written);
+  Scan inside = scan;
+  inside.folder = folder.temporary();
+  write_scan(inside);
+  if (!plan.rig_has_projector) write_camera_only(folder.temporary() / "rig.toml", scan.rig.camera);
+  folder.commit();
+  return result;
+}
+
+}  // namespace frangia

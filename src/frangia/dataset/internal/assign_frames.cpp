@@ -1,0 +1,127 @@
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/dataset/internal/import_images.h"
+
+namespace frangia {
+namespace {
+
+/// Refuses a gap in the numbers of a sequence.
+void require_consecutive(const ImageSequence& sequence,
+                         const std::string& pattern,
+                         const std::vector<NamedFile>& files) {
+  int expected = sequence.begin()->first;
+  for (const auto& [number, image] : sequence) {
+    if (number != expected) {
+      refuse_import(fmt::format("{}frame number {} is missing before {}; restore the file",
+                                pattern.empty() ? "" : fmt::format("pattern \"{}\": ", pattern),
+                                expected,
+                                files[image.file].path.string()));
+    }
+    ++expected;
+  }
+}
+
+/// "cam_01.png to cam_42.png".
+std::string range_text(const ImageSequence& sequence, const std::vector<NamedFile>& files) {
+  const std::string first = files[sequence.begin()->second.file].name;
+  const std::string last = files[sequence.rbegin()->second.file].name;
+  return first == last ? first : fmt::format("{} to {}", first, last);
+}
+
+/// Assigns the images of one view to the frames of the plan's patterns.
+class FrameAssigner {
+ public:
+  FrameAssigner(ImportPlan& plan, const std::vector<NamedFile>& files, const ImportLayout* layout)
+      : plan_(plan), files_(files), layout_(layout) {}
+
+  void assign(std::size_t view, const std::map<std::string, ImageSequence>& images) {
+    if (images.begin()->first.empty()) {
+      assign_sequence(view, images.begin()->second);
+    } else {
+      assign_patterns(view, images);
+    }
+  }
+
+ private:
+  void add(const NamedImage& image, std::size_t pattern, std::size_t frame, std::size_t view) {
+    plan_.frames.push_back({files_[image.file].path, image.page, pattern, frame, view});
+  }
+  /// Images that are numbered through all patterns.
+  void assign_sequence(std::size_t view, const ImageSequence& images) {
+    require_consecutive(images, "", files_);
+    std::vector<std::optional<std::pair<std::size_t, std::size_t>>> places;
+    if (layout_ != nullptr) {
+      places = layout_->images;
+    } else {
+      for (std::size_t pattern = 0; pattern < plan_.patterns.size(); ++pattern) {
+        const auto frames = static_cast<std::size_t>(plan_.patterns[pattern].frame_count());
+        for (std::size_t frame = 0; frame < frames; ++frame)
+          places.emplace_back(std::pair{pattern, frame});
+      }
+    }
+    if (places.size() != images.size()) {
+      refuse_import(
+          fmt::format("the patterns have {} frames, but {} {} found, {}; a file is missing "
+                      "or surplus, or the patterns are described wrongly",
+                      places.size(),
+                      images.size(),
+                      images.size() == 1 ? "was" : "were",
+                      range_text(images, files_)));
+    }
+    std::size_t at = 0;
+    for (const auto& [number, image] : images) {
+      const auto& place = places[at++];
+      if (place) {
+        add(image, place->first, place->second, view);
+      } else {
+        plan_.left_out.push_back(files_[image.file].path);
+      }
+    }
+  }
+  void assign_patterns(std::size_t view, const std::map<std::string, ImageSequence>& images) {
+    for (std::size_t pattern = 0; pattern < plan_.patterns.size(); ++pattern) {
+      const Pattern& described = plan_.patterns[pattern];
+      const auto found = images.find(described.name);
+      if (found == images.end()) {
+        refuse_import(
+            fmt::format("{}: no file shows the pattern \"{}\"; correct its name or `names`",
+                        plan_.folder.string(),
+                        described.name));
+      }
+      require_consecutive(found->second, described.name, files_);
+      const auto frames = static_cast<std::size_t>(described.frame_count());
+      if (found->second.size() != frames) {
+        refuse_import(
+            fmt::format("pattern \"{}\" has {} frames, but {} {} found, {}; a file is "
+                        "missing or surplus, or the pattern is described wrongly",
+                        described.name,
+                        frames,
+                        found->second.size(),
+                        found->second.size() == 1 ? "was" : "were",
+                        range_text(found->second, files_)));
+      }
+      std::size_t frame = 0;
+      for (const auto& [number, image] : found->second)
+        add(image, pattern, frame++, view);
+    }
+  }
+
+  ImportPlan& plan_;
+  const std::vector<NamedFile>& files_;
+  const ImportLayout* layout_;
+};
+
+}  // namespace
+
+void assign_frames(ImportPlan& plan,
+                   std::size_t view,
+                   const std::map<std::string, ImageSequence>& images,
+                   const std::vector<NamedFile>& files,
+                   const ImportLayout* layout) {
+  FrameAssigner(plan, files, layout).assign(view, images);
+}
+
+}  // namespace frangia

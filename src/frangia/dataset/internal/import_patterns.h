@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/dataset/import_frames.h"
+
+namespace frangia {
+
+/// Reads the [[pattern]] tables of a TOML file.
+///
+/// @errors   Error(Input) that names the file and the key
+[[nodiscard]] std::vector<Pattern> read_patterns_file(const std::filesystem::path& path,
+                                                      const Rig& rig,
+                                                      const Run& run);
+
+/// The fringe patterns that the options describe, for patterns with these names and numbers of
+/// frames. An empty list of names stands for one pattern per value, which share the frames evenly.
+///
+/// @errors   Error(Input) that names the option
+[[nodiscard]] std::vector<Pattern> patterns_from_options(const ImportOptions& options,
+                                                         const std::vector<std::string>& names,
+                                                         const std::vector<std::size_t>& frames,
+                                                         const Rig& rig,
+                                                         bool rig_has_projector);
+
+}  // namespace frangia

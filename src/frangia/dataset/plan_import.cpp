@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/dataset/import_frames.h"
+#include "frangia/dataset/internal/import_images.h"
+#include "frangia/dataset/internal/import_patterns.h"
+#include "frangia/dataset/name_template.h"
+#include "frangia/rig/read_rig.h"
+
+namespace frangia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The size that scan3d-capture writes beside its images.
+std::optional<ProjectorSize> size_beside(const fs::path& folder) {
+  std::ifstream file(folder / "projector_info.txt");
+  ProjectorSize size{};
+  if (!(file >> size[0] >> size[1]) || size[0] < 1 || size[1] < 1 || size[0] > 65535 ||
+      size[1] > 65535)
+    return std::nullopt;
+  return size;
+}
+
+/// The rig of the options, or one whose sizes alone are known.
+void find_rig(ImportPlan& plan, const Run& run) {
+  const ImportOptions& options = plan.options;
+  if (!options.rig.empty()) {
+    plan.rig = read_rig(options.rig, run, RigContent::StartValues);
+    plan.rig_has_projector = true;
+    return;
+  }
+  PinholeModel model;
+  std::optional<ProjectorSize> size = options.projector_px;
+  if (!size) size = size_beside(plan.folder);
+  plan.rig_has_projector = size.has_value();
+  // Without a size, a file of patterns is not checked against it.
+  model.width_px = size ? (*size)[0] : 1;
+  model.height_px = size ? (*size)[1] : 1;
+  const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
+  model.focal_px = model.principal_point_px = unknown;
+  plan.rig.camera.model.focal_px = plan.rig.camera.model.principal_point_px = unknown;
+  plan.rig.projector.position_mm.setConstant(std::nan(""));
+  plan.rig.projector.rotation.setConstant(std::nan(""));
+  plan.rig.projector.model = model;
+}
+
+ProjectorSize projector_size(const ImportPlan& plan) {
+  const auto* const model = std::get_if<PinholeModel>(&plan.rig.projector.model);
+  if (!plan.rig_has_projector || model == nullptr) {
+    refuse_import(
+        fmt::format("the layout {} needs the size of the projector; set `projector`, such as "
+                    "1024x768",
+                    plan.options.layout));
+  }
+  return {model->width_px, model->height_px};
+}
+
+/// The names of the patterns in natural order; empty without {pattern}.
+std::vector<std::string> pattern_names(const std::map<std::string, ImageSequence>& view) {
+  std::vector<std::string> names;
+  for (const auto& [name, sequence] : view) {
+    if (!name.empty()) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end(), is_before_in_natural_order);
+  return names;
+}
+
+/// The frames of each pattern that the options describe.
+std::vector<std::size_t> frames_per_pattern(const std::map<std::string, ImageSequence>& view,
+                                            const std::vector<std::string>& names,
+                                            const ImportOptions& options) {
+  std::vector<std::size_t> counts;
+  for (const std::string& name : names)
+    counts.push_back(view.at(name).size());
+  if (!names.empty()) return counts;
+  const std::size_t all = view.begin()->second.size();
+  const std::size_t patterns = std::max(options.fringes.size(), options.period_px.size());
+  if (patterns > 0 && all % patterns != 0) {
+    refuse_import(
+        fmt::format("{} images cannot be shared evenly by {} patterns; set `patterns` to "
+                    "a file that describes them",
+                    all,
+                    patterns));
+  }
+  return std::vector<std::size_t>(patterns, patterns > 0 ? all / patterns : 0);
+}
+
+void check_views(const ImportPlan& plan) {
+  const std::size_t angles = plan.options.angles_rad.size();
+  if (angles != 0 && angles != plan.views) {
+    refuse_import(fmt::format("`angles` lists {}, but the folder has {} view{}; list one for each",
+                              angles,
+                              plan.views,
+                              plan.views == 1 ? "" : "s"));
+  }
+  if (angles == 0 && plan.views > 1 && plan.rig.turntable) {
+    refuse_import(
+        fmt::format("the folder has {} views on a turntable; set `angles` to theirs", plan.views));
+  }
+  const CameraModel& camera = plan.rig.camera.model;
+  if (!plan.options.rig.empty() &&
+      (camera.width_px != plan.image.width_px || camera.height_px != plan.image.height_px)) {
+    refuse_import(fmt::format("the images have {} x {} pixels, but camera.size_px in {} is {} x {}",
+                              plan.image.width_px,
+                              plan.image.height_px,
+                              plan.options.rig.string(),
+                              camera.width_px,
+                              camera.height_px));
+  }
+}
+
+}  // namespace
+
+ImportPlan plan_import(const fs::path& source, const ImportOptions& options, const Run& run) {
+  ImportPlan plan;
+  plan.options = options;
+  const bool is_file = fs::is_regular_file(source);
+  if (!is_file && !fs::is_directory(source))
+    refuse_import(fmt::format("{}: is neither a folder nor an image file", source.string()));
+  plan.folder = is_file && source.has_parent_path() ? source.parent_path() : source;
+  if (is_file && !source.has_parent_path()) plan.folder = ".";
+  const KnownLayout* const known = options.layout.empty() ? nullptr : find_layout(options.layout);
+  if (!options.layout.empty() && known == nullptr)
+    refuse_import(fmt::format("`layout` is \"{}\", which is unknown", options.layout));
+  find_rig(plan, run);
+  if (!options.patterns.empty())
+    plan.patterns = read_patterns_file(options.patterns, plan.rig, run);
+  plan.names = options.names;
+  if (plan.names.empty() && known != nullptr) plan.names = known->names;
+  if (plan.names.empty() && is_file) plan.names = guess_name_template({source.filename().string()});
+  if (plan.names.empty()) {
+    plan.names = guess_name_template(images_below(plan.folder, options.files.raw.has_value()));
+    plan.guessed = true;
+  }
+  std::vector<std::string> described;
+  for (const Pattern& pattern : plan.patterns)
+    described.push_back(pattern.name);
+  std::vector<NamedFile> files =
+      matching_files(plan.folder, NameTemplate(plan.names), described, run);
+  check_images(files, plan, run);
+  const auto views = sequences_of(files);
+  plan.views = views.size();
+  check_views(plan);
+  ImportLayout layout;
+  const auto& first = views.begin()->second;
+  if (known != nullptr) {
+    if (!first.begin()->first.empty())
+      refuse_import("a `layout` has no names of patterns; leave {pattern} out of `names`");
+    layout = make_layout(*known, first.begin()->second.size(), projector_size(plan));
+    plan.patterns = layout.patterns;
+  } else if (options.patterns.empty()) {
+    const std::vector<std::string> names = pattern_names(first);
+    plan.patterns = patterns_from_options(options,
+                                          names,
+                                          frames_per_pattern(first, names, options),
+                                          plan.rig,
+                                          plan.rig_has_projector);
+  }
+  std::size_t view = 0;
+  for (const auto& [number, images] : views)
+    assign_frames(plan, view++, images, files, known != nullptr ? &layout : nullptr);
+  return plan;
+}
+
+}  // namespace frangia

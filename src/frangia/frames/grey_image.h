@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "frangia/frames/image_file.h"
+
+namespace frangia {
+
+/// How colour frames become grey.
+enum class GreyFrom {
+  Nothing,    ///< no choice: frames must be grey
+  Red,        ///< the red channel
+  Green,      ///< the green channel
+  Blue,       ///< the blue channel
+  Luminance,  ///< 0.299 red + 0.587 green + 0.114 blue (ITU-R BT.601)
+  Demosaic    ///< luminance of the colours interpolated from a mosaic of colour filters
+};
+
+/// A choice of colour and, for a mosaic, its filters.
+struct ColorChoice {
+  GreyFrom from = GreyFrom::Nothing;  ///< how frames become grey
+  std::string mosaic{};               ///< filters of the pixels (0,0), (1,0), (0,1), (1,1): "RGGB"
+};
+
+/// Reads "red", "green", "blue", "luminance" or "demosaic:RGGB" (or BGGR, GRBG, GBRG).
+///
+/// @errors   Error(Input) that names the text and the choices
+[[nodiscard]] ColorChoice parse_color_choice(const std::string& text);
+
+/// Returns whether an image has colour: channels that differ anywhere.
+[[nodiscard]] bool has_color(const RasterImage& image);
+
+/// Converts an image to grey. An image with three equal channels needs no choice.
+///
+/// Bilinear interpolation gives the colours of a mosaic. A computed value has fractions: 8-bit
+/// samples become 16-bit ones, 257 times as large, so that 255 becomes 65535.
+/// @shape    one sample per pixel
+/// @errors   Error(Input) when the image has colour and `choice` is Nothing or a mosaic, or when a
+///          mosaic has fewer than 2 x 2 pixels
+/// @source   ITU-R BT.601 for the weights
+[[nodiscard]] Samples grey_image(RasterImage image, const ColorChoice& choice);
+
+}  // namespace frangia

@@ -1,0 +1,273 @@
+#include "frangia/dataset/import_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/dataset/read_frames.h"
+#include "frangia/frames/float_tiff.h"
+#include "frangia/frames/png.h"
+
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+using testing::TemporaryFolder;
+
+std::filesystem::path image_path(const std::string& name) {
+  return std::filesystem::path(FRANGIA_SOURCE_DIR) / "tests/data/images" / name;
+}
+
+std::string all_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class ImportFrames : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path images() const { return folder_.path() / "images"; }
+  [[nodiscard]] std::filesystem::path target() const { return folder_.path() / "out" / "scan"; }
+  void SetUp() override {
+    std::filesystem::create_directories(images());
+    std::filesystem::create_directories(target().parent_path());
+    options.period_px = {{"", 20.0}};
+    options.names = "{pattern}_{frame:02}.png";
+  }
+  /// A PNG whose pixels hold `value`.
+  template <typename T = std::uint8_t>
+  void write(const std::string& name, int value, int width = 8, int height = 6) const {
+    write_png(images() / name, Frame(Image<T>(width, height, static_cast<T>(value))));
+  }
+  void write_fringes(const std::string& pattern, int frames = 4) const {
+    for (int k = 0; k < frames; ++k)
+      write(fmt::format("{}_{:02}.png", pattern, k), 10 * k + static_cast<int>(pattern.size()));
+  }
+  /// The scan in the target folder.
+  Scan import() const {
+    static_cast<void>(import_frames(plan_import(images(), options), target()));
+    return read_scan(target(), {}, RigContent::StartValues);
+  }
+  /// The sentence of the error. Nothing may be left of the scan.
+  std::string complaint() const {
+    const std::string error =
+        error_of([&] { import_frames(plan_import(images(), options), target()); });
+    EXPECT_TRUE(std::filesystem::is_empty(target().parent_path())) << error;
+    return error;
+  }
+  void expect_complaint(const std::string& part) const {
+    const std::string error = complaint();
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+  }
+  ImportOptions options;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
+  options.projector_px = {1280, 800};
+  options.period_px.clear();
+  options.fringes = {{"p64", 64.0}, {"p8", 8.0}};
+  options.reverse_shifts = true;
+  options.origin_rad = rad_from_deg(-90.0);
+  write_fringes("p64");
+  write_fringes("p8", 3);
+  const Scan scan = import();
+  ASSERT_EQ(scan.patterns.size(), 2U);
+  EXPECT_EQ(scan.patterns[0].name, "p8");  // numbers count in the order
+  EXPECT_EQ(scan.patterns[1].period_px, 20.0);
+  EXPECT_NEAR(scan.patterns[1].shifts_rad[1], rad_from_deg(-180.0), 1e-9);
+  EXPECT_NEAR(scan.patterns[0].shifts_rad[1], rad_from_deg(-210.0), 1e-9);
+  const auto stacks = read_frames(scan, 0);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(counts_at(stacks[1].frames[static_cast<std::size_t>(k)], 7, 5), 10 * k + 3);
+  EXPECT_EQ(counts_at(stacks[0].frames[2], 0, 0), 22);
+  EXPECT_EQ(scan.rig.camera.model.width_px, 8);
+  EXPECT_EQ(scan.rig.camera.white_level, 255);
+}
+
+TEST_F(ImportFrames, RecordsEachOriginalWithItsChecksum) {
+  options.projector_px = {1280, 800};
+  options.names = "{frame}.bmp";
+  for (int k = 0; k < 3; ++k)
+    std::filesystem::copy_file(image_path("grey8.bmp"), images() / fmt::format("{}.bmp", k + 1));
+  static_cast<void>(import());
+  const auto record = nlohmann::json::parse(all_of(target() / "import.json"));
+  ASSERT_EQ(record["frames"].size(), 3U);
+  EXPECT_EQ(record["frames"][1]["original"], "2.bmp");
+  EXPECT_EQ(record["frames"][1]["file"], "views/000/fringes-1-1.png");
+  EXPECT_EQ(record["frames"][1]["codec"], "bmp");
+  // Printed by: python3 -c "import zlib; print('%08x' % zlib.crc32(open('grey8.bmp','rb').read()))"
+  EXPECT_EQ(record["frames"][1]["crc32"], "d6f30f09");
+}
+
+TEST_F(ImportFrames, TakesTheImagesOfAStackAsFrames) {
+  options.projector_px = {1280, 800};
+  options.names = "";
+  const ImportPlan plan = plan_import(image_path("pages.tiff"), options);
+  EXPECT_EQ(plan.frames.size(), 3U);
+  static_cast<void>(import_frames(plan, target()));
+  const Scan scan = read_scan(target(), {}, RigContent::StartValues);
+  EXPECT_EQ(counts_at(read_frames(scan, 0)[0].frames[1], 3, 2), 255 - 77);
+}
+
+TEST_F(ImportFrames, KeepsFloatingPointFramesAndScalesThemWhenTheyAreRead) {
+  options.projector_px = {1280, 800};
+  options.names = "{frame}.tiff";
+  for (int k = 0; k < 3; ++k)
+    std::filesystem::copy_file(image_path("float.tiff"), images() / fmt::format("{}.tiff", k));
+  const Scan scan = import();
+  EXPECT_TRUE(scan.frames.is_float);
+  EXPECT_EQ(scan.frames.full_scale, 1.0);
+  EXPECT_EQ(scan.rig.camera.white_level, 65535);
+  const ImageFile kept(target() / "views/000/fringes-1-0.tiff");
+  const ImageFile original(image_path("float.tiff"));
+  const auto pixels = [](const ImageFile& file) {
+    const RasterImage image = file.read();
+    const auto values = std::get<Image<float>>(image.samples).pixels();
+    return std::vector<float>(values.begin(), values.end());
+  };
+  EXPECT_EQ(pixels(kept), pixels(original));
+  EXPECT_EQ(counts_at(read_frames(scan, 0)[0].frames[0], 3, 2), 257 * 77);
+}
+
+TEST_F(ImportFrames, FindsTheWhiteLevelOf16BitFrames) {
+  options.projector_px = {1280, 800};
+  for (int k = 0; k < 3; ++k)
+    write<std::uint16_t>(fmt::format("a_{:02}.png", k), 1000 + 1000 * k);
+  EXPECT_EQ(import().rig.camera.white_level, 4095);
+  std::filesystem::remove_all(target());
+  for (int k = 0; k < 3; ++k)  // 12 bits, shifted to the left
+    write<std::uint16_t>(fmt::format("a_{:02}.png", k), (1001 + 1000 * k) * 16);
+  EXPECT_EQ(import().rig.camera.white_level, 65520);
+}
+
+TEST_F(ImportFrames, StatesTheVarianceOfAJpeg) {
+  options.projector_px = {1280, 800};
+  options.names = "{frame}.jpg";
+  for (int k = 0; k < 3; ++k)
+    std::filesystem::copy_file(image_path("grey.jpg"), images() / fmt::format("{}.jpg", k));
+  const Scan scan = import();
+  EXPECT_NEAR(scan.frames.compression_counts2, 0.05 + 12.0 * std::pow(0.3, 1.5), 1e-9);
+  EXPECT_EQ(read_frames(scan, 0)[0].compression_counts2, scan.frames.compression_counts2);
+}
+
+TEST_F(ImportFrames, NumbersTheViewsAndLeavesOutBlackImages) {
+  options = {};
+  options.layout = "3dunderworld";
+  options.names = "v{view}/{frame:04}.png";
+  options.projector_px = {4, 2};
+  options.angles_rad = {0.0, 1.5};
+  for (const char* view : {"v7", "v9"}) {
+    std::filesystem::create_directories(images() / view);
+    for (int k = 0; k < 8; ++k)
+      write(fmt::format("{}/{:04}.png", view, k), k);
+  }
+  const Scan scan = import();
+  ASSERT_EQ(scan.views.size(), 2U);
+  EXPECT_NEAR(scan.views[1].angle_rad, 1.5, 1e-9);
+  EXPECT_EQ(scan.patterns[1].bits, 2);
+  const auto stacks = read_frames(scan, 1);
+  EXPECT_EQ(counts_at(stacks[0].frames[0], 0, 0), 0);  // white is the first image
+  EXPECT_EQ(counts_at(stacks[2].frames[1], 0, 0), 7);  // the last inverse of the rows
+}
+
+TEST_F(ImportFrames, WritesTheCameraAloneWhereNothingElseIsKnown) {
+  write_fringes("a");
+  static_cast<void>(import_frames(plan_import(images(), options), target()));
+  EXPECT_EQ(all_of(target() / "rig.toml"),
+            "format = \"frangia-rig\"\nversion = 1\n\n[camera]\nsize_px = [8, 6]\nwhite_level = "
+            "255\n");
+}
+
+TEST_F(ImportFrames, RefusesWhatIsIncompleteOrAmbiguous) {
+  options.names = "{pattern}-{frame}.png";
+  write_fringes("a");
+  expect_complaint("the template \"{pattern}-{frame}.png\" fits none of 4 files, such as a_00.png");
+  options.names = "{pattern}_{frame}.png";
+  write("a_0.png", 1);
+  expect_complaint("a_00.png are the same frame by the template");
+  std::filesystem::remove(images() / "a_0.png");
+  std::filesystem::remove(images() / "a_01.png");
+  expect_complaint("pattern \"a\": frame number 1 is missing before");
+  write_fringes("a", 2);
+  std::filesystem::remove(images() / "a_03.png");
+  std::filesystem::remove(images() / "a_02.png");
+  expect_complaint("pattern \"a\" has 2 frames; a phase needs at least 3");
+}
+
+TEST_F(ImportFrames, RefusesFramesOfSeveralKinds) {
+  write_fringes("a");
+  write("a_02.png", 9, 8, 7);
+  expect_complaint("a_02.png has 8 x 7 pixels, 8 bits, but");
+  write<std::uint16_t>("a_02.png", 9);
+  expect_complaint("a_02.png has 8 x 6 pixels, 16 bits, but");
+  options.names = "color8.{pattern}";
+  std::filesystem::copy_file(image_path("color8.png"), images() / "color8.png");
+  expect_complaint("color8.png: is a colour image; set `color` to red, green, blue or luminance");
+}
+
+TEST_F(ImportFrames, RefusesADescriptionThatDoesNotFit) {
+  write_fringes("a");
+  options.period_px.clear();
+  expect_complaint("the patterns are not described; set `fringes`");
+  options.fringes = {{"", 64.0}};
+  expect_complaint("set `projector`, such as 1280x800");
+  options.projector_px = {1280, 800};
+  options.shifts_rad = {0.0, 1.0, 2.0};
+  expect_complaint("pattern \"a\" has 4 frames, but `shifts` lists 3");
+  options.shifts_rad.clear();
+  options.fringes = {{"b", 64.0}};
+  expect_complaint("no file shows the pattern \"b\"");
+  options.patterns = images() / "patterns.toml";
+  std::ofstream(options.patterns)
+      << "[[pattern]]\nname = \"a\"\nkind = \"fringe\"\nperiod_px = 20\n"
+         "shifts_deg = [0, 120, 240]\n";
+  expect_complaint("pattern \"a\" has 3 frames, but 4 were found, a_00.png to a_03.png");
+  options.angles_rad = {0.0, 1.0};
+  expect_complaint("`angles` lists 2, but the folder has 1 view;");
+}
+
+TEST_F(ImportFrames, LeavesNothingWhenItIsStoppedOrAFrameIsDamaged) {
+  write_fringes("a", 12);
+  const ImportPlan plan = plan_import(images(), options);
+  std::stop_source source;
+  frangia::Run run;
+  run.stop = source.get_token();
+  run.progress = [&](double done) {
+    if (done > 0.5) source.request_stop();
+  };
+  EXPECT_EQ(error_of([&] { import_frames(plan, target(), run); }), "stopped by the user");
+  EXPECT_TRUE(std::filesystem::is_empty(target().parent_path()));
+  const std::string bytes = all_of(images() / "a_11.png");
+  std::ofstream(images() / "a_11.png", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  expect_complaint("a_11.png: is truncated or damaged");
+}
+
+TEST_F(ImportFrames, RefusesATargetThatExists) {
+  write_fringes("a");
+  std::filesystem::create_directories(target());
+  std::ofstream(target() / "mine.txt") << "keep";
+  const std::string error =
+      error_of([&] { import_frames(plan_import(images(), options), target()); });
+  EXPECT_NE(error.find("exists already; remove it or choose another name"), std::string::npos);
+  EXPECT_EQ(all_of(target() / "mine.txt"), "keep");
+}
+
+}  // namespace
+}  // namespace frangia
