@@ -116,8 +116,8 @@ void add_calibration_options(CLI::App& verb, SimulateArguments& arguments) {
   auto* calibration = verb.add_option("--calibration",
                                       arguments.calibration,
                                       "instead of a part, as many poses of a board as --views: "
-                                      "checkerboard or circles")
-                          ->check(one_of({"checkerboard", "circles"}))
+                                      "checkerboard, charuco or circles")
+                          ->check(one_of({"checkerboard", "charuco", "circles"}))
                           ->group(kGroup);
   verb.add_option("--corners", arguments.corners, "points of the board along x and y")
       ->delimiter(',')
@@ -288,8 +288,8 @@ void simulate_poses(const SimulateArguments& arguments,
   CalibrationPlan plan;
   plan.folder = arguments.output;
   plan.rig = rig_of(arguments.rig, run);
-  plan.board.kind =
-      arguments.calibration == "circles" ? BoardKind::Circles : BoardKind::Checkerboard;
+  if (arguments.calibration == "circles") plan.board.kind = BoardKind::Circles;
+  if (arguments.calibration == "charuco") plan.board.kind = BoardKind::Charuco;
   plan.board.columns = arguments.corners.at(0);
   plan.board.rows = arguments.corners.at(1);
   plan.board.square_mm = arguments.square_mm;

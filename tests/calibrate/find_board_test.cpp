@@ -7,6 +7,7 @@
 
 #include "frangia/calibrate/board_image.h"
 #include "frangia/calibrate/count_corners.h"
+#include "frangia/calibrate/find_charuco.h"
 #include "frangia/core/angles.h"
 
 namespace frangia {
@@ -83,6 +84,48 @@ TEST(FindBoard, FindsTheCentersOfCirclesWithinAFifthOfAPixel) {
   const auto found = find_board(picture_of(oblique(), circles), board);
   ASSERT_EQ(found.size(), 70U);
   EXPECT_LT(error_px(found, board), 0.2);
+}
+
+/// A ChArUco board as picture_of wants it: black is 0.
+auto charuco(const Board& board) {
+  return [&board](const Eigen::Vector2d& mm) { return is_printed_black(board, mm) ? 0.0 : 1.0; };
+}
+
+const Board kCharuco{.kind = BoardKind::Charuco, .columns = 10, .rows = 7, .square_mm = 10.0};
+
+TEST(FindBoard, FindsTheCornersOfACharucoBoardWithinATwentiethOfAPixel) {
+  const auto found = find_board(picture_of(oblique(), charuco(kCharuco)), kCharuco);
+  ASSERT_EQ(found.size(), 70U);
+  EXPECT_LT(error_px(found, kCharuco), 0.05);
+}
+
+TEST(FindBoard, FindsTheSeenPartOfACharucoBoardTurnedUpsideDown) {
+  const Image<float> whole = picture_of(oblique(), charuco(kCharuco));
+  Image<float> part(whole.width(), whole.height(), 30.0F);
+  for (int y = 0; y < whole.height(); ++y)
+    for (int x = 300; x < whole.width(); ++x)
+      part(whole.width() - 1 - x, whole.height() - 1 - y) = whole(x, y);
+  const auto found = find_board(part, kCharuco);
+  EXPECT_GT(found.size(), 30U);
+  EXPECT_LT(found.size(), 66U);
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(kCharuco);
+  for (const BoardPoint& point : found) {
+    const Eigen::Vector2d truth =
+        (oblique() * nominal[static_cast<std::size_t>(point.index)].homogeneous()).hnormalized();
+    const Eigen::Vector2d turned(whole.width() - 1 - truth.x(), whole.height() - 1 - truth.y());
+    EXPECT_LT((turned - point.camera_px).norm(), 0.1) << point.index;
+  }
+}
+
+TEST(FindCharuco, TellsAMirroredBoard) {
+  const Image<float> image = picture_of(oblique(), charuco(kCharuco));
+  Image<float> mirrored(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      mirrored(image.width() - 1 - x, y) = image(x, y);
+  const CharucoSight sight = find_charuco(mirrored, kCharuco);
+  EXPECT_TRUE(sight.points.empty());
+  EXPECT_GT(sight.mirrored_markers, 30);
 }
 
 TEST(FindBoard, FindsNothingWhereTheBoardHasOtherCornersAndTheyAreCounted) {

@@ -19,6 +19,10 @@ struct BoardPoint {
   /// Standard deviation of `projector_px` as the phase noise predicts it.
   Eigen::Vector2d projector_sigma_px =
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Derivative of `projector_px` with respect to the camera pixel, on the surface around the
+  /// point. An error of `camera_px` moves `projector_px` by it, because the phase is read at that
+  /// pixel. Zero where `projector_px` is measured independently.
+  Eigen::Matrix2d projector_by_camera = Eigen::Matrix2d::Zero();
 };
 
 /// One pose of the board.

@@ -60,6 +60,18 @@ void check_counts(std::span<const PoseCapture> poses, const Board& board) {
                   shorter));
 }
 
+/// Fails when only mirrored images show the markers of the board.
+void check_markers(std::span<const PoseCapture> poses) {
+  std::size_t mirrored = 0;
+  for (const PoseCapture& pose : poses)
+    mirrored += pose.mirrored_markers > 1 ? 1 : 0;
+  if (mirrored < 2 || 2 * mirrored <= poses.size()) return;
+  fail(
+      fmt::format("the images of {} show the markers of the board mirrored: switch off the "
+                  "camera's mirroring, or print the board again without mirroring",
+                  views(mirrored)));
+}
+
 /// Names of the poses for which `holds` is true.
 template <typename Condition>
 std::vector<std::string> names_of(std::span<const PoseCapture> poses, const Condition& holds) {
@@ -194,7 +206,10 @@ void check_board_views(std::span<const PoseCapture> poses,
   if (found.size() < options.min_views) {
     const auto unseen =
         names_of(poses, [](const PoseCapture& pose) { return pose.view.points.empty(); });
-    if (!unseen.empty()) check_counts(poses, board);
+    if (!unseen.empty()) {
+      check_markers(poses);
+      check_counts(poses, board);
+    }
     check_light(poses, options);
     if (unseen.empty()) {
       fail(fmt::format("the scan has {}; capture at least {} poses, each tilted another way",

@@ -20,6 +20,7 @@ struct PoseCapture {
   double saturated = 0.0;  ///< share of the pixels that a fringe frame saturates, likewise
   /// Inner corners of the checkerboard that the image shows, if the expected one is not found.
   std::optional<std::array<int, 2>> counted;
+  int mirrored_markers = 0;  ///< of a ChArUco board that only the mirrored image shows
 };
 
 /// Limits of the checks before a calibration is solved.

@@ -26,18 +26,22 @@ struct Fit {
 };
 
 struct SumOfSquares {
-  double weighted = 0.0;  ///< by the observations' own sigma
+  double weighted = 0.0;  ///< by the observations' own sigma and the robust loss
   double count = 0.0;     ///< of coordinates
 };
 
+/// `noise` is the present scale of the standard deviations, from which the robust loss is counted.
 SumOfSquares sum_squares(std::span<const RigObservation> observations,
                          const RigParameters& parameters,
-                         bool by_projector) {
+                         bool by_projector,
+                         double noise) {
   SumOfSquares sum;
   for (const RigObservation& observation : observations) {
     if (observation.by_projector != by_projector) continue;
-    sum.weighted +=
-        residual_of(observation, parameters).cwiseQuotient(observation.sigma_px).squaredNorm();
+    const double squared = independent_residual_of(observation, parameters)
+                               .cwiseQuotient(observation.sigma_px)
+                               .squaredNorm();
+    sum.weighted += robust_weight(std::sqrt(squared) / noise) * squared;
     sum.count += 2.0;
   }
   return sum;
@@ -71,9 +75,11 @@ void adjust(std::span<const RigObservation> observations,
           "views for one that is swapped or out of step");
     }
     fit.iterations += result.iterations;
-    fit.noise = noise_of(sum_squares(observations, fit.parameters, false),
-                         sum_squares(observations, fit.parameters, true),
-                         parameters);
+    for (int k = 0; k < kRounds; ++k) {
+      fit.noise = noise_of(sum_squares(observations, fit.parameters, false, fit.noise.camera),
+                           sum_squares(observations, fit.parameters, true, fit.noise.projector),
+                           parameters);
+    }
   }
 }
 

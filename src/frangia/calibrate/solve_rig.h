@@ -62,8 +62,9 @@ struct RigSolution {
   /// ordinary lenses leave and its correlation with the parameters that would compensate it.
   Eigen::MatrixXd covariance;
   std::vector<std::string> undetermined;  ///< parameters that the poses do not determine
-  /// Standard uncertainty of a triangulated point that the uncertainty of the estimated parameters
-  /// causes: length of the error vector, root mean square over the poses of the board.
+  /// Standard uncertainty of the shape of a part that the uncertainty of the estimated parameters
+  /// causes: length of the error vector of a triangulated point, without a rigid motion of all
+  /// points; root mean square over the poses of the board.
   double point_sigma_mm = 0.0;
   double distance_mm = 0.0;  ///< mean distance of the board from the camera
   int iterations = 0;        ///< of the solver, all rounds together

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "frangia/calibrate/board_image.h"
 #include "frangia/calibrate/count_corners.h"
 #include "frangia/calibrate/find_board.h"
+#include "frangia/calibrate/find_charuco.h"
 #include "frangia/core/angles.h"
 
 namespace frangia {
@@ -42,6 +44,7 @@ void add_projector_pixels(std::span<const FrameStack> stacks,
         decoded.phase.phase_rad, decoded.phase.sigma_rad, point.camera_px, options.fit);
     point.projector_px[axis] = px_per_rad * phase.phase_rad;
     point.projector_sigma_px[axis] = px_per_rad * phase.sigma_rad;
+    point.projector_by_camera.row(axis) = px_per_rad * phase.gradient_rad_per_px.transpose();
   }
 }
 
@@ -104,7 +107,13 @@ PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
   PoseCapture pose;
   pose.view.name = name;
   const Image<float> image = board_image(stacks);
-  pose.view.points = find_board(image, board);
+  if (board.kind == BoardKind::Charuco) {
+    CharucoSight sight = find_charuco(image, board);
+    pose.mirrored_markers = sight.mirrored_markers;
+    if (sight.points.size() >= options.min_points) pose.view.points = std::move(sight.points);
+  } else {
+    pose.view.points = find_board(image, board);
+  }
   measure_light(stacks, image, known.camera.white_level, pose);
   if (pose.view.points.empty()) {
     if (board.kind == BoardKind::Checkerboard) pose.counted = count_corners(image);

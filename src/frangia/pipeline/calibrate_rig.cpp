@@ -100,7 +100,7 @@ Rig calibrated(const Rig& known, const Board& board, const RigSolution& solution
 void warn_of_outliers(const std::vector<BoardView>& views,
                       const std::vector<ResidualSummary>& by_view,
                       const char* device,
-                      double outlier_rms,
+                      const CalibrateRigOptions& options,
                       const Run& run) {
   std::vector<double> errors;
   for (const ResidualSummary& summary : by_view)
@@ -108,7 +108,8 @@ void warn_of_outliers(const std::vector<BoardView>& views,
   if (errors.empty()) return;
   const double typical = median(errors);
   for (std::size_t i = 0; i < by_view.size(); ++i) {
-    if (!(by_view[i].rms_px > outlier_rms * typical)) continue;
+    if (!(by_view[i].rms_px > std::max(options.outlier_rms * typical, options.outlier_floor_px)))
+      continue;
     run.warn(fmt::format(
         "{}: the reprojection error of the {} is {:.2f} px, {:.1f} times the median of all poses; "
         "the board or the camera moved during its capture, or it is blurred",
@@ -186,10 +187,8 @@ RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& option
   run.stage("adjustment");
   result.solution = solve_rig(*scan.board, result.views, scan.rig, options.solve, run);
   check_solution(result.solution, result.views, options.max_rms_px);
-  warn_of_outliers(
-      result.views, result.solution.camera_by_view, "camera", options.outlier_rms, run);
-  warn_of_outliers(
-      result.views, result.solution.projector_by_view, "projector", options.outlier_rms, run);
+  warn_of_outliers(result.views, result.solution.camera_by_view, "camera", options, run);
+  warn_of_outliers(result.views, result.solution.projector_by_view, "projector", options, run);
   result.rig = calibrated(scan.rig, *scan.board, result.solution);
   return result;
 }
