@@ -142,16 +142,21 @@ TEST(SolveRig, StatesTheUncertaintyOfAShapeThatTheErrorsOfManySeedsHave) {
       points, rig.rotation, rig.translation, rig.projector, rig.projector_distortion, lit);
   double squares = 0.0;
   double stated = 0.0;
-  constexpr unsigned kSeeds = 20;
+  double spread = 0.0;
+  constexpr unsigned kSeeds = 12;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     const RigSolution found = solve_rig(kBoard, make_views(rig, 10, 0.1, seed), known_rig());
     const Eigen::Matrix3Xd measured = triangulated(found, seen, lit);
     const Eigen::Isometry3d rigid(Eigen::umeyama(measured, truth, false));
     squares += (rigid * measured - truth).colwise().squaredNorm().mean() / kSeeds;
     stated += found.point_sigma_mm * found.point_sigma_mm / kSeeds;
+    spread += found.spread_mm * found.spread_mm / kSeeds;
   }
-  EXPECT_GT(std::sqrt(squares / stated), 0.7);
+  // The stated part of the held terms, k2 and k3, is larger than the error that they have here.
+  EXPECT_GT(std::sqrt(squares / stated), 0.6);
   EXPECT_LT(std::sqrt(squares / stated), 1.4);
+  EXPECT_GT(std::sqrt(squares / spread), 0.5);
+  EXPECT_LT(std::sqrt(squares / spread), 1.6);
 }
 
 TEST(SolveRig, UsesThatAPhaseIsReadAtTheCornerThatTheCameraSees) {
@@ -193,6 +198,64 @@ TEST(SolveRig, UsesThatAPhaseIsReadAtTheCornerThatTheCameraSees) {
   EXPECT_LT(joint.point_sigma_mm, 0.7 * separate.point_sigma_mm);
   EXPECT_NEAR(joint.projector_from_camera.translation().x(), -190.0, 0.2);
   EXPECT_LT(joint.projector_residuals.sigma_px, 3.0);
+}
+
+/// Center of the area that a circle about a point of the board shows, from its outline.
+Eigen::Vector2d seen_center(const TrueRig& rig,
+                            const cv::Mat& turn,
+                            const cv::Mat& place,
+                            const cv::Point3d& middle,
+                            double radius) {
+  constexpr int kSides = 720;
+  std::vector<cv::Point3d> outline;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2.0 * CV_PI * i / kSides;
+    outline.emplace_back(
+        middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle), 0.0);
+  }
+  std::vector<cv::Point2d> seen;
+  cv::projectPoints(outline, turn, place, rig.camera, rig.camera_distortion, seen);
+  double area = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const cv::Point2d& a = seen[i];
+    const cv::Point2d& b = seen[(i + 1) % seen.size()];
+    const double cross = (a - seen[0]).cross(b - seen[0]);
+    area += cross;
+    sum += cross * Eigen::Vector2d(a.x + b.x + seen[0].x, a.y + b.y + seen[0].y) / 3.0;
+  }
+  return sum / area;
+}
+
+TEST(SolveRig, AllowsForTheEllipsesThatCirclesShow) {
+  const TrueRig rig;
+  Board board = kBoard;
+  board.kind = BoardKind::Circles;
+  board.diameter_mm = 10.0;
+  std::vector<BoardView> views = make_views(rig, 10, 1e-6, 5, 0.6);
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
+  const Eigen::Vector2d center = 0.5 * (nominal.front() + nominal.back());
+  double largest_px = 0.0;
+  for (BoardView& view : views) {
+    std::vector<cv::Point3d> plane;
+    std::vector<cv::Point2d> pixels;
+    for (std::size_t i = 0; i < nominal.size(); ++i) {
+      plane.emplace_back(nominal[i].x() - center.x(), nominal[i].y() - center.y(), 0.0);
+      pixels.emplace_back(view.points[i].camera_px.x(), view.points[i].camera_px.y());
+    }
+    cv::Mat turn;
+    cv::Mat place;
+    cv::solvePnP(plane, pixels, rig.camera, rig.camera_distortion, turn, place);
+    for (std::size_t i = 0; i < nominal.size(); ++i) {
+      const Eigen::Vector2d seen = seen_center(rig, turn, place, plane[i], 5.0);
+      largest_px = std::max(largest_px, (seen - view.points[i].camera_px).norm());
+      view.points[i].camera_px = seen;
+    }
+  }
+  EXPECT_GT(largest_px, 0.1);  // what the correction is for
+  const RigSolution found = solve_rig(board, views, known_rig());
+  EXPECT_LT(found.camera_residuals.rms_px, 2e-3);
+  EXPECT_NEAR(found.camera.focal_px.x(), 2400.0, 0.5);
 }
 
 TEST(SolveRig, StartsFromTheGivenFocalLengthsButDoesNotTrustWrongOnes) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "frangia/core/image.h"
 
 namespace frangia {
 
@@ -23,6 +26,12 @@ struct BoardPoint {
   /// point. An error of `camera_px` moves `projector_px` by it, because the phase is read at that
   /// pixel. Zero where `projector_px` is measured independently.
   Eigen::Matrix2d projector_by_camera = Eigen::Matrix2d::Zero();
+};
+
+/// A small picture of the board for a report.
+struct BoardPicture {
+  Image<std::uint8_t> pixels;  ///< of the mean intensity, scaled to its brightest
+  double px_per_px = 1.0;      ///< camera pixels per pixel of the picture
 };
 
 /// One pose of the board.

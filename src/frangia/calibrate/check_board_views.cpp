@@ -1,16 +1,19 @@
 #include "frangia/calibrate/check_board_views.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <vector>
 
 #include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <opencv2/calib3d.hpp>
 
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/median.h"
 
 namespace frangia {
 namespace {
@@ -110,6 +113,86 @@ std::size_t lit_points(const BoardView& view) {
       }));
 }
 
+bool is_among(const std::string& name, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The first of some poses.
+const PoseCapture& pose_named(std::span<const PoseCapture> poses, const std::string& name) {
+  return *std::find_if(
+      poses.begin(), poses.end(), [&](const auto& pose) { return pose.view.name == name; });
+}
+
+std::string describe_swapped(std::span<const PoseCapture> poses,
+                             const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  return fmt::format(
+      "the frames of pattern \"{}\" in {} do not follow its shifts: frames are swapped or out of "
+      "step, or shifts_deg in scan.toml is wrong",
+      pose_named(poses, names.front()).misfit_in,
+      list_of(names));
+}
+
+std::string describe_moved(std::span<const PoseCapture> poses,
+                           const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  const PoseCapture& first = pose_named(poses, names.front());
+  return fmt::format(
+      "the board or the camera moved during the capture of {}, by {:.1f} px up to "
+      "pattern \"{}\"; fix both while a pose is captured",
+      list_of(names),
+      first.motion_px,
+      first.moved_in);
+}
+
+/// Median distance of the projector's pixels from a homography of the board.
+double plane_misfit_px(const Board& board, const BoardView& view) {
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
+  std::vector<cv::Point2d> plane;
+  std::vector<cv::Point2d> pixels;
+  for (const BoardPoint& point : view.points) {
+    if (!point.projector_px.allFinite()) continue;
+    const Eigen::Vector2d& place = nominal[static_cast<std::size_t>(point.index)];
+    plane.emplace_back(place.x(), place.y());
+    pixels.emplace_back(point.projector_px.x(), point.projector_px.y());
+  }
+  constexpr std::size_t kFewest = 6;
+  if (plane.size() < kFewest) return 0.0;
+  const cv::Mat map = cv::findHomography(plane, pixels);
+  if (map.empty()) return std::numeric_limits<double>::infinity();
+  std::vector<cv::Point2d> mapped;
+  cv::perspectiveTransform(plane, mapped, map);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < mapped.size(); ++i)
+    distances.push_back(cv::norm(mapped[i] - pixels[i]));
+  return median(distances);
+}
+
+/// Warns of what makes a calibration inaccurate but does not prevent it.
+void warn_of_quality(std::span<const PoseCapture> poses,
+                     const PoseCheckOptions& options,
+                     PoseChecks& checks) {
+  std::vector<double> misfits;
+  for (const PoseCapture& pose : poses)
+    if (pose.misfit > 0.0) misfits.push_back(pose.misfit);
+  if (!misfits.empty() && median(misfits) > options.max_misfit) {
+    checks.warnings.push_back(
+        fmt::format("the projector is not linear: its fringes deviate from a sinusoid by {:.0f} % "
+                    "of their modulation; switch off its gamma and image enhancement, or measure "
+                    "its response",
+                    100.0 * median(misfits)));
+  }
+  const auto blurred =
+      names_of(poses, [&](const PoseCapture& pose) { return pose.blur_px > options.max_blur_px; });
+  if (!blurred.empty()) {
+    checks.warnings.push_back(fmt::format(
+        "the board is out of focus or moving in {}: its edges are blurred by {:.1f} px; "
+        "close the aperture or place the board nearer to the focus",
+        list_of(blurred),
+        pose_named(poses, blurred.front()).blur_px));
+  }
+}
+
 /// The affine map from camera pixels to projector pixels over one board.
 Eigen::Matrix2d camera_to_projector(const BoardView& view) {
   const auto count = static_cast<Eigen::Index>(lit_points(view));
@@ -191,10 +274,10 @@ double largest_tilt_rad(std::span<const BoardView> found,
 
 }  // namespace
 
-void check_board_views(std::span<const PoseCapture> poses,
-                       const Board& board,
-                       const Rig& known,
-                       const PoseCheckOptions& options) {
+PoseChecks check_board_views(std::span<const PoseCapture> poses,
+                             const Board& board,
+                             const Rig& known,
+                             const PoseCheckOptions& options) {
   const auto& projector = std::get<PinholeModel>(known.projector.model);
   std::vector<PoseCapture> seen;
   std::vector<BoardView> found;
@@ -224,23 +307,43 @@ void check_board_views(std::span<const PoseCapture> poses,
                     options.min_views,
                     list_of(unseen)));
   }
+  PoseChecks checks;
+  const auto leave_out = [&](const std::vector<std::string>& names, const std::string& reason) {
+    if (names.empty()) return;
+    if (seen.size() - names.size() < options.min_views) fail(reason);
+    std::erase_if(seen, [&](const PoseCapture& pose) { return is_among(pose.view.name, names); });
+    checks.left_out.insert(checks.left_out.end(), names.begin(), names.end());
+    checks.warnings.push_back(fmt::format(
+        "{}; {} left out", reason, names.size() == 1 ? "this view is" : "these views are"));
+  };
+  const auto swapped =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
+  leave_out(swapped, describe_swapped(seen, swapped));
+  const auto moved = names_of(
+      seen, [&](const PoseCapture& pose) { return pose.motion_px > options.max_motion_px; });
+  leave_out(moved, describe_moved(seen, moved));
   const auto without_phase = names_of(seen, [&](const PoseCapture& pose) {
     return static_cast<double>(lit_points(pose.view)) <
            options.min_lit * static_cast<double>(pose.view.points.size());
   });
-  if (seen.size() - without_phase.size() < options.min_views) {
-    check_light(seen, options);
-    fail(
-        fmt::format("the fringes cannot be measured on the board in {}: light the whole board by "
-                    "the projector, in focus and out of bright room light",
-                    list_of(without_phase)));
-  }
-  std::erase_if(seen, [&](const PoseCapture& pose) {
-    return std::find(without_phase.begin(), without_phase.end(), pose.view.name) !=
-           without_phase.end();
-  });
+  if (seen.size() - without_phase.size() < options.min_views) check_light(seen, options);
+  leave_out(without_phase,
+            fmt::format("the fringes cannot be measured on the board in {}: light the whole board "
+                        "by the projector, in focus and out of bright room light",
+                        list_of(without_phase)));
   check_handedness(seen);
   check_range(seen, projector);
+  const auto uneven = names_of(seen, [&](const PoseCapture& pose) {
+    return plane_misfit_px(board, pose.view) > options.max_plane_px;
+  });
+  leave_out(uneven,
+            fmt::format("the phases on the board in {} are not those of a plane: frames are "
+                        "swapped, missing or out of step, or shifts_deg or period_px are wrong",
+                        list_of(uneven)));
+  warn_of_quality(seen, options, checks);
+  found.clear();
+  for (const PoseCapture& pose : seen)
+    found.push_back(pose.view);
   const double tilt_rad = largest_tilt_rad(found, board, known.camera.model, projector);
   if (deg_from_rad(tilt_rad) < options.min_tilt_deg) {
     fail(
@@ -248,6 +351,7 @@ void check_board_views(std::span<const PoseCapture> poses,
                     "focal lengths open; tilt the board by 20 to 40 degrees, each time another way",
                     deg_from_rad(tilt_rad)));
   }
+  return checks;
 }
 
 }  // namespace frangia

@@ -38,11 +38,12 @@ MarkerCorners corners_of(const std::vector<SeenMarker>& markers, const Board& bo
   return corners;
 }
 
-/// A corner where the markers around it put it, and the length of a square there.
+/// A corner where the markers around it put it.
 struct Prediction {
   int index = 0;
   cv::Point2f pixel;
-  double square_px = 0.0;
+  cv::Point2f along, across;  ///< steps of one square in x and y of the board, px
+  double square_px = 0.0;     ///< length of the shorter step
 };
 
 /// The inner corners that touch a marker that was read: its homography maps them to pixels.
@@ -69,6 +70,8 @@ std::vector<Prediction> predict(const MarkerCorners& corners, const Board& board
     predictions.push_back(
         {index,
          mapped[0],
+         mapped[1] - mapped[0],
+         mapped[2] - mapped[0],
          std::min(cv::norm(mapped[1] - mapped[0]), cv::norm(mapped[2] - mapped[0]))});
   }
   return predictions;
@@ -77,6 +80,35 @@ std::vector<Prediction> predict(const MarkerCorners& corners, const Board& board
 bool is_inside(const cv::Point2f& pixel, const cv::Mat& image, double margin) {
   return pixel.x >= margin && pixel.y >= margin && pixel.x < image.cols - 1 - margin &&
          pixel.y < image.rows - 1 - margin;
+}
+
+float value_at(const cv::Mat& image, const cv::Point2f& pixel) {
+  cv::Mat patch;
+  cv::getRectSubPix(image, cv::Size(1, 1), pixel, patch);
+  return patch.at<float>(0, 0);
+}
+
+/// Whether four squares meet at a pixel, the dark ones opposite to each other. An edge of something
+/// that hides a part of the board is no corner.
+bool is_corner(const cv::Mat& image, const cv::Point2f& pixel, const Prediction& at, double reach) {
+  const std::array<cv::Point2f, 4> kSides = {
+      cv::Point2f(1.0F, 1.0F), {-1.0F, 1.0F}, {-1.0F, -1.0F}, {1.0F, -1.0F}};
+  for (const double share : {0.5, 1.0}) {
+    const auto step = static_cast<float>(share * reach / at.square_px);
+    std::array<float, 4> values{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const cv::Point2f& side = kSides.at(i);
+      values.at(i) = value_at(image, pixel + step * side.x * at.along + step * side.y * at.across);
+    }
+    const float one = 0.5F * (values[0] + values[2]);
+    const float other = 0.5F * (values[1] + values[3]);
+    const float contrast = std::abs(one - other);
+    constexpr float kUnequal = 0.4F;  // of the contrast; light that falls off changes less
+    if (std::abs(values[0] - values[2]) > kUnequal * contrast ||
+        std::abs(values[1] - values[3]) > kUnequal * contrast)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -110,6 +142,8 @@ CharucoSight find_charuco(const Image<float>& counts, const Board& board) {
                      cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-5));
     constexpr double kFarthest = 0.15;  // of a square; farther away it is another corner
     if (cv::norm(corner[0] - prediction.pixel) > std::max(2.0, kFarthest * prediction.square_px))
+      continue;
+    if (!is_inside(corner[0], linear, reach) || !is_corner(linear, corner[0], prediction, reach))
       continue;
     BoardPoint point;
     point.index = prediction.index;

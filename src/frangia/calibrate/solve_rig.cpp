@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/calibrate/internal/leave_one_out.h"
 #include "frangia/calibrate/internal/point_sigma.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/calibrate/internal/rig_covariance.h"
@@ -62,7 +63,8 @@ void adjust(std::span<const RigObservation> observations,
             const RigSolveOptions& options,
             Fit& fit,
             const Run& run) {
-  constexpr int kRounds = 3;  // the weights converge within these
+  constexpr int kRounds = 3;         // the weights converge within these
+  constexpr double kSettled = 0.01;  // change of the weights that the result does not feel
   const double parameters = static_cast<double>(fit.freedom.count()) +
                             6.0 * static_cast<double>(fit.parameters.camera_from_board.size());
   for (int i = 0; i < kRounds; ++i) {
@@ -75,11 +77,15 @@ void adjust(std::span<const RigObservation> observations,
           "views for one that is swapped or out of step");
     }
     fit.iterations += result.iterations;
+    const RigNoise before = fit.noise;
     for (int k = 0; k < kRounds; ++k) {
       fit.noise = noise_of(sum_squares(observations, fit.parameters, false, fit.noise.camera),
                            sum_squares(observations, fit.parameters, true, fit.noise.projector),
                            parameters);
     }
+    if (std::abs(fit.noise.camera / before.camera - 1.0) < kSettled &&
+        std::abs(fit.noise.projector / before.projector - 1.0) < kSettled)
+      break;
   }
 }
 
@@ -195,7 +201,12 @@ RigSolution solve_rig(const Board& board,
   out.projector_residuals.sigma_px = fit.noise.projector;
   out.iterations = fit.iterations;
   add_covariance(observations, fit.freedom, fit.noise, fit.parameters, out);
-  add_point_sigma(board, fit.parameters, out);
+  if (out.undetermined.empty()) {
+    const ShapeResponse shape = shape_response(board, fit.parameters, out);
+    add_point_sigma(shape, out);
+    add_leave_one_out(
+        observations, fit.freedom, fit.noise, fit.parameters, shape.by_parameter, out);
+  }
   return out;
 }
 

@@ -79,31 +79,37 @@ void remove_rigid_motions(const std::vector<Eigen::Vector3d>& points, Eigen::Mat
 
 }  // namespace
 
-void add_point_sigma(const Board& board, const RigParameters& parameters, RigSolution& solution) {
-  if (!solution.undetermined.empty()) return;
+ShapeResponse shape_response(const Board& board,
+                             const RigParameters& parameters,
+                             const RigSolution& solution) {
   const double half_x = 0.5 * (board.columns - 1) * board.square_mm;
   const double half_y = 0.5 * (board.rows - 1) * board.square_mm;
   std::vector<Eigen::Vector3d> points;
-  double distance = 0.0;
+  ShapeResponse result;
   for (const Eigen::Isometry3d& camera_from_board : solution.camera_from_board) {
     for (const double x : {-half_x, 0.0, half_x}) {
       for (const double y : {-half_y, 0.0, half_y}) {
         points.emplace_back(camera_from_board * Eigen::Vector3d(x, y, 0.0));
-        distance += points.back().norm();
+        result.distance_mm += points.back().norm();
       }
     }
   }
   const Eigen::MatrixXd& covariance = solution.covariance;
-  Eigen::MatrixXd response(3 * static_cast<Eigen::Index>(points.size()), covariance.cols());
+  result.by_parameter.resize(3 * static_cast<Eigen::Index>(points.size()), covariance.cols());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    response.middleRows<3>(static_cast<Eigen::Index>(3 * i)) =
+    result.by_parameter.middleRows<3>(static_cast<Eigen::Index>(3 * i)) =
         response_at(points[i], parameters, covariance);
   }
-  remove_rigid_motions(points, response);
-  const double variance = (response * covariance).cwiseProduct(response).sum();
-  const auto count = static_cast<double>(points.size());
-  solution.point_sigma_mm = std::sqrt(variance / count);
-  solution.distance_mm = distance / count;
+  remove_rigid_motions(points, result.by_parameter);
+  result.distance_mm /= static_cast<double>(points.size());
+  return result;
+}
+
+void add_point_sigma(const ShapeResponse& shape, RigSolution& solution) {
+  const Eigen::MatrixXd& response = shape.by_parameter;
+  const double sum = (response * solution.covariance).cwiseProduct(response).sum();
+  solution.point_sigma_mm = std::sqrt(3.0 * sum / static_cast<double>(response.rows()));
+  solution.distance_mm = shape.distance_mm;
 }
 
 }  // namespace frangia
