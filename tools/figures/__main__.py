@@ -16,7 +16,7 @@ from study import ROOT, NotMeasured, Study  # noqa: E402
 
 # In the order in which they stand on their pages.
 SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misaligned_turntable", "large", "views",
-            "edits", "decimation", "calibration", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead",
+            "edits", "decimation", "calibration", "calibration_doctor", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead",
             "file_readers", "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
 
 
