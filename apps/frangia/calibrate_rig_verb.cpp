@@ -97,12 +97,13 @@ void print_summary(const RigCalibration& result, const Board& board) {
              "held",
              fmt::format("{}", fmt::join(solution.held.empty() ? none : solution.held, ", ")));
   print_text(
-      "  {:<10} {}: the calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} "
-      "mm\n",
+      "  {:<10} {}: the calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} mm; the "
+      "poses differ by {:.3f} mm\n",
       "grade",
       calibration_grade(solution),
       solution.point_sigma_mm,
-      solution.distance_mm);
+      solution.distance_mm,
+      solution.spread_mm);
 }
 
 nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments& arguments) {

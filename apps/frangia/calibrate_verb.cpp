@@ -18,6 +18,7 @@
 #ifdef FRANGIA_WITH_CALIBRATION
 #include "calibrate_board_verb.h"
 #include "calibrate_rig_verb.h"
+#include "calibrate_turntable_verb.h"
 #endif
 #include "check_can_write.h"
 #include "drivers.h"
@@ -97,6 +98,7 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
 #ifdef FRANGIA_WITH_CALIBRATION
   add_calibrate_board_verb(*verb, terminal);
   add_calibrate_rig_verb(*verb, terminal);
+  add_calibrate_turntable_verb(*verb, terminal);
 #endif
   auto* piezo = verb->add_subcommand(
       "piezo", "measure the phase shift of each command of a phase shifter, from the frames alone");

@@ -113,7 +113,7 @@ TEST(CheckBoardViews, LeavesOutThePoseThatMoved) {
 
 TEST(CheckBoardViews, RecognizesFramesThatDoNotFollowTheShifts) {
   EXPECT_NE(fault_of([](PoseCapture& pose) {
-              pose.misfit = 0.5;
+              pose.misfit = 1.4;
               pose.misfit_in = "columns-fine";
             }).find("the frames of pattern \"columns-fine\" in pose 0, pose 1"),
             std::string::npos);
@@ -131,7 +131,7 @@ TEST(CheckBoardViews, LeavesOutThePoseWhosePhasesAreNotThoseOfAPlane) {
 TEST(CheckBoardViews, WarnsOfGammaAndBlurWithoutLeavingPosesOut) {
   std::vector<PoseCapture> poses = captures(8);
   for (PoseCapture& pose : poses)
-    pose.misfit = 0.15;
+    pose.misfit = 0.3;
   poses[1].blur_px = 4.0;
   const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
   EXPECT_TRUE(checks.left_out.empty());

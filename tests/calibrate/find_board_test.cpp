@@ -185,11 +185,11 @@ TEST(MeasureFringeMisfit, TellsLinearProjectorsGammaAndSwappedFramesApart) {
                                           {.index = 1, .camera_px = {190.0, 90.0}}};
   EXPECT_LT(measure_fringe_misfit(fringes_of(4, 1.0), points), 0.01);
   const double gamma = measure_fringe_misfit(fringes_of(4, 2.2), points);
-  EXPECT_GT(gamma, 0.08);
-  EXPECT_LT(gamma, 0.35);
+  EXPECT_GT(gamma, 0.15);
+  EXPECT_LT(gamma, 0.5);
   FrameStack swapped = fringes_of(4, 1.0);
   std::swap(swapped.frames[1], swapped.frames[2]);
-  EXPECT_GT(measure_fringe_misfit(swapped, points), 0.4);
+  EXPECT_GT(measure_fringe_misfit(swapped, points), 1.0);
   EXPECT_TRUE(std::isnan(measure_fringe_misfit(fringes_of(3, 1.0), points)));
 }
 

@@ -1,32 +1,22 @@
 #include "frangia/calibrate/check_board_views.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <vector>
 
 #include <Eigen/QR>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <opencv2/calib3d.hpp>
 
+#include "frangia/calibrate/internal/pose_faults.h"
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 
 namespace frangia {
 namespace {
 
 [[noreturn]] void fail(const std::string& sentence) {
   throw Error(ErrorKind::Input, sentence);
-}
-
-std::string list_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 6;
-  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
-  return fmt::format(
-      "{} and {} more", fmt::join(std::span(names).first(kMost), ", "), names.size() - kMost);
 }
 
 std::string views(std::size_t count) {
@@ -75,35 +65,14 @@ void check_markers(std::span<const PoseCapture> poses) {
                   views(mirrored)));
 }
 
-/// Names of the poses for which `holds` is true.
-template <typename Condition>
-std::vector<std::string> names_of(std::span<const PoseCapture> poses, const Condition& holds) {
-  std::vector<std::string> names;
-  for (const PoseCapture& pose : poses)
-    if (holds(pose)) names.push_back(pose.view.name);
-  return names;
-}
-
-/// Fails when the light explains why a board is not found or has no phases.
+/// Fails when the light explains why a board is not found.
 void check_light(std::span<const PoseCapture> poses, const PoseCheckOptions& options) {
   const auto dark =
       names_of(poses, [&](const PoseCapture& pose) { return pose.brightness < options.dim; });
-  if (!dark.empty()) {
-    fail(
-        fmt::format("the board is too dark in {}: its light squares reach less than {:.0f} % of "
-                    "white; expose longer or open the aperture",
-                    list_of(dark),
-                    100.0 * options.dim));
-  }
+  if (!dark.empty()) fail(describe_dark(dark, options));
   const auto bright =
       names_of(poses, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
-  if (!bright.empty()) {
-    fail(
-        fmt::format("the board is overexposed in {}: more than {:.0f} % of its pixels are "
-                    "saturated; expose shorter",
-                    list_of(bright),
-                    100.0 * options.saturated));
-  }
+  if (!bright.empty()) fail(describe_overexposed(bright, options));
 }
 
 std::size_t lit_points(const BoardView& view) {
@@ -117,80 +86,10 @@ bool is_among(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The first of some poses.
-const PoseCapture& pose_named(std::span<const PoseCapture> poses, const std::string& name) {
-  return *std::find_if(
-      poses.begin(), poses.end(), [&](const auto& pose) { return pose.view.name == name; });
-}
-
-std::string describe_swapped(std::span<const PoseCapture> poses,
-                             const std::vector<std::string>& names) {
-  if (names.empty()) return {};
-  return fmt::format(
-      "the frames of pattern \"{}\" in {} do not follow its shifts: frames are swapped or out of "
-      "step, or shifts_deg in scan.toml is wrong",
-      pose_named(poses, names.front()).misfit_in,
-      list_of(names));
-}
-
-std::string describe_moved(std::span<const PoseCapture> poses,
-                           const std::vector<std::string>& names) {
-  if (names.empty()) return {};
-  const PoseCapture& first = pose_named(poses, names.front());
-  return fmt::format(
-      "the board or the camera moved during the capture of {}, by {:.1f} px up to "
-      "pattern \"{}\"; fix both while a pose is captured",
-      list_of(names),
-      first.motion_px,
-      first.moved_in);
-}
-
-/// Median distance of the projector's pixels from a homography of the board.
-double plane_misfit_px(const Board& board, const BoardView& view) {
-  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
-  std::vector<cv::Point2d> plane;
-  std::vector<cv::Point2d> pixels;
-  for (const BoardPoint& point : view.points) {
-    if (!point.projector_px.allFinite()) continue;
-    const Eigen::Vector2d& place = nominal[static_cast<std::size_t>(point.index)];
-    plane.emplace_back(place.x(), place.y());
-    pixels.emplace_back(point.projector_px.x(), point.projector_px.y());
-  }
-  constexpr std::size_t kFewest = 6;
-  if (plane.size() < kFewest) return 0.0;
-  const cv::Mat map = cv::findHomography(plane, pixels);
-  if (map.empty()) return std::numeric_limits<double>::infinity();
-  std::vector<cv::Point2d> mapped;
-  cv::perspectiveTransform(plane, mapped, map);
-  std::vector<double> distances;
-  for (std::size_t i = 0; i < mapped.size(); ++i)
-    distances.push_back(cv::norm(mapped[i] - pixels[i]));
-  return median(distances);
-}
-
-/// Warns of what makes a calibration inaccurate but does not prevent it.
-void warn_of_quality(std::span<const PoseCapture> poses,
-                     const PoseCheckOptions& options,
-                     PoseChecks& checks) {
-  std::vector<double> misfits;
-  for (const PoseCapture& pose : poses)
-    if (pose.misfit > 0.0) misfits.push_back(pose.misfit);
-  if (!misfits.empty() && median(misfits) > options.max_misfit) {
-    checks.warnings.push_back(
-        fmt::format("the projector is not linear: its fringes deviate from a sinusoid by {:.0f} % "
-                    "of their modulation; switch off its gamma and image enhancement, or measure "
-                    "its response",
-                    100.0 * median(misfits)));
-  }
-  const auto blurred =
-      names_of(poses, [&](const PoseCapture& pose) { return pose.blur_px > options.max_blur_px; });
-  if (!blurred.empty()) {
-    checks.warnings.push_back(fmt::format(
-        "the board is out of focus or moving in {}: its edges are blurred by {:.1f} px; "
-        "close the aperture or place the board nearer to the focus",
-        list_of(blurred),
-        pose_named(poses, blurred.front()).blur_px));
-  }
+/// Whether enough points of a pose have projector coordinates.
+bool is_lit(const PoseCapture& pose, const PoseCheckOptions& options) {
+  return static_cast<double>(lit_points(pose.view)) >=
+         options.min_lit * static_cast<double>(pose.view.points.size());
 }
 
 /// The affine map from camera pixels to projector pixels over one board.
@@ -316,17 +215,21 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
     checks.warnings.push_back(fmt::format(
         "{}; {} left out", reason, names.size() == 1 ? "this view is" : "these views are"));
   };
+  const auto bright =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
+  leave_out(bright, describe_overexposed(bright, options));
+  const auto dark = names_of(seen, [&](const PoseCapture& pose) {
+    return pose.brightness < options.dim && !is_lit(pose, options);
+  });
+  leave_out(dark, describe_dark(dark, options));
   const auto swapped =
       names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
   leave_out(swapped, describe_swapped(seen, swapped));
   const auto moved = names_of(
       seen, [&](const PoseCapture& pose) { return pose.motion_px > options.max_motion_px; });
   leave_out(moved, describe_moved(seen, moved));
-  const auto without_phase = names_of(seen, [&](const PoseCapture& pose) {
-    return static_cast<double>(lit_points(pose.view)) <
-           options.min_lit * static_cast<double>(pose.view.points.size());
-  });
-  if (seen.size() - without_phase.size() < options.min_views) check_light(seen, options);
+  const auto without_phase =
+      names_of(seen, [&](const PoseCapture& pose) { return !is_lit(pose, options); });
   leave_out(without_phase,
             fmt::format("the fringes cannot be measured on the board in {}: light the whole board "
                         "by the projector, in focus and out of bright room light",

@@ -46,10 +46,10 @@ struct PoseCheckOptions {
   double max_motion_px = 0.3;
   /// Misfit of the fringes above which the projector is reported as not linear; a display gamma of
   /// 1.3 reaches it with four frames.
-  double max_misfit = 0.06;
-  /// Misfit above which the frames are not those of the pattern's shifts; a gamma of 2.2 gives
-  /// half.
-  double wrong_frames = 0.35;
+  double max_misfit = 0.1;
+  /// Misfit above which the frames are not those of the pattern's shifts; half of what swapped
+  /// frames give, and twice that of a gamma of 2.2.
+  double wrong_frames = 0.7;
   /// Median distance of the projector pixels from a homography of the board above which the phases
   /// of a pose are wrong; distortion causes 2 px.
   double max_plane_px = 6.0;

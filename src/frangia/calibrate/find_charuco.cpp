@@ -67,12 +67,14 @@ std::vector<Prediction> predict(const MarkerCorners& corners, const Board& board
         std::vector<cv::Point2f>{at, at + cv::Point2f(1.0F, 0.0F), at + cv::Point2f(0.0F, 1.0F)},
         mapped,
         map);
-    predictions.push_back(
-        {index,
-         mapped[0],
-         mapped[1] - mapped[0],
-         mapped[2] - mapped[0],
-         std::min(cv::norm(mapped[1] - mapped[0]), cv::norm(mapped[2] - mapped[0]))});
+    const Prediction prediction{
+        index,
+        mapped[0],
+        mapped[1] - mapped[0],
+        mapped[2] - mapped[0],
+        std::min(cv::norm(mapped[1] - mapped[0]), cv::norm(mapped[2] - mapped[0]))};
+    constexpr double kSmallest = 5.0;  // px; a marker would not be read in a smaller square
+    if (prediction.square_px > kSmallest) predictions.push_back(prediction);
   }
   return predictions;
 }
@@ -91,14 +93,16 @@ float value_at(const cv::Mat& image, const cv::Point2f& pixel) {
 /// Whether four squares meet at a pixel, the dark ones opposite to each other. An edge of something
 /// that hides a part of the board is no corner.
 bool is_corner(const cv::Mat& image, const cv::Point2f& pixel, const Prediction& at, double reach) {
-  const std::array<cv::Point2f, 4> kSides = {
+  const std::array<cv::Point2f, 4> sides = {
       cv::Point2f(1.0F, 1.0F), {-1.0F, 1.0F}, {-1.0F, -1.0F}, {1.0F, -1.0F}};
   for (const double share : {0.5, 1.0}) {
     const auto step = static_cast<float>(share * reach / at.square_px);
     std::array<float, 4> values{};
     for (std::size_t i = 0; i < 4; ++i) {
-      const cv::Point2f& side = kSides.at(i);
-      values.at(i) = value_at(image, pixel + step * side.x * at.along + step * side.y * at.across);
+      const cv::Point2f& side = sides.at(i);
+      const cv::Point2f place = pixel + step * side.x * at.along + step * side.y * at.across;
+      if (!is_inside(place, image, 1.0)) return false;
+      values.at(i) = value_at(image, place);
     }
     const float one = 0.5F * (values[0] + values[2]);
     const float other = 0.5F * (values[1] + values[3]);

@@ -14,8 +14,9 @@ namespace frangia {
 namespace {
 
 struct SinusoidFit {
+  double mean = 0.0;
   double modulation = 0.0;
-  double misfit = 0.0;  ///< relative to the modulation
+  double residual = 0.0;  ///< standard deviation of one frame
 };
 
 }  // namespace
@@ -48,24 +49,28 @@ double measure_fringe_misfit(const FrameStack& stack, std::span<const BoardPoint
         counts[i] = counts_at(stack.frames[static_cast<std::size_t>(i)], x, y);
       if (counts.maxCoeff() >= stack.white_level) continue;
       const Eigen::Vector3d fit = solver.solve(counts);
-      const double modulation = std::hypot(fit[1], fit[2]);
-      if (!(modulation > 0.0)) continue;
-      const double residual = std::sqrt((counts - terms * fit).squaredNorm() /
-                                        static_cast<double>(frames - kParameters));
-      fits.push_back({modulation, residual / modulation});
+      const double squares = (counts - terms * fit).squaredNorm();
+      fits.push_back({fit[0],
+                      std::hypot(fit[1], fit[2]),
+                      std::sqrt(squares / static_cast<double>(frames - kParameters))});
     }
   }
   if (fits.empty()) return kNone;
-  constexpr double kBright = 0.75;  // quantile of the modulation; the light squares
+  // The light squares, by their mean: that of swapped frames is the same, their modulation is not.
+  constexpr double kBright = 0.75;
   const auto bright =
       fits.begin() + static_cast<std::ptrdiff_t>(kBright * static_cast<double>(fits.size() - 1));
   std::nth_element(fits.begin(), bright, fits.end(), [](const auto& a, const auto& b) {
-    return a.modulation < b.modulation;
+    return a.mean < b.mean;
   });
-  std::vector<double> misfits;
-  for (auto fit = bright; fit != fits.end(); ++fit)
-    misfits.push_back(fit->misfit);
-  return median(misfits);
+  std::vector<double> residuals;
+  std::vector<double> modulations;
+  for (auto fit = bright; fit != fits.end(); ++fit) {
+    residuals.push_back(fit->residual);
+    modulations.push_back(fit->modulation);
+  }
+  const double modulation = median(modulations);
+  return modulation > 0.0 ? median(residuals) / modulation : kNone;
 }
 
 }  // namespace frangia

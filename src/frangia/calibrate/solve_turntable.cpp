@@ -17,7 +17,7 @@
 namespace frangia {
 namespace {
 
-constexpr Eigen::Index kAxisParameters = 4;                    // two turns, two shifts
+constexpr Eigen::Index kAxisParameters = 4;                     // two turns, two shifts
 constexpr Eigen::Index kTableParameters = kAxisParameters + 6;  // and the pose of the board
 using TableStep = Eigen::Matrix<double, kTableParameters, 1>;
 
@@ -75,7 +75,9 @@ void for_each_pixel(const TableProblem& problem,
         rig_from_board * problem.places[static_cast<std::size_t>(point.index)];
     visit(point.camera_px, problem.rig.camera.model.project(place), false);
     if (point.projector_px.allFinite())
-      visit(point.projector_px, problem.projector.project(problem.rig.projector.from_rig(place)), true);
+      visit(point.projector_px,
+            problem.projector.project(problem.rig.projector.from_rig(place)),
+            true);
   }
 }
 
@@ -205,13 +207,15 @@ double angle_deviation_rad(const TableProblem& problem, const TableModel& model)
     std::vector<Eigen::Vector2d> there;
     std::vector<Eigen::Vector2d> observed;
     const double angle = problem.angles_rad[view];
-    for_each_pixel(problem, view, model.at(angle), [&](const auto& seen, const auto& predicted, bool) {
-      observed.push_back(seen);
-      here.push_back(predicted);
-    });
-    for_each_pixel(problem, view, model.at(angle + kStep), [&](const auto&, const auto& predicted, bool) {
-      there.push_back(predicted);
-    });
+    for_each_pixel(
+        problem, view, model.at(angle), [&](const auto& seen, const auto& predicted, bool) {
+          observed.push_back(seen);
+          here.push_back(predicted);
+        });
+    for_each_pixel(
+        problem, view, model.at(angle + kStep), [&](const auto&, const auto& predicted, bool) {
+          there.push_back(predicted);
+        });
     double product = 0.0;
     double square = 0.0;
     for (std::size_t i = 0; i < here.size(); ++i) {
