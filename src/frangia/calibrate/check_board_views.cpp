@@ -23,19 +23,23 @@ std::string views(std::size_t count) {
   return fmt::format("{} {}", count, count == 1 ? "view" : "views");
 }
 
-/// Fails when most of the views in which corners can be counted, and at least two, show a
-/// checkerboard of one other size.
+/// Fails when most of the views in which corners can be counted, at least two and more than show
+/// the expected board, show a checkerboard of one other size. Noise may look like a small one.
 void check_counts(std::span<const PoseCapture> poses, const Board& board) {
   std::map<std::array<int, 2>, std::size_t> seen;
   std::size_t counted = 0;
+  std::size_t expected = 0;
   for (const PoseCapture& pose : poses) {
+    expected += pose.view.points.empty() ? 0 : 1;
     if (!pose.counted) continue;
     ++seen[*pose.counted];
     ++counted;
   }
   const auto most = std::max_element(
       seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most == seen.end() || most->second < 2 || 2 * most->second <= counted) return;
+  if (most == seen.end() || most->second < 2 || most->second <= expected ||
+      2 * most->second <= counted)
+    return;
   const auto [longer, shorter] = most->first;
   if (longer == std::max(board.columns, board.rows) &&
       shorter == std::min(board.columns, board.rows))
