@@ -31,7 +31,7 @@ void check_counts(std::span<const PoseCapture> poses, const Board& board) {
   std::size_t counted = 0;
   std::size_t expected = 0;
   for (const PoseCapture& pose : poses) {
-    expected += pose.view.points.empty() ? 0 : 1;
+    if (!pose.view.points.empty()) ++expected;
     if (!pose.counted) continue;
     ++seen[*pose.counted];
     ++counted;
@@ -62,7 +62,7 @@ void check_counts(std::span<const PoseCapture> poses, const Board& board) {
 void check_markers(std::span<const PoseCapture> poses) {
   std::size_t mirrored = 0;
   for (const PoseCapture& pose : poses)
-    mirrored += pose.mirrored_markers > 1 ? 1 : 0;
+    if (pose.mirrored_markers > 1) ++mirrored;
   if (mirrored < 2 || 2 * mirrored <= poses.size()) return;
   fail(
       fmt::format("the images of {} show the markers of the board mirrored: switch off the "
