@@ -23,24 +23,37 @@ struct BoardArguments {
   std::string paper = "a4";
   std::vector<int> corners = {10, 7};
   double square_mm = 0.0;
+  double marker_mm = 0.0;
+  std::string dictionary = "DICT_5X5_100";
+  bool legacy_layout = false;
 };
+
+BoardKind board_kind(const std::string& name) {
+  if (name == "circles") return BoardKind::Circles;
+  return name == "charuco" ? BoardKind::Charuco : BoardKind::Checkerboard;
+}
 
 void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
   const std::map<std::string, PaperSize> papers = {
       {"a4", {297.0, 210.0}}, {"a3", {420.0, 297.0}}, {"letter", {279.4, 215.9}}};
   const bool circles = arguments.kind == "circles";
-  const Board board =
-      write_board_pdf(arguments.output,
-                      {.kind = circles ? BoardKind::Circles : BoardKind::Checkerboard,
-                       .columns = arguments.corners.at(0),
-                       .rows = arguments.corners.at(1),
-                       .square_mm = arguments.square_mm},
-                      papers.at(arguments.paper));
+  const bool charuco = arguments.kind == "charuco";
+  const Board board = write_board_pdf(arguments.output,
+                                      {.kind = board_kind(arguments.kind),
+                                       .columns = arguments.corners.at(0),
+                                       .rows = arguments.corners.at(1),
+                                       .square_mm = arguments.square_mm,
+                                       .marker_mm = arguments.marker_mm,
+                                       .dictionary = arguments.dictionary,
+                                       .legacy_layout = arguments.legacy_layout},
+                                      papers.at(arguments.paper));
   if (terminal.json) {
     const nlohmann::ordered_json result{{"file", arguments.output.string()},
                                         {"kind", arguments.kind},
                                         {"corners", {board.columns, board.rows}},
-                                        {"square_mm", board.square_mm}};
+                                        {"square_mm", board.square_mm},
+                                        {"marker_mm", marker_side_mm(board)},
+                                        {"dictionary", charuco ? board.dictionary : ""}};
     print_json(result);
     return;
   }
@@ -54,6 +67,10 @@ void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
         board.rows,
         circles ? "spacing_mm" : "square_mm",
         board.square_mm);
+    if (charuco)
+      print_text(
+          "marker_mm = {:g}\ndictionary = \"{}\"\n", marker_side_mm(board), board.dictionary);
+    if (charuco && board.legacy_layout) print_text("legacy_layout = true\n");
   }
   terminal.print_written(arguments.output.string());
 }
@@ -66,8 +83,8 @@ void add_calibrate_board_verb(CLI::App& calibrate, Terminal& terminal) {
       calibrate.add_subcommand("board", "write a board to print at true scale, with a ruler");
   verb->footer("Example:\n  frangia calibrate board --paper a4 -o board.pdf");
   verb->add_option("-o,--output", arguments->output, "PDF to write")->required();
-  verb->add_option("--kind", arguments->kind, "checkerboard or circles")
-      ->check(one_of({"checkerboard", "circles"}))
+  verb->add_option("--kind", arguments->kind, "checkerboard, charuco or circles")
+      ->check(one_of({"checkerboard", "charuco", "circles"}))
       ->capture_default_str();
   verb->add_option("--paper", arguments->paper, "a4, a3 or letter")
       ->check(one_of({"a4", "a3", "letter"}))
@@ -80,6 +97,15 @@ void add_calibrate_board_verb(CLI::App& calibrate, Terminal& terminal) {
   verb->add_option(
           "--square", arguments->square_mm, "side of a square; by default, it fills the paper")
       ->transform(length_above_zero());
+  verb->add_option(
+          "--marker", arguments->marker_mm, "side of a ChArUco marker; by default, 0.7 of a square")
+      ->transform(length_above_zero());
+  verb->add_option(
+          "--dictionary", arguments->dictionary, "of the ChArUco markers, as OpenCV names it")
+      ->capture_default_str();
+  verb->add_flag("--legacy-layout",
+                 arguments->legacy_layout,
+                 "lay out the ChArUco squares as OpenCV before version 4.6");
   verb->callback([arguments, &terminal] { calibrate_board_verb(*arguments, terminal); });
 }
 

@@ -1,6 +1,5 @@
 #include "calibrate_rig_verb.h"
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -14,6 +13,7 @@
 
 #include "frangia/calibrate/write_covariance.h"
 #include "frangia/core/angles.h"
+#include "frangia/pipeline/calibrate_report.h"
 #include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/read_rig.h"
 
@@ -27,6 +27,7 @@ namespace {
 struct RigArguments {
   std::filesystem::path scan;
   std::filesystem::path output;
+  std::filesystem::path report;
   bool flat_board = false;
 };
 
@@ -45,20 +46,6 @@ std::pair<double, double> baseline_of(const RigSolution& solution) {
   const Eigen::Matrix3d covariance = solution.covariance.bottomRightCorner<3, 3>();
   const Eigen::Vector3d direction = translation.normalized();
   return {translation.norm(), std::sqrt(direction.dot(covariance * direction))};
-}
-
-/// A word for the accuracy that the calibration permits: the share of the distance that it adds to
-/// the uncertainty of a point.
-std::string grade_of(const RigSolution& solution) {
-  struct Grade {
-    double share;
-    const char* name;
-  };
-  // 0.025, 0.1 and 0.5 mm at half a metre: inspection, good fringe projection, a maker's print.
-  constexpr std::array<Grade, 3> kGrades{{{5e-5, "excellent"}, {2e-4, "good"}, {1e-3, "usable"}}};
-  for (const Grade& grade : kGrades)
-    if (solution.point_sigma_mm <= grade.share * solution.distance_mm) return grade.name;
-  return "poor";
 }
 
 void print_device(const char* name,
@@ -110,12 +97,13 @@ void print_summary(const RigCalibration& result, const Board& board) {
              "held",
              fmt::format("{}", fmt::join(solution.held.empty() ? none : solution.held, ", ")));
   print_text(
-      "  {:<10} {}: the calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} "
-      "mm\n",
+      "  {:<10} {}: the calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} mm; the "
+      "poses differ by {:.3f} mm\n",
       "grade",
-      grade_of(solution),
+      calibration_grade(solution),
       solution.point_sigma_mm,
-      solution.distance_mm);
+      solution.distance_mm,
+      solution.spread_mm);
 }
 
 nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments& arguments) {
@@ -125,13 +113,15 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
       {"rig", arguments.output.string()},
       {"poses", result.views.size()},
       {"views_without_board", result.without_board},
+      {"views_left_out", result.left_out},
       {"camera_rms_px", solution.camera_residuals.rms_px},
       {"projector_rms_px", solution.projector_residuals.rms_px},
       {"baseline_mm", baseline},
       {"baseline_sigma_mm", baseline_sigma},
       {"point_sigma_mm", solution.point_sigma_mm},
       {"distance_mm", solution.distance_mm},
-      {"grade", grade_of(solution)},
+      {"spread_mm", solution.spread_mm},
+      {"grade", calibration_grade(solution)},
       {"estimated", solution.terms},
       {"held", solution.held},
   };
@@ -140,7 +130,8 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
   for (std::size_t i = 0; i < result.views.size(); ++i) {
     json["views"].push_back({{"folder", result.views[i].name},
                              {"camera_rms_px", solution.camera_by_view[i].rms_px},
-                             {"projector_rms_px", solution.projector_by_view[i].rms_px}});
+                             {"projector_rms_px", solution.projector_by_view[i].rms_px},
+                             {"leave_one_out_mm", solution.leave_one_out_mm[i]}});
     nlohmann::ordered_json points = nlohmann::ordered_json::array();
     for (const BoardPoint& point : result.views[i].points) {
       points.push_back({point.index,
@@ -156,16 +147,20 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
 
 void calibrate_rig_verb(const RigArguments& arguments, Terminal& terminal) {
   check_can_write(arguments.output);
+  if (!arguments.report.empty()) check_can_write(arguments.report);
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run, RigContent::StartValues);
   CalibrateRigOptions options;
   options.solve.release_board = !arguments.flat_board;
+  options.pose.keep_picture = !arguments.report.empty();
   RigCalibration result = calibrate_rig(scan, options, run);
   std::filesystem::path covariance = arguments.output;
   covariance.replace_filename(arguments.output.stem().string() + "-covariance.csv");
   result.rig.calibration->covariance_file = covariance.filename().string();
   write_covariance(covariance, result.solution);
   write_rig(arguments.output, result.rig, Durability::Buffered, scan.folder / "rig.toml");
+  if (!arguments.report.empty())
+    write_calibration_report(arguments.report, result, *scan.board, terminal.warnings());
   terminal.finish();
   if (terminal.json) {
     nlohmann::ordered_json json = json_of(result, arguments);
@@ -176,6 +171,7 @@ void calibrate_rig_verb(const RigArguments& arguments, Terminal& terminal) {
   if (!terminal.quiet) print_summary(result, *scan.board);
   terminal.print_written(arguments.output.string());
   terminal.print_written(covariance.string());
+  if (!arguments.report.empty()) terminal.print_written(arguments.report.string());
 }
 
 }  // namespace
@@ -196,6 +192,9 @@ void add_calibrate_rig_verb(CLI::App& calibrate, Terminal& terminal) {
                  arguments->flat_board,
                  "take the board as exactly flat and square, such as a glass board, and do not "
                  "estimate its shape");
+  verb->add_option("--report",
+                   arguments->report,
+                   "write a page with pictures of residuals, coverage and boards, as HTML");
   verb->callback([arguments, &terminal] { calibrate_rig_verb(*arguments, terminal); });
 }
 

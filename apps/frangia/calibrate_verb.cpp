@@ -19,6 +19,7 @@
 #include "calibrate_board_verb.h"
 #include "calibrate_exchange_verbs.h"
 #include "calibrate_rig_verb.h"
+#include "calibrate_turntable_verb.h"
 #endif
 #include "check_can_write.h"
 #include "drivers.h"
@@ -98,6 +99,7 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
 #ifdef FRANGIA_WITH_CALIBRATION
   add_calibrate_board_verb(*verb, terminal);
   add_calibrate_rig_verb(*verb, terminal);
+  add_calibrate_turntable_verb(*verb, terminal);
   add_calibrate_exchange_verbs(*verb, terminal);
 #endif
   auto* piezo = verb->add_subcommand(

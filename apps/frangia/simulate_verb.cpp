@@ -42,6 +42,7 @@ struct SimulateArguments {
   double angle_error_deg = 0.0;
   double axis_tilt_deg = 0.0;
   std::string calibration;
+  bool on_turntable = false;
   std::vector<int> corners = {10, 7};
   double square_mm = 0.0;
   const CLI::Option* fringes_per_degree = nullptr;
@@ -116,8 +117,8 @@ void add_calibration_options(CLI::App& verb, SimulateArguments& arguments) {
   auto* calibration = verb.add_option("--calibration",
                                       arguments.calibration,
                                       "instead of a part, as many poses of a board as --views: "
-                                      "checkerboard or circles")
-                          ->check(one_of({"checkerboard", "circles"}))
+                                      "checkerboard, charuco or circles")
+                          ->check(one_of({"checkerboard", "charuco", "circles"}))
                           ->group(kGroup);
   verb.add_option("--corners", arguments.corners, "points of the board along x and y")
       ->delimiter(',')
@@ -129,6 +130,11 @@ void add_calibration_options(CLI::App& verb, SimulateArguments& arguments) {
   verb.add_option(
           "--square", arguments.square_mm, "side of a square; by default, it fits the field")
       ->transform(length_above_zero())
+      ->needs(calibration)
+      ->group(kGroup);
+  verb.add_flag("--on-turntable",
+                arguments.on_turntable,
+                "the board stands on the turntable, which turns by 57 degrees in all")
       ->needs(calibration)
       ->group(kGroup);
 }
@@ -301,12 +307,13 @@ void simulate_poses(const SimulateArguments& arguments,
   CalibrationPlan plan;
   plan.folder = arguments.output;
   plan.rig = rig_of(arguments.rig, run);
-  plan.board.kind =
-      arguments.calibration == "circles" ? BoardKind::Circles : BoardKind::Checkerboard;
+  if (arguments.calibration == "circles") plan.board.kind = BoardKind::Circles;
+  if (arguments.calibration == "charuco") plan.board.kind = BoardKind::Charuco;
   plan.board.columns = arguments.corners.at(0);
   plan.board.rows = arguments.corners.at(1);
   plan.board.square_mm = arguments.square_mm;
   plan.poses = arguments.views;
+  plan.on_turntable = arguments.on_turntable;
   plan.patterns = arguments.patterns;
   run.stage("render");
   print_result(simulate_calibration(plan, options, run), "truth-rig.toml", terminal);

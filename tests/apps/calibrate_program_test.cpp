@@ -1,4 +1,5 @@
 // The verbs calibrate board and calibrate rig: files, exit codes and one sentence.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -56,6 +57,35 @@ void expect_systematic_part(const std::filesystem::path& folder, const std::file
   const Answer missing = run_program(reconstruct);
   EXPECT_EQ(missing.exit_code, 3);
   EXPECT_NE(missing.output.find("rig-covariance.csv"), std::string::npos) << missing.output;
+}
+
+TEST(CalibrateProgram, WritesACharucoBoardWithItsKeys) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "board.pdf";
+  const Answer answer =
+      run_program("calibrate board --kind charuco --corners 6,4 -o " + file.string());
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_NE(answer.output.find("dictionary = \"DICT_5X5_100\""), std::string::npos)
+      << answer.output;
+  EXPECT_EQ(text_of(file).substr(0, 5), "%PDF-");
+}
+
+TEST(CalibrateProgram, FindsTheAxisOfASimulatedTurntable) {
+  const TemporaryFolder folder;
+  const std::string turned = (folder.path() / "turned").string();
+  const auto rig = folder.path() / "rig.toml";
+  const Answer simulated = run_program(
+      "simulate --calibration checkerboard --on-turntable --views 3 --samples 4 -o " + turned);
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.output;
+  const Answer answer = run_program("calibrate turntable " + turned + " --rig " + turned +
+                                    "/truth-rig.toml -o " + rig.string());
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_NE(answer.output.find("axis from 3 views"), std::string::npos) << answer.output;
+  const Turntable truth = read_rig(folder.path() / "turned" / "truth-rig.toml").turntable.value();
+  const Turntable found = read_rig(rig).turntable.value();
+  EXPECT_LT(std::acos(found.axis.dot(truth.axis)), 0.001);
+  const Eigen::Vector3d offset = found.point_mm - truth.point_mm;
+  EXPECT_LT((offset - truth.axis * truth.axis.dot(offset)).norm(), 0.1);
 }
 
 TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {

@@ -97,6 +97,57 @@ TEST(CheckBoardViews, RecognizesPhasesBeyondTheProjector) {
   EXPECT_NE(message.find("outside of the projector of 1280 x 800"), std::string::npos) << message;
 }
 
+TEST(CheckBoardViews, LeavesOutThePoseThatMoved) {
+  std::vector<PoseCapture> poses = captures(8);
+  poses[2].motion_px = 0.9;
+  poses[2].moved_in = "rows-fine";
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_EQ(checks.left_out, std::vector<std::string>{"pose 2"});
+  ASSERT_EQ(checks.warnings.size(), 1U);
+  EXPECT_EQ(checks.warnings[0],
+            "the board or the camera moved during the capture of pose 2, by 0.9 px up to pattern "
+            "\"rows-fine\"; fix both while a pose is captured; this view is left out");
+  EXPECT_NE(fault_of([](PoseCapture& pose) { pose.motion_px = 0.9; }).find("moved during"),
+            std::string::npos);
+}
+
+TEST(CheckBoardViews, RecognizesFramesThatDoNotFollowTheShifts) {
+  EXPECT_NE(fault_of([](PoseCapture& pose) {
+              pose.misfit = 1.4;
+              pose.misfit_in = "columns-fine";
+            }).find("the frames of pattern \"columns-fine\" in pose 0, pose 1"),
+            std::string::npos);
+}
+
+TEST(CheckBoardViews, LeavesOutThePoseWhosePhasesAreNotThoseOfAPlane) {
+  std::vector<PoseCapture> poses = captures(8);
+  for (BoardPoint& point : poses[5].view.points)
+    point.projector_px.x() += point.index % 2 == 0 ? 20.0 : -20.0;
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_EQ(checks.left_out, std::vector<std::string>{"pose 5"});
+  EXPECT_NE(checks.warnings.at(0).find("not those of a plane"), std::string::npos);
+}
+
+TEST(CheckBoardViews, WarnsOfGammaAndBlurWithoutLeavingPosesOut) {
+  std::vector<PoseCapture> poses = captures(8);
+  for (PoseCapture& pose : poses)
+    pose.misfit = 0.3;
+  poses[1].blur_px = 4.0;
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_TRUE(checks.left_out.empty());
+  ASSERT_EQ(checks.warnings.size(), 2U);
+  EXPECT_NE(checks.warnings[0].find("not linear"), std::string::npos);
+  EXPECT_NE(checks.warnings[1].find("out of focus or moving in pose 1"), std::string::npos);
+}
+
+TEST(CheckBoardViews, RecognizesAMirroredCharucoBoard) {
+  EXPECT_NE(fault_of([](PoseCapture& pose) {
+              pose.view.points.clear();
+              pose.mirrored_markers = 40;
+            }).find("mirrored"),
+            std::string::npos);
+}
+
 TEST(CheckBoardViews, RecognizesParallelPoses) {
   const std::string message =
       testing::error_of([] { check_board_views(captures(8, 0.01), kBoard, known_rig()); });

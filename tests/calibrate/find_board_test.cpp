@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "frangia/calibrate/board_image.h"
 #include "frangia/calibrate/count_corners.h"
+#include "frangia/calibrate/find_charuco.h"
+#include "frangia/calibrate/measure_fringe_misfit.h"
+#include "frangia/calibrate/measure_sharpness.h"
 #include "frangia/core/angles.h"
 
 namespace frangia {
@@ -85,6 +89,48 @@ TEST(FindBoard, FindsTheCentersOfCirclesWithinAFifthOfAPixel) {
   EXPECT_LT(error_px(found, board), 0.2);
 }
 
+/// A ChArUco board as picture_of wants it: black is 0.
+auto charuco(const Board& board) {
+  return [&board](const Eigen::Vector2d& mm) { return is_printed_black(board, mm) ? 0.0 : 1.0; };
+}
+
+const Board kCharuco{.kind = BoardKind::Charuco, .columns = 10, .rows = 7, .square_mm = 10.0};
+
+TEST(FindBoard, FindsTheCornersOfACharucoBoardWithinATenthOfAPixel) {
+  const auto found = find_board(picture_of(oblique(), charuco(kCharuco)), kCharuco);
+  ASSERT_EQ(found.size(), 70U);
+  EXPECT_LT(error_px(found, kCharuco), 0.1);
+}
+
+TEST(FindBoard, FindsTheSeenPartOfACharucoBoardTurnedUpsideDown) {
+  const Image<float> whole = picture_of(oblique(), charuco(kCharuco));
+  Image<float> part(whole.width(), whole.height(), 30.0F);
+  for (int y = 0; y < whole.height(); ++y)
+    for (int x = 300; x < whole.width(); ++x)
+      part(whole.width() - 1 - x, whole.height() - 1 - y) = whole(x, y);
+  const auto found = find_board(part, kCharuco);
+  EXPECT_GT(found.size(), 30U);
+  EXPECT_LT(found.size(), 66U);
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(kCharuco);
+  for (const BoardPoint& point : found) {
+    const Eigen::Vector2d truth =
+        (oblique() * nominal[static_cast<std::size_t>(point.index)].homogeneous()).hnormalized();
+    const Eigen::Vector2d turned(whole.width() - 1 - truth.x(), whole.height() - 1 - truth.y());
+    EXPECT_LT((turned - point.camera_px).norm(), 0.1) << point.index;
+  }
+}
+
+TEST(FindCharuco, TellsAMirroredBoard) {
+  const Image<float> image = picture_of(oblique(), charuco(kCharuco));
+  Image<float> mirrored(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      mirrored(image.width() - 1 - x, y) = image(x, y);
+  const CharucoSight sight = find_charuco(mirrored, kCharuco);
+  EXPECT_TRUE(sight.points.empty());
+  EXPECT_GT(sight.mirrored_markers, 30);
+}
+
 TEST(FindBoard, FindsNothingWhereTheBoardHasOtherCornersAndTheyAreCounted) {
   const Image<float> image = picture_of(oblique(), checkerboard);
   const Board board{.kind = BoardKind::Checkerboard, .columns = 9, .rows = 6, .square_mm = 10.0};
@@ -94,6 +140,57 @@ TEST(FindBoard, FindsNothingWhereTheBoardHasOtherCornersAndTheyAreCounted) {
   EXPECT_EQ((*counted)[0], 10);
   EXPECT_EQ((*counted)[1], 7);
   EXPECT_FALSE(count_corners(Image<float>(400, 300, 100.0F)));
+}
+
+TEST(MeasureSharpness, FindsTheBlurAndTheMotionThatTheImageHas) {
+  const Board board{.kind = BoardKind::Checkerboard, .columns = 10, .rows = 7, .square_mm = 10.0};
+  const Image<float> image = picture_of(oblique(), checkerboard);
+  const auto points = find_board(image, board);
+  ASSERT_EQ(points.size(), 70U);
+  EXPECT_LT(measure_blur_px(image, points, 8), 1.0);
+  EXPECT_LT(measure_motion_px(image, points, 8), 0.02);
+  Image<float> blurred(image.width(), image.height());
+  const cv::Mat from(
+      image.height(), image.width(), CV_32F, const_cast<float*>(image.pixels().data()));
+  cv::Mat to(image.height(), image.width(), CV_32F, blurred.pixels().data());
+  cv::GaussianBlur(from, to, {}, 3.0);
+  EXPECT_NEAR(measure_blur_px(blurred, points, 8), 3.0, 0.8);
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+  moved(0, 2) = 0.8;
+  moved(1, 2) = -0.6;
+  EXPECT_NEAR(measure_motion_px(picture_of(moved * oblique(), checkerboard), points, 8), 1.0, 0.05);
+}
+
+/// Frames of fringes along x with equal shifts through a display of a given gamma.
+FrameStack fringes_of(int shifts, double gamma) {
+  FrameStack stack;
+  stack.pattern.period_px = 20.0;
+  for (int i = 0; i < shifts; ++i) {
+    stack.pattern.shifts_rad.push_back(kTwoPi * i / shifts);
+    Image<std::uint8_t> frame(200, 100);
+    for (int y = 0; y < 100; ++y) {
+      for (int x = 0; x < 200; ++x) {
+        const double light =
+            0.5 + 0.5 * std::cos(kTwoPi * (x / 20.3 + y / 47.0) + stack.pattern.shifts_rad.back());
+        frame(x, y) = static_cast<std::uint8_t>(std::lround(20.0 + 200.0 * std::pow(light, gamma)));
+      }
+    }
+    stack.frames.emplace_back(std::move(frame));
+  }
+  return stack;
+}
+
+TEST(MeasureFringeMisfit, TellsLinearProjectorsGammaAndSwappedFramesApart) {
+  const std::vector<BoardPoint> points = {{.index = 0, .camera_px = {5.0, 5.0}},
+                                          {.index = 1, .camera_px = {190.0, 90.0}}};
+  EXPECT_LT(measure_fringe_misfit(fringes_of(4, 1.0), points), 0.01);
+  const double gamma = measure_fringe_misfit(fringes_of(4, 2.2), points);
+  EXPECT_GT(gamma, 0.15);
+  EXPECT_LT(gamma, 0.5);
+  FrameStack swapped = fringes_of(4, 1.0);
+  std::swap(swapped.frames[1], swapped.frames[2]);
+  EXPECT_GT(measure_fringe_misfit(swapped, points), 1.0);
+  EXPECT_TRUE(std::isnan(measure_fringe_misfit(fringes_of(3, 1.0), points)));
 }
 
 TEST(BoardImage, IsFreeOfFringesOfUnevenShifts) {

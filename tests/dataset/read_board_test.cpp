@@ -28,7 +28,14 @@ TEST(ReadBoard, ReadsBackEveryKind) {
   Scan scan = read_scan(folder.path());
   for (const Board& board :
        {Board{.kind = BoardKind::Checkerboard, .columns = 10, .rows = 7, .square_mm = 12.5},
-        Board{.kind = BoardKind::Circles, .columns = 11, .rows = 8, .square_mm = 20.0}}) {
+        Board{.kind = BoardKind::Circles, .columns = 11, .rows = 8, .square_mm = 20.0},
+        Board{.kind = BoardKind::Charuco,
+        .columns = 7,
+        .rows = 5,
+        .square_mm = 20.0,
+        .marker_mm = 15.0,
+        .dictionary = "DICT_6X6_250",
+        .legacy_layout = true}}) {
     scan.board = board;
     write_scan(scan);
     const auto back = read_scan(folder.path()).board;
@@ -37,6 +44,12 @@ TEST(ReadBoard, ReadsBackEveryKind) {
     EXPECT_EQ(back->columns, board.columns);
     EXPECT_EQ(back->rows, board.rows);
     EXPECT_EQ(back->square_mm, board.square_mm);
+    EXPECT_EQ(marker_side_mm(*back), marker_side_mm(board));
+    EXPECT_EQ(circle_diameter_mm(*back), circle_diameter_mm(board));
+    if (board.kind == BoardKind::Charuco) {
+      EXPECT_EQ(back->dictionary, board.dictionary);
+      EXPECT_TRUE(back->legacy_layout);
+    }
   }
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "frangia/core/image.h"
 
 namespace frangia {
 
@@ -19,6 +22,16 @@ struct BoardPoint {
   /// Standard deviation of `projector_px` as the phase noise predicts it.
   Eigen::Vector2d projector_sigma_px =
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Derivative of `projector_px` with respect to the camera pixel, on the surface around the
+  /// point. An error of `camera_px` moves `projector_px` by it, because the phase is read at that
+  /// pixel. Zero where `projector_px` is measured independently.
+  Eigen::Matrix2d projector_by_camera = Eigen::Matrix2d::Zero();
+};
+
+/// A small picture of the board for a report.
+struct BoardPicture {
+  Image<std::uint8_t> pixels;  ///< of the mean intensity, scaled to its brightest
+  double px_per_px = 1.0;      ///< camera pixels per pixel of the picture
 };
 
 /// One pose of the board.

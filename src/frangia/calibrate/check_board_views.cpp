@@ -1,3 +1,4 @@
+// Over 250 lines: the checks in the order in which one fault hides another.
 #include "frangia/calibrate/check_board_views.h"
 
 #include <algorithm>
@@ -6,8 +7,8 @@
 
 #include <Eigen/QR>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "frangia/calibrate/internal/pose_faults.h"
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
@@ -19,30 +20,27 @@ namespace {
   throw Error(ErrorKind::Input, sentence);
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 6;
-  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
-  return fmt::format(
-      "{} and {} more", fmt::join(std::span(names).first(kMost), ", "), names.size() - kMost);
-}
-
 std::string views(std::size_t count) {
   return fmt::format("{} {}", count, count == 1 ? "view" : "views");
 }
 
-/// Fails when most of the views in which corners can be counted, and at least two, show a
-/// checkerboard of one other size.
+/// Fails when most of the views in which corners can be counted, at least two and more than show
+/// the expected board, show a checkerboard of one other size. Noise may look like a small one.
 void check_counts(std::span<const PoseCapture> poses, const Board& board) {
   std::map<std::array<int, 2>, std::size_t> seen;
   std::size_t counted = 0;
+  std::size_t expected = 0;
   for (const PoseCapture& pose : poses) {
+    if (!pose.view.points.empty()) ++expected;
     if (!pose.counted) continue;
     ++seen[*pose.counted];
     ++counted;
   }
   const auto most = std::max_element(
       seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most == seen.end() || most->second < 2 || 2 * most->second <= counted) return;
+  if (most == seen.end() || most->second < 2 || most->second <= expected ||
+      2 * most->second <= counted)
+    return;
   const auto [longer, shorter] = most->first;
   if (longer == std::max(board.columns, board.rows) &&
       shorter == std::min(board.columns, board.rows))
@@ -60,35 +58,26 @@ void check_counts(std::span<const PoseCapture> poses, const Board& board) {
                   shorter));
 }
 
-/// Names of the poses for which `holds` is true.
-template <typename Condition>
-std::vector<std::string> names_of(std::span<const PoseCapture> poses, const Condition& holds) {
-  std::vector<std::string> names;
+/// Fails when only mirrored images show the markers of the board.
+void check_markers(std::span<const PoseCapture> poses) {
+  std::size_t mirrored = 0;
   for (const PoseCapture& pose : poses)
-    if (holds(pose)) names.push_back(pose.view.name);
-  return names;
+    if (pose.mirrored_markers > 1) ++mirrored;
+  if (mirrored < 2 || 2 * mirrored <= poses.size()) return;
+  fail(
+      fmt::format("the images of {} show the markers of the board mirrored: switch off the "
+                  "camera's mirroring, or print the board again without mirroring",
+                  views(mirrored)));
 }
 
-/// Fails when the light explains why a board is not found or has no phases.
+/// Fails when the light explains why a board is not found.
 void check_light(std::span<const PoseCapture> poses, const PoseCheckOptions& options) {
   const auto dark =
       names_of(poses, [&](const PoseCapture& pose) { return pose.brightness < options.dim; });
-  if (!dark.empty()) {
-    fail(
-        fmt::format("the board is too dark in {}: its light squares reach less than {:.0f} % of "
-                    "white; expose longer or open the aperture",
-                    list_of(dark),
-                    100.0 * options.dim));
-  }
+  if (!dark.empty()) fail(describe_dark(dark, options));
   const auto bright =
       names_of(poses, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
-  if (!bright.empty()) {
-    fail(
-        fmt::format("the board is overexposed in {}: more than {:.0f} % of its pixels are "
-                    "saturated; expose shorter",
-                    list_of(bright),
-                    100.0 * options.saturated));
-  }
+  if (!bright.empty()) fail(describe_overexposed(bright, options));
 }
 
 std::size_t lit_points(const BoardView& view) {
@@ -96,6 +85,16 @@ std::size_t lit_points(const BoardView& view) {
       std::count_if(view.points.begin(), view.points.end(), [](const BoardPoint& point) {
         return point.projector_px.allFinite();
       }));
+}
+
+bool is_among(const std::string& name, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether enough points of a pose have projector coordinates.
+bool is_lit(const PoseCapture& pose, const PoseCheckOptions& options) {
+  return static_cast<double>(lit_points(pose.view)) >=
+         options.min_lit * static_cast<double>(pose.view.points.size());
 }
 
 /// The affine map from camera pixels to projector pixels over one board.
@@ -179,10 +178,10 @@ double largest_tilt_rad(std::span<const BoardView> found,
 
 }  // namespace
 
-void check_board_views(std::span<const PoseCapture> poses,
-                       const Board& board,
-                       const Rig& known,
-                       const PoseCheckOptions& options) {
+PoseChecks check_board_views(std::span<const PoseCapture> poses,
+                             const Board& board,
+                             const Rig& known,
+                             const PoseCheckOptions& options) {
   const auto& projector = std::get<PinholeModel>(known.projector.model);
   std::vector<PoseCapture> seen;
   std::vector<BoardView> found;
@@ -194,7 +193,10 @@ void check_board_views(std::span<const PoseCapture> poses,
   if (found.size() < options.min_views) {
     const auto unseen =
         names_of(poses, [](const PoseCapture& pose) { return pose.view.points.empty(); });
-    if (!unseen.empty()) check_counts(poses, board);
+    if (!unseen.empty()) {
+      check_markers(poses);
+      check_counts(poses, board);
+    }
     check_light(poses, options);
     if (unseen.empty()) {
       fail(fmt::format("the scan has {}; capture at least {} poses, each tilted another way",
@@ -209,23 +211,47 @@ void check_board_views(std::span<const PoseCapture> poses,
                     options.min_views,
                     list_of(unseen)));
   }
-  const auto without_phase = names_of(seen, [&](const PoseCapture& pose) {
-    return static_cast<double>(lit_points(pose.view)) <
-           options.min_lit * static_cast<double>(pose.view.points.size());
+  PoseChecks checks;
+  const auto leave_out = [&](const std::vector<std::string>& names, const std::string& reason) {
+    if (names.empty()) return;
+    if (seen.size() - names.size() < options.min_views) fail(reason);
+    std::erase_if(seen, [&](const PoseCapture& pose) { return is_among(pose.view.name, names); });
+    checks.left_out.insert(checks.left_out.end(), names.begin(), names.end());
+    checks.warnings.push_back(fmt::format(
+        "{}; {} left out", reason, names.size() == 1 ? "this view is" : "these views are"));
+  };
+  const auto bright =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
+  leave_out(bright, describe_overexposed(bright, options));
+  const auto dark = names_of(seen, [&](const PoseCapture& pose) {
+    return pose.brightness < options.dim && !is_lit(pose, options);
   });
-  if (seen.size() - without_phase.size() < options.min_views) {
-    check_light(seen, options);
-    fail(
-        fmt::format("the fringes cannot be measured on the board in {}: light the whole board by "
-                    "the projector, in focus and out of bright room light",
-                    list_of(without_phase)));
-  }
-  std::erase_if(seen, [&](const PoseCapture& pose) {
-    return std::find(without_phase.begin(), without_phase.end(), pose.view.name) !=
-           without_phase.end();
-  });
+  leave_out(dark, describe_dark(dark, options));
+  const auto swapped =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
+  leave_out(swapped, describe_swapped(seen, swapped));
+  const auto moved = names_of(
+      seen, [&](const PoseCapture& pose) { return pose.motion_px > options.max_motion_px; });
+  leave_out(moved, describe_moved(seen, moved));
+  const auto without_phase =
+      names_of(seen, [&](const PoseCapture& pose) { return !is_lit(pose, options); });
+  leave_out(without_phase,
+            fmt::format("the fringes cannot be measured on the board in {}: light the whole board "
+                        "by the projector, in focus and out of bright room light",
+                        list_of(without_phase)));
   check_handedness(seen);
   check_range(seen, projector);
+  const auto uneven = names_of(seen, [&](const PoseCapture& pose) {
+    return plane_misfit_px(board, pose.view) > options.max_plane_px;
+  });
+  leave_out(uneven,
+            fmt::format("the phases on the board in {} are not those of a plane: frames are "
+                        "swapped, missing or out of step, or shifts_deg or period_px are wrong",
+                        list_of(uneven)));
+  warn_of_quality(seen, options, checks);
+  found.clear();
+  for (const PoseCapture& pose : seen)
+    found.push_back(pose.view);
   const double tilt_rad = largest_tilt_rad(found, board, known.camera.model, projector);
   if (deg_from_rad(tilt_rad) < options.min_tilt_deg) {
     fail(
@@ -233,6 +259,7 @@ void check_board_views(std::span<const PoseCapture> poses,
                     "focal lengths open; tilt the board by 20 to 40 degrees, each time another way",
                     deg_from_rad(tilt_rad)));
   }
+  return checks;
 }
 
 }  // namespace frangia

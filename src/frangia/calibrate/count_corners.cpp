@@ -27,7 +27,10 @@ std::optional<std::array<int, 2>> count_corners(const Image<float>& counts) {
       cv::Mat grid;
       constexpr int kFlags =
           cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_LARGER;
-      if (cv::findChessboardCornersSB(scaled, cv::Size(3, 3), corners, kFlags, grid))
+      constexpr int kLeast = 3;
+      // A grid of the least size is found in noise, too.
+      if (cv::findChessboardCornersSB(scaled, cv::Size(kLeast, kLeast), corners, kFlags, grid) &&
+          std::max(grid.cols, grid.rows) > kLeast)
         ++found[{std::max(grid.cols, grid.rows), std::min(grid.cols, grid.rows)}];
     }
   }

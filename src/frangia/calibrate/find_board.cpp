@@ -1,5 +1,6 @@
 #include "frangia/calibrate/find_board.h"
 
+#include "frangia/calibrate/find_charuco.h"
 #include "frangia/calibrate/find_checkerboard.h"
 #include "frangia/calibrate/find_circles.h"
 
@@ -7,6 +8,7 @@ namespace frangia {
 
 std::vector<BoardPoint> find_board(const Image<float>& counts, const Board& board) {
   check_board(board);
+  if (board.kind == BoardKind::Charuco) return find_charuco(counts, board).points;
   const auto pixels = board.kind == BoardKind::Circles ? find_circles(counts, board)
                                                        : find_checkerboard(counts, board);
   std::vector<BoardPoint> points;

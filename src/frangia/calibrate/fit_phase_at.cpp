@@ -94,7 +94,9 @@ PhaseAt fit_phase_at(const Image<float>& phase_rad,
   const double variance = normal.ldlt().solve(Terms::Unit(0))[0];
   const double excess = std::max(1.0, left_over / std::max(1.0, used - kTerms));
   if (!(variance > 0.0) || !std::isfinite(fitted[0])) return {};
-  return {fitted[0], std::sqrt(variance * excess)};
+  return {fitted[0],
+          std::sqrt(variance * excess),
+          Eigen::Vector2d(fitted[1], fitted[2]) / options.radius_px};
 }
 
 }  // namespace frangia

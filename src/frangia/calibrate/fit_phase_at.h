@@ -16,8 +16,9 @@ struct PhaseFitOptions {
 
 /// Absolute phase at one point and its standard deviation; NaN where it cannot be fitted.
 struct PhaseAt {
-  double phase_rad = std::numeric_limits<double>::quiet_NaN();  ///< value of the fit
-  double sigma_rad = std::numeric_limits<double>::quiet_NaN();  ///< scaled to the residuals
+  double phase_rad = std::numeric_limits<double>::quiet_NaN();    ///< value of the fit
+  double sigma_rad = std::numeric_limits<double>::quiet_NaN();    ///< scaled to the residuals
+  Eigen::Vector2d gradient_rad_per_px = Eigen::Vector2d::Zero();  ///< by x and y of the image
 };
 
 /// Absolute phase at a point between pixels: the value of a quadratic that is fitted to the pixels

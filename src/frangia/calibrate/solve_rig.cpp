@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/calibrate/internal/leave_one_out.h"
 #include "frangia/calibrate/internal/point_sigma.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/calibrate/internal/rig_covariance.h"
@@ -26,18 +27,22 @@ struct Fit {
 };
 
 struct SumOfSquares {
-  double weighted = 0.0;  ///< by the observations' own sigma
+  double weighted = 0.0;  ///< by the observations' own sigma and the robust loss
   double count = 0.0;     ///< of coordinates
 };
 
+/// `noise` is the present scale of the standard deviations, from which the robust loss is counted.
 SumOfSquares sum_squares(std::span<const RigObservation> observations,
                          const RigParameters& parameters,
-                         bool by_projector) {
+                         bool by_projector,
+                         double noise) {
   SumOfSquares sum;
   for (const RigObservation& observation : observations) {
     if (observation.by_projector != by_projector) continue;
-    sum.weighted +=
-        residual_of(observation, parameters).cwiseQuotient(observation.sigma_px).squaredNorm();
+    const double squared = independent_residual_of(observation, parameters)
+                               .cwiseQuotient(observation.sigma_px)
+                               .squaredNorm();
+    sum.weighted += robust_weight(std::sqrt(squared) / noise) * squared;
     sum.count += 2.0;
   }
   return sum;
@@ -58,7 +63,8 @@ void adjust(std::span<const RigObservation> observations,
             const RigSolveOptions& options,
             Fit& fit,
             const Run& run) {
-  constexpr int kRounds = 3;  // the weights converge within these
+  constexpr int kRounds = 3;         // the weights converge within these
+  constexpr double kSettled = 0.01;  // change of the weights that the result does not feel
   const double parameters = static_cast<double>(fit.freedom.count()) +
                             6.0 * static_cast<double>(fit.parameters.camera_from_board.size());
   for (int i = 0; i < kRounds; ++i) {
@@ -71,9 +77,15 @@ void adjust(std::span<const RigObservation> observations,
           "views for one that is swapped or out of step");
     }
     fit.iterations += result.iterations;
-    fit.noise = noise_of(sum_squares(observations, fit.parameters, false),
-                         sum_squares(observations, fit.parameters, true),
-                         parameters);
+    const RigNoise before = fit.noise;
+    for (int k = 0; k < kRounds; ++k) {
+      fit.noise = noise_of(sum_squares(observations, fit.parameters, false, fit.noise.camera),
+                           sum_squares(observations, fit.parameters, true, fit.noise.projector),
+                           parameters);
+    }
+    if (std::abs(fit.noise.camera / before.camera - 1.0) < kSettled &&
+        std::abs(fit.noise.projector / before.projector - 1.0) < kSettled)
+      break;
   }
 }
 
@@ -189,7 +201,12 @@ RigSolution solve_rig(const Board& board,
   out.projector_residuals.sigma_px = fit.noise.projector;
   out.iterations = fit.iterations;
   add_covariance(observations, fit.freedom, fit.noise, fit.parameters, out);
-  add_point_sigma(board, fit.parameters, out);
+  if (out.undetermined.empty()) {
+    const ShapeResponse shape = shape_response(board, fit.parameters, out);
+    add_point_sigma(shape, out);
+    add_leave_one_out(
+        observations, fit.freedom, fit.noise, fit.parameters, shape.by_parameter, out);
+  }
   return out;
 }
 

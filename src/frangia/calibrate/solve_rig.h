@@ -62,11 +62,18 @@ struct RigSolution {
   /// ordinary lenses leave and its correlation with the parameters that would compensate it.
   Eigen::MatrixXd covariance;
   std::vector<std::string> undetermined;  ///< parameters that the poses do not determine
-  /// Standard uncertainty of a triangulated point that the uncertainty of the estimated parameters
-  /// causes: length of the error vector, root mean square over the poses of the board.
+  /// Standard uncertainty of the shape of a part that the uncertainty of the estimated parameters
+  /// causes: length of the error vector of a triangulated point, without a rigid motion of all
+  /// points; root mean square over the poses of the board.
   double point_sigma_mm = 0.0;
   double distance_mm = 0.0;  ///< mean distance of the board from the camera
-  int iterations = 0;        ///< of the solver, all rounds together
+  /// How far the triangulated points move, without a rigid motion, when one pose is left out; root
+  /// mean square, one a view.
+  std::vector<double> leave_one_out_mm;
+  /// Standard uncertainty of the shape from these differences. It does not rely on the noise of
+  /// corners and phases being independent, as `point_sigma_mm` does.
+  double spread_mm = 0.0;
+  int iterations = 0;  ///< of the solver, all rounds together
 };
 
 /// Estimates camera, projector and their relative pose from views of a board in one bundle

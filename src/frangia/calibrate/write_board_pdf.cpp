@@ -12,6 +12,7 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/rig/aruco_dictionary.h"
 
 namespace frangia {
 namespace {
@@ -33,7 +34,7 @@ Eigen::Vector2i cells_of(const Board& board) {
 
 void check_cells(const Board& board) {
   const Eigen::Vector2i cells = cells_of(board);
-  if (board.kind == BoardKind::Circles || cells.sum() % 2 == 1) return;
+  if (board.kind != BoardKind::Checkerboard || cells.sum() % 2 == 1) return;
   throw Error(ErrorKind::Input,
               fmt::format("a board of {} x {} squares looks the same upside down; let one number "
                           "of `corners` be odd and the other even",
@@ -47,26 +48,55 @@ double largest_square_mm(const Board& board, const PaperSize& paper) {
                              (paper.height_mm - 2.0 * kMargin_mm - kFoot_mm) / cells.y()));
 }
 
-void draw_cells(HPDF_Page page, const Board& board, double left_mm, double bottom_mm) {
-  const Eigen::Vector2i cells = cells_of(board);
-  constexpr double kRadius = 0.3;  // of the spacing
-  for (int row = 0; row < cells.y(); ++row) {
-    for (int column = 0; column < cells.x(); ++column) {
-      const double x = left_mm + column * board.square_mm;
-      const double y = bottom_mm + (cells.y() - 1 - row) * board.square_mm;
-      if (board.kind == BoardKind::Circles) {
-        HPDF_Page_Circle(page,
-                         points(x + 0.5 * board.square_mm),
-                         points(y + 0.5 * board.square_mm),
-                         points(kRadius * board.square_mm));
-      } else if ((column + row) % 2 == 0) {
-        HPDF_Page_Rectangle(
-            page, points(x), points(y), points(board.square_mm), points(board.square_mm));
-      } else {
-        continue;
-      }
+void draw_circles(HPDF_Page page, const Board& board, double left_mm, double bottom_mm) {
+  for (const Eigen::Vector2d& center : board_points_mm(board)) {
+    HPDF_Page_Circle(page,
+                     points(left_mm + center.x() + 0.5 * board.square_mm),
+                     points(bottom_mm + (board.rows - 0.5) * board.square_mm - center.y()),
+                     points(0.5 * circle_diameter_mm(board)));
+    HPDF_Page_Fill(page);
+  }
+}
+
+/// Fills the black ones of `count` x `count` cells of a square whose corner is nearest to the
+/// origin of the board.
+void draw_square(HPDF_Page page,
+                 const Board& board,
+                 const Eigen::Vector2d& corner_mm,
+                 double cell_mm,
+                 int count,
+                 double left_mm,
+                 double top_mm) {
+  for (int row = 0; row < count; ++row) {
+    for (int column = 0; column < count; ++column) {
+      const Eigen::Vector2d cell = corner_mm + cell_mm * Eigen::Vector2d(column, row);
+      if (!is_printed_black(board, cell + Eigen::Vector2d::Constant(0.5 * cell_mm))) continue;
+      HPDF_Page_Rectangle(page,
+                          points(left_mm + board.square_mm + cell.x()),
+                          points(top_mm - board.square_mm - cell.y() - cell_mm),
+                          points(cell_mm),
+                          points(cell_mm));
       HPDF_Page_Fill(page);
     }
+  }
+}
+
+/// Draws the squares and the cells of the markers in them.
+void draw_squares(HPDF_Page page, const Board& board, double left_mm, double top_mm) {
+  for (int row = 0; row <= board.rows; ++row) {
+    for (int column = 0; column <= board.columns; ++column) {
+      const Eigen::Vector2d corner = board.square_mm * Eigen::Vector2d(column - 1, row - 1);
+      draw_square(page, board, corner, board.square_mm, 1, left_mm, top_mm);
+    }
+  }
+  if (board.kind != BoardKind::Charuco) return;
+  const int cells = find_aruco_dictionary(board.dictionary).value().cells + 2;
+  const double side_mm = marker_side_mm(board);
+  for (const Eigen::Vector2i& square : marker_squares(board)) {
+    const Eigen::Vector2d corner =
+        board.square_mm * (square.cast<double>() - Eigen::Vector2d::Ones()) +
+        Eigen::Vector2d::Constant(0.5 * (board.square_mm - side_mm));
+    draw_square(page, board, corner, side_mm / cells, cells, left_mm, top_mm);
   }
 }
 
@@ -137,10 +167,13 @@ Board write_board_pdf(const std::filesystem::path& path,
   HPDF_Page_SetWidth(page, points(paper.width_mm));
   HPDF_Page_SetHeight(page, points(paper.height_mm));
   const Eigen::Vector2i cells = cells_of(board);
-  draw_cells(page,
-             board,
-             0.5 * (paper.width_mm - cells.x() * board.square_mm),
-             paper.height_mm - kMargin_mm - cells.y() * board.square_mm);
+  const double left_mm = 0.5 * (paper.width_mm - cells.x() * board.square_mm);
+  const double top_mm = paper.height_mm - kMargin_mm;
+  if (board.kind == BoardKind::Circles) {
+    draw_circles(page, board, left_mm, top_mm - cells.y() * board.square_mm);
+  } else {
+    draw_squares(page, board, left_mm, top_mm);
+  }
   draw_ruler(page, kMargin_mm, kMargin_mm);
   const bool circles = board.kind == BoardKind::Circles;
   write_line(
@@ -156,13 +189,18 @@ Board write_board_pdf(const std::filesystem::path& path,
              page,
              kMargin_mm + kRuler_mm + 4.0,
              kMargin_mm,
-             fmt::format("[board]  kind = \"{}\"   {} = [{}, {}]   {} = {:g}",
+             fmt::format("[board]  kind = \"{}\"   {} = [{}, {}]   {} = {:g}{}",
                          name_of(board.kind),
                          circles ? "circles" : "corners",
                          board.columns,
                          board.rows,
                          circles ? "spacing_mm" : "square_mm",
-                         board.square_mm));
+                         board.square_mm,
+                         board.kind == BoardKind::Charuco
+                             ? fmt::format("   marker_mm = {:g}   dictionary = \"{}\"",
+                                           marker_side_mm(board),
+                                           board.dictionary)
+                             : ""));
   save(document.get(), path);
   return board;
 }

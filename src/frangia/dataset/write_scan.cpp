@@ -72,6 +72,11 @@ void put_board(TomlWriter& writer, const Board& board) {
   const bool circles = board.kind == BoardKind::Circles;
   writer.put(circles ? "circles" : "corners", std::vector<int>{board.columns, board.rows});
   writer.put(circles ? "spacing_mm" : "square_mm", board.square_mm);
+  if (circles) writer.put("diameter_mm", circle_diameter_mm(board));
+  if (board.kind != BoardKind::Charuco) return;
+  writer.put("marker_mm", marker_side_mm(board));
+  writer.put("dictionary", board.dictionary);
+  if (board.legacy_layout) writer.put("legacy_layout", true);
 }
 
 void put_frame_storage(TomlWriter& writer, const FrameStorage& frames) {

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "frangia/calibrate/board_image.h"
 #include "frangia/calibrate/count_corners.h"
 #include "frangia/calibrate/find_board.h"
+#include "frangia/calibrate/find_charuco.h"
+#include "frangia/calibrate/measure_fringe_misfit.h"
+#include "frangia/calibrate/measure_sharpness.h"
 #include "frangia/core/angles.h"
+#include "frangia/core/median.h"
 
 namespace frangia {
 namespace {
@@ -42,6 +47,7 @@ void add_projector_pixels(std::span<const FrameStack> stacks,
         decoded.phase.phase_rad, decoded.phase.sigma_rad, point.camera_px, options.fit);
     point.projector_px[axis] = px_per_rad * phase.phase_rad;
     point.projector_sigma_px[axis] = px_per_rad * phase.sigma_rad;
+    point.projector_by_camera.row(axis) = px_per_rad * phase.gradient_rad_per_px.transpose();
   }
 }
 
@@ -93,6 +99,72 @@ void measure_light(std::span<const FrameStack> stacks,
   pose.saturated = static_cast<double>(saturated) / static_cast<double>(counts.size());
 }
 
+/// The image reduced by averaging whole blocks of pixels to at most 480 columns.
+BoardPicture picture_of(const Image<float>& image) {
+  constexpr int kColumns = 480;
+  const int step = std::max(1, (image.width() + kColumns - 1) / kColumns);
+  BoardPicture picture{Image<std::uint8_t>(image.width() / step, image.height() / step),
+                       static_cast<double>(step)};
+  const auto counts = image.pixels();
+  const float brightest = std::max(1.0F, *std::max_element(counts.begin(), counts.end()));
+  for (int y = 0; y < picture.pixels.height(); ++y) {
+    for (int x = 0; x < picture.pixels.width(); ++x) {
+      float sum = 0.0F;
+      for (int v = 0; v < step; ++v)
+        for (int u = 0; u < step; ++u)
+          sum += std::max(0.0F, image(x * step + u, y * step + v));
+      constexpr float kGamma = 0.6F;  // of a display, so that the dark squares are visible
+      const float level = std::pow(sum / static_cast<float>(step * step) / brightest, kGamma);
+      picture.pixels(x, y) = static_cast<std::uint8_t>(std::lround(255.0F * level));
+    }
+  }
+  return picture;
+}
+
+/// Half the side of a window about a corner that holds no other corner or marker, px.
+int corner_reach_px(const Board& board, const std::vector<BoardPoint>& points) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].index == points[i - 1].index + 1 && points[i].index % board.columns != 0)
+      steps.push_back((points[i].camera_px - points[i - 1].camera_px).norm());
+  }
+  if (steps.empty()) return 2;
+  const double free = board.kind == BoardKind::Charuco
+                          ? 0.5 * (1.0 - marker_side_mm(board) / board.square_mm)
+                          : 0.3;
+  constexpr double kForeshortened = 0.7;  // the other side of a tilted square
+  return static_cast<int>(
+      std::clamp(kForeshortened * std::min(free, 0.3) * median(steps), 2.0, 20.0));
+}
+
+/// Measures what faults of the capture show: blur, motion between patterns, and frames that do not
+/// fit their pattern.
+void measure_faults(std::span<const FrameStack> stacks,
+                    const Image<float>& image,
+                    const Board& board,
+                    PoseCapture& pose) {
+  const std::vector<BoardPoint>& points = pose.view.points;
+  const int reach_px = corner_reach_px(board, points);
+  if (board.kind != BoardKind::Circles) pose.blur_px = measure_blur_px(image, points, reach_px);
+  for (std::size_t i = 0; i < stacks.size(); ++i) {
+    const Pattern& pattern = stacks[i].pattern;
+    if (pattern.kind != PatternKind::Fringe || stacks[i].exposure != 0) continue;
+    if (board.kind != BoardKind::Circles) {
+      const double motion_px =
+          measure_motion_px(board_image(stacks.subspan(i, 1)), points, reach_px);
+      if (motion_px > pose.motion_px) {
+        pose.motion_px = motion_px;
+        pose.moved_in = pattern.name;
+      }
+    }
+    const double misfit = measure_fringe_misfit(stacks[i], points);
+    if (misfit > pose.misfit) {
+      pose.misfit = misfit;
+      pose.misfit_in = pattern.name;
+    }
+  }
+}
+
 }  // namespace
 
 PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
@@ -104,12 +176,20 @@ PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
   PoseCapture pose;
   pose.view.name = name;
   const Image<float> image = board_image(stacks);
-  pose.view.points = find_board(image, board);
+  if (board.kind == BoardKind::Charuco) {
+    CharucoSight sight = find_charuco(image, board);
+    pose.mirrored_markers = sight.mirrored_markers;
+    if (sight.points.size() >= options.min_points) pose.view.points = std::move(sight.points);
+  } else {
+    pose.view.points = find_board(image, board);
+  }
+  if (options.keep_picture) pose.picture = picture_of(image);
   measure_light(stacks, image, known.camera.white_level, pose);
   if (pose.view.points.empty()) {
     if (board.kind == BoardKind::Checkerboard) pose.counted = count_corners(image);
     return pose;
   }
+  measure_faults(stacks, image, board, pose);
   for (const FringeDirection direction : {FringeDirection::Vertical, FringeDirection::Horizontal})
     add_projector_pixels(stacks, direction, known, options, run, pose.view.points);
   return pose;

@@ -17,6 +17,9 @@ namespace frangia {
 struct PoseOptions {
   DecodeOptions decode;  ///< from frames to absolute phase
   PhaseFitOptions fit;   ///< phase at the points of the board
+  /// Corners of a ChArUco board below which it counts as not found: two rows of four fix a pose.
+  std::size_t min_points = 8;
+  bool keep_picture = false;  ///< keep a small picture of the board
 };
 
 /// Measures one pose: the points of the board in the camera image and, from the phases of both

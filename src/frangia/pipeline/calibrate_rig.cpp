@@ -1,6 +1,7 @@
 #include "frangia/pipeline/calibrate_rig.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -100,7 +101,7 @@ Rig calibrated(const Rig& known, const Board& board, const RigSolution& solution
 void warn_of_outliers(const std::vector<BoardView>& views,
                       const std::vector<ResidualSummary>& by_view,
                       const char* device,
-                      double outlier_rms,
+                      const CalibrateRigOptions& options,
                       const Run& run) {
   std::vector<double> errors;
   for (const ResidualSummary& summary : by_view)
@@ -108,7 +109,8 @@ void warn_of_outliers(const std::vector<BoardView>& views,
   if (errors.empty()) return;
   const double typical = median(errors);
   for (std::size_t i = 0; i < by_view.size(); ++i) {
-    if (!(by_view[i].rms_px > outlier_rms * typical)) continue;
+    if (!(by_view[i].rms_px > std::max(options.outlier_rms * typical, options.outlier_floor_px)))
+      continue;
     run.warn(fmt::format(
         "{}: the reprojection error of the {} is {:.2f} px, {:.1f} times the median of all poses; "
         "the board or the camera moved during its capture, or it is blurred",
@@ -117,6 +119,27 @@ void warn_of_outliers(const std::vector<BoardView>& views,
         by_view[i].rms_px,
         by_view[i].rms_px / typical));
   }
+}
+
+/// Names a wrong square where rig.toml states the distance of camera and projector beforehand.
+void warn_of_scale(const Scan& scan,
+                   const RigSolution& solution,
+                   double max_error,
+                   const Run& run) {
+  const Eigen::Vector3d& position_mm = scan.rig.projector.position_mm;
+  if (!position_mm.allFinite() || position_mm.norm() == 0.0) return;
+  const double found_mm = solution.projector_from_camera.translation().norm();
+  const double ratio = position_mm.norm() / found_mm;
+  if (std::abs(ratio - 1.0) < max_error) return;
+  const bool circles = scan.board->kind == BoardKind::Circles;
+  run.warn(
+      fmt::format("the projector is {:.1f} mm from the camera, but projector.position_mm in "
+                  "rig.toml states {:.1f} mm: if that is right, board.{} is {:.3g} mm, not {:g} mm",
+                  found_mm,
+                  position_mm.norm(),
+                  circles ? "spacing_mm" : "square_mm",
+                  ratio * scan.board->square_mm,
+                  scan.board->square_mm));
 }
 
 std::string worst_view(const std::vector<BoardView>& views,
@@ -156,6 +179,19 @@ void check_solution(const RigSolution& solution,
 
 }  // namespace
 
+std::string calibration_grade(const RigSolution& solution) {
+  struct Grade {
+    double share;
+    const char* name;
+  };
+  // 0.025, 0.1 and 0.5 mm at half a metre: inspection, good fringe projection, a maker's print.
+  constexpr std::array<Grade, 3> kGrades{{{5e-5, "excellent"}, {2e-4, "good"}, {1e-3, "usable"}}};
+  const double sigma_mm = std::max(solution.point_sigma_mm, solution.spread_mm);
+  for (const Grade& grade : kGrades)
+    if (sigma_mm <= grade.share * solution.distance_mm) return grade.name;
+  return "poor";
+}
+
 RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& options, const Run& run) {
   check_scan(scan);
   run.stage("board");
@@ -169,13 +205,21 @@ RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& option
                                            options.pose,
                                            run));
   }
-  check_board_views(poses, *scan.board, scan.rig, options.check);
+  const PoseChecks checks = check_board_views(poses, *scan.board, scan.rig, options.check);
+  for (const std::string& warning : checks.warnings)
+    run.warn(warning);
   RigCalibration result;
+  result.left_out = checks.left_out;
   for (PoseCapture& pose : poses) {
+    const bool left_out =
+        std::find(checks.left_out.begin(), checks.left_out.end(), pose.view.name) !=
+        checks.left_out.end();
+    if (left_out) continue;
     if (pose.view.points.empty()) {
       result.without_board.push_back(pose.view.name);
     } else {
       result.views.push_back(std::move(pose.view));
+      result.pictures.push_back(std::move(pose.picture));
     }
   }
   if (!result.without_board.empty()) {
@@ -186,10 +230,9 @@ RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& option
   run.stage("adjustment");
   result.solution = solve_rig(*scan.board, result.views, scan.rig, options.solve, run);
   check_solution(result.solution, result.views, options.max_rms_px);
-  warn_of_outliers(
-      result.views, result.solution.camera_by_view, "camera", options.outlier_rms, run);
-  warn_of_outliers(
-      result.views, result.solution.projector_by_view, "projector", options.outlier_rms, run);
+  warn_of_scale(scan, result.solution, options.max_scale_error, run);
+  warn_of_outliers(result.views, result.solution.camera_by_view, "camera", options, run);
+  warn_of_outliers(result.views, result.solution.projector_by_view, "projector", options, run);
   result.rig = calibrated(scan.rig, *scan.board, result.solution);
   return result;
 }

@@ -1,3 +1,4 @@
+// Over 250 lines: poses by hand and poses on the turntable share what makes a board visible.
 #include "frangia/simulate/simulate_calibration.h"
 
 #include <algorithm>
@@ -141,6 +142,42 @@ std::vector<Eigen::Isometry3d> choose_poses(const CalibrationPlan& plan,
   return poses;
 }
 
+/// Angles of the turntable about 0 at which the views of a board on it are captured.
+std::vector<double> table_angles_rad(const CalibrationPlan& plan) {
+  std::vector<double> angles;
+  for (int i = 0; i < plan.poses; ++i) {
+    const double share = plan.poses > 1 ? static_cast<double>(i) / (plan.poses - 1) - 0.5 : 0.0;
+    angles.push_back(plan.turn_rad * share);
+  }
+  return angles;
+}
+
+/// A pose of the board at table angle 0 from which camera and projector see it at all angles.
+Eigen::Isometry3d choose_standing_pose(const CalibrationPlan& plan,
+                                       const PinholeModel& projector,
+                                       double field_mm,
+                                       std::uint64_t seed) {
+  const Eigen::Isometry3d object_from_rig = plan.rig.rig_from_object(0.0).inverse();
+  const Eigen::Vector3d crossing = crossing_of(plan.rig, projector);
+  constexpr std::uint64_t kTries = 10'000;
+  for (std::uint64_t i = 0; i < kTries; ++i) {
+    constexpr double kTilt_rad = 0.3;
+    const Eigen::Isometry3d object_from_board =
+        object_from_rig *
+        random_pose(crossing, field_mm, kTilt_rad, hash(hash(seed, kPoseStream + 1), i));
+    const std::vector<double> angles = table_angles_rad(plan);
+    const bool visible = std::all_of(angles.begin(), angles.end(), [&](double angle) {
+      return is_visible(
+          plan.board, plan.rig.rig_from_object(angle) * object_from_board, plan.rig, projector);
+    });
+    if (visible) return object_from_board;
+  }
+  throw Error(ErrorKind::Input,
+              fmt::format("no board on the turntable is seen whole at all angles; set a `square` "
+                          "below {:g} mm",
+                          plan.board.square_mm));
+}
+
 /// The patterns of vertical fringes, the same in the other direction, and white light.
 std::vector<Pattern> both_directions(const CalibrationPlan& plan, const PinholeModel& projector) {
   std::vector<Pattern> patterns = default_patterns(plan.rig, plan.patterns);
@@ -202,11 +239,18 @@ Scan simulate_calibration(const CalibrationPlan& given,
   scan.rig = plan.rig;
   scan.board = plan.board;
   scan.patterns = both_directions(plan, *projector);
-  // Each pose is a setup of its own: a part pose with one view.
-  const auto poses = choose_poses(plan, *projector, field_mm, options.seed);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    scan.part_poses[static_cast<int>(i)] = object_from_rig * poses[i];
-    scan.views.push_back({0.0, fmt::format("views/{:03}", i), static_cast<int>(i)});
+  if (plan.on_turntable) {
+    const auto angles = table_angles_rad(plan);
+    scan.part_poses[0] = choose_standing_pose(plan, *projector, field_mm, options.seed);
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      scan.views.push_back({angles[i], fmt::format("views/{:03}", i), 0});
+  } else {
+    // Each pose is a setup of its own: a part pose with one view.
+    const auto poses = choose_poses(plan, *projector, field_mm, options.seed);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      scan.part_poses[static_cast<int>(i)] = object_from_rig * poses[i];
+      scan.views.push_back({0.0, fmt::format("views/{:03}", i), static_cast<int>(i)});
+    }
   }
   SimulateOptions printed = options;
   printed.board = plan.board;

@@ -17,7 +17,11 @@ struct CalibrationPlan {
   Rig rig;                       ///< the true rig, with a digital projector
   /// `square_mm` 0 chooses the largest board that leaves room to tilt and move it.
   Board board{.kind = BoardKind::Checkerboard, .columns = 10, .rows = 7};
-  int poses = 12;             ///< number of views
+  int poses = 12;  ///< number of views
+  /// The board stands on the turntable, which turns from view to view, so that the captures serve
+  /// `calibrate turntable`.
+  bool on_turntable = false;
+  double turn_rad = 1.0;      ///< from the first to the last view, with `on_turntable`
   double max_tilt_rad = 0.6;  ///< of the board against the plane across the camera's axis
   PatternPlan patterns;       ///< of the vertical fringes; horizontal ones are added likewise
 };

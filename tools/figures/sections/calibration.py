@@ -1,8 +1,9 @@
 """Calibrates the real rig of ../shared/scans/skull-calibration and a simulated rig.
 
-The real rig is compared with OpenCV's calibrateCamera and stereoCalibrate on the same points, and the skull is
-reconstructed with the found and with the given rig. The simulated rig is compared with its truth.
+The real rig is compared with OpenCV's calibrateCamera and stereoCalibrate on the same points; the boards are measured
+and the skull is reconstructed with the found and with the given rig. The simulated rig is compared with its truth.
 """
+import json
 import shutil
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import cv2
 import numpy
 from scipy.spatial import cKDTree
 
+from board_captures import Capture, rendered
 from surfaces import fit_ball, points_of, read_ply
 
 TITLE = "Calibration of a rig"
@@ -20,6 +22,7 @@ CORNERS = (9, 13)
 SQUARE_MM = 15.0  # not recorded; it sets the scale only
 CAMERA_PX, PROJECTOR_PX = (1688, 1352), (1824, 1140)
 POSES = 12  # of the simulated rig
+SEEDS = 40
 
 SCAN = f"""format = "frangia-scan"
 version = 2
@@ -108,6 +111,51 @@ def distance_to(reference, points, scale):
     return numpy.median(distance) / scale, numpy.quantile(distance, 0.9) / scale, scale
 
 
+def rig_of(path):
+    """Camera matrix and distortion, those of the projector, and the pose p = R X + t, as OpenCV has them."""
+    rig = tomllib.loads(path.read_text())
+    parts = []
+    for device in ("camera", "projector"):
+        (fx, fy), (cx, cy) = rig[device]["focal_px"], rig[device]["principal_point_px"]
+        parts += [numpy.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), numpy.array(rig[device]["distortion"], float)]
+    rotation = numpy.array(rig["projector"]["rotation"])
+    return *parts, rotation, -rotation @ numpy.array(rig["projector"]["position_mm"])
+
+
+def project(points, matrix, distortion, rotation=numpy.eye(3), shift=numpy.zeros(3)):
+    return cv2.projectPoints(points, cv2.Rodrigues(rotation)[0], shift, matrix, distortion)[0][:, 0]
+
+
+def triangulated(rig, pixels, columns, depth):
+    """Where the rays of camera pixels meet the sheets of light of projector columns; `depth` is a start."""
+    rays = numpy.c_[cv2.undistortPoints(pixels.reshape(-1, 1, 2).astype(float), rig[0], rig[1])[:, 0], numpy.ones(len(pixels))]
+    z, step = numpy.broadcast_to(depth, len(rays)).astype(float), 1e-3
+    for _ in range(15):
+        here, there = (project(rays * (z + d)[:, None], *rig[2:])[:, 0] - columns for d in (0.0, step))
+        z = z - here * step / (there - here)
+    return rays * z[:, None]
+
+
+def board_lengths(rig, views, depth):
+    """Lengths of the two sides of the triangulated board of each view over their mean; median distance from a plane, over the mean length of a square."""
+    lengths, heights = [], []
+    for view in views:
+        points = numpy.array([p for p in view["points"] if None not in p])
+        index = points[:, 0].astype(int)
+        place = numpy.c_[index % CORNERS[0], index // CORNERS[0], numpy.ones(len(index))]
+        measured = triangulated(rig, points[:, 1:3], points[:, 3], depth)
+        weight = numpy.ones(len(place))
+        for _ in range(5):
+            fit = numpy.linalg.lstsq(place * weight[:, None], measured * weight[:, None], rcond=None)[0]
+            error = numpy.linalg.norm(measured - place @ fit, axis=1)
+            weight = numpy.maximum(error, numpy.median(error)) ** -0.5
+        normal = numpy.cross(fit[0], fit[1])
+        heights.append(numpy.median(abs((measured - place @ fit) @ normal)) / numpy.linalg.norm(normal))
+        lengths += [numpy.linalg.norm(fit[0]), numpy.linalg.norm(fit[1])]
+    mean = numpy.mean(lengths)
+    return numpy.array(lengths) / mean, numpy.mean(heights) / mean
+
+
 def reconstructed(study, scan):
     """The vertices of a scan's mesh; a result that the program calls not trustworthy (exit code 5) is measured, too."""
     mesh = scan / "mesh.ply"
@@ -129,16 +177,81 @@ def measure_real(study):
     study.row("OpenCV calibrateCamera, each alone", f"{rms_c:.3f}", f"{rms_p:.3f}", "")
     study.row("OpenCV stereoCalibrate, both", f"{rms:.3f}", f"{rms:.3f}", f"{baseline:.2f}")
     skull = study.shared("skull")
-    given = tomllib.loads((skull / "rig.toml").read_text())["projector"]["position_mm"]
+    rigs = {"given": skull / "rig.toml", **rigs}
+    solved = {name: rig_of(rig) for name, rig in rigs.items()}
+    baseline = {name: numpy.linalg.norm(rig[-1]) for name, rig in solved.items()}
+    study.add("\nThe six boards, triangulated by each rig from the camera's corners and the phases of the columns alone. A rig that is right measures the sides of the board alike in all poses.\n")
+    study.table("rig", "sides of the board, over their mean", "median distance from a plane, of a square")
+    for name, rig in solved.items():
+        lengths, height = board_lengths(rig, result["views"], 2.4 * baseline[name])
+        study.row(name, f"{lengths.min():.4f} to {lengths.max():.4f}", f"{height:.4f}")
     reference = points_of(read_ply(skull / "reference.ply"))
-    study.add("\nThe skull, reconstructed with each rig, after the best similarity to `reference.ply`; the square of the board is not recorded, so the scale is open.\n")
-    study.table("rig", "median distance, mm", "90 %, mm", "scale")
-    for name, rig in {"given": skull / "rig.toml", **rigs}.items():
+    given = solved["given"]
+    pixels, columns = project(reference, *given[:2]), project(reference, *given[2:])[:, 0]
+    study.add("\nThe skull, reconstructed with each rig, after the best similarity; the square of the board is not recorded, so the scale is open. `reference.ply` was itself triangulated with the given rig and carries its errors. The last column compares with the same measurement of the reference, triangulated with the rig of the row.\n")
+    study.table("rig", "median distance from reference.ply, mm", "90 %, mm", "scale", "median distance from the reference triangulated by the rig, mm")
+    for name, rig in rigs.items():
         scan = copied(skull, study.work / "skull-scan")
         shutil.copy(rig, scan / "rig.toml")
-        found = tomllib.loads(rig.read_text())["projector"]["position_mm"]
-        median, high, scale = distance_to(reference, reconstructed(study, scan), numpy.linalg.norm(found) / numpy.linalg.norm(given))
-        study.row(name, f"{median:.3f}", f"{high:.3f}", f"{scale:.4f}")
+        scale = baseline[name] / baseline["given"]
+        vertices = reconstructed(study, scan)
+        median, high, fitted = distance_to(reference, vertices, scale)
+        again = triangulated(solved[name], pixels, columns, scale * reference[:, 2])
+        own, _, _ = distance_to(again, vertices, 1.0)
+        study.row(name, f"{median:.3f}", f"{high:.3f}", f"{fitted:.4f}", f"{own / scale:.3f}")
+
+
+def values_of(rig):
+    """The parameters of a rig.toml by their names in the covariance."""
+    values = {}
+    for device in ("camera", "projector"):
+        (fx, fy), (cx, cy) = rig[device]["focal_px"], rig[device]["principal_point_px"]
+        names = ("focal_px", "focal_ratio", "principal_x_px", "principal_y_px", "k1", "k2", "p1", "p2", "k3")
+        values |= {f"{device}.{name}": value for name, value in zip(names, (fx, fy / fx, cx, cy, *rig[device]["distortion"]))}
+    rotation = numpy.array(rig["projector"]["rotation"])
+    shift = -rotation @ numpy.array(rig["projector"]["position_mm"])
+    for axis, turn, move in zip("xyz", cv2.Rodrigues(rotation)[0].ravel(), shift):
+        values |= {f"projector.rotation_{axis}_rad": turn, f"projector.{axis}_mm": move}
+    return values
+
+
+def error_of_seed(study, capture, seed):
+    """Errors of the estimated parameters by their names, and normalized by their full covariance: error' C^-1 error and their number."""
+    log = study.work / f"calibration-seed-{seed}.json"
+    if not log.exists():
+        scan = capture.write(study.work / "seed-scan", seed)
+        file = study.work / "seed-rig.toml"
+        study.run("calibrate", "rig", scan, "-o", file)
+        found = tomllib.loads(file.read_text())
+        lines = (file.parent / found["calibration"]["covariance"]).read_text().splitlines()
+        names = [name.strip().strip('"') for name in lines[0].split(",")][1:]
+        covariance = numpy.array([[float(x) for x in line.split(",")[1:]] for line in lines[1:]])
+        a, b = values_of(capture.truth), values_of(found)
+        # A held term is true by construction here, so it says nothing about the covariance.
+        kept = [i for i, name in enumerate(names) if a[name] != b[name]]
+        names, covariance = [names[i] for i in kept], covariance[numpy.ix_(kept, kept)]
+        error = numpy.array([b[name] - a[name] for name in names])
+        scale = numpy.sqrt(numpy.diag(covariance))
+        normalized = error / scale
+        square = normalized @ numpy.linalg.solve(covariance / numpy.outer(scale, scale), normalized)
+        log.write_text(json.dumps({"square": square, "count": len(names), "errors": dict(zip(names, error)), "normalized": dict(zip(names, normalized)),
+                                   "baseline_mm": numpy.linalg.norm(found["projector"]["position_mm"]) - numpy.linalg.norm(capture.truth["projector"]["position_mm"]),
+                                   "focal": [found[d]["focal_px"][0] / capture.truth[d]["focal_px"][0] - 1 for d in ("camera", "projector")]}))
+    return json.loads(log.read_text())
+
+
+def measure_seeds(study, seeds=SEEDS):
+    """Errors of many calibrations against their stated covariance."""
+    capture = Capture(rendered(study, "checkerboard", POSES))
+    errors = [error_of_seed(study, capture, seed) for seed in range(1, seeds + 1)]
+    pooled = numpy.sqrt(sum(e["square"] for e in errors) / sum(e["count"] for e in errors))
+    study.add(f"\n{POSES} poses of 640 × 512 pixels, rendered once and calibrated with {seeds} seeds of the noise.\n")
+    study.table("figure", "value")
+    study.row("errors of the estimated parameters, normalized by their full covariance, RMS", f"{pooled:.2f}")
+    study.row("largest relative error of a focal length", f"{100 * max(abs(f) for e in errors for f in e['focal']):.4f} %")
+    points = [(abs(e["errors"][n]), abs(e["normalized"][n])) for e in errors for n in e["errors"] if "principal" in n]
+    study.row("largest error of a principal point, px; over its standard deviation", f"{max(p[0] for p in points):.3f}; {max(p[1] for p in points):.2f}")
+    study.row("largest error of the baseline, mm", f"{max(abs(e['baseline_mm']) for e in errors):.4f}")
 
 
 def measure_simulated(study):
@@ -181,3 +294,4 @@ def measure_simulated(study):
 def measure(study):
     measure_real(study)
     measure_simulated(study)
+    measure_seeds(study)

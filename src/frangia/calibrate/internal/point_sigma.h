@@ -1,15 +1,30 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "frangia/calibrate/internal/rig_model.h"
 #include "frangia/calibrate/solve_rig.h"
 
 namespace frangia {
 
-/// Adds `point_sigma_mm` and `distance_mm` to a solution that has its covariance.
+/// How the shape of a part changes with the parameters of a rig.
+struct ShapeResponse {
+  /// Derivatives of the triangulated positions of nine points of each pose of the board, one below
+  /// the other, with respect to the parameters of the covariance; mm. Rigid motions of all points
+  /// together are removed, because they do not change a measured shape; a change of scale stays.
+  Eigen::MatrixXd by_parameter;
+  double distance_mm = 0.0;  ///< mean distance of the points from the camera
+};
+
+/// The response at the poses of a solution that has its covariance.
 ///
 /// @source   linear propagation: a point is where the ray of a camera pixel meets the sheet of
-/// light
-///           of one projector column
-void add_point_sigma(const Board& board, const RigParameters& parameters, RigSolution& solution);
+///           light of one projector column
+[[nodiscard]] ShapeResponse shape_response(const Board& board,
+                                           const RigParameters& parameters,
+                                           const RigSolution& solution);
+
+/// Adds `point_sigma_mm` and `distance_mm`.
+void add_point_sigma(const ShapeResponse& shape, RigSolution& solution);
 
 }  // namespace frangia

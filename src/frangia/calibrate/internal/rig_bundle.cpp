@@ -4,56 +4,13 @@
 #include <memory>
 
 #include <ceres/ceres.h>
-#include <ceres/rotation.h>
+
+#include "frangia/calibrate/internal/rig_residuals.h"
 
 namespace frangia {
 namespace {
 
-template <typename T>
-Eigen::Matrix<T, 3, 1> transform(const T* pose, const Eigen::Matrix<T, 3, 1>& point) {
-  Eigen::Matrix<T, 3, 1> rotated;
-  ceres::AngleAxisRotatePoint(pose, point.data(), rotated.data());
-  return {rotated.x() + pose[3], rotated.y() + pose[4], rotated.z() + pose[5]};
-}
-
-/// Weighted residual of a point seen by the camera.
-struct CameraResidual {
-  BoardSite site;
-  Eigen::Vector2d pixel;
-  Eigen::Vector2d weight;
-
-  template <typename T>
-  bool operator()(const T* intrinsics, const T* shape, const T* pose, T* residual) const {
-    const Eigen::Matrix<T, 3, 1> point = transform(pose, site.position(shape));
-    if (!(point.z() > T(0.0))) return false;
-    const Eigen::Matrix<T, 2, 1> predicted = project_point(intrinsics, point);
-    residual[0] = weight.x() * (predicted.x() - pixel.x());
-    residual[1] = weight.y() * (predicted.y() - pixel.y());
-    return true;
-  }
-};
-
-/// Weighted residual of the projector pixel that lights a point.
-struct ProjectorResidual {
-  BoardSite site;
-  Eigen::Vector2d pixel;
-  Eigen::Vector2d weight;
-
-  template <typename T>
-  bool operator()(const T* intrinsics,
-                  const T* projector_from_camera,
-                  const T* shape,
-                  const T* pose,
-                  T* residual) const {
-    const Eigen::Matrix<T, 3, 1> point =
-        transform(projector_from_camera, transform(pose, site.position(shape)));
-    if (!(point.z() > T(0.0))) return false;
-    const Eigen::Matrix<T, 2, 1> predicted = project_point(intrinsics, point);
-    residual[0] = weight.x() * (predicted.x() - pixel.x());
-    residual[1] = weight.y() * (predicted.y() - pixel.y());
-    return true;
-  }
-};
+constexpr double kHuber = 3.0;  // standard deviations
 
 template <std::size_t n>
 void fix(ceres::Problem& problem, double* block, const std::array<bool, n>& free) {
@@ -83,10 +40,8 @@ class StopCallback final : public ceres::IterationCallback {
 void build(std::span<const RigObservation> observations,
            const RigFreedom& freedom,
            const RigNoise& noise,
-           bool robust,
            RigParameters& parameters,
            ceres::Problem& problem) {
-  constexpr double kHuber = 3.0;  // sigmas
   problem.AddParameterBlock(parameters.camera.data(), kIntrinsics);
   problem.AddParameterBlock(parameters.projector.data(), kIntrinsics);
   problem.AddParameterBlock(parameters.projector_from_camera.data(), kPose);
@@ -96,21 +51,32 @@ void build(std::span<const RigObservation> observations,
   for (const RigObservation& observation : observations) {
     const double scale = observation.by_projector ? noise.projector : noise.camera;
     const Eigen::Vector2d weight = (scale * observation.sigma_px).cwiseInverse();
-    ceres::LossFunction* loss = robust ? new ceres::HuberLoss(kHuber) : nullptr;  // NOLINT owned
+    auto* loss = new ceres::HuberLoss(kHuber);  // NOLINT(*-owning-memory) the problem owns it
     double* pose = parameters.camera_from_board[observation.view].data();
     if (observation.by_projector) {
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<ProjectorResidual, 2, kIntrinsics, kPose, kShape, kPose>(
-              new ProjectorResidual{observation.site, observation.pixel, weight}),
-          loss,
-          parameters.projector.data(),
-          parameters.projector_from_camera.data(),
-          parameters.board.data(),
-          pose);
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ProjectorResidual,
+                                                               2,
+                                                               kIntrinsics,
+                                                               kIntrinsics,
+                                                               kPose,
+                                                               kShape,
+                                                               kPose>(
+                                   new ProjectorResidual{observation.site,
+                                                         observation.pixel,
+                                                         weight,
+                                                         observation.camera_px,
+                                                         observation.projector_by_camera}),
+                               loss,
+                               parameters.camera.data(),
+                               parameters.projector.data(),
+                               parameters.projector_from_camera.data(),
+                               parameters.board.data(),
+                               pose);
     } else {
       problem.AddResidualBlock(
           new ceres::AutoDiffCostFunction<CameraResidual, 2, kIntrinsics, kShape, kPose>(
-              new CameraResidual{observation.site, observation.pixel, weight}),
+              new CameraResidual{
+                  observation.site, observation.circle_radius_mm, observation.pixel, weight}),
           loss,
           parameters.camera.data(),
           parameters.board.data(),
@@ -146,30 +112,55 @@ std::vector<RigObservation> observations_of(const Board& board, std::span<const 
       const Eigen::Vector2d place = nominal[static_cast<std::size_t>(point.index)] - center;
       const Eigen::Vector2d relative = place.cwiseQuotient(half);
       const BoardSite site{place, board_height_terms(relative.x(), relative.y())};
-      observations.push_back({view, i, site, false, point.camera_px, Eigen::Vector2d::Ones()});
-      if (point.projector_px.allFinite() && (point.projector_sigma_px.array() > 0.0).all())
-        observations.push_back({view, i, site, true, point.projector_px, point.projector_sigma_px});
+      RigObservation seen{view, i, site};
+      seen.pixel = point.camera_px;
+      seen.sigma_px.setOnes();
+      seen.circle_radius_mm = 0.5 * circle_diameter_mm(board);
+      observations.push_back(seen);
+      if (!point.projector_px.allFinite() || !(point.projector_sigma_px.array() > 0.0).all())
+        continue;
+      RigObservation lit{view, i, site, true};
+      lit.pixel = point.projector_px;
+      lit.sigma_px = point.projector_sigma_px;
+      lit.camera_px = point.camera_px;
+      lit.projector_by_camera = point.projector_by_camera;
+      observations.push_back(lit);
     }
   }
   return observations;
 }
 
-Eigen::Vector2d residual_of(const RigObservation& observation, const RigParameters& parameters) {
+Eigen::Vector2d independent_residual_of(const RigObservation& observation,
+                                        const RigParameters& parameters) {
   Eigen::Vector2d residual = Eigen::Vector2d::Constant(std::nan(""));
   const double* pose = parameters.camera_from_board[observation.view].data();
   const Eigen::Vector2d one = Eigen::Vector2d::Ones();
   if (observation.by_projector) {
-    ProjectorResidual{observation.site, observation.pixel, one}(
-        parameters.projector.data(),
-        parameters.projector_from_camera.data(),
-        parameters.board.data(),
-        pose,
-        residual.data());
+    ProjectorResidual{observation.site,
+                      observation.pixel,
+                      one,
+                      observation.camera_px,
+                      observation.projector_by_camera}(parameters.camera.data(),
+                                                       parameters.projector.data(),
+                                                       parameters.projector_from_camera.data(),
+                                                       parameters.board.data(),
+                                                       pose,
+                                                       residual.data());
   } else {
-    CameraResidual{observation.site, observation.pixel, one}(
+    CameraResidual{observation.site, observation.circle_radius_mm, observation.pixel, one}(
         parameters.camera.data(), parameters.board.data(), pose, residual.data());
   }
   return residual;
+}
+
+Eigen::Vector2d residual_of(const RigObservation& observation, const RigParameters& parameters) {
+  RigObservation alone = observation;
+  alone.projector_by_camera.setZero();
+  return independent_residual_of(alone, parameters);
+}
+
+double robust_weight(double sigmas) {
+  return sigmas > kHuber ? kHuber / sigmas : 1.0;
 }
 
 RigBundleResult adjust_rig(std::span<const RigObservation> observations,
@@ -179,7 +170,7 @@ RigBundleResult adjust_rig(std::span<const RigObservation> observations,
                            RigParameters& parameters,
                            const Run& run) {
   ceres::Problem problem;
-  build(observations, freedom, noise, true, parameters, problem);
+  build(observations, freedom, noise, parameters, problem);
   StopCallback stop(run);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;  // eliminates the poses
@@ -201,7 +192,7 @@ RigLinearization linearize_rig(std::span<const RigObservation> observations,
                                const RigParameters& parameters) {
   RigParameters copy = parameters;
   ceres::Problem problem;
-  build(observations, freedom, noise, false, copy, problem);
+  build(observations, freedom, noise, copy, problem);
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = {copy.camera.data(),
                               copy.projector.data(),

@@ -18,8 +18,11 @@ struct RigObservation {
   std::size_t point = 0;  ///< in the view
   BoardSite site;
   bool by_projector = false;
-  Eigen::Vector2d pixel;
-  Eigen::Vector2d sigma_px;
+  double circle_radius_mm = 0.0;  ///< of a board of circles
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sigma_px = Eigen::Vector2d::Ones();
+  Eigen::Vector2d camera_px = Eigen::Vector2d::Zero();  ///< of the point, by_projector only
+  Eigen::Matrix2d projector_by_camera = Eigen::Matrix2d::Zero();  ///< see BoardPoint
 };
 
 /// Standard deviations by which those of the observations are multiplied.
@@ -35,6 +38,15 @@ struct RigNoise {
 /// Predicted minus observed pixel.
 [[nodiscard]] Eigen::Vector2d residual_of(const RigObservation& observation,
                                           const RigParameters& parameters);
+
+/// The residual that the adjustment minimizes: that of the projector without the part that the
+/// error of the camera's pixel causes, so that the residuals of camera and projector are
+/// independent.
+[[nodiscard]] Eigen::Vector2d independent_residual_of(const RigObservation& observation,
+                                                      const RigParameters& parameters);
+
+/// Weight of a residual of a given length in standard deviations, by Huber's loss.
+[[nodiscard]] double robust_weight(double sigmas);
 
 struct RigBundleResult {
   int iterations = 0;
@@ -59,7 +71,7 @@ struct RigLinearization {
 };
 
 /// Linearizes the weighted residuals by the free parameters of camera, projector, their relative
-/// pose, the board and then the poses, without a robust loss.
+/// pose, the board and then the poses, with the weights of the robust loss.
 [[nodiscard]] RigLinearization linearize_rig(std::span<const RigObservation> observations,
                                              const RigFreedom& freedom,
                                              const RigNoise& noise,

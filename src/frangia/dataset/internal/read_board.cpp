@@ -32,9 +32,19 @@ Board read_board(TomlReader reader, const Run& run) {
     board.kind = BoardKind::Circles;
     read_grid(reader, "circles", board);
     board.square_mm = reader.positive("spacing_mm");
+    if (reader.has("diameter_mm")) board.diameter_mm = reader.positive("diameter_mm");
+  } else if (kind == "charuco") {
+    board.kind = BoardKind::Charuco;
+    read_grid(reader, "corners", board);
+    board.square_mm = reader.positive("square_mm");
+    if (reader.has("marker_mm")) board.marker_mm = reader.positive("marker_mm");
+    board.dictionary = reader.text("dictionary");
+    if (reader.has("legacy_layout")) board.legacy_layout = reader.boolean("legacy_layout");
   } else {
-    reader.fail("kind", fmt::format(R"(is "{}"; it must be "checkerboard" or "circles")", kind));
+    reader.fail("kind",
+                fmt::format(R"(is "{}"; it must be "checkerboard", "charuco" or "circles")", kind));
   }
+  check_board(board);
   reader.warn_of_unused_keys(run);
   return board;
 }

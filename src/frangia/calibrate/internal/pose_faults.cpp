@@ -1,0 +1,115 @@
+#include "frangia/calibrate/internal/pose_faults.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <opencv2/calib3d.hpp>
+
+#include "frangia/core/median.h"
+
+namespace frangia {
+namespace {
+
+/// The first of some poses.
+const PoseCapture& pose_named(std::span<const PoseCapture> poses, const std::string& name) {
+  return *std::find_if(
+      poses.begin(), poses.end(), [&](const auto& pose) { return pose.view.name == name; });
+}
+
+}  // namespace
+
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 6;
+  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format(
+      "{} and {} more", fmt::join(std::span(names).first(kMost), ", "), names.size() - kMost);
+}
+
+std::string describe_dark(const std::vector<std::string>& names, const PoseCheckOptions& options) {
+  return fmt::format(
+      "the board is too dark in {}: its light squares reach less than {:.0f} % of white; expose "
+      "longer or open the aperture",
+      list_of(names),
+      100.0 * options.dim);
+}
+
+std::string describe_overexposed(const std::vector<std::string>& names,
+                                 const PoseCheckOptions& options) {
+  return fmt::format(
+      "the board is overexposed in {}: more than {:.0f} % of its pixels are saturated; expose "
+      "shorter",
+      list_of(names),
+      100.0 * options.saturated);
+}
+
+std::string describe_swapped(std::span<const PoseCapture> poses,
+                             const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  return fmt::format(
+      "the frames of pattern \"{}\" in {} do not follow its shifts: frames are swapped or out of "
+      "step, or shifts_deg in scan.toml is wrong",
+      pose_named(poses, names.front()).misfit_in,
+      list_of(names));
+}
+
+std::string describe_moved(std::span<const PoseCapture> poses,
+                           const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  const PoseCapture& first = pose_named(poses, names.front());
+  return fmt::format(
+      "the board or the camera moved during the capture of {}, by {:.1f} px up to "
+      "pattern \"{}\"; fix both while a pose is captured",
+      list_of(names),
+      first.motion_px,
+      first.moved_in);
+}
+
+double plane_misfit_px(const Board& board, const BoardView& view) {
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
+  std::vector<cv::Point2d> plane;
+  std::vector<cv::Point2d> pixels;
+  for (const BoardPoint& point : view.points) {
+    if (!point.projector_px.allFinite()) continue;
+    const Eigen::Vector2d& place = nominal[static_cast<std::size_t>(point.index)];
+    plane.emplace_back(place.x(), place.y());
+    pixels.emplace_back(point.projector_px.x(), point.projector_px.y());
+  }
+  constexpr std::size_t kFewest = 6;
+  if (plane.size() < kFewest) return 0.0;
+  const cv::Mat map = cv::findHomography(plane, pixels);
+  if (map.empty()) return std::numeric_limits<double>::infinity();
+  std::vector<cv::Point2d> mapped;
+  cv::perspectiveTransform(plane, mapped, map);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < mapped.size(); ++i)
+    distances.push_back(cv::norm(mapped[i] - pixels[i]));
+  return median(distances);
+}
+
+void warn_of_quality(std::span<const PoseCapture> poses,
+                     const PoseCheckOptions& options,
+                     PoseChecks& checks) {
+  std::vector<double> misfits;
+  for (const PoseCapture& pose : poses)
+    if (pose.misfit > 0.0) misfits.push_back(pose.misfit);
+  if (!misfits.empty() && median(misfits) > options.max_misfit) {
+    checks.warnings.push_back(
+        fmt::format("the projector is not linear: its fringes deviate from a sinusoid by {:.0f} % "
+                    "of their modulation; switch off its gamma and image enhancement, or measure "
+                    "its response",
+                    100.0 * median(misfits)));
+  }
+  const auto blurred =
+      names_of(poses, [&](const PoseCapture& pose) { return pose.blur_px > options.max_blur_px; });
+  if (!blurred.empty()) {
+    checks.warnings.push_back(fmt::format(
+        "the board is out of focus or moving in {}: its edges are blurred by {:.1f} px; "
+        "close the aperture or place the board nearer to the focus",
+        list_of(blurred),
+        pose_named(poses, blurred.front()).blur_px));
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,70 @@
+#include "frangia/calibrate/measure_sharpness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "frangia/calibrate/internal/opencv_image.h"
+#include "frangia/core/angles.h"
+#include "frangia/core/median.h"
+
+namespace frangia {
+
+double measure_blur_px(const Image<float>& counts,
+                       std::span<const BoardPoint> points,
+                       int reach_px) {
+  const cv::Mat linear = opencv_view(counts);
+  cv::Mat along;
+  cv::Mat across;
+  cv::Sobel(linear, along, CV_32F, 1, 0, 3, 1.0 / 8.0);
+  cv::Sobel(linear, across, CV_32F, 0, 1, 3, 1.0 / 8.0);
+  std::vector<double> blurs;
+  for (const BoardPoint& point : points) {
+    const cv::Rect window = cv::Rect(static_cast<int>(std::lround(point.camera_px.x())) - reach_px,
+                                     static_cast<int>(std::lround(point.camera_px.y())) - reach_px,
+                                     2 * reach_px + 1,
+                                     2 * reach_px + 1) &
+                            cv::Rect(0, 0, linear.cols, linear.rows);
+    if (window.area() < reach_px * reach_px) continue;
+    double least = 0.0;
+    double most = 0.0;
+    cv::minMaxLoc(linear(window), &least, &most);
+    cv::Mat slope;
+    cv::magnitude(along(window), across(window), slope);
+    double steepest = 0.0;
+    cv::minMaxLoc(slope, nullptr, &steepest);
+    // A Gaussian edge of height h has the slope h / (sigma sqrt(2 pi)).
+    if (steepest > 0.0) blurs.push_back((most - least) / (steepest * std::sqrt(kTwoPi)));
+  }
+  return blurs.empty() ? std::numeric_limits<double>::quiet_NaN() : median(blurs);
+}
+
+double measure_motion_px(const Image<float>& counts,
+                         std::span<const BoardPoint> points,
+                         int reach_px) {
+  if (points.empty()) return 0.0;
+  cv::Mat smooth;
+  cv::GaussianBlur(opencv_view(counts), smooth, {}, 1.0);
+  std::vector<cv::Point2f> corners;
+  for (const BoardPoint& point : points) {
+    corners.emplace_back(static_cast<float>(point.camera_px.x()),
+                         static_cast<float>(point.camera_px.y()));
+  }
+  cv::cornerSubPix(smooth,
+                   corners,
+                   cv::Size(reach_px, reach_px),
+                   cv::Size(-1, -1),
+                   cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-3));
+  std::vector<double> x;
+  std::vector<double> y;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    x.push_back(corners[i].x - points[i].camera_px.x());
+    y.push_back(corners[i].y - points[i].camera_px.y());
+  }
+  return std::hypot(median(x), median(y));
+}
+
+}  // namespace frangia

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "frangia/calibrate/board_view.h"
+#include "frangia/core/image.h"
+
+namespace frangia {
+
+/// Standard deviation of the blur of the edges at the corners of a board, as if it were Gaussian;
+/// median over all corners, NaN without corners.
+///
+/// @shape    image of the mean intensity; `reach_px` is half the side of the window about a corner
+/// @units    px; a sharp image has 0.4 to 1
+[[nodiscard]] double measure_blur_px(const Image<float>& counts,
+                                     std::span<const BoardPoint> points,
+                                     int reach_px);
+
+/// Largest distance by which the corners of a board lie elsewhere in `counts` than in `points`; the
+/// median over all corners of each coordinate, so that noise averages out.
+///
+/// @units    px
+[[nodiscard]] double measure_motion_px(const Image<float>& counts,
+                                       std::span<const BoardPoint> points,
+                                       int reach_px);
+
+}  // namespace frangia
