@@ -12,7 +12,7 @@
 #include <Eigen/LU>
 
 #include "frangia/core/median.h"
-#include "frangia/phase/fit_waveform.h"
+#include "frangia/phase/internal/combined_harmonics.h"
 #include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
@@ -78,49 +78,6 @@ Weights noise_combination(const std::vector<double>& shifts_rad) {
     weight /= std::sqrt(best_square);
   return best;
 }
-
-/// The harmonics of the fringes in a combination of the frames.
-class CombinedHarmonics {
- public:
-  /// Finds the harmonics; there are none for fewer than four frames.
-  CombinedHarmonics(const FrameStack& stack, const Weights& weights)
-      : fit_(least_squares(stack.pattern.shifts_rad)),
-        shifts_(stack.pattern.shifts_rad),
-        weights_(weights) {
-    if (shifts_.size() < 4) return;
-    // The noise is not known yet; the scatter of the residuals decides.
-    constexpr std::size_t kHarmonicSamples = 10'000;
-    waveform_ =
-        fit_waveform(
-            stack, shifts_, NoiseModel{}, {.samples = kHarmonicSamples, .min_harmonic = 0.002})
-            .waveform;
-    for (const auto& harmonic : waveform_.harmonics)
-      found_ = found_ || harmonic != 0.0;
-  }
-  [[nodiscard]] bool found() const { return found_; }
-  /// Their value at a pixel, counts.
-  [[nodiscard]] double value_at(const FrameStack& stack, int x, int y) const {
-    double cosine = 0.0;
-    double sine = 0.0;
-    for (std::size_t k = 0; k < shifts_.size(); ++k) {
-      const double counts = counts_at(stack.frames[k], x, y);
-      cosine += fit_.cosine[k] * counts;
-      sine += fit_.sine[k] * counts;
-    }
-    const double phase = std::atan2(sine, cosine);
-    double value = 0.0;
-    for (std::size_t k = 0; k < shifts_.size(); ++k)
-      value += weights_[k] * waveform_.light_at(phase + shifts_[k]);
-    return std::hypot(cosine, sine) * value;
-  }
-
- private:
-  PhaseAlgorithm fit_;
-  std::vector<double> shifts_;
-  Weights weights_;
-  FringeWaveform waveform_;
-  bool found_ = false;
-};
 
 /// Absolute second differences along one row, binned by brightness.
 void gather_row(const FrameStack& stack,

@@ -1,3 +1,4 @@
+// More than 250 lines: the file is the sequence of all stages from frames to absolute phase.
 #include "frangia/pipeline/decode_view.h"
 
 #include <algorithm>

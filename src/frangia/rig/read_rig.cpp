@@ -1,3 +1,4 @@
+// More than 250 lines: reading and writing of one file format stay together.
 #include "frangia/rig/read_rig.h"
 
 #include <algorithm>
