@@ -24,8 +24,8 @@ struct OrientationCheck {
   std::string fits{};   ///< what would fit, as a clause; empty if consistent
 };
 
-/// Compares the gradient of a phase, absolute or wrapped, with that of a plane at the distance where the axes
-/// of camera and projector cross.
+/// Compares the gradient of a phase, absolute or wrapped, with that of a plane at the distance
+/// where the axes of camera and projector cross.
 ///
 /// @shape    `rays` as rays_of(rig.camera.model)
 /// @missing  not decided for few pixels, or where less than 80 % of them agree

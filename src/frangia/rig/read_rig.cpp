@@ -181,7 +181,8 @@ void refuse_uncalibrated(const TomlReader& reader,
   std::vector<std::string> missing;
   const auto look = [&](std::string_view name, std::initializer_list<std::string_view> keys) {
     for (const std::string_view key : keys) {
-      if (!table[name].as_table()->contains(key)) missing.push_back(fmt::format("{}.{}", name, key));
+      if (!table[name].as_table()->contains(key))
+        missing.push_back(fmt::format("{}.{}", name, key));
     }
   };
   if (table["camera"].is_table()) look("camera", {"focal_px", "principal_point_px"});
