@@ -115,8 +115,8 @@ TEST_F(PictureProgram, TurnsTheDirectionUpUpright) {
   write_mesh(at("y.ply"), testing::box({0, 0, 0}, {10, 30, 20}));
   write_mesh(at("z.ply"), testing::box({0, -20, 0}, {10, 0, 30}));
   const auto picture = [&](const std::string& mesh, const std::string& up) {
-    const Answer answer = run_program("picture " + at(mesh) + " --width 200 --height 160 --up " +
-                                      up + " -o " + at("a.png"));
+    const Answer answer = run_program("picture " + at(mesh) + " --width 80 --height 64 --up " + up +
+                                      " -o " + at("a.png"));
     EXPECT_EQ(answer.exit_code, 0) << answer.output;
     std::ifstream in(at("a.png"), std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(in), {}};
