@@ -104,7 +104,9 @@ Ending interrupt(const std::string& arguments, double after_s) {
   };
   // Before the program handles signals, SIGINT ends it; a shell reports 130 for both.
   const bool by_interrupt = WIFSIGNALED(status) && WTERMSIG(status) == SIGINT;
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : by_interrupt ? 130 : -1,
+  return {WIFEXITED(status) ? WEXITSTATUS(status)
+          : by_interrupt    ? 130
+                            : -1,
           std::chrono::duration<double>(Clock::now() - start).count(),
           seconds(usage.ru_utime) + seconds(usage.ru_stime) - processor_before_s};
 }

@@ -105,7 +105,7 @@ class GrayCodeSample {
     const double limit = kPi * trial.code.stripe_px / period + options_.margin_rad;
     std::size_t agreeing = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const double column = (stripes[i] + 0.5) * trial.code.stripe_px - 0.5;
+      const double column = (stripes[i] + 0.5) * trial.code.stripe_px - 0.5 - trial.code.offset_px;
       const double measured = static_cast<double>(pixels[i].phase_rad);
       const double phase = (trial.reversed ? -measured : measured) - trial.start_rad;
       if (std::abs(wrap_rad(phase - kTwoPi * column / period)) <= limit) ++agreeing;

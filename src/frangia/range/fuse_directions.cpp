@@ -69,6 +69,13 @@ RangePixel combined(const RangePixel& a, const RangePixel& b, DirectionFusion fu
       (weight_a * static_cast<double>(a.depth_mm) + weight_b * static_cast<double>(b.depth_mm)) /
       (weight_a + weight_b));
   out.sigma_mm = static_cast<float>(1.0 / std::sqrt(weight_a + weight_b));
+  // Errors of the rig are common to both directions: they do not average out.
+  const double systematic_a =
+      std::isnan(a.systematic_mm) ? 0.0 : static_cast<double>(a.systematic_mm);
+  const double systematic_b =
+      std::isnan(b.systematic_mm) ? 0.0 : static_cast<double>(b.systematic_mm);
+  out.systematic_mm = static_cast<float>((weight_a * systematic_a + weight_b * systematic_b) /
+                                         (weight_a + weight_b));
   return out;
 }
 
@@ -83,6 +90,8 @@ DirectionDisagreement fuse_directions(const RangeGrid& second,
           "fuse_directions: the range grids differ in size");
   require(same_size(first.depth_mm, rays), "fuse_directions: range grid and rays differ in size");
   DirectionDisagreement out = measure_disagreement(first, second, rays);
+  if (first.systematic_mm.empty() && !second.systematic_mm.empty())
+    first.systematic_mm = Image<float>(first.depth_mm.width(), first.depth_mm.height(), 0.0F);
   const double typical_mm = out.pixels == 0 ? 0.0 : out.median_mm / kMedianOfNormal;
   std::vector<std::size_t> removed(static_cast<std::size_t>(status.height()));
   parallel_rows(status.height(), [&](int y) {
