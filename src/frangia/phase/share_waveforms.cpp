@@ -8,11 +8,15 @@
 namespace frangia {
 namespace {
 
-/// Largest sigma of a determined harmonic, relative to the fundamental.
-constexpr double kMaxHarmonicSigma = 0.01;
+/// Largest sigma of a determined harmonic, relative to the fundamental; a significant one may have
+/// a larger sigma.
+constexpr double kMaxHarmonicSigma = 0.02;
+constexpr double kMinSigmas = 5.0;  ///< least amplitude of a significant harmonic, in sigmas
 
 bool determines(const WaveformFit& fit, std::size_t harmonic) {
-  return harmonic < fit.sigma.size() && fit.sigma[harmonic] < kMaxHarmonicSigma;
+  if (harmonic >= fit.sigma.size()) return false;
+  return fit.sigma[harmonic] < kMaxHarmonicSigma ||
+         std::abs(fit.waveform.harmonics[harmonic]) > kMinSigmas * fit.sigma[harmonic];
 }
 
 }  // namespace
