@@ -18,6 +18,7 @@ struct ViewFit {
   bool accepted = false;    ///< nothing fits, and `accept_inconsistent` triangulates it
   std::string reason{};     ///< what does not fit, and what would, as a clause; empty if all fits
 
+  /// Whether a phase of the view is to be triangulated.
   [[nodiscard]] bool fits() const { return uses_first || uses_second; }
 };
 

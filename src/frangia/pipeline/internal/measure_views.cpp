@@ -108,7 +108,7 @@ class ScanFit {
       return true;
     }
     if (fit.fits()) {
-      if (fit.decided) fitting_ = true;
+      fitting_ = fitting_ || fit.decided;
       if (!fit.reason.empty())
         run_.warn(fmt::format("{}: {}; this direction is not used", folder, fit.reason));
       return true;
@@ -123,6 +123,12 @@ class ScanFit {
   /// Throws if views do not fit and none does.
   void finish() const {
     if (unfit_ > 0 && !fitting_) end();
+    if (!fitting_) {
+      run_.note(
+          "nothing in the frames decides whether the patterns are those of scan.toml: a wrong "
+          "start, "
+          "direction or period would not be noticed");
+    }
   }
 
  private:
