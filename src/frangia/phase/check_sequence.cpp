@@ -79,7 +79,8 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   if (coarse_to_fine.size() > 1) {
     out.misfit_rad = sample.misfit();
     out.chance_rad = sample.chance();
-    out.decided = sample.expected_misfit(kSystematic_rad) <= kMaxExpected * out.chance_rad;
+    out.decided = out.misfit_rad <= options.max_misfit * out.chance_rad ||
+                  sample.expected_misfit(kSystematic_rad) <= kMaxExpected * out.chance_rad;
   }
   const bool absolute = determine_absolute_phase(sample.patterns(), projector);
   std::vector<RankedTrial> found;
