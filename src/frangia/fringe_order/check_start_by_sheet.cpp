@@ -13,6 +13,8 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kMinPoints = 20;
+constexpr double kScattered = 0.5;     // the same, with the declared direction
+constexpr double kReversed = 0.9;      // the same, with the opposite direction
 constexpr double kConcentrated = 0.7;  // length of the mean of unit vectors
 constexpr double kLargest_rad = kPi / 4.0;
 constexpr double kQuarterTolerance_deg = 20.0;
@@ -39,7 +41,10 @@ SequenceCheck check_start_by_sheet(const WrappedPhase& phase,
     ++points;
   }
   if (points < kMinPoints) return out;
-  const bool reversed = std::abs(backward) > std::abs(forward);
+  // Where the phase hardly changes along the line, both signs are concentrated: the declared one
+  // then stands.
+  const bool reversed = std::abs(forward) < kScattered * static_cast<double>(points) &&
+                        std::abs(backward) > kReversed * static_cast<double>(points);
   const std::complex<double> mean = (reversed ? backward : forward) / static_cast<double>(points);
   if (std::abs(mean) < kConcentrated) return out;
   out.decided = true;
@@ -56,8 +61,9 @@ SequenceCheck check_start_by_sheet(const WrappedPhase& phase,
                       {},
                       {},
                       fmt::format("by the laser sheet, from {} points", points)};
-  const std::string start = fmt::format(
-      "a start of {:g} degrees, not {:g} degrees", declared_deg + start_deg, declared_deg);
+  const std::string start = fmt::format("a start of {:g} degrees, not {:g} degrees",
+                                        std::fmod(declared_deg + start_deg, 360.0),
+                                        declared_deg);
   fault.what = !reversed          ? start
                : start_deg == 0.0 ? "shifts in the opposite direction"
                                   : "shifts in the opposite direction and " + start;

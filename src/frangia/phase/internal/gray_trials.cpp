@@ -1,5 +1,6 @@
 #include "frangia/phase/internal/gray_trials.h"
 
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -79,8 +80,9 @@ void add_fringe_trials(const Pattern& code, const Pattern& fringes, std::vector<
       trial.reversed = reversed;
       trial.fault.patterns = {fringes.name};
       trial.fault.kind = reversed ? SequenceFaultKind::Direction : SequenceFaultKind::Start;
-      const std::string start = fmt::format(
-          "a start of {:g} degrees, not {:g} degrees", declared_deg + start_deg, declared_deg);
+      const std::string start = fmt::format("a start of {:g} degrees, not {:g} degrees",
+                                            std::fmod(declared_deg + start_deg, 360.0),
+                                            declared_deg);
       trial.fault.what = reversed ? "shifts in the opposite direction" : start;
       if (reversed && start_deg != 0.0) trial.fault.what += " and " + start;
       trial.fault.keys = "by the Gray code";
