@@ -14,9 +14,9 @@
 namespace frangia {
 namespace {
 
-constexpr int kStep = 2;                  // px between the pixels that are compared
+constexpr int kStep = 2;                 // px between the pixels that are compared
 constexpr std::size_t kSamples = 5'000;  // of the image
-constexpr std::size_t kMinPixels = 200;   // fewer decide nothing
+constexpr std::size_t kMinPixels = 200;  // fewer decide nothing
 constexpr double kMajority = 0.8;
 constexpr double kExchanged = 3.0;  // change across over change along; expected: below 1
 constexpr double kMinSigmas = 3.0;  // of a difference that counts
