@@ -75,7 +75,7 @@ void import_calibration(const ImportArguments& arguments, Terminal& terminal) {
   terminal.print_written(arguments.output.string());
 }
 
-void add_import_verb(CLI::App& calibrate, Terminal& terminal) {
+void add_import_subcommand(CLI::App& calibrate, Terminal& terminal) {
   auto arguments = std::make_shared<ImportArguments>();
   CLI::App* verb = calibrate.add_subcommand(
       "import", "make a rig.toml of a calibration of OpenCV, SLStudio, MATLAB, COLMAP, ...");
@@ -133,7 +133,7 @@ void export_calibration(const ExportArguments& arguments, Terminal& terminal) {
   terminal.print_written(arguments.output.string());
 }
 
-void add_export_verb(CLI::App& calibrate, Terminal& terminal) {
+void add_export_subcommand(CLI::App& calibrate, Terminal& terminal) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* verb =
       calibrate.add_subcommand("export", "write camera and projector of a rig for another program");
@@ -154,8 +154,8 @@ void add_export_verb(CLI::App& calibrate, Terminal& terminal) {
 }  // namespace
 
 void add_calibrate_exchange_verbs(CLI::App& calibrate, Terminal& terminal) {
-  add_import_verb(calibrate, terminal);
-  add_export_verb(calibrate, terminal);
+  add_import_subcommand(calibrate, terminal);
+  add_export_subcommand(calibrate, terminal);
 }
 
 }  // namespace frangia
