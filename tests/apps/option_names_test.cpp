@@ -26,8 +26,9 @@ std::string code_of(const std::filesystem::path& path) {
 }
 
 std::set<std::string> flags_of_all_verbs() {
-  const std::string help =
-      run_program("--help-all").output + run_program("calibrate piezo --help").output;
+  std::string help = run_program("--help-all").output;
+  for (const char* verb : {"board", "rig", "turntable", "import", "export", "piezo"})
+    help += run_program(std::string("calibrate ") + verb + " --help").output;
   const std::regex flag("--([a-z][a-z0-9-]*)");
   std::set<std::string> flags;
   for (std::sregex_iterator i(help.begin(), help.end(), flag), end; i != end; ++i)

@@ -109,7 +109,8 @@ TEST_F(Program, UsageErrorsExitWithTwoAndOneSentence) {
       "recnstruct x",
       "the program has no verb recnstruct, perhaps reconstruct was meant; see frangia --help");
   expect_usage_error("calibrate",
-                     "calibrate needs a verb: board, rig, piezo; see frangia calibrate --help");
+                     "calibrate needs a verb: board, rig, turntable, import, export, piezo; see "
+                     "frangia calibrate --help");
   expect_usage_error(
       "calibrate peizo x",
       "calibrate has no verb peizo, perhaps piezo was meant; see frangia calibrate --help");

@@ -22,9 +22,9 @@ struct ForeignLens {
 
 /// What files of another program state about a rig, in OpenCV's convention.
 struct ForeignCalibration {
-  std::string program;  ///< whose convention was recognized, such as "SLStudio"
-  ForeignLens camera;
-  ForeignLens projector;
+  std::string program;    ///< whose convention was recognized, such as "SLStudio"
+  ForeignLens camera;     ///< the first camera of a stereo calibration
+  ForeignLens projector;  ///< the second camera of a stereo calibration
   /// projector_from_camera: a point X of the camera frame is R X + t in the projector frame.
   std::optional<Eigen::Matrix3d> rotation;
   std::optional<Eigen::Vector3d> translation;  ///< in the unit of the file
