@@ -26,6 +26,7 @@ import tempfile
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 SEEDS = REPOSITORY / "fuzz" / "seeds"
+CALIBRATIONS = REPOSITORY / "tests" / "exchange" / "data"
 SMALL_RIG = REPOSITORY / "tests" / "data" / "small-interferometer.toml"
 MAX_BYTES = 2_000_000_000
 MAX_SECONDS = 5
@@ -157,6 +158,9 @@ def all_cases(program, folder):
     manifest = (SEEDS / "manifest" / "capture.txt").read_bytes()
     cases.append(Case("manifest", manifest, "scan/capture/manifest.txt",
                       [["reconstruct", "scan", "-o", "out.stl"]], scan))
+    foreign = ["calibrate", "import", "FILE", "--camera-size", "1280,1024", "--projector-size", "1280,800", "-o", "rig.toml"]
+    for file in sorted(CALIBRATIONS.iterdir()):
+        cases.append(Case("calibration", file.read_bytes(), "in" + file.suffix, [foreign]))
     return cases
 
 

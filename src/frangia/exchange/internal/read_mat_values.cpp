@@ -1,11 +1,15 @@
+// MATLAB's "Level 5" MAT-file, the format of versions 5 and 7, as its specification describes it.
+// libmatio reads it too, but crashes on damaged files.
 #include <cstddef>
-#include <memory>
+#include <cstdint>
+#include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
-#include <matio.h>
+#include <zlib.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/read_regular_file.h"
@@ -14,129 +18,210 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kMaxMatNumbers = 1000;  // of a matrix that is kept
-constexpr std::size_t kMaxMatBytes = 8'000'000;
-constexpr int kMaxMatDepth = 8;  // of structures
+using Bytes = std::span<const char>;
 
-struct CloseMat {
-  void operator()(mat_t* file) const { Mat_Close(file); }
+constexpr std::size_t kMaxMatBytes = 8'000'000;  // of the file, and of each compressed variable
+constexpr std::size_t kMaxMatNumbers = 1000;     // of a matrix that is kept
+constexpr int kMaxMatDepth = 8;                  // of structures
+
+/// Types of data elements and classes of arrays, by their numbers in the specification.
+enum MatType : std::uint32_t {
+  kInt8 = 1,
+  kUint8 = 2,
+  kInt16 = 3,
+  kUint16 = 4,
+  kInt32 = 5,
+  kUint32 = 6,
+  kSingle = 7,
+  kDouble = 9,
+  kMatrix = 14,
+  kCompressed = 15,
+  kUtf8 = 16,
+  kUtf16 = 17
 };
-struct FreeVariable {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+enum MatClass : std::uint32_t {
+  kStructClass = 2,
+  kObjectClass = 3,
+  kCharClass = 4,
+  kOpaqueClass = 17
 };
+
+/// The file is damaged at the element that is read.
+struct DamagedMat {};
 
 template <typename Number>
-Eigen::MatrixXd typed_matrix_of(const matvar_t& variable) {
-  // MATLAB stores columns one after the other, as Eigen.
-  using Stored = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
-  return Eigen::Map<const Stored>(static_cast<const Number*>(variable.data),
-                                  static_cast<Eigen::Index>(variable.dims[0]),
-                                  static_cast<Eigen::Index>(variable.dims[1]))
-      .template cast<double>();
+Number number_at(Bytes bytes, std::size_t at) {
+  if (at > bytes.size() || bytes.size() - at < sizeof(Number)) throw DamagedMat{};
+  Number number;
+  std::memcpy(&number, bytes.data() + at, sizeof(Number));
+  return number;
 }
 
-/// The matrix of a variable; empty when it is not a real matrix of at most `kMaxMatNumbers`.
-Eigen::MatrixXd mat_matrix_of(const matvar_t& variable) {
-  if (variable.rank != 2 || variable.data == nullptr || variable.isComplex != 0) return {};
-  const std::size_t rows = variable.dims[0];
-  const std::size_t columns = variable.dims[1];
-  if (rows == 0 || columns == 0 || rows > kMaxMatNumbers || columns > kMaxMatNumbers / rows)
-    return {};
-  switch (variable.data_type) {
-    case MAT_T_DOUBLE:
-      return typed_matrix_of<double>(variable);
-    case MAT_T_SINGLE:
-      return typed_matrix_of<float>(variable);
-    case MAT_T_INT8:
-      return typed_matrix_of<std::int8_t>(variable);
-    case MAT_T_UINT8:
-      return typed_matrix_of<std::uint8_t>(variable);
-    case MAT_T_INT16:
-      return typed_matrix_of<std::int16_t>(variable);
-    case MAT_T_UINT16:
-      return typed_matrix_of<std::uint16_t>(variable);
-    case MAT_T_INT32:
-      return typed_matrix_of<std::int32_t>(variable);
-    case MAT_T_UINT32:
-      return typed_matrix_of<std::uint32_t>(variable);
+struct MatElement {
+  std::uint32_t type = 0;
+  Bytes data;
+};
+
+/// Takes the first element off the bytes.
+MatElement next_element(Bytes& bytes) {
+  const auto first = number_at<std::uint32_t>(bytes, 0);
+  constexpr std::uint32_t kSmallBits = 16;
+  if (first >> kSmallBits != 0) {  // type, size and up to four bytes of data in eight bytes
+    const std::size_t size = first >> kSmallBits;
+    if (size > 4 || bytes.size() < 8) throw DamagedMat{};
+    const MatElement element{first & 0xFFFFU, bytes.subspan(4, size)};
+    bytes = bytes.subspan(8);
+    return element;
+  }
+  const std::size_t size = number_at<std::uint32_t>(bytes, 4);
+  if (size > bytes.size() - 8) throw DamagedMat{};
+  const MatElement element{first, bytes.subspan(8, size)};
+  const std::size_t padding = first == kCompressed ? 0 : (8 - size % 8) % 8;
+  bytes = bytes.subspan(std::min(bytes.size(), 8 + size + padding));
+  return element;
+}
+
+std::vector<char> inflated(Bytes compressed) {
+  std::vector<char> bytes(kMaxMatBytes);
+  auto size = static_cast<uLongf>(bytes.size());
+  const int result = ::uncompress(reinterpret_cast<Bytef*>(bytes.data()),
+                                  &size,
+                                  reinterpret_cast<const Bytef*>(compressed.data()),
+                                  static_cast<uLong>(compressed.size()));
+  if (result != Z_OK) throw DamagedMat{};
+  bytes.resize(size);
+  return bytes;
+}
+
+template <typename Number>
+std::vector<double> typed_numbers_of(Bytes data) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at + sizeof(Number) <= data.size(); at += sizeof(Number))
+    numbers.push_back(static_cast<double>(number_at<Number>(data, at)));
+  return numbers;
+}
+
+std::vector<double> mat_numbers_of(const MatElement& element) {
+  switch (element.type) {
+    case kInt8:
+      return typed_numbers_of<std::int8_t>(element.data);
+    case kUint8:
+    case kUtf8:
+      return typed_numbers_of<std::uint8_t>(element.data);
+    case kInt16:
+      return typed_numbers_of<std::int16_t>(element.data);
+    case kUint16:
+    case kUtf16:
+      return typed_numbers_of<std::uint16_t>(element.data);
+    case kInt32:
+      return typed_numbers_of<std::int32_t>(element.data);
+    case kUint32:
+      return typed_numbers_of<std::uint32_t>(element.data);
+    case kSingle:
+      return typed_numbers_of<float>(element.data);
+    case kDouble:
+      return typed_numbers_of<double>(element.data);
     default:
       return {};
   }
 }
 
-/// The text of a row of characters; empty when it is something else.
-std::string mat_text_of(const matvar_t& variable) {
-  if (variable.class_type != MAT_C_CHAR || variable.rank != 2 || variable.data == nullptr)
-    return {};
-  const std::size_t count = variable.dims[0] * variable.dims[1];
-  if (variable.dims[0] != 1 || count > kMaxMatNumbers) return {};
-  std::string text;
-  for (std::size_t i = 0; i < count; ++i) {
-    text += variable.data_size == 2
-                ? static_cast<char>(static_cast<const std::uint16_t*>(variable.data)[i])
-                : static_cast<const char*>(variable.data)[i];
-  }
-  return text;
-}
+/// Reads the variables of a file into named values.
+class MatReader {
+ public:
+  explicit MatReader(NamedValues& values) : values_(values) {}
 
-void collect_variable(const matvar_t& variable,
-                      const std::string& name,
-                      int depth,
-                      NamedValues& values) {
-  if (depth > kMaxMatDepth) return;
-  if (variable.class_type == MAT_C_CHAR) {
-    std::string text = mat_text_of(variable);
-    if (!text.empty()) values.texts.emplace(name, std::move(text));
-    return;
+  void read_all(Bytes bytes) {
+    while (bytes.size() >= 8) {
+      const MatElement element = next_element(bytes);
+      if (element.type == kMatrix) read_array(element.data, "", 0);
+      if (element.type != kCompressed) continue;
+      const std::vector<char> inner = inflated(element.data);
+      Bytes rest(inner);
+      const MatElement array = next_element(rest);
+      if (array.type == kMatrix) read_array(array.data, "", 0);
+    }
   }
-  if (variable.class_type != MAT_C_STRUCT) {
-    Eigen::MatrixXd matrix = mat_matrix_of(variable);
-    if (matrix.size() > 0) values.matrices.emplace(name, std::move(matrix));
-    return;
+
+  /// Whether a variable was an object of a class, whose content only MATLAB knows.
+  [[nodiscard]] bool has_objects() const { return has_objects_; }
+
+ private:
+  void read_array(Bytes bytes, const std::string& name, int depth) {
+    if (bytes.empty() || depth > kMaxMatDepth) return;
+    const auto array_class = number_at<std::uint32_t>(next_element(bytes).data, 0) & 0xFFU;
+    if (array_class == kObjectClass || array_class == kOpaqueClass) {
+      has_objects_ = true;
+      return;
+    }
+    const std::vector<double> sizes = mat_numbers_of(next_element(bytes));
+    const Bytes own_name = next_element(bytes).data;
+    const std::string full = depth == 0 ? std::string(own_name.begin(), own_name.end()) : name;
+    if (sizes.size() != 2) return;
+    if (array_class == kStructClass) {
+      if (sizes[0] == 1.0 && sizes[1] == 1.0) read_structure(bytes, full, depth);
+      return;
+    }
+    if (bytes.empty()) return;
+    const std::vector<double> numbers = mat_numbers_of(next_element(bytes));
+    if (numbers.empty() || numbers.size() > kMaxMatNumbers ||
+        sizes[0] * sizes[1] != static_cast<double>(numbers.size()))
+      return;
+    if (array_class == kCharClass) {
+      std::string text;
+      for (const double letter : numbers)
+        text += letter >= 32.0 && letter < 127.0 ? static_cast<char>(letter) : '?';
+      values_.texts.emplace(full, text);
+      return;
+    }
+    // MATLAB stores columns one after the other, as Eigen.
+    values_.matrices.emplace(
+        full,
+        Eigen::Map<const Eigen::MatrixXd>(numbers.data(),
+                                          static_cast<Eigen::Index>(sizes[0]),
+                                          static_cast<Eigen::Index>(sizes[1])));
   }
-  const bool single = variable.rank == 2 && variable.dims[0] == 1 && variable.dims[1] == 1;
-  if (!single || variable.data == nullptr) return;
-  const unsigned fields = Mat_VarGetNumberOfFields(const_cast<matvar_t*>(&variable));
-  char* const* names = Mat_VarGetStructFieldnames(&variable);
-  const auto* const* members = static_cast<const matvar_t* const*>(variable.data);
-  for (unsigned i = 0; i < fields; ++i) {
-    if (members[i] != nullptr)
-      collect_variable(*members[i], name + "." + names[i], depth + 1, values);
+
+  void read_structure(Bytes bytes, const std::string& name, int depth) {
+    const auto length = number_at<std::int32_t>(next_element(bytes).data, 0);
+    const Bytes names = next_element(bytes).data;
+    if (length < 1) throw DamagedMat{};
+    const auto step = static_cast<std::size_t>(length);
+    for (std::size_t at = 0; at + step <= names.size(); at += step) {
+      const std::string_view padded(names.data() + at, step);
+      const std::string field(padded.substr(0, padded.find('\0')));
+      const MatElement element = next_element(bytes);
+      if (element.type == kMatrix) read_array(element.data, name + "." + field, depth + 1);
+    }
   }
-}
+
+  NamedValues& values_;
+  bool has_objects_ = false;
+};
 
 }  // namespace
 
 NamedValues read_mat_values(const std::filesystem::path& file) {
   const std::vector<char> bytes = read_regular_file(file, kMaxMatBytes);
-  constexpr std::string_view kHdf5Header = "MATLAB 7.3";
-  if (std::string_view(bytes.data(), bytes.size()).substr(0, kHdf5Header.size()) == kHdf5Header) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: it has version 7.3; in MATLAB, save it with -v7", file.string()));
-  }
-  const std::unique_ptr<mat_t, CloseMat> mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
-  if (mat == nullptr) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: it is not a MATLAB file of version 5 or 7", file.string()));
-  }
+  const auto fail = [&](const char* why) {
+    throw Error(ErrorKind::Input, fmt::format("{}: {}", file.string(), why));
+  };
+  const std::string_view text(bytes.data(), bytes.size());
+  if (text.starts_with("MATLAB 7.3")) fail("it has version 7.3; in MATLAB, save it with -v7");
+  constexpr std::size_t kHeader = 128;
+  if (text.size() < kHeader || text.substr(kHeader - 2, 2) != "IM")
+    fail("it is not a MATLAB file of version 5 or 7");
   NamedValues values;
-  std::string objects;
-  while (true) {
-    const std::unique_ptr<matvar_t, FreeVariable> variable(Mat_VarReadNext(mat.get()));
-    if (variable == nullptr) break;
-    if (variable->class_type == MAT_C_OPAQUE || variable->class_type == MAT_C_OBJECT) {
-      objects = variable->name == nullptr ? "a variable" : variable->name;
-      continue;
-    }
-    if (variable->name != nullptr) collect_variable(*variable, variable->name, 0, values);
+  MatReader reader(values);
+  try {
+    reader.read_all(Bytes(bytes).subspan(kHeader));
+  } catch (const DamagedMat&) {
+    fail("it is damaged or cut off; copy it again");
   }
-  if (values.matrices.empty() && !objects.empty()) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: {} is an object of a MATLAB class, which other programs cannot "
-                            "read; in MATLAB, save it by s = toStruct({}); save file.mat -struct s",
-                            file.string(),
-                            objects,
-                            objects));
+  if (values.matrices.empty() && reader.has_objects()) {
+    fail(
+        "it holds an object of a MATLAB class, which other programs cannot read; in MATLAB, save "
+        "it by s = toStruct(stereoParams); save('file.mat', '-struct', 's', '-v7')");
   }
   return values;
 }
