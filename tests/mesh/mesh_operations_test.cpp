@@ -111,7 +111,9 @@ TEST(Orient, IsFastWhereTensOfThousandsOfTrianglesShareAnEdge) {
   Mesh mesh;
   mesh.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles.assign(30'000, {0, 1, 2});
-  EXPECT_EQ(orient(mesh).triangles, mesh.triangles);  // a minute when each visits all others
+  // A minute when each visits all others.
+  EXPECT_EQ(orient(mesh).triangles, mesh.triangles);
+  EXPECT_EQ(count_non_manifold_edges(mesh), 3U);
 }
 
 TEST(OffsetMesh, OffsetsTheFacesOfABoxToALargerBox) {

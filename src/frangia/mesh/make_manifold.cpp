@@ -1,6 +1,7 @@
 #include "frangia/mesh/make_manifold.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -155,20 +156,13 @@ std::size_t count_non_manifold_edges(const Mesh& mesh) {
 }
 
 std::size_t count_non_manifold_edges(const Mesh& mesh, const HalfEdges& edges) {
-  std::size_t count = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (edges.has_twin(edge) || edges.is_boundary(edge)) continue;
-    // Counts an edge once, at the lowest of its half-edges in both directions.
-    const std::uint32_t from = source_vertex(mesh, edge);
-    const std::uint32_t to = target_vertex(mesh, edge);
-    bool lowest = true;
-    for (const std::uint32_t e : edges.outgoing(from))
-      lowest = lowest && (e >= edge || target_vertex(mesh, e) != to);
-    for (const std::uint32_t e : edges.outgoing(to))
-      lowest = lowest && (e >= edge || target_vertex(mesh, e) != from);
-    if (lowest) ++count;
+    ends.push_back(std::minmax({source_vertex(mesh, edge), target_vertex(mesh, edge)}));
   }
-  return count;
+  std::sort(ends.begin(), ends.end());
+  return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
 }
 
 }  // namespace frangia
