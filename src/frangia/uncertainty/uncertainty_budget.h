@@ -14,7 +14,6 @@ enum class UncertaintyTerm {
   StepErrors,           ///< phase steps that differ from the nominal ones
   Flicker,              ///< light or exposure that changes between frames
   Quantization,         ///< whole counts of the frames
-  IndirectLight,        ///< light that reaches a pixel other than directly from the projector
   Calibration,          ///< covariance of the parameters of the rig
 };
 
