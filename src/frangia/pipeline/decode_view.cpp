@@ -1,4 +1,3 @@
-// More than 250 lines: the file is the sequence of all stages from frames to absolute phase.
 #include "frangia/pipeline/decode_view.h"
 
 #include <algorithm>
@@ -11,19 +10,17 @@
 
 #include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/check_gray_code.h"
-#include "frangia/phase/correct_response.h"
 #include "frangia/phase/decode_gray_code.h"
 #include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/fit_algorithm.h"
 #include "frangia/phase/frame_samples.h"
-#include "frangia/phase/merge_exposures.h"
-#include "frangia/phase/recover_saturated.h"
-#include "frangia/phase/share_waveforms.h"
 #include "frangia/phase/systematic_phase.h"
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/phase/unwrap_sequence.h"
 #include "frangia/pipeline/internal/fringe_directions.h"
+#include "frangia/pipeline/internal/select_stacks.h"
+#include "frangia/pipeline/internal/wrap_pattern.h"
 #include "frangia/range/check_orientation.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/has_geometry.h"
@@ -31,42 +28,6 @@
 
 namespace frangia {
 namespace {
-
-/// The fringe patterns of one direction, coarse to fine.
-std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks,
-                                          FringeDirection direction) {
-  std::vector<const FrameStack*> fringes;
-  for (const FrameStack& stack : stacks) {
-    const bool first = stack.exposure == 0;
-    if (first && stack.pattern.kind == PatternKind::Fringe && stack.pattern.direction == direction)
-      fringes.push_back(&stack);
-  }
-  std::stable_sort(fringes.begin(), fringes.end(), [](const auto* a, const auto* b) {
-    return a->pattern.fringes_per_unit() < b->pattern.fringes_per_unit();
-  });
-  return fringes;
-}
-
-const FrameStack* line_of(std::span<const FrameStack> stacks) {
-  const auto found = std::find_if(stacks.begin(), stacks.end(), [](const FrameStack& stack) {
-    return stack.pattern.kind == PatternKind::Line;
-  });
-  return found == stacks.end() ? nullptr : &*found;
-}
-
-/// The stacks of all exposures of a pattern; `stack` is the first.
-std::span<const FrameStack> exposures_of(const FrameStack* stack) {
-  return {stack, static_cast<std::size_t>(stack->pattern.exposure_count())};
-}
-
-/// The Gray code in the direction of the fringes, at all exposures; empty if the scan has none.
-std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDirection direction) {
-  for (const FrameStack& stack : stacks) {
-    if (stack.pattern.kind == PatternKind::Gray && stack.pattern.direction == direction)
-      return exposures_of(&stack);
-  }
-  return {};
-}
 
 /// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
 /// Lossy compression adds its own.
@@ -86,13 +47,6 @@ double crossing_distance(const Pattern& pattern, const Rig& rig) {
   return intersect_fringe({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
 }
 
-std::vector<Pattern> patterns_of(std::span<const FrameStack* const> fringes) {
-  std::vector<Pattern> patterns;
-  for (const FrameStack* stack : fringes)
-    patterns.push_back(stack->pattern);
-  return patterns;
-}
-
 /// Whether several patterns have unwrapping levels that are all safe for each single pixel that
 /// wrapping keeps.
 bool is_pixelwise_safe(std::span<const Pattern> patterns,
@@ -102,88 +56,6 @@ bool is_pixelwise_safe(std::span<const Pattern> patterns,
   return patterns.size() > 1 &&
          is_safe(
              find_unwrap_levels(patterns, projector), options.wrap.max_sigma_rad, kMaxWrongOrder);
-}
-
-/// The algorithm for one pattern's frames.
-FittedAlgorithm fit(const FrameStack& taken,
-                    const NoiseModel& noise,
-                    const DecodeOptions& options,
-                    const Run& run) {
-  Run warnings = run;  // no notes: the frame assessment names the algorithm
-  warnings.on_note = nullptr;
-  std::optional<double> gain_error;
-  const auto known = options.survey.gain_error.find(taken.pattern.name);
-  if (known != options.survey.gain_error.end()) gain_error = known->second;
-  return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
-}
-
-/// The algorithms for all patterns' frames.
-std::vector<FittedAlgorithm> fit_all(std::span<const FrameStack* const> fringes,
-                                     const NoiseModel& noise,
-                                     const DecodeOptions& options,
-                                     const Run& run) {
-  std::vector<FittedAlgorithm> fits;
-  for (const FrameStack* stack : fringes) {
-    run.check();
-    fits.push_back(fit(*stack, noise, options, run));
-  }
-  share_waveforms(fits);
-  return fits;
-}
-
-/// The correction of the projector's response for one pattern, if the options ask for one.
-std::optional<ResponseTable> correction_of(const Pattern& pattern,
-                                           const FittedAlgorithm& fitted,
-                                           const DecodeOptions& options) {
-  const PhaseAlgorithm algorithm =
-      pattern.exposure_count() > 1 ? least_squares(fitted.shifts_rad) : fitted.algorithm;
-  if (options.undo_own_response) {
-    if (fitted.waveform.largest_harmonic() == 0) return {};
-    return response_table(fitted.waveform.waveform, algorithm, fitted.shifts_rad);
-  }
-  if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
-    return response_table(*waveform, algorithm, fitted.shifts_rad);
-  if (!options.response) return {};
-  return response_table(*options.response, algorithm, fitted.shifts_rad);
-}
-
-/// Removes the effect of the projector's response from the last wrapped map, where the options ask
-/// for it, and sets its systematic uncertainty.
-void finish_wrapped(const FittedAlgorithm& fitted, const DecodeOptions& options, DecodedView& out) {
-  WrappedPhase& map = out.wrapped.back();
-  const auto table = correction_of(map.pattern, fitted, options);
-  if (table) correct_response(*table, map);
-  const ResponseTable* applied = table ? &*table : nullptr;
-  map.systematic_rad = uniform_systematic(systematic_phase(fitted, applied), map.status);
-  FrameAssessment& assessment = out.assessments.back();
-  assessment.harmonics_corrected = table.has_value();
-  assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
-}
-
-/// Appends the wrapped phase and the frame assessment of one pattern to `out`.
-void wrap(const FrameStack& taken,
-          const FittedAlgorithm& fitted,
-          const DecodeOptions& options,
-          const Run& run,
-          DecodedView& out) {
-  if (taken.pattern.exposure_count() > 1) {
-    out.wrapped.push_back(
-        merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
-    out.assessments.push_back(assess_frames(taken, fitted, out.wrapped.back(), out.noise));
-    finish_wrapped(fitted, options, out);
-    return;
-  }
-  FrameStack recovered;
-  if (options.recover_saturated) {
-    recovered = taken;
-    const std::size_t pixels = recover_saturated(recovered);
-    run.note(fmt::format(
-        "pattern \"{}\": one saturated frame of {} pixels recovered", taken.pattern.name, pixels));
-  }
-  const FrameStack& stack = options.recover_saturated ? recovered : taken;
-  out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
-  out.assessments.push_back(assess_frames(stack, fitted, out.wrapped.back(), out.noise));
-  finish_wrapped(fitted, options, out);
 }
 
 /// The systematic uncertainty of the slope of phase over frequency through all maps, whose
@@ -310,7 +182,7 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
   std::vector<SequenceFrames> maps;
   for (std::size_t m = 0; m < fringes.size(); ++m) {
     run.check();
-    wrap(*fringes[m], fits[m], options, run, out);
+    wrap_pattern(*fringes[m], fits[m], options, run, out);
     maps.push_back({fringes[m], fits[m].algorithm});
     if (options.keep_maps || !unwraps_temporally) continue;
     // Only the assessment needs them; the next pattern uses their memory.

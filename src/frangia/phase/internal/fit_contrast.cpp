@@ -17,7 +17,7 @@ namespace frangia {
 namespace {
 
 constexpr int kContrastPhases =
-    576;  ///< projected phases per fringe at which the model is computed
+    192;  ///< projected phases per fringe at which the model is computed
 constexpr int kContrastIterations = 6;  ///< the second one changes a harmonic of 20 % by 2 %
 constexpr double kMaxAmplitude = 0.45;  ///< two phases would measure alike above 0.5
 /// Third harmonic of a projector whose response is not a power law: standard deviation, relative to

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "frangia/frames/frame_stack.h"
+#include "frangia/pattern/pattern.h"
+
+namespace frangia {
+
+/// Returns the fringe patterns of one direction, coarse to fine, each at its first exposure.
+[[nodiscard]] std::vector<const FrameStack*> fringes_of(std::span<const FrameStack> stacks,
+                                                        FringeDirection direction);
+
+/// Returns the frame of the laser sheet; null if the scan has none.
+[[nodiscard]] const FrameStack* line_of(std::span<const FrameStack> stacks);
+
+/// Returns the stacks of all exposures of a pattern; `stack` is the first.
+[[nodiscard]] std::span<const FrameStack> exposures_of(const FrameStack* stack);
+
+/// Returns the Gray code in a direction, at all exposures; empty if the scan has none.
+[[nodiscard]] std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks,
+                                                  FringeDirection direction);
+
+/// Returns the patterns of some stacks.
+[[nodiscard]] std::vector<Pattern> patterns_of(std::span<const FrameStack* const> stacks);
+
+}  // namespace frangia
