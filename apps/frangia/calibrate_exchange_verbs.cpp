@@ -15,6 +15,7 @@
 #include "frangia/exchange/rig_from_calibration.h"
 #include "frangia/exchange/write_calibration_file.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "check_can_write.h"
 #include "option_values.h"

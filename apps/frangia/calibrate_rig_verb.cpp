@@ -16,6 +16,7 @@
 #include "frangia/pipeline/calibrate_report.h"
 #include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "check_can_write.h"
 #include "counted.h"

@@ -10,6 +10,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/pipeline/calibrate_turntable.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "check_can_write.h"
 #include "counted.h"

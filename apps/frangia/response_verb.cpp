@@ -21,7 +21,7 @@
 #include "frangia/phase/measure_fringe_response.h"
 #include "frangia/phase/measure_response.h"
 #include "frangia/phase/share_waveforms.h"
-#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "check_can_write.h"
 #include "print_text.h"

@@ -10,6 +10,7 @@
 #include "frangia/dataset/read_frames.h"
 #include "frangia/frames/png.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/small_folder.h"
 #include "support/temporary_folder.h"

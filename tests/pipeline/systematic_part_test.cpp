@@ -6,7 +6,7 @@
 
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/pipeline/reconstruct.h"
-#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/small_scan.h"
 #include "support/temporary_folder.h"

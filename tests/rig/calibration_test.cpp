@@ -10,6 +10,7 @@
 
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

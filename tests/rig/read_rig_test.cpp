@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/rig/paper_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

@@ -9,7 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/devices/rig_devices.h"
 #include "frangia/pattern/pattern_picture.h"
-#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 #include "frangia/simulate/rig_presets.h"
 
 #include "support/error_of.h"

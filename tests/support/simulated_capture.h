@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/acquisition/capture_scan.h"
-#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/all_drivers.h"
 #include "support/small_scan.h"

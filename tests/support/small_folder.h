@@ -9,7 +9,7 @@
 
 #include "frangia/frames/png.h"
 #include "frangia/rig/paper_rig.h"
-#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/temporary_folder.h"
 

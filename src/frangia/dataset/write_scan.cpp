@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "frangia/core/angles.h"
-#include "frangia/rig/read_rig.h"
 #include "frangia/rig/toml_writer.h"
+#include "frangia/rig/write_rig.h"
 
 namespace frangia {
 namespace {

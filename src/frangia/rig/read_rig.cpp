@@ -1,4 +1,3 @@
-// More than 250 lines: reading and writing of one file format stay together.
 #include "frangia/rig/read_rig.h"
 
 #include <algorithm>
@@ -6,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <initializer_list>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,10 +15,8 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/rig/internal/calibration_table.h"
 #include "frangia/rig/toml_reader.h"
-#include "frangia/rig/toml_writer.h"
 
 namespace frangia {
 namespace {
@@ -213,121 +209,6 @@ Projector unknown_projector() {
   return projector;
 }
 
-std::vector<double> list_of(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-/// The distortion without the groups of coefficients at the end that are 0.
-std::vector<double> shortest_distortion(const CameraModel& model) {
-  const auto last = std::find_if(
-      model.distortion.rbegin(), model.distortion.rend(), [](double c) { return c != 0.0; });
-  const auto used = static_cast<std::size_t>(model.distortion.rend() - last);
-  const std::size_t count = used <= 5 ? 5 : used <= 8 ? 8 : used <= 12 ? 12 : 14;
-  return {model.distortion.begin(), model.distortion.begin() + static_cast<std::ptrdiff_t>(count)};
-}
-
-void put_camera_model(TomlWriter& writer, const CameraModel& model) {
-  writer.put("size_px", std::vector<int>{model.width_px, model.height_px});
-  if (model.focal_px.allFinite())
-    writer.put("focal_px", std::vector{model.focal_px.x(), model.focal_px.y()});
-  if (model.principal_point_px.allFinite()) {
-    writer.put("principal_point_px",
-               std::vector{model.principal_point_px.x(), model.principal_point_px.y()});
-  }
-  writer.put("distortion", shortest_distortion(model));
-}
-
-void put_camera(TomlWriter& writer, const Camera& camera) {
-  writer.begin_table("camera");
-  put_camera_model(writer, camera.model);
-  writer.put("white_level", camera.white_level);
-  if (!camera.noise) return;
-  const double gain = 1.0 / camera.noise->slope_counts;
-  const double read2 = std::max(0.0, camera.noise->floor_counts2 - 1.0 / 12.0);
-  writer.begin_table("camera.noise");
-  writer.put("gain_e_per_count", gain);
-  writer.put("read_e", gain * std::sqrt(read2));
-}
-
-void put_response(TomlWriter& writer, const Projector& projector) {
-  if (!projector.response) return;
-  constexpr int kDigits = 6;  // a measured response is less certain than the sixth digit
-  const auto rounded = [&](const std::vector<double>& values) {
-    std::vector<double> out;
-    for (const double value : values)
-      out.push_back(rounded_to_digits(value, kDigits));
-    return out;
-  };
-  writer.begin_table("projector.response");
-  writer.put("light", rounded(projector.response->light));
-  for (const FringeWaveform& waveform : projector.waveforms) {
-    std::vector<double> cosine;
-    std::vector<double> sine;
-    for (const std::complex<double>& harmonic : waveform.harmonics) {
-      cosine.push_back(harmonic.real());
-      sine.push_back(harmonic.imag());
-    }
-    writer.begin_table_of_list("projector.response.waveform");
-    writer.put("period_px", waveform.period_px);
-    const bool vertical = waveform.direction == FringeDirection::Vertical;
-    writer.put("direction", std::string(vertical ? "vertical" : "horizontal"));
-    writer.put("cosine", rounded(cosine));
-    writer.put("sine", rounded(sine));
-  }
-}
-
-void put_projector(TomlWriter& writer, const Projector& projector) {
-  const Eigen::Matrix3d& r = projector.rotation;
-  writer.begin_table("projector");
-  writer.put("model", std::string(projector.is_angular() ? "angular" : "pinhole"));
-  if (projector.position_mm.allFinite()) writer.put("position_mm", list_of(projector.position_mm));
-  if (r.allFinite()) {
-    writer.put("rotation",
-               std::vector{list_of(r.row(0).transpose()),
-                           list_of(r.row(1).transpose()),
-                           list_of(r.row(2).transpose())});
-  }
-  if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
-    writer.put(
-        "field_deg",
-        std::vector{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
-  } else {
-    put_camera_model(writer, std::get<PinholeModel>(projector.model));
-    if (projector.pixels == PixelLayout::Diamond) writer.put("pixels", std::string("diamond"));
-  }
-  put_response(writer, projector);
-}
-
-TomlWriter composed_rig(const Rig& rig) {
-  TomlWriter writer;
-  writer.put("format", std::string("frangia-rig"));
-  writer.put("version", 1);
-  put_camera(writer, rig.camera);
-  put_projector(writer, rig.projector);
-  if (rig.laser_sheet) {
-    writer.begin_table("line");
-    writer.put("normal", list_of(rig.laser_sheet->normal));
-    writer.put("offset_mm", rig.laser_sheet->offset_mm);
-  }
-  if (rig.turntable) {
-    writer.begin_table("turntable");
-    writer.put("point_mm", list_of(rig.turntable->point_mm));
-    writer.put("axis", list_of(rig.turntable->axis));
-  }
-  if (rig.calibration) put_calibration(writer, *rig.calibration);
-  return writer;
-}
-
-/// The tables of [devices] in a rig.toml, as text.
-std::string devices_of(const std::filesystem::path& path) {
-  const toml::table table = parse_toml(path, "frangia-rig");
-  const toml::table* devices = table["devices"].as_table();
-  if (devices == nullptr) return "";
-  std::ostringstream text;
-  text << "\n" << toml::table{{"devices", *devices}} << "\n";
-  return text.str();
-}
-
 }  // namespace
 
 Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent content) {
@@ -360,44 +241,6 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
   }
   reader.warn_of_unused_keys(run);
   return rig;
-}
-
-std::string rig_text(const Rig& rig) {
-  return composed_rig(rig).text();
-}
-
-std::string with_response(const std::string& rig_toml, const Projector& projector) {
-  std::string text;
-  std::istringstream lines(rig_toml);
-  bool replaced = false;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t begin = line.find_first_not_of(" \t");
-    if (begin != std::string::npos && line[begin] == '[') {
-      std::string name = line.substr(begin, line.find(']', begin) - begin);
-      name.erase(0, name.find_first_not_of("[ \t"));
-      replaced = name == "projector.response" || name.starts_with("projector.response.");
-    }
-    if (!replaced) text += line + '\n';
-  }
-  TomlWriter writer;
-  put_response(writer, projector);
-  while (text.ends_with("\n\n"))
-    text.pop_back();
-  return text + writer.text();
-}
-
-void write_rig(const std::filesystem::path& path,
-               const Rig& rig,
-               Durability durability,
-               const std::filesystem::path& devices_from) {
-  const std::string devices = devices_from.empty() ? "" : devices_of(devices_from);
-  if (rig.calibration && !rig.calibration->covariance.empty()) {
-    write_rig_covariance(path.parent_path() / rig.calibration->covariance_file,
-                         rig.calibration->covariance);
-  }
-  AtomicFile file(path, durability);
-  file.stream() << rig_text(rig) << devices;
-  file.commit();
 }
 
 }  // namespace frangia

@@ -14,7 +14,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
 #include "frangia/dataset/write_scan.h"
-#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 #include "frangia/simulate/internal/solid_builder.h"
 #include "frangia/simulate/simulate_scan.h"
 

@@ -16,7 +16,7 @@
 #include "frangia/core/read_text_file.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/dataset/write_scan.h"
-#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 namespace frangia {
 namespace {
