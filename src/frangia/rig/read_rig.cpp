@@ -16,6 +16,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/rig/internal/calibration_table.h"
+#include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/toml_reader.h"
 
 namespace frangia {
