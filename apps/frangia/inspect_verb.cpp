@@ -40,6 +40,8 @@ struct InspectArguments {
   double within_mm = 0.2;
   double max_angle_deg = 75.0;
   bool legend = true;
+  int width_px = RenderOptions{}.width_px;
+  int height_px = RenderOptions{}.height_px;
   ReadOptions read;
 };
 
@@ -90,6 +92,8 @@ void draw(const InspectArguments& arguments,
   options.azimuth_rad = rad_from_deg(arguments.from_deg[0]);
   options.elevation_rad = rad_from_deg(arguments.from_deg[1]);
   options.legend = arguments.legend;
+  options.width_px = arguments.width_px;
+  options.height_px = arguments.height_px;
   options.value_max = static_cast<float>(arguments.scale_mm);
   if (arguments.show == "deviation") {
     options.values = vertex_errors_mm(mesh, *reference, run);
@@ -202,6 +206,12 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       ->capture_default_str();
   verb->add_option(
       "--picture", arguments->picture, "draw the mesh into this .png, with a color scale");
+  verb->add_option("--width", arguments->width_px, "of the picture without its scale, pixels")
+      ->check(from_to(16, 16'384))
+      ->capture_default_str();
+  verb->add_option("--height", arguments->height_px, "of the picture, pixels")
+      ->check(from_to(16, 16'384))
+      ->capture_default_str();
   verb->add_option(
           "--show",
           arguments->show,

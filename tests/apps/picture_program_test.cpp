@@ -72,7 +72,8 @@ int width_of(const std::filesystem::path& png) {
 TEST_F(PictureProgram, SaysWhatItWrote) {
   write_mesh(at("part.ply"), testing::box({0, 0, 0}, {10, 20, 30}));
   for (const auto& [command, file] :
-       {std::pair("inspect " + at("part.ply") + " --show shape --picture ", "a.png"),
+       {std::pair("inspect " + at("part.ply") + " --show shape --width 64 --height 64 --picture ",
+                  "a.png"),
         std::pair("picture " + at("part.ply") + " --width 64 --height 64 -o ", "b.png"),
         std::pair("edit " + at("part.ply") + " --remove-spikes -o ", "c.stl"),
         std::pair("edit " + at("part.ply") + " --orient --save-script ", "d.json")}) {
@@ -103,11 +104,12 @@ TEST_F(PictureProgram, AnEditChecksThePathsOfItsFilesBeforeTheWork) {
 
 TEST_F(PictureProgram, AddsAColorScaleUnlessToldNotTo) {
   write_mesh(at("part.ply"), testing::box({0, 0, 0}, {10, 20, 30}));
-  const std::string command = "inspect " + at("part.ply") + " --reference " + at("part.ply");
+  const std::string command =
+      "inspect " + at("part.ply") + " --reference " + at("part.ply") + " --width 300 --height 225";
   EXPECT_EQ(run_program(command + " --picture " + at("scale.png")).exit_code, 0);
   EXPECT_EQ(run_program(command + " --no-legend --picture " + at("bare.png")).exit_code, 0);
-  EXPECT_GT(width_of(at("scale.png")), 1300);
-  EXPECT_EQ(width_of(at("bare.png")), 1200);
+  EXPECT_GT(width_of(at("scale.png")), 325);
+  EXPECT_EQ(width_of(at("bare.png")), 300);
 }
 
 TEST_F(PictureProgram, TurnsTheDirectionUpUpright) {
