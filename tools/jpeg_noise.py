@@ -6,7 +6,7 @@
 Simulates scans with and without noise, compresses the noisy frames at several qualities with libjpeg (by OpenCV), and
 compares the wrapped phase with that of the frames without noise. The error of the phase, as the variance of a frame,
 is split into what the program estimates from the frames (second differences along the rows of what four steps
-overdetermine) and the rest, which the quality has to explain. The rule and its ratio to that rest are printed beside it.
+overdetermine) and the rest, which the quality has to explain. It prints that rest, the rule, and the ratio of the two.
 """
 import subprocess
 import sys

@@ -75,10 +75,11 @@ void confirm(const ImportPlan& plan, const ImportArguments& arguments, const Run
     throw Error(ErrorKind::Input, "nothing is imported; set `names` to the template of the files");
 }
 
-/// Warns of the noise that JPEG adds, beside that which the frames of the first view show.
+/// Warns of the noise that JPEG adds, and states that of the frames of the first view for
+/// comparison.
 void warn_of_compression(const ImportPlan& plan, const ImportResult& result, const Run& run) {
   if (plan.jpeg_quality == 0) return;
-  std::string beside;
+  std::string for_comparison;
   const bool has_fringes =
       std::any_of(result.scan.patterns.begin(), result.scan.patterns.end(), [](const Pattern& p) {
         return p.kind == PatternKind::Fringe;
@@ -86,8 +87,8 @@ void warn_of_compression(const ImportPlan& plan, const ImportResult& result, con
   if (has_fringes) {
     const std::vector<FrameStack> stacks = read_frames(result.scan, 0, run);
     const double middle = 0.5 * result.scan.rig.camera.white_level;
-    beside = fmt::format(" beside the {:.2g} counts that the frames show",
-                         std::sqrt(estimate_noise(stacks).variance(middle)));
+    for_comparison = fmt::format(" (the frames show {:.2g} counts)",
+                                 std::sqrt(estimate_noise(stacks).variance(middle)));
   }
   run.warn(
       fmt::format("the frames are JPEGs of quality {}: the compression adds noise of {:.2g} counts "
@@ -95,7 +96,7 @@ void warn_of_compression(const ImportPlan& plan, const ImportResult& result, con
                   "accuracy",
                   plan.jpeg_quality,
                   std::sqrt(result.compression_counts2),
-                  beside));
+                  for_comparison));
 }
 
 void print_result(const ImportPlan& plan,

@@ -1,8 +1,6 @@
 // Names and keys with control characters, bytes that are not UTF-8, and an output that cannot be
 // written.
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <string>
 
@@ -14,6 +12,7 @@
 
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
@@ -72,17 +71,7 @@ TEST(HostileText, AKeyOfATomlFileCannotForgeALine) {
 
 TEST(HostileText, ANameInATableCannotForgeALine) {
   const TemporaryFolder folder;
-  Mesh relief;
-  constexpr std::uint32_t kSide = 50;
-  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-    const auto x = static_cast<float>(i % kSide);
-    const auto y = static_cast<float>(i / kSide);
-    relief.vertices_mm.emplace_back(x, y, 8.0F * std::sin(0.1F * x) * std::cos(0.08F * y));
-    if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
-    relief.triangles.push_back({i, i + 1, i + kSide + 1});
-    relief.triangles.push_back({i, i + kSide + 1, i + kSide});
-  }
-  write_ply(folder.path() / "a\x1b[31m\nforged.ply", relief);
+  write_ply(folder.path() / "a\x1b[31m\nforged.ply", testing::relief());
   const Answer answer = run_shell(fmt::format(
       "cd {} && {} merge a*forged.ply -o merged.ply", folder.path().string(), FRANGIA_PROGRAM));
   EXPECT_EQ(answer.exit_code, 0) << answer.output;

@@ -1,6 +1,4 @@
 // A result that is not trustworthy: first line, exit code and JSON.
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -12,6 +10,7 @@
 #include "support/run_program.h"
 #include "support/small_scan.h"
 #include "support/temporary_folder.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
@@ -41,16 +40,7 @@ TEST(UntrustedProgram, AnnouncesAnUntrustworthyResultInTheFirstLine) {
 TEST(UntrustedProgram, AnnouncesScansThatContradictEachOtherInTheFirstLine) {
   const TemporaryFolder folder;
   const auto path = [&](const std::string& name) { return (folder.path() / name).string(); };
-  Mesh relief;
-  constexpr std::uint32_t kSide = 50;
-  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-    const auto x = static_cast<float>(i % kSide);
-    const auto y = static_cast<float>(i / kSide);
-    relief.vertices_mm.emplace_back(x, y, 8.0F * std::sin(0.1F * x) * std::cos(0.08F * y));
-    if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
-    relief.triangles.push_back({i, i + 1, i + kSide + 1});
-    relief.triangles.push_back({i, i + kSide + 1, i + kSide});
-  }
+  Mesh relief = testing::relief();
   write_ply(path("one.ply"), relief);
   for (Eigen::Vector3f& vertex : relief.vertices_mm)
     vertex.z() *= 1.5F;

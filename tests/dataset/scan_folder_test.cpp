@@ -1,6 +1,7 @@
 #include "frangia/dataset/scan_folder.h"
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -183,6 +184,13 @@ INSTANTIATE_TEST_SUITE_P(
                             "is called translation_mm now"},
                       Fault{"version = 1", "version = 3", "reads versions up to 2"},
                       Fault{"[[view]]", "[[vue]]", "[[view]]"}));
+
+TEST(ReadScanFault, AFolderOfTwoViewsIsNamed) {
+  const SmallFolder folder;
+  std::ofstream(folder.path() / "scan.toml", std::ios::app)
+      << "\n[[view]]\nangle_deg = 90.0\nfolder = \"views/./000\"\n";
+  expect_names(complaint(folder), "has the folder \"views/./000\" twice");
+}
 
 TEST(ReadScanFault, AViewsFolderThatIsALinkOutOfTheScanIsNamed) {
   const SmallFolder folder;

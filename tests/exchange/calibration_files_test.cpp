@@ -1,9 +1,11 @@
 // Files that OpenCV and scipy wrote, against pixels that OpenCV projected; and the way back.
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -177,6 +179,42 @@ TEST(CalibrationFiles, RefuseNonsenseInOneSentence) {
   EXPECT_NE(fault_of("1 FISHEYE 10 10 1\n", "cameras.txt").find("FISHEYE"), std::string::npos);
   EXPECT_NE(fault_of("1 PINHOLE 10 10 1\n", "cameras.txt").find("has 4"), std::string::npos);
   EXPECT_NE(fault_of("", "a.doc").find("ends in"), std::string::npos);
+}
+
+TEST(CalibrationFiles, RefuseDamagedXmlInOneSentence) {
+  const auto fault = [](const std::string& text) { return fault_of(text, "a.xml"); };
+  EXPECT_NE(fault("").find("a.xml"), std::string::npos);
+  EXPECT_NE(fault("<opencv_storage><a>1").find("invalid in line 1"), std::string::npos);
+  EXPECT_NE(fault("<opencv_storage><a>1</b></opencv_storage>").find("mismatched tag"),
+            std::string::npos);
+  EXPECT_NE(fault("<calibration/>").find("begins with <calibration>"), std::string::npos);
+  EXPECT_NE(fault("<!DOCTYPE a><opencv_storage/>").find("document type"), std::string::npos);
+  for (const char* value : {"",
+                            "<rows>2</rows>",
+                            "<rows>-1</rows><cols>-1</cols><data>1</data>",
+                            "<rows>65536</rows><cols>65536</cols><data>1 2</data>",
+                            "<rows>1</rows><cols>1</cols><data>.Nan</data>"}) {
+    EXPECT_NE(fault(fmt::format("<opencv_storage><Kc>{}</Kc></opencv_storage>", value))
+                  .find("states no calibration"),
+              std::string::npos)
+        << value;
+  }
+}
+
+/// Each byte of a file lost or replaced: an answer in words, or the same calibration.
+TEST(CalibrationFiles, SurviveEveryDamagedByteOfXml) {
+  std::ifstream file(data({"slstudio.xml"})[0]);
+  const std::string sound((std::istreambuf_iterator<char>(file)), {});
+  const TemporaryFolder folder;
+  const Files damaged{folder.path() / "a.xml"};
+  int refused = 0;
+  for (std::size_t i = 0; i < sound.size(); i += 7) {
+    std::string text = sound;
+    text[i] = i % 2 == 0 ? '<' : '"';
+    std::ofstream(damaged[0]) << text;
+    refused += error_of([&] { return read_calibration_files(damaged); }).empty() ? 0 : 1;
+  }
+  EXPECT_GT(refused, 50);
 }
 
 TEST(CalibrationFiles, RefuseImpossibleValues) {

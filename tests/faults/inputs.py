@@ -14,7 +14,7 @@ def run(campaign):
     result = subprocess.run(command, capture_output=True, text=True)
     lines = (result.stdout + result.stderr).strip().splitlines()
     if result.returncode != 0:
-        answer.failures += lines[-20:] or [f"mutate_inputs.py ended with {result.returncode}"]
+        answer.failures += [line for line in lines if ", seed " in line] or [f"mutate_inputs.py ended with {result.returncode}"]
     else:
         answer.measured = result.stdout.splitlines()[-1]
     return answer

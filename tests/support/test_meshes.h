@@ -38,6 +38,21 @@ inline std::size_t open_edges(const Mesh& mesh) {
   return open;
 }
 
+/// An open relief of 49 x 49 mm with waves of 8 mm, seen from +z; one vertex a millimetre.
+inline Mesh relief() {
+  constexpr std::uint32_t kSide = 50;
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const auto x = static_cast<float>(i % kSide);
+    const auto y = static_cast<float>(i / kSide);
+    mesh.vertices_mm.emplace_back(x, y, 8.0F * std::sin(0.1F * x) * std::cos(0.08F * y));
+    if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
+    mesh.triangles.push_back({i, i + 1, i + kSide + 1});
+    mesh.triangles.push_back({i, i + kSide + 1, i + kSide});
+  }
+  return mesh;
+}
+
 /// A box from one corner to the other, of twelve triangles.
 inline Mesh box(const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
   Mesh mesh;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The size that scan3d-capture writes beside its images.
+/// The size that scan3d-capture writes into the folder of its images.
 std::optional<ProjectorSize> size_beside(const fs::path& folder) {
   std::ifstream file(folder / "projector_info.txt");
   ProjectorSize size{};

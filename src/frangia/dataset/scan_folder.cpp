@@ -136,6 +136,18 @@ void require_distinct_names(const TomlReader& reader, const std::vector<Pattern>
   }
 }
 
+/// The frames of one folder must not count as two views: their noise would be taken to be smaller.
+void require_distinct_folders(const TomlReader& reader, const std::vector<ScanView>& views) {
+  std::set<std::filesystem::path> folders;
+  for (const ScanView& view : views) {
+    if (!folders.insert(view.folder.lexically_normal()).second) {
+      reader.fail(
+          "[[view]]",
+          fmt::format("has the folder \"{}\" twice; give each view its own", view.folder.string()));
+    }
+  }
+}
+
 }  // namespace
 
 std::string frame_file_name(const Pattern& pattern, int frame, int exposure) {
@@ -183,6 +195,7 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
   if (scan.patterns.empty()) reader.fail("[[pattern]]", "is missing; a scan needs at least one");
   if (scan.views.empty()) reader.fail("[[view]]", "is missing; a scan needs at least one");
   require_distinct_names(reader, scan.patterns);
+  require_distinct_folders(reader, scan.views);
   if (!has_rig && content == RigContent::PhaseOnly) take_camera_from_frames(scan, run);
   if (content == RigContent::PhaseOnly) assume_field(scan, run);
   reader.warn_of_unused_keys(run);

@@ -10,9 +10,9 @@ namespace frangia {
 /// without triangles.
 ///
 /// @shape    the properties read are x y z; nx ny nz when all three exist; sigma_mm, and
-///          sigma_noise_mm with sigma_systematic_mm beside it; views (ushort); mark (uchar, of
-///          vertices and faces: 0 measured, 1 displaced, 2 synthesized). Polygons become triangles.
-///          Other properties and elements are skipped.
+///          its parts sigma_noise_mm and sigma_systematic_mm when both exist; views (ushort); mark
+///          (uchar, of vertices and faces: 0 measured, 1 displaced, 2 synthesized). Polygons become
+///          triangles. Other properties and elements are skipped.
 /// @units    as in the file, assumed to be mm
 /// @missing  a normal that is not finite becomes zero
 /// @errors   Error(Input) that names the file and the fault: truncated, a count larger than the

@@ -6,28 +6,15 @@
 #include <string>
 
 #include "frangia/core/symmetric_eigen.h"
+#include "frangia/rig/rig.h"
+#include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 namespace {
 
-constexpr std::array kIntrinsicNames = {
-    "focal_px", "focal_ratio", "principal_x_px", "principal_y_px", "k1", "k2", "p1", "p2", "k3"};
-constexpr std::array kPoseNames = {
-    "rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "x_mm", "y_mm", "z_mm"};
-
 /// Standard deviations of terms that are held at their nominal values: ordinary lenses and square
 /// pixels. Zero: the parameter is always estimated.
 constexpr std::array kHeldSigma = {0.0, 2e-3, 0.0, 0.0, 0.0, 0.1, 1e-3, 1e-3, 0.1};
-
-std::vector<std::string> parameter_names() {
-  std::vector<std::string> names;
-  for (const char* device : {"camera.", "projector."})
-    for (const char* name : kIntrinsicNames)
-      names.push_back(std::string(device) + name);
-  for (const char* name : kPoseNames)
-    names.push_back(std::string("projector.") + name);
-  return names;
-}
 
 /// Adds what is known beforehand of the terms that are held.
 void add_priors(const std::array<bool, 9>& is_free, Eigen::Index first, Eigen::MatrixXd& normal) {
@@ -58,7 +45,9 @@ void add_covariance(std::span<const RigObservation> observations,
       symmetric_eigen(Eigen::MatrixXd(scale.asDiagonal() * normal * scale.asDiagonal()));
   const double least = kOpen * eigen.values.tail<1>()[0];
 
-  solution.parameters = parameter_names();
+  Rig rig;
+  rig.projector.model = solution.projector;
+  solution.parameters = rig_parameter_names(rig);
   const auto kept = static_cast<Eigen::Index>(solution.parameters.size());
   Eigen::VectorXd open = Eigen::VectorXd::Zero(normal.rows());
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(normal.rows(), normal.rows());

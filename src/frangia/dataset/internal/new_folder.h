@@ -4,8 +4,9 @@
 
 namespace frangia {
 
-/// A folder that appears under its final name only when it is complete. It is made beside that
-/// name and renamed by `commit`; the destructor removes a folder that was not committed.
+/// A folder that appears under its final name only when it is complete. It is made under a
+/// hidden name in the same parent folder and renamed by `commit`; the destructor removes a folder
+/// that was not committed.
 ///
 /// @errors   Error(File) when the final name exists and is not an empty folder, or when the folder
 ///           cannot be made

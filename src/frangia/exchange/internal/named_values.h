@@ -14,7 +14,14 @@ struct NamedValues {
   std::map<std::string, std::string> texts;
 };
 
-/// Reads a .yml, .yaml or .xml by OpenCV's FileStorage.
+/// Arranges a list of 1 x n numbers in rows, one row after the other.
+///
+/// @missing  empty when the list does not have rows x columns numbers
+[[nodiscard]] Eigen::MatrixXd rows_of_list(const Eigen::MatrixXd& list,
+                                           Eigen::Index rows,
+                                           Eigen::Index columns);
+
+/// Reads a .yml, .yaml or .xml as OpenCV's FileStorage writes them.
 ///
 /// @errors   Error(Input) that names the file
 [[nodiscard]] NamedValues read_opencv_values(const std::filesystem::path& file);

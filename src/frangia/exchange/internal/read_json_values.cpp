@@ -38,13 +38,9 @@ Eigen::MatrixXd opencv_matrix_of(const json& value) {
   if (!value.contains("rows") || !value.contains("cols") || !value.contains("data")) return {};
   if (!value["rows"].is_number_integer() || !value["cols"].is_number_integer()) return {};
   const Eigen::MatrixXd list = json_matrix_of(value["data"]);
-  const auto rows = value["rows"].get<Eigen::Index>();
-  const auto columns = value["cols"].get<Eigen::Index>();
-  if (rows <= 0 || columns <= 0 || rows > list.size() || columns > list.size() ||
-      rows * columns != list.size())
-    return {};
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const RowMajor>(list.data(), rows, columns);
+  return rows_of_list(json_matrix_of(value["data"]),
+                      value["rows"].get<Eigen::Index>(),
+                      value["cols"].get<Eigen::Index>());
 }
 
 void collect_object(const json& object, const std::string& prefix, NamedValues& values) {

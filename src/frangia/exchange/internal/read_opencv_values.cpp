@@ -10,6 +10,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/exchange/internal/named_values.h"
+#include "frangia/exchange/internal/read_opencv_xml.h"
 
 namespace frangia {
 namespace {
@@ -17,21 +18,6 @@ namespace {
 constexpr std::uint64_t kMaxStorageBytes = 1'000'000;  // a calibration has some kilobytes
 constexpr int kMaxStorageDepth = 64;                   // FileStorage recurses, with 4 kB a level
 constexpr std::size_t kMaxStorageNumbers = 1000;       // of a matrix that is kept
-
-void check_xml_depth(std::string_view text, const std::filesystem::path& file) {
-  int depth = 0;
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-    if (text[i] == '<' && text[i + 1] == '/') --depth;
-    if (text[i] == '<' && text[i + 1] != '/' && text[i + 1] != '?' && text[i + 1] != '!') ++depth;
-    if (text[i] == '/' && text[i + 1] == '>') --depth;
-    if (depth > kMaxStorageDepth) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("{}: its elements are nested more than {} deep; it is no calibration",
-                              file.string(),
-                              kMaxStorageDepth));
-    }
-  }
-}
 
 void check_indentation(std::string_view text, const std::filesystem::path& file) {
   std::size_t start = 0;
@@ -70,37 +56,39 @@ Eigen::MatrixXd storage_matrix_of(const cv::FileNode& node) {
   const cv::FileNode cols = node["cols"];
   if (!rows.isInt() || !cols.isInt() || !node["data"].isSeq()) return {};
   const Eigen::MatrixXd list = storage_list_of(node["data"]);
-  const auto row_count = static_cast<Eigen::Index>(static_cast<int>(rows));
-  const auto column_count = static_cast<Eigen::Index>(static_cast<int>(cols));
-  if (row_count <= 0 || column_count <= 0 || row_count * column_count != list.size()) return {};
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const RowMajor>(list.data(), row_count, column_count);
+  return rows_of_list(
+      storage_list_of(node["data"]), static_cast<int>(rows), static_cast<int>(cols));
+}
+
+/// FileStorage reads YAML only, see read_opencv_xml.cpp.
+NamedValues read_opencv_yaml(std::string text, const std::filesystem::path& file) {
+  check_json_nesting(text, file);
+  check_indentation(text, file);
+  // FileStorage asks for the directive; ROS does not write it.
+  if (text.rfind("%YAML", 0) != 0) text.insert(0, "%YAML:1.0\n---\n");
+  NamedValues values;
+  const cv::FileStorage storage(
+      text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
+  for (const cv::FileNode& node : storage.root()) {
+    Eigen::MatrixXd matrix = storage_matrix_of(node);
+    if (matrix.size() > 0) values.matrices.emplace(node.name(), std::move(matrix));
+    if (node.isString()) values.texts.emplace(node.name(), node.string());
+  }
+  return values;
 }
 
 }  // namespace
 
 NamedValues read_opencv_values(const std::filesystem::path& file) {
   std::string text = read_text_file(file, kMaxStorageBytes);
-  const bool is_xml = text.find("<opencv_storage") != std::string::npos;
-  if (is_xml) {
-    check_xml_depth(text, file);
-  } else {
-    check_json_nesting(text, file);
-    check_indentation(text, file);
-    // FileStorage asks for the directive; ROS does not write it.
-    if (text.rfind("%YAML", 0) != 0) text.insert(0, "%YAML:1.0\n---\n");
-  }
-  NamedValues values;
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const bool is_xml = first != std::string::npos && text[first] == '<';
   try {
-    const cv::FileStorage storage(
-        text,
-        cv::FileStorage::READ | cv::FileStorage::MEMORY |
-            (is_xml ? cv::FileStorage::FORMAT_XML : cv::FileStorage::FORMAT_YAML));
-    for (const cv::FileNode& node : storage.root()) {
-      Eigen::MatrixXd matrix = storage_matrix_of(node);
-      if (matrix.size() > 0) values.matrices.emplace(node.name(), std::move(matrix));
-      if (node.isString()) values.texts.emplace(node.name(), node.string());
-    }
+    return is_xml ? read_opencv_xml(text) : read_opencv_yaml(std::move(text), file);
+  } catch (const Error& fault) {
+    const std::string why = fault.what();
+    if (why.starts_with(file.string())) throw;
+    throw Error(fault.kind(), fmt::format("{}: {}", file.string(), why));
   } catch (const std::exception& fault) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: OpenCV cannot read it ({}); give a .yml or .xml that OpenCV's "
@@ -108,7 +96,6 @@ NamedValues read_opencv_values(const std::filesystem::path& file) {
                             file.string(),
                             fault.what()));
   }
-  return values;
 }
 
 }  // namespace frangia

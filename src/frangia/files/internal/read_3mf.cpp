@@ -5,11 +5,11 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/memory_budget.h"
+#include "frangia/core/xml_parser.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/three_mf.h"
 #include "frangia/files/internal/three_mf_model.h"
-#include "frangia/files/internal/xml_parser.h"
 #include "frangia/files/internal/zip_file.h"
 
 namespace frangia {

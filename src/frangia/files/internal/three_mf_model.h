@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/memory_budget.h"
-#include "frangia/files/internal/xml_parser.h"
+#include "frangia/core/xml_parser.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

@@ -10,8 +10,8 @@
 
 namespace frangia {
 
-/// Vertices with normals, sigma and views, but without triangles. `sigma_mm` is the noise; the
-/// systematic part stands beside it where one is known, until `fuse_views` combines them.
+/// Vertices with normals, sigma and views, but without triangles. `sigma_mm` is the noise until
+/// `fuse_views` combines it with the systematic part, where one is known.
 struct PlacedVertices {
   Mesh mesh;
   LargeVector<Eigen::Vector3f> in_cell_mm;  ///< position of each vertex confined to its cell

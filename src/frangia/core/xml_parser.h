@@ -20,24 +20,30 @@ class XmlAttributes {
   const char** pairs_;
 };
 
-/// Parses XML that arrives in pieces and calls a handler for each element. Names are
-/// "namespace|name".
+/// Parses XML that arrives in pieces and calls a handler for each element, and for the text between
+/// the tags where one is given. Names are "namespace|name".
 ///
 /// @errors   Error(Input) with the line: not well-formed, or a document type declaration, whose
 ///          entities could expand without bound. An exception of a handler leaves `feed`.
 class XmlParser {
  public:
-  using OnBegin = std::function<void(std::string_view, const XmlAttributes&)>;
-  using OnEnd = std::function<void(std::string_view)>;
+  using OnBegin = std::function<void(std::string_view, const XmlAttributes&)>;  ///< start tag
+  using OnEnd = std::function<void(std::string_view)>;                          ///< end tag
+  using OnText = std::function<void(std::string_view)>;  ///< a piece of text, UTF-8
 
-  XmlParser(OnBegin on_begin, OnEnd on_end);
+  /// `on_text` may be empty: text is then skipped.
+  XmlParser(OnBegin on_begin, OnEnd on_end, OnText on_text = {});
   XmlParser(const XmlParser&) = delete;
   XmlParser& operator=(const XmlParser&) = delete;
   XmlParser(XmlParser&&) = delete;
   XmlParser& operator=(XmlParser&&) = delete;
   ~XmlParser();
 
+  /// Parses the next piece.
   void feed(std::string_view piece);
+  /// States that there are no more pieces.
+  ///
+  /// @errors   Error(Input) when elements are still open
   void finish();
 
  private:

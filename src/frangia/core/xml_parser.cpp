@@ -1,4 +1,4 @@
-#include "frangia/files/internal/xml_parser.h"
+#include "frangia/core/xml_parser.h"
 
 #include <cstdint>
 #include <exception>
@@ -15,6 +15,7 @@ struct XmlParser::Parser {
   XML_Parser parser = XML_ParserCreateNS("UTF-8", '|');
   OnBegin on_begin;
   OnEnd on_end;
+  OnText on_text;
   std::exception_ptr thrown;
   std::int64_t fed = 0;  ///< bytes
 
@@ -36,6 +37,9 @@ struct XmlParser::Parser {
   static void end(void* self, const char* name) {
     of(self).guard([&] { of(self).on_end(name); });
   }
+  static void text(void* self, const char* piece, int size) {
+    of(self).guard([&] { of(self).on_text({piece, static_cast<std::size_t>(size)}); });
+  }
   static void doctype(void* self,
                       const char* /*name*/,
                       const char* /*system*/,
@@ -43,7 +47,8 @@ struct XmlParser::Parser {
                       int /*inside*/) {
     of(self).guard([] {
       throw Error(ErrorKind::Input,
-                  "its XML declares a document type, which 3MF forbids; export it again");
+                  "its XML declares a document type, whose entities can expand without bound; "
+                  "export it again");
     });
   }
 
@@ -77,12 +82,15 @@ std::string_view XmlAttributes::value(std::string_view name) const {
   return {};
 }
 
-XmlParser::XmlParser(OnBegin on_begin, OnEnd on_end) : parser_(std::make_unique<Parser>()) {
+XmlParser::XmlParser(OnBegin on_begin, OnEnd on_end, OnText on_text)
+    : parser_(std::make_unique<Parser>()) {
   if (parser_->parser == nullptr) throw std::bad_alloc();
   parser_->on_begin = std::move(on_begin);
   parser_->on_end = std::move(on_end);
+  parser_->on_text = std::move(on_text);
   XML_SetUserData(parser_->parser, parser_.get());
   XML_SetElementHandler(parser_->parser, Parser::begin, Parser::end);
+  if (parser_->on_text) XML_SetCharacterDataHandler(parser_->parser, Parser::text);
   XML_SetStartDoctypeDeclHandler(parser_->parser, Parser::doctype);
 }
 
