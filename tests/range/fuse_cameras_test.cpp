@@ -24,6 +24,8 @@ namespace {
 
 constexpr double kNone = static_cast<double>(kMissing);
 constexpr double kSigma_rad = 0.02;
+/// A period of 30 pixels of the cameras, so that they resolve harmonics.
+constexpr double kCoarse_px = 160.0;
 
 /// Turns z towards a target; x stays as horizontal as it can.
 Eigen::Matrix3d looking_at(const Eigen::Vector3d& from, const Eigen::Vector3d& target) {
@@ -40,7 +42,8 @@ struct Options {
   bool label = false;
   int directions = 1;
   double harmonic_rad = 0.0;  ///< amplitude of an error of four periods in a fringe
-  double turned_rad = 0.0;    ///< of the second camera against the rig
+  double period_px = 40.0;
+  double turned_rad = 0.0;  ///< of the second camera against the rig
 };
 
 /// A ball in front of two cameras and a projector, with phases computed from its surface.
@@ -71,7 +74,7 @@ struct TwoCameras {
          {FringeDirection::Vertical, FringeDirection::Horizontal}) {
       Pattern pattern;
       pattern.direction = direction;
-      pattern.period_px = 40.0;
+      pattern.period_px = options.period_px;
       pattern.shifts_rad = {0.0, kPi / 2, kPi, 3 * kPi / 2};
       patterns.push_back(pattern);
     }
@@ -252,7 +255,7 @@ TEST(FuseCameras, ScalesWithTheRig) {
 
 TEST(FuseCameras, CancelsHarmonicsThatBothCamerasSee) {
   constexpr double kHarmonic_rad = 0.15;
-  TwoCameras scene({.harmonic_rad = kHarmonic_rad});
+  TwoCameras scene({.harmonic_rad = kHarmonic_rad, .period_px = kCoarse_px});
   static_cast<void>(fuse_cameras(scene.cameras, scene.ranges));
   const Errors before = errors_of(scene, 0, scene.alone);
   const Errors after = errors_of(scene, 0, scene.ranges);
@@ -284,8 +287,8 @@ TEST(FuseCameras, MatchesTwoCamerasByALabelWhoseCalibrationIsNotKnown) {
 
 TEST(FuseCameras, MatchesALabelDespiteHarmonics) {
   constexpr double kHarmonic_rad = 0.15;
-  TwoCameras projector({.harmonic_rad = kHarmonic_rad});
-  TwoCameras label({.label = true, .harmonic_rad = kHarmonic_rad});
+  TwoCameras projector({.harmonic_rad = kHarmonic_rad, .period_px = kCoarse_px});
+  TwoCameras label({.label = true, .harmonic_rad = kHarmonic_rad, .period_px = kCoarse_px});
   static_cast<void>(fuse_cameras(label.cameras, label.ranges));
   const Errors alone = errors_of(projector, 0, projector.alone);
   const Errors found = errors_of(label, 0, label.ranges);

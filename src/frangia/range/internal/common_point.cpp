@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/range/fringe_ray.h"
 
@@ -24,6 +25,15 @@ struct DirectionSums {
   double slope_rad = 0.0;
   double shared_rad = 0.0;  ///< the largest systematic part
 };
+
+/// The share of a sine with a phase step per pixel that interpolation loses in the middle between
+/// pixels.
+double interpolation_loss(double step_rad, bool is_cubic) {
+  if (step_rad >= kPi) return 1.0;
+  const double kept = is_cubic ? (9.0 * std::cos(0.5 * step_rad) - std::cos(1.5 * step_rad)) / 8.0
+                               : std::cos(0.5 * step_rad);
+  return std::clamp(1.0 - kept, 0.0, 1.0);
+}
 
 }  // namespace
 
@@ -92,8 +102,7 @@ CommonPoint::Observation CommonPoint::other_phase(const OtherSight& seen,
                                                   std::size_t direction,
                                                   const Shown& shown) const {
   const PhaseSample& sample = seen.phases[direction];
-  // Harmonics leave an error of as many periods in a fringe as there are shifts. Interpolation over
-  // a pixel loses (phase step)^2 / 8 of a sine.
+  // Harmonics leave an error of as many periods in a fringe as there are shifts.
   const auto shifts =
       static_cast<double>(cameras_[own_].phases[direction]->pattern.shifts_rad.size());
   const double step_rad = shifts * sample.rad_per_px.norm();
@@ -101,7 +110,7 @@ CommonPoint::Observation CommonPoint::other_phase(const OtherSight& seen,
           sample.rad_per_px.dot(seen.px_per_mm) - shown.rad_per_mm,
           sample.sigma_rad,
           sample.systematic_rad,
-          std::min(1.0, step_rad * step_rad / 8.0)};
+          interpolation_loss(step_rad, sample.is_cubic)};
 }
 
 DepthDifference CommonPoint::compare(int x, int y, double depth_mm, const OtherSight& seen) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -18,11 +19,13 @@ namespace frangia {
 struct PhaseSample {
   double phase_rad = 0.0;                                ///< NaN: not measured
   double sigma_rad = 0.0;                                ///< mean of the four pixels
+  bool is_cubic = false;                                 ///< interpolated from 4 x 4 pixels
   double systematic_rad = 0.0;                           ///< mean; 0: none is known
   Eigen::Vector2d rad_per_px = Eigen::Vector2d::Zero();  ///< gradient
 };
 
-/// A phase map that is sampled between its pixels by bilinear interpolation.
+/// A phase map that is sampled between its pixels: by cubic interpolation (Keys 1981) where all 16
+/// pixels around a point are measured, by bilinear interpolation at boundaries.
 class PhaseSampler {
  public:
   /// `phase` must outlive the sampler.
@@ -53,6 +56,8 @@ class PhaseSampler {
     const double down = v - y;
     out.rad_per_px = gradient(x, y);
     out.phase_rad = a + right * (b - a) + down * ((c - a) + right * ((d - c) - (b - a)));
+    cubic(x, y, right, down, out);
+
     const auto mean = [&](const Image<float>& image) {
       return 0.25 *
              (value(image, 0, 0) + value(image, 1, 0) + value(image, 0, 1) + value(image, 1, 1));
@@ -64,6 +69,36 @@ class PhaseSampler {
 
  private:
   static constexpr double kNone = kMissing;
+
+  /// Replaces the interpolated phase by that of 4 x 4 pixels, where they are on one surface.
+  void cubic(int x, int y, double right, double down, PhaseSample& out) const {
+    const Image<float>& phase = phase_.phase_rad;
+    if (x < 1 || y < 1 || x + 2 >= phase.width() || y + 2 >= phase.height()) return;
+    const auto weights = [](double t) {
+      return std::array<double, 4>{0.5 * t * (-1.0 + t * (2.0 - t)),
+                                   1.0 + 0.5 * t * t * (3.0 * t - 5.0),
+                                   0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
+                                   0.5 * t * t * (t - 1.0)};
+    };
+    const auto across = weights(right);
+    const auto along = weights(down);
+    double sum = 0.0;
+    double low = out.phase_rad;
+    double high = out.phase_rad;
+    for (std::size_t row = 0; row < along.size(); ++row) {
+      for (std::size_t column = 0; column < across.size(); ++column) {
+        const auto value = static_cast<double>(
+            phase(x - 1 + static_cast<int>(column), y - 1 + static_cast<int>(row)));
+        sum += along[row] * across[column] * value;
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    }
+    constexpr double kWider = 3.0;  // than the four pixels in the middle
+    if (!(high - low < kWider * jump_rad_) || std::isnan(sum)) return;
+    out.phase_rad = sum;
+    out.is_cubic = true;
+  }
 
   /// The gradient between four pixels, over three pixels where those beyond are measured, which has
   /// a third of the noise.
