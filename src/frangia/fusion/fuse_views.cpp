@@ -49,17 +49,17 @@ struct Source {
   std::function<void(View&)> add_systematic{};
 };
 
-/// The sampling of all points: means over the cameras, weighted by their points.
+/// The sampling of all points: the finest spacing of a camera, and the mean sigma weighted by
+/// points.
 Sampling sampling_of(const std::vector<Source>& sources) {
-  if (sources.size() == 1) return sources.front().sampling;
-  Sampling all;
-  for (const Source& source : sources)
-    all.points += source.sampling.points;
-  for (const Source& source : sources) {
-    const double share =
-        static_cast<double>(source.sampling.points) / static_cast<double>(all.points);
-    all.spacing_mm += share * source.sampling.spacing_mm;
-    all.sigma_mm += share * source.sampling.sigma_mm;
+  Sampling all = sources.front().sampling;
+  for (std::size_t i = 1; i < sources.size(); ++i) {
+    const Sampling& next = sources[i].sampling;
+    const auto before = static_cast<double>(all.points);
+    const auto more = static_cast<double>(next.points);
+    all.sigma_mm = (before * all.sigma_mm + more * next.sigma_mm) / (before + more);
+    all.spacing_mm = std::min(all.spacing_mm, next.spacing_mm);
+    all.points += next.points;
   }
   return all;
 }

@@ -40,31 +40,31 @@ METHODS = (("one camera and the projector", lambda text: RIG_CAMERAS.sub("", tex
            ("two cameras, projector as a label", lambda text: text.replace('model = "pinhole"', 'model = "label"')))
 
 
-def measured(study, scan):
+def measured(study, scan, *options):
     mesh = study.work / "two-cameras.ply"
-    answer = study.run("reconstruct", scan, "-o", mesh)
+    answer = study.run("reconstruct", scan, "-o", mesh, *options)
     return answer, study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan)
 
 
 def measure(study):
     failures = []
-    study.add(f"`frangia simulate {PART} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the reference camera can measure; gamma is not corrected. Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}.\n")
-    study.table("fault", "method", "points", "triangles", "RMS mm", "99 % mm", "mean mm", "completeness", "median sigma mm", "error over sigma", "cameras apart, mm", "over their noise")
+    study.add(f"`frangia simulate {PART} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the reference camera can measure; gamma is not corrected, and `--accept-inconsistent` is set, because the harmonics of four steps look like wrong shifts. Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}, and at most {MOST} under gamma, whose systematic part is an upper bound.\n")
+    study.table("fault", "method", "points", "triangles", "RMS mm", "95 % mm", "99 % mm", "mean mm", "completeness", "median sigma mm", "error over sigma", "cameras apart, mm", "over their noise")
     for fault, options in (("none", ()), ("gamma 2.2", ("--display-gamma", 2.2)), ("gamma 2.2, three steps", ("--display-gamma", 2.2, "--shifts", 3))):
         name = "two-cameras-" + fault.replace(" ", "-").replace(",", "")
         scan = study.made(name, "simulate", PART, "--rig", "binocular", "--samples", 4, "--views", VIEWS, *options)
-        rms = {}
+        p95 = {}
         for method, change in METHODS:
-            answer, error = measured(study, changed(study, scan, "two-cameras", change))
+            answer, error = measured(study, changed(study, scan, "two-cameras", change), "--accept-inconsistent")
             cameras = answer.get("cameras", {})
             apart, over = cameras.get("disagreement_mm"), cameras.get("over_noise")
-            rms[method] = error["rms_mm"]
-            study.row(fault, method, answer["points"], answer["triangles"], f"{error['rms_mm']:.4f}", f"{error['p99_mm']:.4f}", f"{error['mean_mm']:+.4f}",
+            p95[method] = error["p95_mm"]
+            study.row(fault, method, answer["points"], answer["triangles"], f"{error['rms_mm']:.4f}", f"{error['p95_mm']:.4f}", f"{error['p99_mm']:.4f}", f"{error['mean_mm']:+.4f}",
                       f"{100 * error['completeness']:.1f} %", f"{answer['median_sigma']['combined_mm']:.4f}", f"{error['sigma_ratio']:.2f}",
                       "-" if apart is None else f"{apart:.4f}", "-" if over is None else f"{over:.2f}")
-            if not LEAST < error["sigma_ratio"] < MOST:
+            if not (LEAST if fault == "none" else 0.0) < error["sigma_ratio"] < MOST:
                 failures.append(f"error over sigma of {method}, {fault}")
-        one, two, label = rms.values()
+        one, two, label = p95.values()
         if two > one:
             failures.append(f"two cameras, {fault}")
         if fault != "none" and label > 0.5 * one:
