@@ -2,13 +2,16 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/make_folder.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/dataset/scan_of_camera.h"
 #include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/stage_pictures.h"
@@ -31,6 +34,7 @@ namespace {
 struct DecodeArguments {
   std::filesystem::path scan;
   std::size_t view = 0;
+  std::string camera;
   std::filesystem::path folder;
   DecodeOptions options;
 };
@@ -93,9 +97,26 @@ void print_result(const DecodedView& decoded,
   }
 }
 
+/// The scan as the named camera captured it; as the reference camera did without a name.
+Scan choose_camera(const Scan& scan, const std::string& name) {
+  if (name.empty()) return scan_of_camera(scan, 0);
+  std::vector<std::string> names;
+  for (const PosedCamera& posed : scan.rig.more_cameras) {
+    names.push_back(posed.camera.name);
+    if (names.back() == name) return scan_of_camera(scan, names.size());
+  }
+  throw Error(ErrorKind::Input,
+              fmt::format("{} has no `camera` \"{}\" in its rig.toml; {}",
+                          scan.folder.string(),
+                          name,
+                          names.empty() ? "it has the reference camera alone"
+                                        : fmt::format("it has {}", fmt::join(names, ", "))));
+}
+
 void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  const Scan scan = read_scan(arguments.scan, run, RigContent::PhaseOnly);
+  const Scan scan =
+      choose_camera(read_scan(arguments.scan, run, RigContent::PhaseOnly), arguments.camera);
   if (arguments.view >= scan.views.size()) {
     throw Error(ErrorKind::Input,
                 fmt::format("{} has no `view` {}; its views are 0 to {}",
@@ -150,6 +171,9 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--view", arguments->view, "number of the view, counted from 0")
       ->check(zero_or_more())
       ->capture_default_str();
+  verb->add_option("--camera",
+                   arguments->camera,
+                   "name of one of `more_cameras`; the reference camera by default");
   verb->add_option("-o,--output", arguments->folder, "folder to write to")->required();
   add_decode_options(*verb, arguments->options);
   arguments->options.spatial.keep_growth_order = true;

@@ -123,6 +123,28 @@ std::string table_of(const std::vector<ViewSummary>& views) {
   return text_table({name, angle, points, sigma, state});
 }
 
+/// What a disagreement over its noise says about the rig.
+const char* verdict(double over_noise) {
+  constexpr double kSound = 2.0;  // times the noise: calibrations of real rigs add as much again
+  return over_noise <= kSound ? "the rig is consistent"
+                              : "errors of the rig's calibration or of the phases exceed the noise";
+}
+
+/// The check of the rig by its cameras.
+void print_cameras(const Reconstruction& result) {
+  if (result.cameras < 2) return;
+  if (std::isnan(result.camera_disagreement_mm)) {
+    print_text("{} cameras: nothing compares them; fringes in both directions would\n",
+               result.cameras);
+    return;
+  }
+  print_text("{} cameras: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
+             result.cameras,
+             result.camera_disagreement_mm,
+             result.camera_disagreement_over_noise,
+             verdict(result.camera_disagreement_over_noise));
+}
+
 void print_result(const Reconstruction& result,
                   const ReconstructArguments& arguments,
                   Terminal& terminal) {
@@ -138,6 +160,11 @@ void print_result(const Reconstruction& result,
       json["directions"] = {{"disagreement_mm", result.disagreement_mm},
                             {"over_noise", result.disagreement_over_noise}};
     }
+    if (result.cameras > 1) {
+      json["cameras"] = {{"count", result.cameras},
+                         {"disagreement_mm", result.camera_disagreement_mm},  // NaN becomes null
+                         {"over_noise", result.camera_disagreement_over_noise}};
+    }
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
     if (result.registration) json["registration"] = json_of(*result.registration);
     if (!std::isnan(result.turntable_top_height_mm))
@@ -147,6 +174,7 @@ void print_result(const Reconstruction& result,
   }
   if (terminal.quiet) return;
   terminal.finish();
+  print_cameras(result);
   write_output(table_of(result.view_summaries));
   print_text("{} points from {} -> {} triangles{}\n",
              result.points,
@@ -154,13 +182,10 @@ void print_result(const Reconstruction& result,
              result.mesh.triangles.size(),
              text_of(result.sigma));
   if (!std::isnan(result.disagreement_mm)) {
-    constexpr double kSound = 2.0;  // times the noise: calibrations of real rigs add as much again
     print_text("directions of fringes: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
                result.disagreement_mm,
                result.disagreement_over_noise,
-               result.disagreement_over_noise <= kSound
-                   ? "the rig is consistent"
-                   : "errors of the rig's calibration or of the phases exceed the noise");
+               verdict(result.disagreement_over_noise));
   }
   print_mesh_summary(terminal, arguments.outputs.paths);
   if (!arguments.raw.empty()) terminal.print_written(arguments.raw.string());

@@ -13,6 +13,7 @@
 #include "frangia/core/random.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
@@ -38,6 +39,7 @@ struct SimulateArguments {
   PatternPlan patterns;
   SimulateOptions options;
   bool no_noise = false;
+  bool label = false;
   double step_jitter_deg = 0.0;
   double angle_error_deg = 0.0;
   double axis_tilt_deg = 0.0;
@@ -61,6 +63,11 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                   arguments.rig,
                   fmt::format("{}; or a rig.toml", fmt::join(rig_preset_names(), ", ")))
       ->capture_default_str();
+  verb.add_flag(
+      "--label",
+      arguments.label,
+      "state the projector as a label in rig.toml, without its calibration; the rig needs "
+      "two cameras");
   verb.add_option("--views", arguments.views, "turntable stations, evenly over one turn")
       ->check(from_to(1, 3600))
       ->capture_default_str();
@@ -347,7 +354,16 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   const Mesh part = part_of(arguments.part, arguments.read, run);
   add_setups(plan, part, arguments);
   run.stage("render");
-  print_result(simulate_scan(part, plan, options, run), "truth.ply", terminal);
+  if (arguments.label && plan.rig.more_cameras.empty()) {
+    throw Error(ErrorKind::Input,
+                "`label` needs a rig with two cameras, such as `--rig binocular`");
+  }
+  Scan scan = simulate_scan(part, plan, options, run);
+  if (arguments.label) {
+    scan.rig.projector.is_label = true;
+    write_rig(scan.folder / "rig.toml", scan.rig);
+  }
+  print_result(scan, "truth.ply", terminal);
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ TEST(ExampleRigs, HaveEveryKeyThatTheirDriversAskFor) {
   const std::map<std::string, std::vector<std::string>> tables = {
       {"lab-piezo", {"camera", "fringes", "light", "line", "turntable"}},
       {"maker-projector", {"camera", "fringes", "turntable"}},
+      {"simulated-binocular", {"camera", "camera-left", "fringes", "turntable"}},
       {"simulated-digital", {"camera", "fringes", "turntable"}},
       {"simulated-interferometer", {"camera", "fringes", "light", "line", "turntable"}}};
   std::size_t rigs = 0;

@@ -234,5 +234,78 @@ TEST(WithResponse, ReplacesTheResponseAndKeepsCommentsAndDevices) {
   EXPECT_EQ(with_response(after, projector), after);
 }
 
+const std::string kSecondCamera = R"(
+[[more_cameras]]
+name = "left"
+size_px = [640, 480]
+focal_px = [900.0, 901.0]
+principal_point_px = [320.0, 240.0]
+white_level = 255
+position_mm = [-200.0, 0.0, 30.0]
+rotation = [[0.93969262, 0, 0.34202014], [0, 1, 0], [-0.34202014, 0, 0.93969262]]
+[more_cameras.noise]
+gain_e_per_count = 70.0
+read_e = 8.0
+)";
+
+TEST(ReadRig, ReadsAndWritesMoreCameras) {
+  const TemporaryFolder folder;
+  const Rig rig = read_rig(save(folder, kRig + kSecondCamera));
+  ASSERT_EQ(rig.more_cameras.size(), 1U);
+  const PosedCamera& second = rig.more_cameras.front();
+  EXPECT_EQ(second.camera.name, "left");
+  EXPECT_EQ(second.camera.model.width_px, 640);
+  EXPECT_EQ(second.camera.white_level, 255);
+  EXPECT_TRUE(second.camera.noise);
+  EXPECT_EQ(second.position_mm, Eigen::Vector3d(-200.0, 0.0, 30.0));
+  EXPECT_TRUE(rig.camera.name.empty());
+  write_rig(folder.path() / "again.toml", rig);
+  const Rig again = read_rig(folder.path() / "again.toml");
+  ASSERT_EQ(again.more_cameras.size(), 1U);
+  const PosedCamera& read_again = again.more_cameras.front();
+  EXPECT_EQ(read_again.camera.name, "left");
+  EXPECT_EQ(read_again.camera.model.focal_px, second.camera.model.focal_px);
+  EXPECT_EQ(read_again.position_mm, second.position_mm);
+  EXPECT_TRUE(read_again.rotation.isApprox(second.rotation, 1e-12));
+  EXPECT_TRUE(read_again.camera.noise);
+}
+
+TEST(ReadRig, ReadsAProjectorThatIsALabel) {
+  const TemporaryFolder folder;
+  const std::string one = kRig.substr(0, kRig.find("[projector]")) +
+                          "[projector]\nmodel = \"label\"\nsize_px = [1280, 800]\n";
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  // The pose of a projector that was calibrated may stay.
+  const Rig rig = read_rig(save(folder, one + "position_mm = [100, 0, 0]\n" + kSecondCamera), run);
+  EXPECT_TRUE(rig.projector.is_label);
+  EXPECT_FALSE(rig.projector.position_mm.allFinite());
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_TRUE(read_rig(save(folder, rig_text(rig))).projector.is_label);
+  EXPECT_NE(testing::error_of([&] {
+              static_cast<void>(read_rig(save(folder, one)));
+            }).find("needs two cameras"),
+            std::string::npos);
+}
+
+TEST(ReadRig, RefusesCamerasThatCannotBeNamed) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    return testing::error_of([&] { static_cast<void>(read_rig(save(folder, kRig + text))); });
+  };
+  const auto named = [&](const std::string& name) {
+    std::string text = kSecondCamera;
+    return text.replace(text.find("left"), 4, name);
+  };
+  EXPECT_NE(refusal(kSecondCamera + kSecondCamera).find("more_cameras[1].name is \"left\", as of"),
+            std::string::npos);
+  for (const char* name : {"a/b", "..", "", "a b"}) {
+    EXPECT_NE(refusal(named(name)).find("use letters, digits, - and _ only"), std::string::npos)
+        << name;
+  }
+  EXPECT_NE(refusal(named("rejected")).find("choose another"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace frangia

@@ -13,11 +13,15 @@ namespace frangia::testing {
 /// A rig of the presets with a quarter of the camera's pixels, so that tests take little time.
 inline Rig small_rig(const std::string& preset) {
   Rig rig = rig_preset(preset);
-  CameraModel& model = rig.camera.model;
-  model.width_px /= 2;
-  model.height_px /= 2;
-  model.focal_px *= 0.5;
-  model.principal_point_px = 0.5 * (model.principal_point_px.array() + 0.5) - 0.5;
+  const auto halve = [](CameraModel& model) {
+    model.width_px /= 2;
+    model.height_px /= 2;
+    model.focal_px *= 0.5;
+    model.principal_point_px = 0.5 * (model.principal_point_px.array() + 0.5) - 0.5;
+  };
+  halve(rig.camera.model);
+  for (PosedCamera& posed : rig.more_cameras)
+    halve(posed.camera.model);
   return rig;
 }
 

@@ -29,14 +29,21 @@ std::string describe(const CaptureOptions& options) {
       options.control_steps);
 }
 
-/// The plan with the noise model at a camera gain: noise in counts grows with the gain.
-Scan with_gain(Scan plan, double gain_db) {
-  if (!plan.rig.camera.noise || gain_db == 0.0) return plan;
-  const double gain = std::pow(10.0, gain_db / 20.0);
-  NoiseModel& noise = *plan.rig.camera.noise;
+void amplify(Camera& camera, double gain) {
+  if (!camera.noise) return;
+  NoiseModel& noise = *camera.noise;
   constexpr double kRounding_counts2 = 1.0 / 12.0;
   noise.slope_counts *= gain;
   noise.floor_counts2 = (noise.floor_counts2 - kRounding_counts2) * gain * gain + kRounding_counts2;
+}
+
+/// The plan with the noise models at a gain of the cameras: noise in counts grows with the gain.
+Scan with_gain(Scan plan, double gain_db) {
+  if (gain_db == 0.0) return plan;
+  const double gain = std::pow(10.0, gain_db / 20.0);
+  amplify(plan.rig.camera, gain);
+  for (PosedCamera& posed : plan.rig.more_cameras)
+    amplify(posed.camera, gain);
   return plan;
 }
 

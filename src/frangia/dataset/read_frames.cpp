@@ -73,9 +73,11 @@ void check_size(const Camera& camera, const std::filesystem::path& path, int wid
   const CameraModel& model = camera.model;
   if (width == model.width_px && height == model.height_px) return;
   refuse(path,
-         fmt::format("is {} x {} pixels, but camera.size_px in rig.toml is {} x {}",
+         fmt::format("is {} x {} pixels, but {} in rig.toml is {} x {}",
                      width,
                      height,
+                     camera.name.empty() ? "camera.size_px"
+                                         : fmt::format("size_px of the camera \"{}\"", camera.name),
                      model.width_px,
                      model.height_px));
 }
@@ -164,6 +166,14 @@ void for_each_file(const std::vector<FrameFile>& files,
 std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Run& run) {
   const std::filesystem::path folder = scan.folder / scan.views.at(view).folder;
   if (!std::filesystem::is_directory(folder)) {
+    const std::string& camera = scan.rig.camera.name;
+    if (!camera.empty()) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: there is no such folder, but rig.toml has the camera \"{}\" in "
+                              "[[more_cameras]]; restore its frames or remove the camera",
+                              folder.string(),
+                              camera));
+    }
     throw Error(ErrorKind::Input,
                 fmt::format("{}: there is no such folder, but scan.toml names it; restore it or "
                             "remove the view from scan.toml",

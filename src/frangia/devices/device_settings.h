@@ -28,7 +28,7 @@ class DeviceSettings {
                  std::string device,
                  std::map<std::string, SettingValue> values);
 
-  /// "camera", "fringes", "line", "light" or "turntable": the name after `devices.`
+  /// "camera", "fringes", "line", "light", "turntable" or "camera-NAME": the name after `devices.`
   [[nodiscard]] const std::string& device() const { return device_; }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }  ///< path of rig.toml
   /// All keys of the table and their values.

@@ -25,8 +25,11 @@ std::string table_name(DeviceKind kind) {
 const Driver& driver_for(DeviceSettings& settings, const std::vector<Driver>& drivers) {
   const std::string wanted = settings.driver();
   std::vector<std::string> names;
+  const std::string& device = settings.device();
+  const std::string table =
+      device.starts_with(kFurtherCamera) ? table_name(DeviceKind::Camera) : device;
   for (const Driver& driver : drivers) {
-    if (table_name(driver.kind) != settings.device()) continue;
+    if (table_name(driver.kind) != table) continue;
     if (driver.name == wanted) return driver;
     names.push_back(driver.name);
   }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "frangia/devices/device.h"
@@ -23,6 +24,9 @@ enum class DeviceKind {
 
 /// Name of the table of a kind: "camera", "fringes", "line", "light", "turntable".
 [[nodiscard]] std::string table_name(DeviceKind kind);
+
+/// Beginning of the tables of further cameras: [devices.camera-NAME].
+inline constexpr std::string_view kFurtherCamera = "camera-";
 
 /// A device that a driver found on this machine.
 struct FoundDevice {

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -38,29 +42,48 @@ void assign(std::unique_ptr<Device> device, DeviceKind kind, RigDevices& devices
   }
 }
 
-void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDevices& devices) {
-  const auto refuse = [&](const Device& device, int width, int height, const std::string& key) {
+[[noreturn]] void refuse_size(const std::filesystem::path& file,
+                              const Device& device,
+                              int width,
+                              int height,
+                              const std::string& key) {
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: {} is not the {} x {} pixels of {}; correct the rig or the "
+                          "device's region",
+                          file.string(),
+                          key,
+                          width,
+                          height,
+                          device.name()));
+}
+
+/// `table` is that of the camera in rig.toml.
+void check_camera(const std::filesystem::path& file,
+                  const std::string& table,
+                  const Camera& camera,
+                  const CameraDevice& device) {
+  const CameraInfo& info = device.info();
+  if (info.width_px != camera.model.width_px || info.height_px != camera.model.height_px)
+    refuse_size(file, device, info.width_px, info.height_px, table + ".size_px");
+  if (info.white_level != camera.white_level) {
     throw Error(ErrorKind::Input,
-                fmt::format("{}: {} is not the {} x {} pixels of {}; correct the rig or the "
-                            "device's region",
+                fmt::format("{}: {}.white_level is {}, but {} is saturated at {}",
                             file.string(),
-                            key,
-                            width,
-                            height,
-                            device.name()));
-  };
-  if (devices.camera) {
-    const CameraInfo& info = devices.camera->info();
-    const CameraModel& model = rig.camera.model;
-    if (info.width_px != model.width_px || info.height_px != model.height_px)
-      refuse(*devices.camera, info.width_px, info.height_px, "camera.size_px");
-    if (info.white_level != rig.camera.white_level) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("{}: camera.white_level is {}, but {} is saturated at {}",
-                              file.string(),
-                              rig.camera.white_level,
-                              devices.camera->name(),
-                              info.white_level));
+                            table,
+                            camera.white_level,
+                            device.name(),
+                            info.white_level));
+  }
+}
+
+void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDevices& devices) {
+  if (devices.camera) check_camera(file, "camera", rig.camera, *devices.camera);
+  for (std::size_t i = 0; i < devices.more_cameras.size(); ++i) {
+    if (devices.more_cameras[i]) {
+      check_camera(file,
+                   fmt::format("more_cameras[{}]", i),
+                   rig.more_cameras[i].camera,
+                   *devices.more_cameras[i]);
     }
   }
   if (devices.display) {
@@ -70,7 +93,7 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
         model == nullptr ? std::array{0, 0}
                          : image_size(rig.projector.pixels, model->width_px, model->height_px);
     if (info.width_px != image[0] || info.height_px != image[1])
-      refuse(*devices.display, info.width_px, info.height_px, "projector.size_px");
+      refuse_size(file, *devices.display, info.width_px, info.height_px, "projector.size_px");
   }
   if (devices.shifter && !rig.projector.is_angular()) {
     throw Error(ErrorKind::Input,
@@ -81,13 +104,30 @@ void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDev
 }
 
 /// Adds the devices that exist, light first.
-std::array<Device*, 6> devices_of(const RigDevices& rig) {
-  return {rig.light.get(),
-          rig.laser_sheet.get(),
-          rig.display.get(),
-          rig.turntable.get(),
-          rig.shifter.get(),
-          rig.camera.get()};
+std::vector<Device*> devices_of(const RigDevices& rig) {
+  std::vector<Device*> devices{rig.light.get(),
+                               rig.laser_sheet.get(),
+                               rig.display.get(),
+                               rig.turntable.get(),
+                               rig.shifter.get(),
+                               rig.camera.get()};
+  for (const auto& camera : rig.more_cameras)
+    devices.push_back(camera.get());
+  return devices;
+}
+
+/// The place of the camera in `more_cameras` that a table of devices names; none for other tables.
+std::optional<std::size_t> further_camera(const DeviceSettings& settings, const Rig& rig) {
+  const std::string& table = settings.device();
+  if (!table.starts_with(kFurtherCamera)) return std::nullopt;
+  const std::string name = table.substr(kFurtherCamera.size());
+  for (std::size_t i = 0; i < rig.more_cameras.size(); ++i) {
+    if (rig.more_cameras[i].camera.name == name) return i;
+  }
+  settings.fail("driver",
+                fmt::format("is of a camera \"{}\" that [[more_cameras]] does not have; add it, or "
+                            "remove the device",
+                            name));
 }
 
 }  // namespace
@@ -129,7 +169,7 @@ void RigDevices::make_safe() noexcept {
 
 // NOLINTNEXTLINE(readability-make-member-function-const): the devices are part of it
 void RigDevices::make_dark() noexcept {
-  std::array<Device*, 6> devices = devices_of(*this);
+  std::vector<Device*> devices = devices_of(*this);
   if (turntable && turntable->angle_rad())
     std::replace(devices.begin(), devices.end(), static_cast<Device*>(turntable.get()), {});
   frangia::make_safe(devices);
@@ -142,13 +182,21 @@ RigDevices open_devices(const std::filesystem::path& rig_file,
                         const Run& run,
                         Guardian* guardian) {
   RigDevices devices;
+  devices.more_cameras.resize(rig.more_cameras.size());
   for (DeviceSettings& settings : read_device_settings(rig_file)) {
     const Driver& driver = driver_for(settings, drivers);
-    std::unique_ptr<Device> device = driver.open(settings, rig, deadline);
+    const std::optional<std::size_t> further = further_camera(settings, rig);
+    std::unique_ptr<Device> device =
+        further ? driver.open(settings, rig_of_camera(rig, 1 + *further), deadline)
+                : driver.open(settings, rig, deadline);
     settings.warn_of_unused_keys(run);
     if (const auto how = device->safe_off(); how && guardian != nullptr)
       devices.watches.push_back(guardian->watch(*how));
-    assign(std::move(device), driver.kind, devices);
+    if (further) {
+      assign_as(std::move(device), devices.more_cameras[*further]);
+    } else {
+      assign(std::move(device), driver.kind, devices);
+    }
     devices.settings.push_back(settings);
   }
   check_sizes(rig_file, rig, devices);

@@ -33,7 +33,9 @@ struct RigDevices {
 
   std::vector<Guardian::Watch> watches;  ///< released after the devices are closed
 
-  std::unique_ptr<CameraDevice> camera;           ///< required for any capture
+  std::unique_ptr<CameraDevice> camera;  ///< required for any capture
+  /// Those of `Rig::more_cameras`, in their order: tables [devices.camera-NAME].
+  std::vector<std::unique_ptr<CameraDevice>> more_cameras;
   std::unique_ptr<PhaseShifter> shifter;          ///< the fringes of an interferometer ...
   std::unique_ptr<PatternDisplay> display;        ///< ... or those of a digital projector
   std::unique_ptr<LaserSheetSource> laser_sheet;  ///< source of the laser sheet, `line`
@@ -49,8 +51,9 @@ struct RigDevices {
   void make_dark() noexcept;
 };
 
-/// Opens the devices in the `[devices.NAME]` tables of a rig.toml. A `guardian` watches each one
-/// from then on; it must outlive the devices.
+/// Opens the devices in the `[devices.NAME]` tables of a rig.toml. The camera NAME of
+/// `more_cameras` has the table `[devices.camera-NAME]`; its driver is given `rig_of_camera`. A
+/// `guardian` watches each one from then on; it must outlive the devices.
 ///
 /// @errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or
 ///          setting, a camera or display whose size differs from the rig; Error(Device) when a

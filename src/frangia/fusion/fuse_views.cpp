@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,29 @@ double choose_voxel(const Sampling& sampling, const FusionOptions& options, cons
   return voxel_mm;
 }
 
+/// The views of a camera that has points, with its rays.
+struct Source {
+  const ViewStore& views;
+  CameraRays rays;
+  Sampling sampling;
+  std::function<void(View&)> add_systematic{};
+};
+
+/// The sampling of all points: the finest spacing of a camera, and the mean sigma weighted by
+/// points.
+Sampling sampling_of(const std::vector<Source>& sources) {
+  Sampling all = sources.front().sampling;
+  for (std::size_t i = 1; i < sources.size(); ++i) {
+    const Sampling& next = sources[i].sampling;
+    const auto before = static_cast<double>(all.points);
+    const auto more = static_cast<double>(next.points);
+    all.sigma_mm = (before * all.sigma_mm + more * next.sigma_mm) / (before + more);
+    all.spacing_mm = std::min(all.spacing_mm, next.spacing_mm);
+    all.points += next.points;
+  }
+  return all;
+}
+
 /// Calls `use` with the local planes of every `step`-th pixel of each view in turn.
 void for_each_view(const ViewStore& views,
                    int step,
@@ -56,25 +80,27 @@ void for_each_view(const ViewStore& views,
 }
 
 /// Samples each view at the crossings.
-HermiteAccumulators sample_crossings(const ViewStore& views,
-                                     const CameraRays& camera,
+HermiteAccumulators sample_crossings(const std::vector<Source>& sources,
                                      const EdgeCrossings& crossings,
                                      const HermiteOptions& how,
-                                     const FusionOptions& options,
                                      const std::function<void()>& on_view) {
-  const bool has_systematic = views.has_systematic() || options.add_systematic;
+  const bool has_systematic = std::any_of(sources.begin(), sources.end(), [](const Source& source) {
+    return source.views.has_systematic() || source.add_systematic;
+  });
   HermiteAccumulators hermite(crossings.points_mm.size(), has_systematic);
   LocalPlanes planes;
-  load_each_view(
-      views,
-      [&](std::size_t /*index*/, View& view) {
-        add_edge_pixels(view);
-        if (options.add_systematic) options.add_systematic(view);
-        planes = local_planes(view, camera, {.widen = true}, std::move(planes));
-        accumulate_view(hermite, crossings, planes, camera, how, view.range.systematic_mm);
-        on_view();
-      },
-      PointSigma::BothParts);
+  for (const Source& source : sources) {
+    load_each_view(
+        source.views,
+        [&](std::size_t /*index*/, View& view) {
+          add_edge_pixels(view);
+          if (source.add_systematic) source.add_systematic(view);
+          planes = local_planes(view, source.rays, {.widen = true}, std::move(planes));
+          accumulate_view(hermite, crossings, planes, source.rays, how, view.range.systematic_mm);
+          on_view();
+        },
+        PointSigma::BothParts);
+  }
   return hermite;
 }
 
@@ -116,32 +142,57 @@ Mesh fuse_views(const ViewStore& views,
                 const CameraModel& camera,
                 const FusionOptions& options,
                 const Run& run) {
-  const CameraRays rays(views, camera);
-  const Sampling sampling = measure_sampling(views, rays, run);
+  const CameraViews one{views, camera};
+  return fuse_views({&one, 1}, options, run);
+}
 
-  require(sampling.points > 0, "no view holds a point: there is no surface to fuse");
+Mesh fuse_views(std::span<const CameraViews> cameras,
+                const FusionOptions& options,
+                const Run& run) {
+  require(!cameras.empty(), "fuse_views: needs the views of a camera");
+  std::vector<Source> sources;
+  std::size_t view_count = 0;
+  for (const CameraViews& camera : cameras) {
+    const CameraRays rays(camera.views, camera.camera);
+    const Sampling sampling = measure_sampling(camera.views, rays, run);
+    if (sampling.points == 0) continue;
+    const bool is_first = &camera == &cameras.front();
+    sources.push_back({camera.views,
+                       rays,
+                       sampling,
+                       is_first ? options.add_systematic : std::function<void(View&)>()});
+    view_count += camera.views.size();
+  }
+  require(!sources.empty(), "no view holds a point: there is no surface to fuse");
+  const Sampling sampling = sampling_of(sources);
   const double voxel_mm = choose_voxel(sampling, options, run);
   const VoxelBudget budget = voxel_budget(voxel_mm, options.max_memory_mb);
-  budget.check(sampling, views.size());
+  budget.check(sampling, view_count);
   const FusionParameters& parameters = options.parameters;
   const TruncationBand band = truncation_band(sampling, voxel_mm, parameters.field);
-  const double progress = 0.4 / static_cast<double>(views.size());
+  const double progress = 0.4 / static_cast<double>(view_count);
   double done = 0.0;
 
-  const int step = field_pixel_step(sampling, voxel_mm, parameters.field);
-  std::optional<CameraRays> thinned;
-  if (step > 1) thinned.emplace(subsample(camera, step));
-  const CameraRays& thin_rays = thinned ? *thinned : rays;
-  const int extrapolate_px = static_cast<int>(
-      std::ceil(parameters.field.extrapolate_voxels * voxel_mm / (step * sampling.spacing_mm)));
   DistanceField field;
   field.voxel_mm = voxel_mm;
-  for_each_view(
-      views, step, thin_rays, {.extrapolate_px = extrapolate_px}, [&](const LocalPlanes& view) {
-        integrate_view(field, view, thin_rays, band);
-        budget.check(static_cast<double>(field.blocks.size()));
-        run.report(done += progress);
-      });
+  for (const Source& source : sources) {
+    const double spacing_mm = source.sampling.spacing_mm;
+    const int step = field_pixel_step(source.sampling, voxel_mm, parameters.field);
+    std::optional<CameraRays> thinned;
+    if (step > 1) thinned.emplace(subsample(source.rays.model, step));
+    const CameraRays& thin_rays = thinned ? *thinned : source.rays;
+    const int extrapolate_px = static_cast<int>(
+        std::ceil(parameters.field.extrapolate_voxels * voxel_mm / (step * spacing_mm)));
+    for_each_view(source.views,
+                  step,
+                  thin_rays,
+                  {.extrapolate_px = extrapolate_px},
+                  [&](const LocalPlanes& view) {
+                    integrate_view(field, view, thin_rays, band);
+                    budget.check(static_cast<double>(field.blocks.size()));
+                    run.report(done += progress);
+                  });
+  }
 
   if (field.blocks.empty()) {
     throw Error(
@@ -155,13 +206,10 @@ Mesh fuse_views(const ViewStore& views,
   const EdgeCrossings crossings = find_edge_crossings(field, parameters.field);
   field = {};
 
-  HermiteAccumulators hermite =
-      sample_crossings(views,
-                       rays,
-                       crossings,
-                       {band.allocation_mm, band.front_mm, parameters.hermite},
-                       options,
-                       [&] { run.report(done += progress); });
+  HermiteAccumulators hermite = sample_crossings(
+      sources, crossings, {band.allocation_mm, band.front_mm, parameters.hermite}, [&] {
+        run.report(done += progress);
+      });
   add_between_view_variance(hermite, crossings);
   Mesh mesh =
       mesh_quads(place_vertices(crossings, hermite, parameters), crossings, hermite, parameters);

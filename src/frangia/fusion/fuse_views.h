@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 
 #include "frangia/core/run.h"
 #include "frangia/fusion/fusion_parameters.h"
@@ -16,9 +17,16 @@ struct FusionOptions {
   double voxel_mm = 0.0;          ///< edge of a voxel; 0 derives it from the sampling of the views
   std::size_t max_memory_mb = 0;  ///< of the surface during fusion; 0 is half of the machine's
   /// Adds systematic parts that are not stored with the points of a view; empty: there are none.
+  /// Of several cameras, it is called for the views of the first.
   std::function<void(View&)> add_systematic;
   std::size_t min_component_triangles = 100;  ///< smaller connected components are removed
   FusionParameters parameters;                ///< heuristic thresholds
+};
+
+/// The views of one camera.
+struct CameraViews {
+  const ViewStore& views;
+  const CameraModel& camera;  ///< in whose frame the points of the views are
 };
 
 /// Fuses all views into one mesh with normals, sigma and the number of views at each vertex.
@@ -42,6 +50,14 @@ struct FusionOptions {
 ///          Ju et al. 2002
 [[nodiscard]] Mesh fuse_views(const ViewStore& views,
                               const CameraModel& camera,
+                              const FusionOptions& options = {},
+                              const Run& run = {});
+
+/// Fuses the views of several cameras. Their poses are those of the object in the frame of their
+/// camera.
+///
+/// @errors   as for one camera; Error(Input) when there is no camera
+[[nodiscard]] Mesh fuse_views(std::span<const CameraViews> cameras,
                               const FusionOptions& options = {},
                               const Run& run = {});
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "frangia/range/check_orientation.h"
+#include "frangia/rig/has_geometry.h"
 
 namespace frangia {
 namespace {
@@ -18,7 +19,7 @@ bool check_direction(const AbsolutePhase& phase,
     out.decided = out.decided || sequence->decided;
     if (!sequence->consistent) reason = describe(*sequence);
   }
-  if (reason.empty()) {
+  if (reason.empty() && has_geometry(rig)) {
     const OrientationCheck orientation = check_orientation(phase, rig, rays);
     out.decided = out.decided || orientation.decided;
     reason = orientation.fits;

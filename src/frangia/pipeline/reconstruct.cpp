@@ -18,12 +18,21 @@
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
+#include "frangia/pipeline/internal/tie_cameras.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
 
 void warn_of_relative_distances(const Scan& scan, const Run& run) {
   if (has_absolute_phase(scan.patterns, scan.rig.projector)) return;
+  if (scan.rig.projector.is_label) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: the patterns do not determine fringe orders, which label the points "
+                    "that two cameras see; capture Gray code or coarser fringes, too",
+                    scan.folder.string()));
+  }
   run.warn(
       "the scan holds neither an absolute pattern nor the laser sheet: distances are relative "
       "to the fringe through the projection axis");
@@ -31,10 +40,15 @@ void warn_of_relative_distances(const Scan& scan, const Run& run) {
 
 void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
   constexpr double kMedianOfNormal = 0.6745;  // of the absolute value, over the deviation
-  if (measured.disagreements_mm.empty()) return;
-  out.disagreement_mm = static_cast<double>(median(measured.disagreements_mm));
-  out.disagreement_over_noise =
-      static_cast<double>(median(measured.disagreements_over_sigma)) / kMedianOfNormal;
+  if (!measured.disagreements_mm.empty()) {
+    out.disagreement_mm = static_cast<double>(median(measured.disagreements_mm));
+    out.disagreement_over_noise =
+        static_cast<double>(median(measured.disagreements_over_sigma)) / kMedianOfNormal;
+  }
+  if (measured.camera_disagreements_mm.empty()) return;
+  out.camera_disagreement_mm = static_cast<double>(median(measured.camera_disagreements_mm));
+  out.camera_disagreement_over_noise =
+      static_cast<double>(median(measured.camera_disagreements_over_sigma)) / kMedianOfNormal;
 }
 
 /// Removes what is not the part from the views of one setup, and registers them on the turntable.
@@ -46,15 +60,15 @@ void register_setup(MeasuredSetup& setup,
   MeasuredViews& measured = setup.measured;
   const CameraModel& camera = rig.camera.model;
   if (measured.points == 0) return;
-  clip_to_volume(measured.views, camera, options, run);
+  clip_to_volume(measured, rig, options, run);
   if (!rig.turntable) return;
   if (!options.keep_turntable_top) {
-    turntable_top_height_mm =
-        remove_turntable_top(measured.views, camera, options.turntable_top, run);
+    turntable_top_height_mm = remove_turntable_top(measured, rig, options.turntable_top, run);
   }
   if (options.register_views) {
     setup.registration = register_views(
         measured.views, camera, {*rig.turntable, measured.stations}, options.registration, run);
+    clear_outliers_of_cameras(setup);
   }
 }
 
@@ -73,9 +87,9 @@ MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
   warn_of_relative_distances(scan, run);
-  const CameraModel& camera = scan.rig.camera.model;
-  const auto rays = rays_of(camera);
+  const auto rays = rays_of(scan.rig.camera.model);
   Reconstruction out;
+  out.cameras = camera_count(scan.rig);
 
   // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
   MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
@@ -104,21 +118,25 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
 
   // All setups in the frame of the first one.
   MeasuredSetup joined = join_setups(std::move(setups), scan, options, run);
+  clear_outliers_of_cameras(joined);
   if (joined.registration && joined.registration->iterations > 0)
     run.note(joined.registration->text());
   add_outliers(outliers, joined);
   mark_left_out(out.view_summaries, joined, outliers);
-  clip_on_registered_turntable(joined, camera, options, run);
+  clip_on_registered_turntable(joined, scan.rig, options, run);
+  tie_cameras(joined.measured, scan.rig);
   out.registration = joined.registration;
   release_cached_pixels();
 
   // Views -> one surface -> finished mesh.
   run.stage("surface");
-  const ViewStore& views = joined.measured.views;
+  const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
-  fusion.add_systematic = calibration_part(views, scan.rig, joined.measured.coarsest, rays);
-  if (options.keep_raw) out.raw = collect_points(views, camera, run, fusion.add_systematic);
-  out.mesh = finish_mesh(fuse_views(views, camera, fusion, run), options.finish, run);
+  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, rays);
+  if (options.keep_raw)
+    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
+  out.mesh =
+      finish_mesh(fuse_views(views_of_cameras(all, scan.rig), fusion, run), options.finish, run);
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);

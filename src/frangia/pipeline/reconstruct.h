@@ -59,6 +59,12 @@ struct Reconstruction {
   double disagreement_mm = std::numeric_limits<double>::quiet_NaN();
   /// The same over what phase noise explains: about 1 for a sound rig.
   double disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
+  /// Median over the views of the median distance between the points of two cameras along their
+  /// rays, or, with a label, between their rays; NaN where no view has it. It checks the rig.
+  double camera_disagreement_mm = std::numeric_limits<double>::quiet_NaN();
+  /// The same over what phase noise explains.
+  double camera_disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
+  std::size_t cameras = 1;  ///< of the rig
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };

@@ -29,6 +29,8 @@ struct Projector {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< projector_from_rig
 
   PixelLayout pixels = PixelLayout::Square;  ///< of a digital projector's chip
+  /// Its fringes only label the points that two cameras see: pose and lens are not known.
+  bool is_label = false;
 
   /// Response that a look-up table corrects before patterns are shown; none: patterns are shown
   /// uncorrected.

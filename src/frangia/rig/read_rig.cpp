@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <complex>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,13 +58,14 @@ Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
   const double departure = (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (departure > kUnitTolerance || matrix.determinant() < 0.0) {
     reader.fail(key,
-                "is not a rotation: its rows must be the projector's x, y and z axes, of unit "
+                "is not a rotation: its rows must be the x, y and z axes in the rig frame, of unit "
                 "length, perpendicular and right-handed");
   }
   return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
 }
 
-CameraModel read_camera_model(TomlReader& reader, RigContent content) {
+/// A model of which the size alone is known.
+CameraModel read_image_size(TomlReader& reader) {
   CameraModel model;
   const auto size = reader.numbers("size_px", 2);
   for (const double side : size) {
@@ -73,6 +76,11 @@ CameraModel read_camera_model(TomlReader& reader, RigContent content) {
   model.width_px = static_cast<int>(size[0]);
   model.height_px = static_cast<int>(size[1]);
   model.focal_px = model.principal_point_px = Eigen::Vector2d::Constant(std::nan(""));
+  return model;
+}
+
+CameraModel read_camera_model(TomlReader& reader, RigContent content) {
+  CameraModel model = read_image_size(reader);
   const bool complete = content == RigContent::Complete;
   if (complete || reader.has("focal_px")) {
     model.focal_px = vector2(reader, "focal_px");
@@ -94,7 +102,8 @@ CameraModel read_camera_model(TomlReader& reader, RigContent content) {
   return model;
 }
 
-Camera read_camera(TomlReader reader, RigContent content, const Run& run) {
+/// The keys that all cameras have.
+Camera read_camera(TomlReader& reader, RigContent content, const Run& run) {
   Camera camera;
   camera.model = read_camera_model(reader, content);
   camera.white_level = reader.has("white_level") ? reader.integer("white_level", 1, 65535) : 255;
@@ -106,8 +115,53 @@ Camera read_camera(TomlReader reader, RigContent content, const Run& run) {
     camera.noise = NoiseModel::from_camera(gain, read);
     noise.warn_of_unused_keys(run);
   }
-  reader.warn_of_unused_keys(run);
   return camera;
+}
+
+/// The name of a camera, which is also that of the folders with its frames.
+std::string read_camera_name(TomlReader& reader) {
+  std::string name = reader.text("name");
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  });
+  if (!plain) {
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+    reader.fail("name",
+                fmt::format("is \"{}\"; it names the folder of the camera's frames: use letters, "
+                            "digits, - and _ only",
+                            name));
+  }
+  constexpr std::string_view kTaken = "rejected";
+  if (name == kTaken)
+    reader.fail("name", "is \"rejected\", the folder of frames that showed motion; choose another");
+  return name;
+}
+
+/// The cameras beside the reference camera, of distinct names.
+std::vector<PosedCamera> read_more_cameras(TomlReader& reader, RigContent content, const Run& run) {
+  std::vector<PosedCamera> cameras;
+  std::set<std::string> names;
+  for (TomlReader& table : reader.tables("more_cameras")) {
+    PosedCamera posed;
+    posed.position_mm.setConstant(std::nan(""));
+    posed.rotation.setConstant(std::nan(""));
+    const std::string name = read_camera_name(table);
+    posed.camera = read_camera(table, content, run);
+    posed.camera.name = name;
+    if (!names.insert(name).second) {
+      table.fail("name",
+                 fmt::format("is \"{}\", as of another camera; give each a name of its own", name));
+    }
+    const bool complete = content == RigContent::Complete;
+    if (complete || table.has("position_mm")) posed.position_mm = vector3(table, "position_mm");
+    if (complete || table.has("rotation")) posed.rotation = rotation(table, "rotation");
+    if (posed.position_mm.norm() == 0.0)
+      table.fail("position_mm", "is the reference camera's own centre; correct one of them");
+    table.warn_of_unused_keys(run);
+    cameras.push_back(std::move(posed));
+  }
+  return cameras;
 }
 
 PixelLayout read_pixels(TomlReader& reader) {
@@ -136,11 +190,23 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
   Projector projector;
   projector.position_mm.setConstant(std::nan(""));
   projector.rotation.setConstant(std::nan(""));
-  const bool complete = content == RigContent::Complete;
-  if (complete || reader.has("position_mm")) projector.position_mm = vector3(reader, "position_mm");
-  if (complete || reader.has("rotation")) projector.rotation = rotation(reader, "rotation");
   const std::string model = reader.text("model");
-  if (model == "angular") {
+  projector.is_label = model == "label";
+  const bool complete = content == RigContent::Complete && !projector.is_label;
+  if (projector.is_label) {
+    // A user may switch between both uses of a calibrated projector by its model alone.
+    for (const auto* calibrated :
+         {"position_mm", "rotation", "focal_px", "principal_point_px", "distortion"})
+      reader.ignore(calibrated);
+  } else {
+    if (complete || reader.has("position_mm"))
+      projector.position_mm = vector3(reader, "position_mm");
+    if (complete || reader.has("rotation")) projector.rotation = rotation(reader, "rotation");
+  }
+  if (projector.is_label) {
+    projector.model = read_image_size(reader);
+    if (reader.has("pixels")) projector.pixels = read_pixels(reader);
+  } else if (model == "angular") {
     const auto field = reader.numbers("field_deg", 2);
     if (!(field[0] < field[1]) || field[0] <= -90.0 || field[1] >= 90.0) {
       reader.fail("field_deg", "must be two rising angles between -90 and 90");
@@ -150,7 +216,8 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
     projector.model = read_camera_model(reader, content);
     if (reader.has("pixels")) projector.pixels = read_pixels(reader);
   } else {
-    reader.fail("model", fmt::format(R"(is "{}"; it must be "angular" or "pinhole")", model));
+    reader.fail("model",
+                fmt::format(R"(is "{}"; it must be "angular", "pinhole" or "label")", model));
   }
   if (reader.has("response")) {
     TomlReader response = reader.table("response");
@@ -183,9 +250,10 @@ void refuse_uncalibrated(const TomlReader& reader,
     }
   };
   if (table["camera"].is_table()) look("camera", {"focal_px", "principal_point_px"});
-  if (table["projector"].is_table()) {
+  const bool is_label = table["projector"]["model"].value_or(std::string_view()) == "label";
+  if (table["projector"].is_table() && !is_label) {
     look("projector", {"position_mm", "rotation"});
-  } else if (!reader.has("projector")) {
+  } else if (!reader.has("projector")) {  // of a label, the size suffices
     missing.emplace_back("[projector]");
   }
   if (missing.size() < 2) return;
@@ -219,10 +287,18 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
     reader.ignore(known);
   if (content == RigContent::Complete) refuse_uncalibrated(reader, table, path);
   Rig rig;
-  rig.camera = read_camera(reader.table("camera"), content, run);
+  TomlReader camera = reader.table("camera");
+  rig.camera = read_camera(camera, content, run);
+  camera.warn_of_unused_keys(run);
+  rig.more_cameras = read_more_cameras(reader, content, run);
   const bool no_projector = content == RigContent::PhaseOnly && !reader.has("projector");
   rig.projector =
       no_projector ? unknown_projector() : read_projector(reader.table("projector"), content, run);
+  if (rig.projector.is_label && rig.more_cameras.empty() && content == RigContent::Complete) {
+    reader.fail("projector.model",
+                "is \"label\", which needs two cameras: add [[more_cameras]], or calibrate the "
+                "projector");
+  }
   if (reader.has("line")) {
     TomlReader line = reader.table("line");
     rig.laser_sheet = LaserSheet{direction(line, "normal"), line.number("offset_mm")};

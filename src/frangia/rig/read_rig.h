@@ -18,6 +18,8 @@ enum class RigContent {
 /// names it. With `RigContent::StartValues` focal lengths, principal points and the projector's
 /// pose may be missing; with `RigContent::PhaseOnly` the whole projector, too.
 ///
+/// A projector of model "label" needs its size alone, and a second camera.
+///
 /// The covariance of the parameters is read from the CSV file that `[calibration]` names, except
 /// with `RigContent::StartValues`.
 ///

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -11,11 +13,22 @@
 
 namespace frangia {
 
-/// The calibrated camera of a rig.
+/// A calibrated camera of a rig.
 struct Camera {
   CameraModel model;                ///< projection and distortion
   int white_level = 255;            ///< a pixel at or above this level is saturated
   std::optional<NoiseModel> noise;  ///< estimated from the frames if absent
+  std::string name{};               ///< folder of its frames; empty for the reference camera
+};
+
+/// A camera beside the reference camera, and its pose.
+struct PosedCamera {
+  Camera camera;                                           ///< has a name
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();   ///< in the rig frame
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< camera_from_rig
+
+  /// Transforms from the rig frame to the camera's frame.
+  [[nodiscard]] Eigen::Isometry3d camera_from_rig() const;
 };
 
 /// The laser sheet: the plane normal . X = offset_mm in the rig frame.
@@ -29,6 +42,8 @@ struct Turntable {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< point on the axis of rotation
   Eigen::Vector3d axis =
       -Eigen::Vector3d::UnitY();  ///< unit vector that points up from the turntable top
+  /// Point towards which the object's x axis points: the centre of the reference camera.
+  Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();
 
   /// Returns the pose of the object at table angle `angle_rad`: point + [x y z] Rz(angle) p.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;
@@ -41,6 +56,7 @@ struct Rig {
   std::optional<LaserSheet> laser_sheet;  ///< gives fringe orders; none: the rig has no such source
   std::optional<Turntable> turntable;     ///< none: the object stays where it is
   std::optional<Calibration> calibration = std::nullopt;  ///< none: its origin is not known
+  std::vector<PosedCamera> more_cameras{};                ///< beside `camera`, with distinct names
 
   /// Returns `Turntable::rig_from_object`, or the identity for a rig without a turntable.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;

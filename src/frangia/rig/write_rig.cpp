@@ -41,14 +41,24 @@ void put_camera_model(TomlWriter& writer, const CameraModel& model) {
   writer.put("distortion", shortest_distortion(model));
 }
 
-void put_camera(TomlWriter& writer, const Camera& camera) {
-  writer.begin_table("camera");
+/// Pose of a device in the rig frame; NaN where it is not known.
+void put_pose(TomlWriter& writer, const Eigen::Vector3d& position_mm, const Eigen::Matrix3d& r) {
+  if (position_mm.allFinite()) writer.put("position_mm", list_of(position_mm));
+  if (!r.allFinite()) return;
+  writer.put("rotation",
+             std::vector{list_of(r.row(0).transpose()),
+                         list_of(r.row(1).transpose()),
+                         list_of(r.row(2).transpose())});
+}
+
+/// `table` is the name of the camera's table, which the caller has begun.
+void put_camera(TomlWriter& writer, const Camera& camera, const std::string& table) {
   put_camera_model(writer, camera.model);
   writer.put("white_level", camera.white_level);
   if (!camera.noise) return;
   const double gain = 1.0 / camera.noise->slope_counts;
   const double read2 = std::max(0.0, camera.noise->floor_counts2 - 1.0 / 12.0);
-  writer.begin_table("camera.noise");
+  writer.begin_table(table + ".noise");
   writer.put("gain_e_per_count", gain);
   writer.put("read_e", gain * std::sqrt(read2));
 }
@@ -81,22 +91,23 @@ void put_response(TomlWriter& writer, const Projector& projector) {
 }
 
 void put_projector(TomlWriter& writer, const Projector& projector) {
-  const Eigen::Matrix3d& r = projector.rotation;
   writer.begin_table("projector");
-  writer.put("model", std::string(projector.is_angular() ? "angular" : "pinhole"));
-  if (projector.position_mm.allFinite()) writer.put("position_mm", list_of(projector.position_mm));
-  if (r.allFinite()) {
-    writer.put("rotation",
-               std::vector{list_of(r.row(0).transpose()),
-                           list_of(r.row(1).transpose()),
-                           list_of(r.row(2).transpose())});
-  }
+  writer.put("model",
+             std::string(projector.is_label       ? "label"
+                         : projector.is_angular() ? "angular"
+                                                  : "pinhole"));
+  if (!projector.is_label) put_pose(writer, projector.position_mm, projector.rotation);
   if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
     writer.put(
         "field_deg",
         std::vector{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
   } else {
-    put_camera_model(writer, std::get<PinholeModel>(projector.model));
+    const auto& pinhole = std::get<PinholeModel>(projector.model);
+    if (projector.is_label) {
+      writer.put("size_px", std::vector<int>{pinhole.width_px, pinhole.height_px});
+    } else {
+      put_camera_model(writer, pinhole);
+    }
     if (projector.pixels == PixelLayout::Diamond) writer.put("pixels", std::string("diamond"));
   }
   put_response(writer, projector);
@@ -106,7 +117,14 @@ TomlWriter composed_rig(const Rig& rig) {
   TomlWriter writer;
   writer.put("format", std::string("frangia-rig"));
   writer.put("version", 1);
-  put_camera(writer, rig.camera);
+  writer.begin_table("camera");
+  put_camera(writer, rig.camera, "camera");
+  for (const PosedCamera& posed : rig.more_cameras) {
+    writer.begin_table_of_list("more_cameras");
+    writer.put("name", posed.camera.name);
+    put_pose(writer, posed.position_mm, posed.rotation);
+    put_camera(writer, posed.camera, "more_cameras");
+  }
   put_projector(writer, rig.projector);
   if (rig.laser_sheet) {
     writer.begin_table("line");

@@ -40,6 +40,26 @@ Rig digital() {
   return rig;
 }
 
+/// The digital rig with a second camera on the other side of the projector.
+Rig binocular() {
+  Rig rig = digital();
+  // Both cameras look at the axis of the turntable, at the height of a part.
+  const Eigen::Vector3d target = rig.turntable->point_mm + 30.0 * rig.turntable->axis;
+  PosedCamera posed;
+  posed.camera.name = "left";
+  posed.camera.model = {.width_px = 960,
+                        .height_px = 768,
+                        .focal_px = {1810.0, 1810.0},
+                        .principal_point_px = {475.2, 388.6},
+                        .distortion = {-0.08, 0.04, -3e-4, 2e-4, 0.0}};
+  posed.position_mm = {-330.0, -10.0, 95.0};
+  const Eigen::Vector3d z = (target - posed.position_mm).normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
+  posed.rotation << x.transpose(), z.cross(x).transpose(), z.transpose();
+  rig.more_cameras.push_back(posed);
+  return rig;
+}
+
 /// A laser sheet through the projector that leaves it at an angle from the camera's axis.
 LaserSheet laser_sheet_through(const Projector& projector, double angle_rad) {
   const Eigen::Vector3d normal(std::cos(angle_rad), 0.0, std::sin(angle_rad));
@@ -88,8 +108,8 @@ Rig angular() {
 
 using RigMaker = Rig (*)();
 
-constexpr std::array<std::pair<std::string_view, RigMaker>, 3> kRigs{
-    {{"digital", digital}, {"angular", angular}, {"carducci", carducci}}};
+constexpr std::array<std::pair<std::string_view, RigMaker>, 4> kRigs{
+    {{"digital", digital}, {"binocular", binocular}, {"angular", angular}, {"carducci", carducci}}};
 
 }  // namespace
 

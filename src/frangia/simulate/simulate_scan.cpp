@@ -14,6 +14,7 @@
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
+#include "frangia/rig/rig_of_camera.h"
 #include "frangia/simulate/internal/render_view.h"
 #include "frangia/simulate/internal/simulated_scene.h"
 
@@ -67,7 +68,7 @@ Run part_of(const Run& run, std::size_t index, std::size_t count) {
 /// The views of one setup and the scene with its part pose.
 struct SimulatedSetup {
   std::vector<SimulatedView> views;
-  SimulatedScene scene;
+  std::vector<SimulatedScene> scenes;  ///< by camera
 };
 
 std::vector<SimulatedSetup> make_setups(const Mesh& part,
@@ -82,27 +83,35 @@ std::vector<SimulatedSetup> make_setups(const Mesh& part,
     const auto part_pose = plan.part_poses.find(setup);
     const Mesh posed_part =
         part_pose == plan.part_poses.end() ? part : transform_mesh(part, part_pose->second);
-    SimulatedScene scene = make_simulated_scene(
-        posed_part,
-        plan.rig,
-        stations,
-        options,
-        part_pose == plan.part_poses.end() ? Eigen::Isometry3d::Identity() : part_pose->second,
-        run);
-    setups.push_back({std::move(stations), std::move(scene)});
+    setups.push_back({std::move(stations), {}});
+    for (std::size_t camera = 0; camera < camera_count(plan.rig); ++camera) {
+      setups.back().scenes.push_back(make_simulated_scene(
+          posed_part,
+          plan.rig,
+          setups.back().views,
+          options,
+          part_pose == plan.part_poses.end() ? Eigen::Isometry3d::Identity() : part_pose->second,
+          run,
+          camera));
+    }
   }
   return setups;
 }
 
 void render_setup(const SimulatedSetup& setup, const Scan& plan, const Run& run) {
+  const std::size_t cameras = setup.scenes.size();
   for (const SimulatedView& view : setup.views) {
-    const Run view_run = part_of(run, view.index, plan.views.size());
-    const std::filesystem::path folder = plan.folder / plan.views[view.index].folder;
-    const auto stacks = render_view(setup.scene, plan.patterns, view, view_run);
-    std::filesystem::remove_all(folder);
-    make_folder(folder);
-    write_frames(folder, stacks);
-    run.check();
+    for (std::size_t camera = 0; camera < cameras; ++camera) {
+      const Run view_run = part_of(run, view.index * cameras + camera, plan.views.size() * cameras);
+      const SimulatedScene& scene = setup.scenes[camera];
+      const std::filesystem::path folder =
+          plan.folder / plan.views[view.index].folder / scene.known_rig.camera.name;
+      const auto stacks = render_view(scene, plan.patterns, view, view_run);
+      std::filesystem::remove_all(folder);  // with the folders of the further cameras
+      make_folder(folder);
+      write_frames(folder, stacks);
+      run.check();
+    }
   }
 }
 
@@ -136,7 +145,7 @@ Scan simulate_scan(const Mesh& part,
     write_part_poses(plan.folder / "truth-setups.toml", plan.part_poses);
   }
   Scan scan = plan;
-  scan.rig = setups.front().scene.known_rig;
+  scan.rig = setups.front().scenes.front().known_rig;
   scan.part_poses.clear();
   write_scan(scan);
   std::filesystem::remove(mark);

@@ -49,12 +49,7 @@ Count clip_view(View& view, const Image<Eigen::Vector2f>& rays, const Clip& clip
   return all;
 }
 
-}  // namespace
-
-std::size_t clip_views(ViewStore& views,
-                       const CameraModel& camera,
-                       const Clip& clip,
-                       const Run& run) {
+Count clip_all(ViewStore& views, const CameraModel& camera, const Clip& clip, const Run& run) {
   const auto shared_rays = views.rays(camera);
   const Image<Eigen::Vector2f>& rays = *shared_rays;
   Count all;
@@ -68,6 +63,23 @@ std::size_t clip_views(ViewStore& views,
     all.kept += count.kept;
     all.removed += count.removed;
   }
+  return all;
+}
+
+}  // namespace
+
+std::size_t clip_views_to_nothing(ViewStore& views,
+                                  const CameraModel& camera,
+                                  const Clip& clip,
+                                  const Run& run) {
+  return clip_all(views, camera, clip, run).removed;
+}
+
+std::size_t clip_views(ViewStore& views,
+                       const CameraModel& camera,
+                       const Clip& clip,
+                       const Run& run) {
+  const Count all = clip_all(views, camera, clip, run);
   require(all.kept > 0,
           "nothing is left of the object: every point lies below `clip_below` or outside of "
           "`clip_radius`; lower `clip_below` or increase `clip_radius`");

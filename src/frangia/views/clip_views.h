@@ -19,6 +19,14 @@ struct Clip {
   double max_radius_mm = std::numeric_limits<double>::infinity();  ///< from the axis
 };
 
+/// As `clip_views`, but nothing may be left.
+///
+/// @errors   Error(Input) when a view and the camera differ in size
+std::size_t clip_views_to_nothing(ViewStore& views,
+                                  const CameraModel& camera,
+                                  const Clip& clip,
+                                  const Run& run = {});
+
 /// Removes the points outside of the clip from all views, before they can affect the registration
 /// or the mesh. Returns the number of removed points.
 ///

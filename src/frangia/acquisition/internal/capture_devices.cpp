@@ -27,14 +27,15 @@ class Stopwatch {
   Deadline::Clock::time_point begin_ = Deadline::Clock::now();
 };
 
-void check_frame(const Device& camera, const Frame& frame, const Rig& rig) {
-  const CameraModel& model = rig.camera.model;
+void check_frame(const Device& device, const Frame& frame, const Camera& camera) {
+  const CameraModel& model = camera.model;
   if (width_of(frame) == model.width_px && height_of(frame) == model.height_px) return;
-  fail_device(camera,
-              fmt::format("its frame is {} x {} pixels, but camera.size_px in rig.toml is {} x "
+  fail_device(device,
+              fmt::format("its frame is {} x {} pixels, but {}size_px in rig.toml is {} x "
                           "{}; correct one of them",
                           width_of(frame),
                           height_of(frame),
+                          camera.name.empty() ? "camera." : "its ",
                           model.width_px,
                           model.height_px));
 }
@@ -117,24 +118,28 @@ void CaptureDevices::expose_for(double exposure_ms) {
   settings.exposure_ms = exposure_ms;
   exposure_ms_ = 0.0;
   devices_.camera->configure(settings, deadline(options_.timeout_s));
+  for (const auto& camera : devices_.more_cameras)
+    camera->configure(settings, deadline(options_.timeout_s));
   exposure_ms_ = exposure_ms;
 }
 
-CompleteFrame CaptureDevices::capture(const FrameLabel& label) {
+CompleteFrame CaptureDevices::capture(const FrameLabel& label, std::size_t number) {
   const Stopwatch watch(seconds_);
+  CameraDevice& camera = number == 0 ? *devices_.camera : *devices_.more_cameras.at(number - 1);
   std::string cause;
   for (int attempts = 1; attempts <= options_.frame_attempts; ++attempts) {
     run_.check();
     const Deadline until = deadline(options_.timeout_s + 1e-3 * exposure_ms_);
-    CapturedFrame captured = devices_.camera->capture(label, until);
+    CapturedFrame captured = camera.capture(label, until);
     if (captured.complete) {
-      check_frame(*devices_.camera, captured.frame, rig_);
+      check_frame(
+          camera, captured.frame, number == 0 ? rig_.camera : rig_.more_cameras[number - 1].camera);
       return {std::move(captured.frame), attempts};
     }
     cause = captured.incomplete_cause;
   }
   fail_device(
-      *devices_.camera,
+      camera,
       fmt::format("frame {} of \"{}\" arrived incomplete {} times ({}); check its cable and "
                   "network",
                   label.frame,

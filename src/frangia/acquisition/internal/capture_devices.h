@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -43,10 +44,12 @@ class CaptureDevices {
   void end_set();
   /// Switches the fringes' light on and the laser sheet off without moving the phase shifter.
   void light_fringes() { switch_to(Light::Fringes); }
+  /// Sets the exposure of all cameras.
   void expose_for(double exposure_ms);
-  /// Captures a frame and repeats the exposure while it arrives incomplete.
+  /// Captures a frame of a camera, 0 for the reference camera, and repeats the exposure while it
+  /// arrives incomplete.
   /// @errors   Error(Device), also when all `frame_attempts` frames are incomplete
-  [[nodiscard]] CompleteFrame capture(const FrameLabel& label);
+  [[nodiscard]] CompleteFrame capture(const FrameLabel& label, std::size_t camera = 0);
 
   /// Switches all lights off after a fault, and motion unless the table is at rest at a known
   /// angle.

@@ -81,7 +81,8 @@ void CaptureSession::capture_views() {
 }
 
 void CaptureSession::capture_view_once(std::size_t view) {
-  make_folder(plan_.folder / plan_.views[view].folder, Durability::Synced);
+  for (std::size_t camera = 0; camera < files_.cameras(); ++camera)
+    make_folder(plan_.folder / files_.folder_of(view, camera), Durability::Synced);
   std::vector<std::shared_ptr<const Frame>> frames;
   for (const Pattern& pattern : plan_.patterns) {
     const auto set = sets_.capture(view, pattern);

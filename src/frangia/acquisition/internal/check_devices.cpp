@@ -119,6 +119,14 @@ void check_angles(const TurntableDevice& table, const std::vector<ScanView>& vie
 
 void check_devices(const RigDevices& devices, const Scan& plan, const CaptureOptions& options) {
   require(devices.camera != nullptr, "the rig has no [devices.camera]; add it to rig.toml");
+  for (std::size_t i = 0; i < plan.rig.more_cameras.size(); ++i) {
+    const std::string& name = plan.rig.more_cameras[i].camera.name;
+    if (i < devices.more_cameras.size() && devices.more_cameras[i] != nullptr) continue;
+    throw Error(ErrorKind::Input,
+                fmt::format("the rig has no [devices.camera-{0}], which takes the frames of its "
+                            "camera \"{0}\"; add it to rig.toml",
+                            name));
+  }
   for (const Pattern& pattern : plan.patterns) {
     check_pattern(devices, plan.rig, pattern);
     for (const double exposure_ms : pattern.exposures_ms)

@@ -15,12 +15,12 @@ namespace frangia {
 namespace {
 
 /// The bytes of a frame; empty when the file is missing, damaged or of another size.
-std::optional<std::vector<char>> intact_frame(const std::filesystem::path& path, const Rig& rig) {
+std::optional<std::vector<char>> intact_frame(const std::filesystem::path& path,
+                                              const CameraModel& camera) {
   try {
     std::vector<char> bytes = read_regular_file(path);
     static_cast<void>(read_png(path, [&](int width_px, int height_px) {
-      require(width_px == rig.camera.model.width_px && height_px == rig.camera.model.height_px,
-              "another size");
+      require(width_px == camera.width_px && height_px == camera.height_px, "another size");
     }));
     return bytes;
   } catch (const Error&) {
@@ -30,13 +30,38 @@ std::optional<std::vector<char>> intact_frame(const std::filesystem::path& path,
 
 /// Whether the file at the frame's path was captured after the set's last rejection: `SetFiles`
 /// then moved the rejected frame away first.
-bool is_of_last_attempt(const Scan& plan,
-                        std::size_t view,
+bool is_of_last_attempt(const std::filesystem::path& folder,
                         const std::string& frame_name,
                         int attempt) {
-  return attempt == 0 ||
-         std::filesystem::exists(plan.folder / plan.views[view].folder / "rejected" /
-                                 fmt::format("{}-{}", attempt - 1, frame_name));
+  return attempt == 0 || std::filesystem::exists(folder / "rejected" /
+                                                 fmt::format("{}-{}", attempt - 1, frame_name));
+}
+
+/// The frames of one camera and set.
+std::size_t recover_set(const Scan& plan,
+                        const SetFiles& files,
+                        std::size_t view,
+                        const Pattern& pattern,
+                        std::size_t camera,
+                        CaptureManifest& manifest) {
+  const CameraModel& model =
+      camera == 0 ? plan.rig.camera.model : plan.rig.more_cameras[camera - 1].camera.model;
+  const int attempt = manifest.attempt_of(files.set_of(view, pattern));
+  std::size_t count = 0;
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      const std::string file = files.file_of(view, pattern, frame, exposure, camera);
+      if (manifest.has(file) || !is_of_last_attempt(plan.folder / files.folder_of(view, camera),
+                                                    frame_file_name(pattern, frame, exposure),
+                                                    attempt))
+        continue;
+      const auto bytes = intact_frame(plan.folder / file, model);
+      if (!bytes) continue;
+      manifest.add_recovered(file, *bytes);
+      ++count;
+    }
+  }
+  return count;
 }
 
 }  // namespace
@@ -47,19 +72,8 @@ std::size_t recover_frames(const Scan& plan, const SetFiles& files, CaptureManif
     for (const Pattern& pattern : plan.patterns) {
       const std::string set = files.set_of(view, pattern);
       if (!manifest.may_lack_frames_of(set)) continue;
-      const int attempt = manifest.attempt_of(set);
-      for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-        for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-          const std::string file = files.file_of(view, pattern, frame, exposure);
-          if (manifest.has(file) ||
-              !is_of_last_attempt(plan, view, frame_file_name(pattern, frame, exposure), attempt))
-            continue;
-          const auto bytes = intact_frame(plan.folder / file, plan.rig);
-          if (!bytes) continue;
-          manifest.add_recovered(file, *bytes);
-          ++count;
-        }
-      }
+      for (std::size_t camera = 0; camera < files.cameras(); ++camera)
+        count += recover_set(plan, files, view, pattern, camera, manifest);
     }
   }
   return count;

@@ -88,6 +88,24 @@ std::vector<FrameStack> SetCapture::stacks_of(const Pattern& pattern,
   return stacks;
 }
 
+/// The other cameras take the frame that is shown, one after the other.
+void SetCapture::capture_further_cameras(std::size_t view,
+                                         const Pattern& pattern,
+                                         const FrameLabel& label,
+                                         double scale) {
+  for (std::size_t camera = 1; camera < parts_.files.cameras(); ++camera) {
+    const std::string file =
+        parts_.files.file_of(view, pattern, label.frame, label.exposure, camera);
+    if (parts_.manifest.has(file)) continue;
+    parts_.devices.expose_for(exposure_of(pattern, label.exposure));
+    CompleteFrame taken = parts_.devices.capture(label, camera);
+    parts_.store.put(file,
+                     std::make_shared<const Frame>(std::move(taken.frame)),
+                     {.attempts = taken.attempts, .scale = scale});
+    ++captured_;
+  }
+}
+
 /// The frames of a set at all exposures: read where stored, captured otherwise.
 std::vector<SetCapture::FramePtr> SetCapture::acquire(std::size_t view,
                                                       const Pattern& pattern,
@@ -119,6 +137,10 @@ std::vector<SetCapture::FramePtr> SetCapture::acquire(std::size_t view,
         frames.push_back(std::make_shared<const Frame>(std::move(taken.frame)));
         parts_.store.put(file, frames.back(), {.attempts = taken.attempts, .scale = scale});
         ++captured_;
+      }
+      if (!complete) {
+        capture_further_cameras(
+            view, pattern, {static_cast<int>(view), pattern.name, frame, exposure, attempt}, scale);
       }
       on_frames_(1);
     }

@@ -44,8 +44,8 @@ class SetCapture {
       : parts_(parts), exposure_ms_(exposure_ms), on_frames_(std::move(on_frames)) {}
 
   /// Captures the missing frames of a set and repeats the set while it shows motion. Turns the
-  /// table before the first frame. Returns the frames in the order of `read_frames`: one exposure
-  /// after the other.
+  /// table before the first frame. Returns the frames of the reference camera in the order of
+  /// `read_frames`: one exposure after the other.
   [[nodiscard]] std::vector<FramePtr> capture(std::size_t view, const Pattern& pattern);
 
   /// Number of frames captured so far.
@@ -59,6 +59,10 @@ class SetCapture {
                     int attempt);
   [[nodiscard]] std::vector<FrameStack> stacks_of(const Pattern& pattern,
                                                   const std::vector<FramePtr>& frames) const;
+  void capture_further_cameras(std::size_t view,
+                               const Pattern& pattern,
+                               const FrameLabel& label,
+                               double scale);
   std::vector<FramePtr> acquire(std::size_t view, const Pattern& pattern, int attempt);
   [[nodiscard]] double exposure_of(const Pattern& pattern, int exposure) const;
 

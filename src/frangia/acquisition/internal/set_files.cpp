@@ -7,6 +7,7 @@
 
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 
@@ -14,11 +15,18 @@ std::string SetFiles::set_of(std::size_t view, const Pattern& pattern) const {
   return (plan_.views[view].folder / pattern.name).generic_string();
 }
 
-std::string SetFiles::file_of(std::size_t view,
-                              const Pattern& pattern,
-                              int frame,
-                              int exposure) const {
-  return (plan_.views[view].folder / frame_file_name(pattern, frame, exposure)).generic_string();
+std::filesystem::path SetFiles::folder_of(std::size_t view, std::size_t camera) const {
+  const std::filesystem::path& folder = plan_.views[view].folder;
+  return camera == 0 ? folder : folder / plan_.rig.more_cameras[camera - 1].camera.name;
+}
+
+std::size_t SetFiles::cameras() const {
+  return camera_count(plan_.rig);
+}
+
+std::string SetFiles::file_of(
+    std::size_t view, const Pattern& pattern, int frame, int exposure, std::size_t camera) const {
+  return (folder_of(view, camera) / frame_file_name(pattern, frame, exposure)).generic_string();
 }
 
 std::size_t SetFiles::frames_per_view() const {
@@ -30,8 +38,10 @@ std::size_t SetFiles::frames_per_view() const {
 
 bool SetFiles::has_all_frames(std::size_t view, const Pattern& pattern) const {
   for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
-      if (!manifest_.has(file_of(view, pattern, frame, exposure))) return false;
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      for (std::size_t camera = 0; camera < cameras(); ++camera)
+        if (!manifest_.has(file_of(view, pattern, frame, exposure, camera))) return false;
+    }
   }
   return true;
 }
@@ -62,20 +72,22 @@ std::vector<bool> SetFiles::stored_frames(std::size_t view, const Pattern& patte
 }
 
 void SetFiles::move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const {
-  const std::filesystem::path folder = plan_.folder / plan_.views[view].folder;
-  const std::filesystem::path rejected = folder / "rejected";
-  make_folder(rejected, Durability::Synced);
-  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
-    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-      const std::string name = frame_file_name(pattern, frame, exposure);
-      const std::filesystem::path to = rejected / fmt::format("{}-{}", attempt, name);
-      const bool counts = manifest_.has(file_of(view, pattern, frame, exposure));
-      if (!counts && std::filesystem::exists(folder / name) && !std::filesystem::exists(to))
-        std::filesystem::rename(folder / name, to);
+  for (std::size_t camera = 0; camera < cameras(); ++camera) {
+    const std::filesystem::path folder = plan_.folder / folder_of(view, camera);
+    const std::filesystem::path rejected = folder / "rejected";
+    make_folder(rejected, Durability::Synced);
+    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+        const std::string name = frame_file_name(pattern, frame, exposure);
+        const std::filesystem::path to = rejected / fmt::format("{}-{}", attempt, name);
+        const bool counts = manifest_.has(file_of(view, pattern, frame, exposure, camera));
+        if (!counts && std::filesystem::exists(folder / name) && !std::filesystem::exists(to))
+          std::filesystem::rename(folder / name, to);
+      }
     }
+    sync_to_disk(rejected);
+    sync_to_disk(folder);
   }
-  sync_to_disk(rejected);
-  sync_to_disk(folder);
 }
 
 }  // namespace frangia

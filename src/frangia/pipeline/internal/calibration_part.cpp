@@ -40,6 +40,7 @@ std::function<void(View&)> calibration_part(const ViewStore& views,
                                             const Rig& rig,
                                             const Pattern& pattern,
                                             const Image<Eigen::Vector2f>& rays) {
+  if (rig.projector.is_label) return {};  // the covariance is that of the projector and one camera
   if (!rig.calibration || rig.calibration->covariance.empty()) return {};
   const auto uncertainty =
       std::make_shared<const CalibrationUncertainty>(rig, pattern, measured_volume(views, rays));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,11 +10,12 @@
 #include <fmt/format.h>
 
 #include "frangia/core/median.h"
+#include "frangia/dataset/scan_of_camera.h"
 #include "frangia/pipeline/check_view.h"
+#include "frangia/pipeline/internal/fuse_view_cameras.h"
 #include "frangia/pipeline/internal/view_decoder.h"
 #include "frangia/pipeline/survey_scan.h"
-#include "frangia/pipeline/triangulate_view.h"
-#include "frangia/range/recover_edge_pixels.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -65,33 +67,6 @@ double median_sigma_mm(const RangeGrid& range) {
     }
   }
   return sigmas_mm.empty() ? kMissing : static_cast<double>(median(std::move(sigmas_mm)));
-}
-
-/// One view's range grid.
-struct MeasuredView {
-  RangeGrid range;
-  std::vector<RangePixel> edge_pixels;
-  DirectionDisagreement disagreement;
-  std::size_t points = 0;
-};
-
-/// Marks in `decoded.phase.status` the pixels that triangulation and the mixed-pixel filter reject.
-MeasuredView measure_view(DecodedView& decoded,
-                          const ViewFit& fit,
-                          const Scan& scan,
-                          const Image<Eigen::Vector2f>& rays,
-                          const DecodeOptions& options,
-                          const MixedPixelOptions& mixed_pixels) {
-  MeasuredView out;
-  TriangulatedView triangulated =
-      triangulate_view(decoded, fit, scan.rig, rays, options.directions);
-  out.range = std::move(triangulated.range);
-  out.disagreement = triangulated.disagreement;
-  const auto removed = remove_mixed_pixels(out.range, rays, decoded.phase.status, mixed_pixels);
-  out.edge_pixels = recover_edge_pixels(
-      out.range, rays, removed, {.max_incidence_deg = mixed_pixels.max_incidence_deg});
-  out.points = count_points(out.range);
-  return out;
 }
 
 /// Collects what the views say about scan.toml, and ends a scan of which no view fits it.
@@ -147,6 +122,57 @@ class ScanFit {
   std::string first_reason_;
 };
 
+/// A camera of the rig, in whose frame its views are decoded.
+struct CameraScan {
+  Scan scan;
+  Image<Eigen::Vector2f> own_rays;  ///< empty for the reference camera
+  const Image<Eigen::Vector2f>& rays;
+  DecodeOptions options;
+  ScanFit fit;
+  std::unique_ptr<ViewDecoder> decoder;
+
+  CameraScan(const Scan& all,
+             std::size_t camera,
+             const Image<Eigen::Vector2f>& reference_rays,
+             const DecodeOptions& decode,
+             const Run& run)
+      : scan(scan_of_camera(all, camera)),
+        own_rays(camera == 0 ? Image<Eigen::Vector2f>() : rays_of(scan.rig.camera.model)),
+        rays(camera == 0 ? reference_rays : own_rays),
+        options(decode),
+        fit(scan, run) {
+    options.survey = survey_scan(scan, run);
+    options.keep_maps = false;
+  }
+};
+
+std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
+                                                        const Image<Eigen::Vector2f>& rays,
+                                                        const DecodeOptions& decode,
+                                                        const Run& run) {
+  std::vector<std::unique_ptr<CameraScan>> cameras;
+  for (std::size_t i = 0; i < camera_count(scan.rig); ++i)
+    cameras.push_back(std::make_unique<CameraScan>(scan, i, rays, decode, run));
+  return cameras;
+}
+
+/// Decodes a view of a camera and decides which of its phases are used.
+DecodedCamera decode_camera(CameraScan& camera, std::size_t view, const Run& run) {
+  DecodedCamera out{camera.scan.rig, camera.rays, camera.decoder->next()};
+  report_assessments(camera.scan, view, out.decoded.assessments, run);
+  out.fit =
+      check_view(out.decoded, camera.scan.rig, camera.rays, camera.options.accept_inconsistent);
+  out.used = camera.fit.add(view, out.fit);
+  return out;
+}
+
+std::size_t count_points(const MeasuredView& measured) {
+  std::size_t points = 0;
+  for (const MeasuredCamera& camera : measured.cameras)
+    points += count_points(camera.range);
+  return points;
+}
+
 }  // namespace
 
 MeasuredViews measure_views(const Scan& scan,
@@ -155,55 +181,65 @@ MeasuredViews measure_views(const Scan& scan,
                             const MixedPixelOptions& mixed_pixels,
                             const Run& run) {
   run.stage("survey");
-  DecodeOptions decode_options = decode;
-  decode_options.survey = survey_scan(scan, run);
-  decode_options.keep_maps = false;
+  const auto cameras = survey_cameras(scan, rays, decode, run);
   run.stage("range");
-  ViewDecoder decoder(scan, rays, decode_options, run);
+  for (const auto& camera : cameras) {
+    camera->decoder =
+        std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run);
+  }
   MeasuredViews all;
-  ScanFit scan_fit(scan, run);
+  all.more.resize(cameras.size() - 1);
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
-    DecodedView decoded = decoder.next();
-    report_assessments(scan, i, decoded.assessments, run);
-    const ViewFit fit = check_view(decoded, scan.rig, rays, decode.accept_inconsistent);
-    if (!scan_fit.add(i, fit)) {
-      all.summaries.push_back({scan.views[i].folder.string(),
-                               scan.views[i].angle_rad,
-                               scan.views[i].setup,
-                               0,
-                               kMissing,
-                               true});
+    std::vector<DecodedCamera> decoded;
+    for (const auto& camera : cameras)
+      decoded.push_back(decode_camera(*camera, i, run));
+    ViewSummary summary{
+        scan.views[i].folder.string(), scan.views[i].angle_rad, scan.views[i].setup};
+    DecodedView& reference = decoded.front().decoded;
+    if (!decoded.front().used) {
+      summary.left_out = true;
+      all.summaries.push_back(summary);
       continue;
     }
-    MeasuredView measured = measure_view(decoded, fit, scan, rays, decode_options, mixed_pixels);
-    if (measured.disagreement.pixels > 0) {
-      all.disagreements_mm.push_back(static_cast<float>(measured.disagreement.median_mm));
+    all.coarsest = decoded.front().fit.uses_first ? reference.coarsest : reference.phase.pattern;
+    MeasuredView measured =
+        fuse_view_cameras(scan.rig, decoded, decode.directions, mixed_pixels, run);
+    if (measured.directions.pixels > 0) {
+      all.disagreements_mm.push_back(static_cast<float>(measured.directions.median_mm));
       all.disagreements_over_sigma.push_back(
-          static_cast<float>(measured.disagreement.median_over_sigma));
+          static_cast<float>(measured.directions.median_over_sigma));
     }
-    all.summaries.push_back({scan.views[i].folder.string(),
-                             scan.views[i].angle_rad,
-                             scan.views[i].setup,
-                             measured.points,
-                             median_sigma_mm(measured.range),
-                             measured.points == 0 && decoded.unresolved.empty()});
-    if (measured.points == 0 && decoded.unresolved.empty()) {
-      run.warn(why_empty(scan, i, decoded.phase.status));
+    if (measured.between_cameras.pixels > 0) {
+      all.camera_disagreements_mm.push_back(static_cast<float>(measured.between_cameras.median_mm));
+      all.camera_disagreements_over_sigma.push_back(
+          static_cast<float>(measured.between_cameras.median_over_sigma));
+    }
+    summary.points = count_points(measured);
+    summary.sigma_mm = median_sigma_mm(measured.cameras.front().range);
+    summary.left_out = summary.points == 0 && reference.unresolved.empty();
+    all.summaries.push_back(summary);
+    if (summary.left_out) {
+      run.warn(why_empty(scan, i, reference.phase.status));
       continue;
     }
-    for (UnresolvedRegion& region : decoded.unresolved)
+    for (UnresolvedRegion& region : reference.unresolved)
       all.unresolved.push_back({all.views.size(), std::move(region)});
-    all.coarsest = fit.uses_first ? decoded.coarsest : decoded.phase.pattern;
-    all.unwrapped_spatially = decoded.relative.has_value();
+    all.unwrapped_spatially = reference.relative.has_value();
     all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
     all.setups.push_back(scan.views[i].setup);
-    all.views.add({std::move(measured.range),
-                   scan.rig.rig_from_object(scan.views[i].angle_rad),
-                   std::move(measured.edge_pixels)});
-    all.points += measured.points;
+    const Eigen::Isometry3d rig_from_object = scan.rig.rig_from_object(scan.views[i].angle_rad);
+    for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+      MeasuredCamera& seen = measured.cameras[camera];
+      ViewStore& views = camera == 0 ? all.views : all.more[camera - 1];
+      views.add({std::move(seen.range),
+                 camera_from_rig(scan.rig, camera) * rig_from_object,
+                 std::move(seen.edge_pixels)});
+    }
+    all.points += summary.points;
   }
-  scan_fit.finish();
+  for (const auto& camera : cameras)
+    camera->fit.finish();
   return all;
 }
 

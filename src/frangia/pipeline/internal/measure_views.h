@@ -20,9 +20,10 @@ namespace frangia {
 
 /// The range grids of all views of a scan.
 struct MeasuredViews {
-  ViewStore views;
-  std::vector<Station> stations;                 ///< of the turntable, one per view
-  std::vector<int> setups;                       ///< setup numbers, one per view
+  ViewStore views;                ///< of the reference camera
+  std::vector<ViewStore> more;    ///< of each further camera, one for each of `views`
+  std::vector<Station> stations;  ///< of the turntable, one per view
+  std::vector<int> setups;        ///< setup numbers, one per view
   std::vector<UnresolvedViewRegion> unresolved;  ///< regions without a fringe order
   Pattern coarsest;                              ///< coarsest fringe pattern
   bool unwrapped_spatially = false;              ///< whole patches may then be wrong by fringes
@@ -31,12 +32,17 @@ struct MeasuredViews {
   /// both.
   std::vector<float> disagreements_mm;
   std::vector<float> disagreements_over_sigma;
+  /// Disagreement of the cameras, mm and over its noise, one per view in which it is known.
+  std::vector<float> camera_disagreements_mm;
+  std::vector<float> camera_disagreements_over_sigma;
   std::vector<ViewSummary> summaries;  ///< of all views of the scan, also of those left out
 };
 
 /// Reads, decodes and triangulates all views of a scan. The next view is read and decoded while one
-/// is triangulated, within the memory of two views.
+/// is triangulated, within the memory of two views. The cameras of a view are fused by
+/// `fuse_cameras`; with a projector that is a label, `match_by_phase` finds their common points.
 ///
+/// @shape    `rays` of the reference camera
 /// @missing  a view without a lit pixel is left out with a warning, and so is a view whose frames
 /// do
 ///           not fit scan.toml or the rig, unless `accept_inconsistent` is set

@@ -100,8 +100,11 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
 
 /// Appends the views of a setup, as setup `index` of those that are joined.
 void append(MeasuredViews& all, const MeasuredViews& setup, std::size_t index) {
+  all.more.resize(setup.more.size());
   for (std::size_t i = 0; i < setup.views.size(); ++i) {
     all.views.add(setup.views.load(i));
+    for (std::size_t camera = 0; camera < setup.more.size(); ++camera)
+      all.more[camera].add(setup.more[camera].load(i));
     all.stations.push_back(setup.stations[i]);
     all.stations.back().setup = index;
   }
@@ -145,6 +148,14 @@ std::vector<MeasuredSetup> split_setups(MeasuredViews all, const std::vector<int
       setup.measured.points += static_cast<std::size_t>(
           std::count_if(depth.begin(), depth.end(), [](float z) { return !std::isnan(z); }));
       setup.measured.views.add(view);
+      setup.measured.more.resize(all.more.size());
+      for (std::size_t camera = 0; camera < all.more.size(); ++camera) {
+        const View other = all.more[camera].load(which[i]);
+        const auto seen = other.range.depth_mm.pixels();
+        setup.measured.points += static_cast<std::size_t>(
+            std::count_if(seen.begin(), seen.end(), [](float z) { return !std::isnan(z); }));
+        setup.measured.more[camera].add(other);
+      }
       setup.measured.stations.push_back(all.stations[which[i]]);
       for (UnresolvedViewRegion& part : all.unresolved) {
         if (part.view == which[i]) setup.measured.unresolved.push_back({i, std::move(part.region)});

@@ -10,15 +10,15 @@
 namespace frangia {
 
 /// Removes the points outside of the volume that `clip_below_mm` and `clip_radius_mm` describe.
-void clip_to_volume(ViewStore& views,
-                    const CameraModel& camera,
+void clip_to_volume(MeasuredViews& measured,
+                    const Rig& rig,
                     const ReconstructOptions& options,
                     const Run& run = {});
 
 /// As `clip_to_volume`, on the registered turntable: each view with its refined pose on the table.
 /// The poses of the views themselves, which join the setups, stay as they are.
 void clip_on_registered_turntable(MeasuredSetup& setup,
-                                  const CameraModel& camera,
+                                  const Rig& rig,
                                   const ReconstructOptions& options,
                                   const Run& run = {});
 
@@ -26,8 +26,8 @@ void clip_on_registered_turntable(MeasuredSetup& setup,
 ///
 /// @units    mm, the height of the removed plane on the turntable's axis
 /// @missing  NaN when no turntable top is found
-[[nodiscard]] double remove_turntable_top(ViewStore& views,
-                                          const CameraModel& camera,
+[[nodiscard]] double remove_turntable_top(MeasuredViews& measured,
+                                          const Rig& rig,
                                           const TurntableTopOptions& options,
                                           const Run& run = {});
 

@@ -83,6 +83,9 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
       stacks.push_back(empty_stack(pattern, exposure, scene));
       shots.push_back(shots_of(pattern, view, scene.options));
       for (Shot& shot : shots.back()) {
+        // The cameras see the same light, each with noise of its own.
+        constexpr std::uint64_t kCameraStream = 0xCA0;
+        if (scene.camera > 0) shot.stream = hash(shot.stream, kCameraStream + scene.camera);
         if (exposure > 0) shot.stream = hash(shot.stream, static_cast<std::uint64_t>(exposure));
         shot.light = stacks.back().gain();
       }

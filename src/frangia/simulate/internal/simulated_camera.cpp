@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/random.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/simulate/internal/fault_script.h"
 #include "frangia/simulate/internal/simulated_devices.h"
@@ -21,6 +22,9 @@ SimulateOptions read_options(DeviceSettings& settings, const Rig& rig) {
   SimulateOptions options;
   options.seed = static_cast<std::uint64_t>(settings.integer_or("seed", 1, 0, 1'000'000'000));
   options.samples_per_px = settings.integer_or("samples", 1, 1, 64);
+  // A further camera has noise of its own.
+  for (const char letter : rig.camera.name)
+    options.seed = hash(options.seed, static_cast<std::uint64_t>(letter));
   options.bits = static_cast<int>(std::lround(std::log2(rig.camera.white_level + 1)));
   if (rig.camera.noise) {
     const double e_per_count = 1.0 / rig.camera.noise->slope_counts;
@@ -73,11 +77,12 @@ class SimulatedCamera final : public CameraDevice {
       : bench_(std::move(bench)),
         faults_(read_faults(settings, {"lost", "incomplete", "saturated", "motion", "unplugged"})),
         real_time_(settings.flag_or("real_time", false)) {
-    bench_->reference_exposure_ms = settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5);
-    bench_->scene = make_scene(settings, rig);
+    reference_exposure_ms_ = settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5);
+    scene_ = make_scene(settings, rig);
+    if (rig.camera.name.empty()) bench_->scene = scene_;  // of the reference camera
     info_.width_px = rig.camera.model.width_px;
     info_.height_px = rig.camera.model.height_px;
-    info_.white_level = bench_->scene->known_rig.camera.white_level;
+    info_.white_level = scene_->known_rig.camera.white_level;
     info_.min_exposure_ms = 1e-3;
     info_.max_gain_db = 24.0;
   }
@@ -125,12 +130,17 @@ class SimulatedCamera final : public CameraDevice {
     FrameFaults faults;
     if (faults_.matches(words("saturated"))) faults.light = 8.0;
     if (label.attempt == 0 && faults_.matches(words("motion"))) faults.motion_rad = 0.5;
-    captured.frame = camera_.capture(*bench_, label, faults);
+    SimulatedBench seen = *bench_;
+    seen.scene = scene_;
+    seen.reference_exposure_ms = reference_exposure_ms_;
+    captured.frame = camera_.capture(seen, label, faults);
     return captured;
   }
 
  private:
   BenchPtr bench_;
+  std::shared_ptr<const SimulatedScene> scene_;
+  double reference_exposure_ms_ = 10.0;
   FaultScript faults_;
   bool real_time_;  ///< an exposure takes its nominal time
   CameraInfo info_;

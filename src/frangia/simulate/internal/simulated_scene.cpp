@@ -10,6 +10,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
 #include "frangia/geometry/corner_normals.h"
+#include "frangia/rig/rig_of_camera.h"
 #include "frangia/simulate/internal/light_sample.h"
 #include "frangia/simulate/internal/solid_builder.h"
 
@@ -62,6 +63,12 @@ void check(const SimulateOptions& options, const Rig& rig) {
                 "display gamma is a fault of a digital projector, but the rig has an angular one; "
                 "leave it at 1");
   }
+  if (rig.projector.is_label) {
+    throw Error(
+        ErrorKind::Input,
+        "the rig's projector is a label, of which no fringes can be rendered; give its model "
+        "and pose in rig.toml");
+  }
   if (!rig.turntable) {
     throw Error(ErrorKind::Input,
                 "the rig has no [turntable], which places the part; add it to rig.toml");
@@ -83,6 +90,14 @@ Turntable true_turntable(const Turntable& given, const SimulateOptions& options)
       across(real.axis, real.axis.unitOrthogonal(), kTwoPi * uniform_from(hash(stream, 2)));
   real.point_mm += options.axis_offset_mm * offset_direction;
   return real;
+}
+
+/// White level and noise of a camera, as rig.toml states them.
+void set_noise(Camera& camera, const SimulateOptions& options) {
+  camera.white_level = (1 << options.bits) - 1;
+  camera.noise.reset();
+  if (!options.noise) return;
+  camera.noise = NoiseModel::from_camera(options.full_well_e / camera.white_level, options.read_e);
 }
 
 Mesh with_turntable_top(const Mesh& part, double radius_mm) {
@@ -137,7 +152,8 @@ SimulatedScene make_simulated_scene(const Mesh& part,
                                     std::span<const SimulatedView> views,
                                     const SimulateOptions& options,
                                     const Eigen::Isometry3d& part_pose,
-                                    const Run& run) {
+                                    const Run& run,
+                                    std::size_t camera) {
   require(!part.empty(), "the part has no triangles; give a surface, not points alone");
   check(options, rig);
   Mesh surface = with_turntable_top(part, options.turntable_top_radius_mm);
@@ -149,13 +165,16 @@ SimulatedScene make_simulated_scene(const Mesh& part,
                        .rays = rays_of(rig.camera.model),
                        .part_from_object = part_pose.inverse(),
                        .options = options};
-  scene.known_rig.camera.white_level = (1 << options.bits) - 1;
-  scene.known_rig.camera.noise.reset();
-  if (options.noise) {
-    scene.known_rig.camera.noise = NoiseModel::from_camera(
-        options.full_well_e / scene.known_rig.camera.white_level, options.read_e);
-  }
+  set_noise(scene.known_rig.camera, options);
+  for (PosedCamera& posed : scene.known_rig.more_cameras)
+    set_noise(posed.camera, options);
   scene.rig.turntable = true_turntable(*rig.turntable, options);
+  if (camera > 0) {
+    scene.camera = camera;
+    scene.rig = rig_of_camera(scene.rig, camera);
+    scene.known_rig = rig_of_camera(scene.known_rig, camera);
+    scene.rays = rays_of(scene.rig.camera.model);
+  }
   scene.working_distance_mm =
       (scene.rig.projector.position_mm - scene.rig.turntable->point_mm).norm();
 

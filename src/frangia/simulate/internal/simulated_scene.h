@@ -26,6 +26,7 @@ struct SimulatedScene {
   double working_distance_mm = 0.0;  ///< of the projector from the part
   double exposure = 1.0;             ///< white level per unit of light from a white surface
   SimulateOptions options = {};
+  std::size_t camera = 0;  ///< that `rig` is seen from; 0 is the reference camera
 };
 
 /// One station of the turntable.
@@ -35,7 +36,9 @@ struct SimulatedView {
 };
 
 /// Places a part on a rig and sets the exposure by the brightest pixel of all views. `part_pose` is
-/// the pose already applied to `part`; it locates the plane of a printed board.
+/// the pose already applied to `part`; it locates the plane of a printed board. The rigs of the
+/// scene are those of `camera`, see `rig_of_camera`; the known rig of the reference camera keeps
+/// them all.
 ///
 /// @errors   Error(Input) when the part has no triangles, the rig has no turntable, or an option is
 ///          out of range; Error(Cancelled)
@@ -45,7 +48,8 @@ struct SimulatedView {
     std::span<const SimulatedView> views,
     const SimulateOptions& options = {},
     const Eigen::Isometry3d& part_pose = Eigen::Isometry3d::Identity(),
-    const Run& run = {});
+    const Run& run = {},
+    std::size_t camera = 0);
 
 /// The true pose of the object in a view, with the turntable's faults.
 [[nodiscard]] Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view);

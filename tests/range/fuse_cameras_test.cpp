@@ -1,0 +1,360 @@
+#include "frangia/range/fuse_cameras.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/random.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/range/match_by_phase.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/rig/rig_of_camera.h"
+
+#include "support/error_of.h"
+
+namespace frangia {
+namespace {
+
+constexpr double kNone = static_cast<double>(kMissing);
+constexpr double kSigma_rad = 0.02;
+/// A period of 30 pixels of the cameras, so that they resolve harmonics.
+constexpr double kCoarse_px = 160.0;
+
+/// Turns z towards a target; x stays as horizontal as it can.
+Eigen::Matrix3d looking_at(const Eigen::Vector3d& from, const Eigen::Vector3d& target) {
+  const Eigen::Vector3d z = (target - from).normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
+  Eigen::Matrix3d rotation;
+  rotation << x.transpose(), z.cross(x).transpose(), z.transpose();
+  return rotation;
+}
+
+struct Options {
+  Eigen::Vector3d second_mm = {150.0, 0.0, 20.0};
+  double scale = 1.0;
+  bool label = false;
+  int directions = 1;
+  double harmonic_rad = 0.0;  ///< amplitude of an error of four periods in a fringe
+  double period_px = 40.0;
+  double turned_rad = 0.0;  ///< of the second camera against the rig
+};
+
+/// A ball in front of two cameras and a projector, with phases computed from its surface.
+struct TwoCameras {
+  explicit TwoCameras(const Options& given) : options(given) {
+    const double s = options.scale;
+    center_mm = s * Eigen::Vector3d(0.0, 0.0, 500.0);
+    radius_mm = 40.0 * s;
+    rig.camera.model = {.width_px = 160,
+                        .height_px = 128,
+                        .focal_px = {700.0, 700.0},
+                        .principal_point_px = {79.5, 63.5},
+                        .distortion = {-0.05}};
+    rig.projector.model = PinholeModel{.width_px = 1000,
+                                       .height_px = 800,
+                                       .focal_px = {4000.0, 4000.0},
+                                       .principal_point_px = {499.5, 399.5}};
+    rig.projector.position_mm = s * Eigen::Vector3d(-120.0, -15.0, 10.0);
+    rig.projector.rotation = looking_at(rig.projector.position_mm, center_mm);
+    PosedCamera second;
+    second.camera.name = "second";
+    second.camera.model = rig.camera.model;
+    second.camera.model.focal_px *= 1.1;
+    second.position_mm = s * options.second_mm;
+    second.rotation = looking_at(second.position_mm, center_mm);
+    rig.more_cameras.push_back(second);
+    for (const FringeDirection direction :
+         {FringeDirection::Vertical, FringeDirection::Horizontal}) {
+      Pattern pattern;
+      pattern.direction = direction;
+      pattern.period_px = options.period_px;
+      pattern.shifts_rad = {0.0, kPi / 2, kPi, 3 * kPi / 2};
+      patterns.push_back(pattern);
+    }
+    patterns.resize(static_cast<std::size_t>(options.directions));
+    const Rig truth = rig;
+    rig.more_cameras[0].rotation =
+        Eigen::AngleAxisd(options.turned_rad, Eigen::Vector3d::UnitX()).toRotationMatrix() *
+        rig.more_cameras[0].rotation;
+    rig.projector.is_label = options.label;
+    for (std::size_t i = 0; i < 2; ++i) {
+      rigs.push_back(rig_of_camera(rig, i));
+      rays.push_back(rays_of(rigs.back().camera.model));
+      for (const Pattern& pattern : patterns)
+        phases[i].push_back(phase_of(rig_of_camera(truth, i), pattern, i));
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      cameras.push_back({rigs[i], rays[i], camera_from_rig(rig, i), {}});
+      for (const AbsolutePhase& phase : phases[i])
+        cameras.back().phases.push_back(&phase);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (options.label) {
+        const Image<float> start = match_by_phase(cameras[i], cameras[1 - i]);
+        const Image<float> nothing(start.width(), start.height(), kMissing);
+        ranges.push_back({start, nothing, nothing});
+      } else {
+        ranges.push_back(triangulate(phases[i].front(), rigs[i], rays[i]));
+      }
+    }
+    alone = ranges;
+  }
+
+  /// The depth of the ball on the ray of a camera; NaN beside it.
+  [[nodiscard]] double depth_of(const Eigen::Vector2d& ray, const Eigen::Isometry3d& camera) const {
+    const Eigen::Vector3d direction = ray.homogeneous();
+    const Eigen::Vector3d center = camera * center_mm;
+    const double b = direction.dot(center) / direction.squaredNorm();
+    const double rest =
+        b * b - (center.squaredNorm() - radius_mm * radius_mm) / direction.squaredNorm();
+    return rest > 0.0 ? b - std::sqrt(rest) : kNone;
+  }
+
+  [[nodiscard]] AbsolutePhase phase_of(const Rig& seen,
+                                       const Pattern& pattern,
+                                       std::size_t camera) const {
+    const auto pixels = rays_of(seen.camera.model);
+    AbsolutePhase out{pattern,
+                      Image<float>(pixels.width(), pixels.height(), kMissing),
+                      Image<float>(pixels.width(), pixels.height(), kMissing),
+                      Image<PixelStatus>(pixels.width(), pixels.height(), PixelStatus::Measured),
+                      {}};
+    if (options.harmonic_rad > 0.0)
+      out.systematic_rad = Image<float>(pixels.width(), pixels.height(), kMissing);
+    const Eigen::Isometry3d pose = camera == 0 ? Eigen::Isometry3d::Identity() : truth_from_rig();
+    const Eigen::Vector3d center = pose * center_mm;
+    for (int y = 0; y < pixels.height(); ++y) {
+      for (int x = 0; x < pixels.width(); ++x) {
+        const Eigen::Vector2d ray = pixels(x, y).cast<double>();
+        const double depth = depth_of(ray, pose);
+        if (std::isnan(depth)) continue;
+        const Eigen::Vector3d point = depth * ray.homogeneous();
+        const Eigen::Vector3d normal = (point - center).normalized();
+        const Eigen::Vector3d to_light = (seen.projector.position_mm - point).normalized();
+        constexpr double kLeastCosine = 0.3;
+        if (normal.dot(to_light) < kLeastCosine || -normal.dot(point.normalized()) < kLeastCosine)
+          continue;
+        const double phase = phase_at(point, pattern, seen.projector);
+        const auto stream = hash(hash(7 + camera, static_cast<std::uint64_t>(pattern.direction)),
+                                 static_cast<std::uint64_t>(y * pixels.width() + x));
+        out.phase_rad(x, y) =
+            static_cast<float>(phase + options.harmonic_rad * std::sin(4.0 * phase) +
+                               kSigma_rad * normal_from(stream));
+        out.sigma_rad(x, y) = static_cast<float>(kSigma_rad);
+        if (options.harmonic_rad > 0.0)
+          out.systematic_rad(x, y) = static_cast<float>(options.harmonic_rad / std::sqrt(2.0));
+      }
+    }
+    return out;
+  }
+
+  [[nodiscard]] Eigen::Isometry3d truth_from_rig() const {
+    PosedCamera second = rig.more_cameras[0];
+    second.rotation = looking_at(second.position_mm, center_mm);
+    return second.camera_from_rig();
+  }
+
+  Options options;
+  Rig rig;
+  Eigen::Vector3d center_mm;
+  double radius_mm = 0.0;
+  std::vector<Pattern> patterns;
+  std::vector<Rig> rigs;
+  std::vector<Image<Eigen::Vector2f>> rays;
+  std::array<std::vector<AbsolutePhase>, 2> phases;
+  std::vector<CameraPhases> cameras;
+  std::vector<RangeGrid> ranges;
+  std::vector<RangeGrid> alone;  ///< before fusion
+};
+
+/// Errors of a camera's points along their rays.
+struct Errors {
+  std::size_t points = 0;
+  double rms_mm = 0.0;
+  double mean_mm = 0.0;
+  double over_sigma = 0.0;  ///< RMS of the error over the stated combined sigma
+};
+
+Errors errors_of(const TwoCameras& scene,
+                 std::size_t camera,
+                 const std::vector<RangeGrid>& ranges) {
+  Errors out;
+  const RangeGrid& range = ranges[camera];
+  const Eigen::Isometry3d pose =
+      camera == 0 ? Eigen::Isometry3d::Identity() : scene.truth_from_rig();
+  for (int y = 0; y < range.depth_mm.height(); ++y) {
+    for (int x = 0; x < range.depth_mm.width(); ++x) {
+      const RangePixel pixel = range.pixel(x, y);
+      if (std::isnan(pixel.depth_mm)) continue;
+      const Eigen::Vector2d ray = scene.rays[camera](x, y).cast<double>();
+      const double error = ray.homogeneous().norm() *
+                           (static_cast<double>(pixel.depth_mm) - scene.depth_of(ray, pose));
+      const double systematic =
+          std::isnan(pixel.systematic_mm) ? 0.0 : static_cast<double>(pixel.systematic_mm);
+      ++out.points;
+      out.mean_mm += error;
+      out.rms_mm += error * error;
+      out.over_sigma +=
+          std::pow(error / std::hypot(static_cast<double>(pixel.sigma_mm), systematic), 2);
+    }
+  }
+  const auto count = static_cast<double>(out.points);
+  out.mean_mm /= count;
+  out.rms_mm = std::sqrt(out.rms_mm / count);
+  out.over_sigma = std::sqrt(out.over_sigma / count);
+  return out;
+}
+
+/// The same errors over sigma as fusion counts it: a point's own share of the information.
+constexpr double kShared = 1.4142;
+
+TEST(FuseCameras, HalvesTheVarianceWithoutBiasWhereverTheSecondCameraStands) {
+  const std::array<Eigen::Vector3d, 4> places{Eigen::Vector3d{150.0, 0.0, 20.0},
+                                              Eigen::Vector3d{-270.0, 5.0, 60.0},
+                                              Eigen::Vector3d{30.0, -140.0, 10.0},
+                                              Eigen::Vector3d{120.0, 90.0, 80.0}};
+  for (const Eigen::Vector3d& place : places) {
+    SCOPED_TRACE(place.transpose());
+    TwoCameras scene({.second_mm = place});
+    const CameraDisagreement found = fuse_cameras(scene.cameras, scene.ranges);
+    EXPECT_GT(found.pixels, 500U);
+    EXPECT_NEAR(found.median_over_sigma, 0.6745, 0.12);
+    EXPECT_LT(found.removed, 10U);
+    for (const std::size_t camera : {0U, 1U}) {
+      const Errors before = errors_of(scene, camera, scene.alone);
+      const Errors after = errors_of(scene, camera, scene.ranges);
+      EXPECT_GE(after.points + 10, before.points);
+      EXPECT_LT(after.rms_mm, 0.9 * before.rms_mm);
+      EXPECT_LT(std::abs(after.mean_mm), 0.1 * after.rms_mm);
+      EXPECT_GT(kShared * after.over_sigma, 0.7);
+      EXPECT_LT(kShared * after.over_sigma, 1.2);
+    }
+  }
+}
+
+TEST(FuseCameras, ScalesWithTheRig) {
+  TwoCameras plain({});
+  static_cast<void>(fuse_cameras(plain.cameras, plain.ranges));
+  const Errors wanted = errors_of(plain, 0, plain.ranges);
+  for (const double scale : {0.1, 10.0}) {
+    TwoCameras scaled({.scale = scale});
+    static_cast<void>(fuse_cameras(scaled.cameras, scaled.ranges));
+    const Errors found = errors_of(scaled, 0, scaled.ranges);
+    EXPECT_NEAR(static_cast<double>(found.points), static_cast<double>(wanted.points), 5.0);
+    EXPECT_NEAR(found.rms_mm / scale, wanted.rms_mm, 0.01 * wanted.rms_mm);
+    EXPECT_NEAR(found.over_sigma, wanted.over_sigma, 0.01);
+  }
+}
+
+TEST(FuseCameras, CancelsHarmonicsThatBothCamerasSee) {
+  constexpr double kHarmonic_rad = 0.15;
+  TwoCameras scene({.harmonic_rad = kHarmonic_rad, .period_px = kCoarse_px});
+  static_cast<void>(fuse_cameras(scene.cameras, scene.ranges));
+  const Errors before = errors_of(scene, 0, scene.alone);
+  const Errors after = errors_of(scene, 0, scene.ranges);
+  EXPECT_LT(after.rms_mm, 0.5 * before.rms_mm);
+  EXPECT_GT(kShared * after.over_sigma, 0.7);
+  EXPECT_LT(kShared * after.over_sigma, 1.5);
+}
+
+TEST(FuseCameras, MatchesTwoCamerasByALabelWhoseCalibrationIsNotKnown) {
+  for (const int directions : {1, 2}) {
+    for (const Eigen::Vector3d& place :
+         {Eigen::Vector3d{150.0, 0.0, 20.0}, Eigen::Vector3d{-150.0, 30.0, 60.0}}) {
+      SCOPED_TRACE(place.transpose());
+      TwoCameras scene({.second_mm = place, .label = true, .directions = directions});
+      for (Rig& rig : scene.rigs) {  // nothing of it may be used
+        rig.projector.position_mm.setConstant(kNone);
+        rig.projector.rotation.setConstant(kNone);
+      }
+      static_cast<void>(fuse_cameras(scene.cameras, scene.ranges));
+      const Errors found = errors_of(scene, 0, scene.ranges);
+      EXPECT_GT(found.points, 3000U);
+      EXPECT_LT(std::abs(found.mean_mm), 0.1 * found.rms_mm);
+      EXPECT_LT(found.rms_mm, 1.0);
+      EXPECT_GT(kShared * found.over_sigma, 0.7);
+      EXPECT_LT(kShared * found.over_sigma, 1.2);
+    }
+  }
+}
+
+TEST(FuseCameras, MatchesALabelDespiteHarmonics) {
+  constexpr double kHarmonic_rad = 0.15;
+  TwoCameras projector({.harmonic_rad = kHarmonic_rad, .period_px = kCoarse_px});
+  TwoCameras label({.label = true, .harmonic_rad = kHarmonic_rad, .period_px = kCoarse_px});
+  static_cast<void>(fuse_cameras(label.cameras, label.ranges));
+  const Errors alone = errors_of(projector, 0, projector.alone);
+  const Errors found = errors_of(label, 0, label.ranges);
+  EXPECT_LT(found.rms_mm, 0.5 * alone.rms_mm);
+  EXPECT_GT(kShared * found.over_sigma, 0.7);
+  EXPECT_LT(kShared * found.over_sigma, 1.5);
+}
+
+TEST(FuseCameras, SeesACameraThatHasTurned) {
+  for (const bool label : {false, true}) {
+    TwoCameras sound({.label = label, .directions = 2});
+    TwoCameras turned({.label = label, .directions = 2, .turned_rad = rad_from_deg(0.2)});
+    const CameraDisagreement before = fuse_cameras(sound.cameras, sound.ranges);
+    const CameraDisagreement after = fuse_cameras(turned.cameras, turned.ranges);
+    EXPECT_LT(before.median_over_sigma, 0.8);
+    EXPECT_GT(after.median_over_sigma, 2.0);
+    EXPECT_GT(after.median_mm, 2.0 * before.median_mm);
+    const Errors errors = errors_of(turned, 0, turned.ranges);
+    EXPECT_GT(errors.points, 3000U);
+    EXPECT_LT(errors.over_sigma, 1.5);  // the difference has entered the systematic part
+  }
+}
+
+TEST(FuseCameras, RemovesPointsThatAnotherCameraContradicts) {
+  // A patch whose fringe order is off by one hangs in front of the ball, where the second camera
+  // sees through it, or lies behind points that the second camera sees.
+  for (const double fringes : {1.0, -1.0}) {
+    SCOPED_TRACE(fringes);
+    TwoCameras scene({});
+    for (int y = 60; y < 66; ++y) {
+      for (int x = 76; x < 82; ++x)
+        scene.phases[0][0].phase_rad(x, y) += static_cast<float>(fringes * kTwoPi);
+    }
+    scene.ranges[0] = triangulate(scene.phases[0].front(), scene.rigs[0], scene.rays[0]);
+    ASSERT_FALSE(std::isnan(scene.ranges[0].depth_mm(79, 63)));
+    const CameraDisagreement found = fuse_cameras(scene.cameras, scene.ranges);
+    EXPECT_GE(found.removed, 16U);
+    EXPECT_TRUE(std::isnan(scene.ranges[0].depth_mm(79, 63)));
+    EXPECT_FALSE(std::isnan(scene.ranges[0].depth_mm(60, 63)));
+  }
+}
+
+TEST(MatchByPhase, LeavesOutAPhaseThatOccursTwiceOnAnEpipolarLine) {
+  TwoCameras scene({.label = true});
+  const std::size_t all = errors_of(scene, 0, scene.alone).points;
+  // The second half of the second camera repeats the phases of the first half.
+  Image<float>& phase = scene.phases[1][0].phase_rad;
+  for (int y = 0; y < phase.height(); ++y) {
+    for (int x = phase.width() / 2; x < phase.width(); ++x)
+      phase(x, y) = phase(x - phase.width() / 2 + 10, y);
+  }
+  const Image<float> matched = match_by_phase(scene.cameras[0], scene.cameras[1]);
+  std::size_t points = 0;
+  for (const float depth : matched.pixels())
+    points += std::isnan(depth) ? 0U : 1U;
+  EXPECT_LT(points, all / 2);
+}
+
+TEST(FuseCameras, RefusesCamerasWithOneCentre) {
+  TwoCameras scene({});
+  scene.cameras[1].camera_from_rig.translation().setZero();
+  EXPECT_NE(testing::error_of([&] {
+              static_cast<void>(match_by_phase(scene.cameras[0], scene.cameras[1]));
+            }).find("same centre"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia
