@@ -95,6 +95,7 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
     writer.put(
         "field_deg",
         std::vector{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
+    if (angular->pitch_scale != 1.0) writer.put("pitch_scale", angular->pitch_scale);
   } else {
     put_camera_model(writer, std::get<PinholeModel>(projector.model));
     if (projector.pixels == PixelLayout::Diamond) writer.put("pixels", std::string("diamond"));
