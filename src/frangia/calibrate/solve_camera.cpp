@@ -272,7 +272,9 @@ CameraSolution solve_camera(const Screen& screen,
     out.camera_from_screen.push_back(isometry_of(pose));
   summarize_screen(observations, fit, out);
   RigSolution all;
-  add_covariance(observations, fit.freedom, fit.noise, fit.parameters, all);
+  RigFreedom alone = fit.freedom;
+  alone.projector.fill(true);  // no observation depends on it, and nothing is known beforehand
+  add_covariance(observations, alone, fit.noise, fit.parameters, all);
   out.parameters.assign(all.parameters.begin(), all.parameters.begin() + kIntrinsics);
   out.covariance = all.covariance.topLeftCorner(kIntrinsics, kIntrinsics);
   if (!out.covariance.allFinite()) {

@@ -16,6 +16,7 @@
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/pipeline/internal/calibrate_artifact_sites.h"
+#include "frangia/pipeline/internal/calibrate_compare_views.h"
 #include "frangia/range/calibration_uncertainty.h"
 
 namespace frangia {
@@ -242,64 +243,6 @@ void check_plate_of(const Scan& scan,
              fmt::format("{:.4f} mm from the plane of all views in the worst view", together));
 }
 
-/// The grid of points of one view, and what is needed to compare another view with it.
-struct PartView {
-  std::vector<Eigen::Vector3d> points;  ///< by site, rig frame; NaN where missing
-  Eigen::Isometry3d rig_from_zero = Eigen::Isometry3d::Identity();
-};
-
-struct SiteGrid {
-  int step = 1;
-  int columns = 0;
-  int rows = 0;
-
-  [[nodiscard]] std::size_t at(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
-  }
-};
-
-/// Normal of the surface at a site, towards the camera; NaN at a depth edge.
-Eigen::Vector3d normal_at(const PartView& view, const SiteGrid& grid, int column, int row) {
-  const Eigen::Vector3d right =
-      view.points[grid.at(column + 1, row)] - view.points[grid.at(column - 1, row)];
-  const Eigen::Vector3d down =
-      view.points[grid.at(column, row + 1)] - view.points[grid.at(column, row - 1)];
-  const Eigen::Vector3d normal = right.cross(down).normalized();
-  return normal.dot(view.points[grid.at(column, row)]) > 0.0 ? Eigen::Vector3d(-normal) : normal;
-}
-
-/// Signed distances of the points of one view from the surface of another, along its normals.
-void compare_views(const PartView& from,
-                   const PartView& to,
-                   const SiteGrid& grid,
-                   const Rig& rig,
-                   double match_share,
-                   std::vector<double>& distances) {
-  constexpr double kSameSide = 0.8;  // cosine of two normals
-  constexpr double kFrontal = 0.35;  // cosine of a normal and the ray
-  const Eigen::Isometry3d move = to.rig_from_zero * from.rig_from_zero.inverse();
-  for (int row = 1; row + 1 < grid.rows; ++row) {
-    for (int column = 1; column + 1 < grid.columns; ++column) {
-      const Eigen::Vector3d& point = from.points[grid.at(column, row)];
-      if (!point.allFinite()) continue;
-      const Eigen::Vector3d here = move * point;
-      if (!(here.z() > 0.0)) continue;
-      const Eigen::Vector2d pixel = rig.camera.model.project(here);
-      const int x = static_cast<int>(std::lround((pixel.x() - grid.step / 2) / grid.step));
-      const int y = static_cast<int>(std::lround((pixel.y() - grid.step / 2) / grid.step));
-      if (x < 1 || y < 1 || x + 1 >= grid.columns || y + 1 >= grid.rows) continue;
-      const Eigen::Vector3d& other = to.points[grid.at(x, y)];
-      const Eigen::Vector3d normal = normal_at(to, grid, x, y);
-      const Eigen::Vector3d own = move.linear() * normal_at(from, grid, column, row);
-      const bool same = normal.dot(own) > kSameSide && -normal.dot(other.normalized()) > kFrontal &&
-                        -own.dot(here.normalized()) > kFrontal;
-      const double distance = normal.dot(here - other);
-      if (same && std::abs(distance) < match_share * other.norm()) distances.push_back(distance);
-    }
-  }
-}
-
 void check_part(const Scan& scan,
                 const Rig& rig,
                 const CheckRigOptions& options,
@@ -340,29 +283,27 @@ void check_part(const Scan& scan,
                             "together",
                             (scan.folder / "scan.toml").string()));
   }
-  std::vector<double> distances;
+  PatchDistances patches;
   for (std::size_t a = 0; a < views.size(); ++a) {
     for (std::size_t b = 0; b < views.size(); ++b)
-      if (a != b) compare_views(views[a], views[b], grid, rig, options.match_share, distances);
+      if (a != b) compare_views(views[a], views[b], grid, rig, options.match_share, patches);
   }
-  constexpr std::size_t kFewest = 500;
-  if (distances.size() < kFewest) {
+  constexpr std::size_t kFewest = 20;
+  if (patches.mean_mm.size() < kFewest) {
     throw Error(ErrorKind::Numeric,
-                fmt::format("the views share {} points within {:g} mm of each other, too few to "
+                fmt::format("the views share {} patches within {:.3g} mm of each other, too few to "
                             "check the rig: it is far off, or the angles between the views are too "
                             "large",
-                            distances.size(),
+                            patches.mean_mm.size(),
                             options.match_share * all.front().norm()));
   }
-  for (double& distance : distances)
-    distance = std::abs(distance);
   CheckLimits limits(rig, all, options, check);
-  const double typical = 1.4826 * median(distances);
+  const double typical = spread_of(patches.mean_mm);
   limits.add("disagreement of the views",
              typical,
-             0.0,
+             median(patches.sigma_mm),
              2.0,
-             fmt::format("{:.4f} mm, robust, over {} pairs of points", typical, distances.size()));
+             fmt::format("{:.4f} mm, robust, over {} patches", typical, patches.mean_mm.size()));
 }
 
 }  // namespace

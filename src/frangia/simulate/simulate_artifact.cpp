@@ -107,8 +107,8 @@ Mesh facing(const Mesh& part, const Rig& rig) {
                                                             Eigen::Vector3d::UnitZ())));
 }
 
-/// A sheet that leans back by 14 degrees beside the axis, with its face towards x. An upright plate
-/// determines the axis three times less well.
+/// A sheet that leans back by 14 degrees beside the axis, with its face towards x. A shift along
+/// the axis would leave an upright plate as it is.
 Mesh standing_plate(double field_mm) {
   constexpr double kLean_rad = 0.25;
   const Eigen::Vector2d half(0.4 * field_mm, 0.35 * field_mm);
