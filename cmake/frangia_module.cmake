@@ -18,7 +18,7 @@ function(frangia_module name)
   file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/internal/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${dir}/*.h)
   if(NOT FRANGIA_CALIBRATION)  # the modules calibrate and exchange, and sources of other modules that need it
-    list(FILTER sources EXCLUDE REGEX "/frangia/(calibrate/|exchange/|[a-z_]+/calibrate_)")
+    list(FILTER sources EXCLUDE REGEX "/frangia/(calibrate/|exchange/|[a-z_]+/(internal/)?calibrate_)")
   endif()
   list(TRANSFORM ARG_USES PREPEND "frangia::")
   list(TRANSFORM ARG_PRIVATE_HEADERS REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")

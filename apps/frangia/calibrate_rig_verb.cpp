@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,18 +19,21 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 
+#include "calibrate_artifacts_verb.h"
 #include "check_can_write.h"
 #include "counted.h"
+#include "option_values.h"
 #include "print_text.h"
 
 namespace frangia {
 namespace {
 
 struct RigArguments {
-  std::filesystem::path scan;
+  std::vector<std::filesystem::path> scans;
   std::filesystem::path output;
   std::filesystem::path report;
   bool flat_board = false;
+  double length_mm = 0.0;  ///< 0: not known
 };
 
 /// Standard deviation of a parameter; 0 if it was held.
@@ -146,11 +150,45 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
   return json;
 }
 
+/// Calibrates by the board among the scans, if there is one, and then by the artifacts.
+void calibrate_by_several(const std::vector<Scan>& scans,
+                          const RigArguments& arguments,
+                          Terminal& terminal) {
+  require(arguments.report.empty(), "`report` is for poses of one board only");
+  std::optional<Rig> start;
+  std::vector<Scan> artifacts;
+  for (const Scan& scan : scans) {
+    if (scan.artifact) {
+      artifacts.push_back(scan);
+      continue;
+    }
+    require(!start, "two scans hold poses of a board; put all poses into one scan");
+    CalibrateRigOptions options;
+    options.solve.release_board = !arguments.flat_board;
+    const RigCalibration found = calibrate_rig(scan, options, terminal.run());
+    start = found.rig;
+    start->calibration->covariance = {found.solution.parameters, found.solution.covariance};
+  }
+  require(!artifacts.empty(), "two scans hold poses of a board; put all poses into one scan");
+  for (const Scan& scan : artifacts)
+    if (start && !start->turntable) start->turntable = scan.rig.turntable;
+  ArtifactVerbOptions options{arguments.output, {}, arguments.flat_board};
+  if (arguments.length_mm > 0.0) options.baseline_mm = arguments.length_mm;
+  calibrate_by_artifacts(artifacts, start, options, terminal);
+}
+
 void calibrate_rig_verb(const RigArguments& arguments, Terminal& terminal) {
   check_can_write(arguments.output);
   if (!arguments.report.empty()) check_can_write(arguments.report);
   const Run run = terminal.run();
-  const Scan scan = read_scan(arguments.scan, run, RigContent::StartValues);
+  std::vector<Scan> scans;
+  for (const std::filesystem::path& folder : arguments.scans)
+    scans.push_back(read_scan(folder, run, RigContent::StartValues));
+  if (scans.size() > 1 || scans.front().artifact) {
+    calibrate_by_several(scans, arguments, terminal);
+    return;
+  }
+  const Scan& scan = scans.front();
   CalibrateRigOptions options;
   options.solve.release_board = !arguments.flat_board;
   options.pose.keep_picture = !arguments.report.empty();
@@ -180,14 +218,26 @@ void calibrate_rig_verb(const RigArguments& arguments, Terminal& terminal) {
 void add_calibrate_rig_verb(CLI::App& calibrate, Terminal& terminal) {
   auto arguments = std::make_shared<RigArguments>();
   CLI::App* verb = calibrate.add_subcommand(
-      "rig", "find camera, projector and their relative pose from poses of a board");
+      "rig", "find camera, projector and turntable from a board, screen, plate or ball bar");
   verb->footer(
       "Example:\n  frangia calibrate rig poses -o rig.toml\n"
       "poses is a scan folder: its views are poses of a board with fringes in both directions, "
       "its\n"
       "scan.toml describes the [board], and its rig.toml holds at least the sizes of camera and\n"
-      "projector. See docs/calibration.md.");
-  verb->add_option("SCAN", arguments->scan, "the scan folder with the poses")->required();
+      "projector. See docs/calibration.md.\n"
+      "  frangia calibrate rig screen plate ball-bar -o rig.toml\n"
+      "calibrates a rig with an interferometer: the camera by a [board] of kind \"screen\", the "
+      "rest "
+      "by\n"
+      "a plate and a ball bar on the turntable.");
+  verb->add_option("SCAN",
+                   arguments->scans,
+                   "the scan folder with the poses; several, each with another kind of board")
+      ->required();
+  verb->add_option("--length",
+                   arguments->length_mm,
+                   "distance of camera and projector, which gives the scale where no ball does")
+      ->transform(length_above_zero());
   verb->add_option("-o,--output", arguments->output, "rig.toml to write")->required();
   verb->add_flag("--flat-board",
                  arguments->flat_board,

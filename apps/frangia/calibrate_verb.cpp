@@ -17,6 +17,7 @@
 
 #ifdef FRANGIA_WITH_CALIBRATION
 #include "calibrate_board_verb.h"
+#include "calibrate_check_verb.h"
 #include "calibrate_exchange_verbs.h"
 #include "calibrate_rig_verb.h"
 #include "calibrate_turntable_verb.h"
@@ -100,6 +101,7 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
   add_calibrate_board_verb(*verb, terminal);
   add_calibrate_rig_verb(*verb, terminal);
   add_calibrate_turntable_verb(*verb, terminal);
+  add_calibrate_check_verb(*verb, terminal);
   add_calibrate_exchange_verbs(*verb, terminal);
 #endif
   auto* piezo = verb->add_subcommand(

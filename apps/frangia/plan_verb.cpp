@@ -59,7 +59,8 @@ void plan(const PlanArguments& arguments, Terminal& terminal) {
               "`fringes`");
     } else {
       const auto& field = std::get<AngularModel>(rig.projector.model);
-      values.push_back(fringes / deg_from_rad(field.field_max_rad - field.field_min_rad));
+      values.push_back(fringes * field.pitch_scale /
+                       deg_from_rad(field.field_max_rad - field.field_min_rad));
     }
   }
   const std::string key = pinhole != nullptr ? "period_px" : "fringes_per_degree";

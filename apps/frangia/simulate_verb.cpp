@@ -17,6 +17,7 @@
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
+#include "frangia/simulate/simulate_artifact.h"
 #include "frangia/simulate/simulate_calibration.h"
 #include "frangia/simulate/simulate_scan.h"
 
@@ -121,12 +122,14 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
 
 void add_calibration_options(CLI::App& verb, SimulateArguments& arguments) {
   constexpr const char* kGroup = "Calibration";
-  auto* calibration = verb.add_option("--calibration",
-                                      arguments.calibration,
-                                      "instead of a part, as many poses of a board as --views: "
-                                      "checkerboard, charuco or circles")
-                          ->check(one_of({"checkerboard", "charuco", "circles"}))
-                          ->group(kGroup);
+  auto* calibration =
+      verb.add_option("--calibration",
+                      arguments.calibration,
+                      "instead of a part, as many poses of a board as --views: "
+                      "checkerboard, charuco or circles; a screen before the "
+                      "camera; or a plate or ball-bar that turns on the table")
+          ->check(one_of({"checkerboard", "charuco", "circles", "screen", "plate", "ball-bar"}))
+          ->group(kGroup);
   verb.add_option("--corners", arguments.corners, "points of the board along x and y")
       ->delimiter(',')
       ->expected(2)
@@ -306,6 +309,26 @@ void print_result(const Scan& scan, const char* truth, Terminal& terminal) {
                                      truth));
 }
 
+/// Renders a screen, a plate or a ball bar instead of a part.
+void simulate_artifacts(const SimulateArguments& arguments,
+                        const SimulateOptions& options,
+                        const Run& run,
+                        Terminal& terminal) {
+  ArtifactPlan plan;
+  plan.folder = arguments.output;
+  plan.rig = rig_of(arguments.rig, run);
+  plan.views = arguments.views;
+  plan.patterns = arguments.patterns;
+  if (arguments.calibration == "screen")
+    plan.artifact = Screen{.width_px = 1920, .height_px = 1080, .pixel_mm = 0.25};
+  if (arguments.calibration == "ball-bar") {
+    plan.artifact = Balls{.diameter_mm = 40.0, .spacing_mm = 70.0};
+    plan.turn_rad = 1.0;  // one ball does not hide the other
+  }
+  run.stage("render");
+  print_result(simulate_artifact(plan, options, run), "truth-rig.toml", terminal);
+}
+
 /// Renders poses of a board instead of a part.
 void simulate_poses(const SimulateArguments& arguments,
                     const SimulateOptions& options,
@@ -334,7 +357,12 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   options.angle_error_rad = rad_from_deg(arguments.angle_error_deg);
   options.axis_tilt_rad = rad_from_deg(arguments.axis_tilt_deg);
 
-  if (!arguments.calibration.empty()) {
+  const std::string& kind = arguments.calibration;
+  if (kind == "screen" || kind == "plate" || kind == "ball-bar") {
+    simulate_artifacts(arguments, options, run, terminal);
+    return;
+  }
+  if (!kind.empty()) {
     simulate_poses(arguments, options, run, terminal);
     return;
   }
@@ -375,7 +403,8 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
       "  frangia simulate bust --rig carducci -o bust-scan\n"
       "  frangia simulate bracket --setups 90 -o bracket-two-setups\n"
       "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5mm -o bracket-scan\n"
-      "  frangia simulate --calibration checkerboard --views 12 -o poses");
+      "  frangia simulate --calibration checkerboard --views 12 -o poses\n"
+      "  frangia simulate --calibration plate --rig angular --views 13 -o plate");
   auto arguments = std::make_shared<SimulateArguments>();
   add_scan_options(*verb, *arguments);
   add_calibration_options(*verb, *arguments);

@@ -2,6 +2,8 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +53,52 @@ TEST(ReadBoard, ReadsBackEveryKind) {
       EXPECT_TRUE(back->legacy_layout);
     }
   }
+}
+
+TEST(ReadBoard, ReadsBackEveryArtifact) {
+  const SmallFolder folder;
+  Scan scan = read_scan(folder.path());
+  for (const Artifact& artifact : std::vector<Artifact>{
+           Screen{1920, 1080, 0.2745}, Plate{}, Balls{25.4, {}}, Balls{40.0, 70.0}}) {
+    scan.artifact = artifact;
+    write_scan(scan);
+    const Scan back = read_scan(folder.path());
+    ASSERT_TRUE(back.artifact);
+    EXPECT_FALSE(back.board);
+    EXPECT_EQ(name_of(*back.artifact), name_of(artifact));
+    if (const auto* screen = std::get_if<Screen>(&*back.artifact)) {
+      EXPECT_EQ(screen->height_px, 1080);
+      EXPECT_EQ(screen->pixel_mm, 0.2745);
+    }
+    if (const auto* balls = std::get_if<Balls>(&*back.artifact)) {
+      EXPECT_EQ(balls->diameter_mm, std::get<Balls>(artifact).diameter_mm);
+      EXPECT_EQ(balls->spacing_mm, std::get<Balls>(artifact).spacing_mm);
+    }
+  }
+}
+
+TEST(ReadBoard, NamesTheKeyOfAWrongArtifact) {
+  const auto names = [](const std::string& lines, const char* part) {
+    EXPECT_NE(fault_of(lines).find(part), std::string::npos) << fault_of(lines);
+  };
+  names("kind = \"screen\"\nsize_px = [0, 1080]\npixel_mm = 0.25\n", "board.size_px");
+  names("kind = \"screen\"\nsize_px = [1920, 8]\npixel_mm = 0.25\n", "board.size_px is [1920, 8]");
+  names("kind = \"screen\"\nsize_px = [1920, 1080]\npixel_mm = 0\n", "board.pixel_mm is 0");
+  names("kind = \"ball\"\n", "board.diameter_mm is missing");
+  names("kind = \"ball-bar\"\ndiameter_mm = 40\nspacing_mm = -1\n", "board.spacing_mm is -1");
+  names("kind = \"ball-bar\"\ndiameter_mm = 40\nspacing_mm = 30\n", "would overlap");
+}
+
+TEST(ReadBoard, ReadsPatternsOfAScreen) {
+  const SmallFolder folder;
+  std::ofstream(folder.path() / "scan.toml", std::ios::app)
+      << "\n[[pattern]]\nname = \"shown\"\nkind = \"fringe\"\nsource = \"screen\"\n"
+         "direction = \"horizontal\"\nperiod_px = 270\nshifts_deg = [0, 120, 240]\n";
+  Scan scan = read_scan(folder.path());
+  EXPECT_EQ(scan.patterns.back().source, PatternSource::Screen);
+  EXPECT_EQ(scan.patterns.back().period_px, 270.0);
+  write_scan(scan);
+  EXPECT_EQ(read_scan(folder.path()).patterns.back().source, PatternSource::Screen);
 }
 
 TEST(ReadBoard, NamesTheKeyOfAWrongValue) {

@@ -38,7 +38,7 @@ void refuse_renamed(const TomlReader& reader, std::initializer_list<RenamedKey> 
 ScanView read_view(TomlReader reader, const Scan& scan, bool only_view, const Run& run) {
   refuse_renamed(reader, {{"round", "setup"}});
   ScanView view;
-  const bool needs_angle = scan.rig.turntable && !scan.board && !only_view;
+  const bool needs_angle = scan.rig.turntable && !scan.board && !scan.artifact && !only_view;
   view.angle_rad =
       rad_from_deg(needs_angle ? reader.number("angle_deg") : reader.number_or("angle_deg", 0.0));
   view.folder = reader.text("folder");
@@ -182,7 +182,11 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
                  ? read_rig(folder / "rig.toml", run, content)
                  : unknown_rig();
   if (content == RigContent::PhaseOnly) choose_projector_model(reader, scan.rig.projector);
-  if (reader.has("board")) scan.board = read_board(reader.table("board"), run);
+  if (reader.has("board")) {
+    const BoardOrArtifact target = read_board(reader.table("board"), run);
+    if (const auto* board = std::get_if<Board>(&target)) scan.board = *board;
+    if (const auto* artifact = std::get_if<Artifact>(&target)) scan.artifact = *artifact;
+  }
   if (reader.has("frames")) scan.frames = read_frame_storage(reader.table("frames"), scan.rig, run);
   if (reader.has("name")) scan.name = reader.text("name");
   for (const TomlReader& pattern : reader.tables("pattern"))

@@ -10,6 +10,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/pattern/pattern.h"
+#include "frangia/rig/artifact.h"
 #include "frangia/rig/board.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig.h"
@@ -56,7 +57,9 @@ struct Scan {
   /// setup, both in the object frame.
   std::map<int, Eigen::Isometry3d> part_poses{};
   std::optional<Board> board{};  ///< of a scan whose views are poses for calibration
-  FrameStorage frames{};         ///< how the frames are stored
+  /// Instead of `board`: a screen, plate or balls; its views are at turntable angles or poses.
+  std::optional<Artifact> artifact{};
+  FrameStorage frames{};  ///< how the frames are stored
 };
 
 /// Reads scan.toml and rig.toml of a scan folder, see docs/scan-format.md. Unknown keys are warned

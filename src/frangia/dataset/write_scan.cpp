@@ -21,6 +21,7 @@ void put_pattern(TomlWriter& writer, const Pattern& pattern) {
   writer.begin_table_of_list("pattern");
   writer.put("name", pattern.name);
   writer.put("kind", std::string(kKinds.at(static_cast<std::size_t>(pattern.kind))));
+  if (pattern.source == PatternSource::Screen) writer.put("source", std::string("screen"));
   if (pattern.direction == FringeDirection::Horizontal)
     writer.put("direction", std::string("horizontal"));
   if (!pattern.exposures_ms.empty()) writer.put("exposures_ms", pattern.exposures_ms);
@@ -79,6 +80,19 @@ void put_board(TomlWriter& writer, const Board& board) {
   if (board.legacy_layout) writer.put("legacy_layout", true);
 }
 
+void put_artifact(TomlWriter& writer, const Artifact& artifact) {
+  writer.begin_table("board");
+  writer.put("kind", name_of(artifact));
+  if (const auto* screen = std::get_if<Screen>(&artifact)) {
+    writer.put("size_px", std::vector<int>{screen->width_px, screen->height_px});
+    writer.put("pixel_mm", screen->pixel_mm);
+  }
+  if (const auto* balls = std::get_if<Balls>(&artifact)) {
+    writer.put("diameter_mm", balls->diameter_mm);
+    if (balls->spacing_mm) writer.put("spacing_mm", *balls->spacing_mm);
+  }
+}
+
 void put_frame_storage(TomlWriter& writer, const FrameStorage& frames) {
   if (frames == FrameStorage{}) return;
   writer.begin_table("frames");
@@ -97,6 +111,7 @@ TomlWriter composed(const Scan& scan) {
   writer.put("version", kScanVersion);
   writer.put("name", scan.name);
   if (scan.board) put_board(writer, *scan.board);
+  if (scan.artifact) put_artifact(writer, *scan.artifact);
   put_frame_storage(writer, scan.frames);
   for (const Pattern& pattern : scan.patterns)
     put_pattern(writer, pattern);

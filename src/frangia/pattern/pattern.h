@@ -33,10 +33,18 @@ enum class BitOrder {
   LeastSignificantFirst  ///< narrowest stripes first
 };
 
-/// A pattern that the projector shows in one or more frames; a [[pattern]] table of scan.toml.
+/// The display that shows a pattern.
+enum class PatternSource {
+  Projector,  ///< the projector of the rig
+  Screen      ///< a monitor; its periods count in pixels of the monitor
+};
+
+/// A pattern that the projector or a monitor shows in one or more frames; a [[pattern]] table of
+/// scan.toml.
 struct Pattern {
-  std::string name;                        ///< also the prefix of its file names
-  PatternKind kind = PatternKind::Fringe;  ///< what the frames show
+  std::string name;                                 ///< also the prefix of its file names
+  PatternKind kind = PatternKind::Fringe;           ///< what the frames show
+  PatternSource source = PatternSource::Projector;  ///< which display shows it
   /// Of fringes and of the stripes of a Gray code.
   FringeDirection direction = FringeDirection::Vertical;
   double fringes_per_degree = 0.0;  ///< for an angular projector; 0 for a pinhole one

@@ -74,8 +74,9 @@ RayDepth intersect_fringe(const Eigen::Vector2d& ray,
   const double unit_per_rad = 1.0 / (kTwoPi * pattern.fringes_per_unit());
   const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
   if (projector.is_angular()) {
-    RayDepth found = intersect_angle(direction, rad_from_deg(unit), projector);
-    found.mm_per_rad *= rad_from_deg(unit_per_rad);
+    const double scale = std::get<AngularModel>(projector.model).pitch_scale;
+    RayDepth found = intersect_angle(direction, scale * rad_from_deg(unit), projector);
+    found.mm_per_rad *= scale * rad_from_deg(unit_per_rad);
     return found;
   }
   const int axis = pattern.direction == FringeDirection::Horizontal ? 1 : 0;
@@ -90,7 +91,8 @@ double phase_at(const Eigen::Vector3d& point_mm,
   const Eigen::Vector3d p = projector.from_rig(point_mm);
   const double rad_per_unit = kTwoPi * pattern.fringes_per_unit();
   if (!(p.z() > 0.0)) return kNowhere;
-  if (projector.is_angular()) return rad_per_unit * deg_from_rad(std::atan2(p.x(), p.z()));
+  if (const auto* angular = std::get_if<AngularModel>(&projector.model))
+    return rad_per_unit * deg_from_rad(std::atan2(p.x(), p.z())) / angular->pitch_scale;
   const int axis = pattern.direction == FringeDirection::Horizontal ? 1 : 0;
   return rad_per_unit * std::get<PinholeModel>(projector.model).project(p)(axis);
 }

@@ -6,7 +6,8 @@ namespace frangia {
 
 PhaseRange phase_range(const Pattern& pattern, const Projector& projector) {
   if (const auto* angular = std::get_if<AngularModel>(&projector.model)) {
-    const double rad_per_rad = kTwoPi * pattern.fringes_per_degree * deg_from_rad(1.0);
+    const double rad_per_rad =
+        kTwoPi * pattern.fringes_per_degree * deg_from_rad(1.0) / angular->pitch_scale;
     return {rad_per_rad * angular->field_min_rad, rad_per_rad * angular->field_max_rad};
   }
   const auto& pinhole = std::get<PinholeModel>(projector.model);

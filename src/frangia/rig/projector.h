@@ -17,6 +17,8 @@ namespace frangia {
 struct AngularModel {
   double field_min_rad = 0.0;  ///< start of the illuminated range of psi
   double field_max_rad = 0.0;  ///< end of the illuminated range of psi
+  /// Angle from one fringe to the next, over that which `Pattern::fringes_per_degree` states.
+  double pitch_scale = 1.0;
 };
 
 /// A digital projector. Its fringes are evenly spaced in projector pixels.

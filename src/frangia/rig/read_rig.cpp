@@ -211,7 +211,8 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
     if (!(field[0] < field[1]) || field[0] <= -90.0 || field[1] >= 90.0) {
       reader.fail("field_deg", "must be two rising angles between -90 and 90");
     }
-    projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1])};
+    const double scale = reader.has("pitch_scale") ? reader.positive("pitch_scale") : 1.0;
+    projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1]), scale};
   } else if (model == "pinhole") {
     projector.model = read_camera_model(reader, content);
     if (reader.has("pixels")) projector.pixels = read_pixels(reader);

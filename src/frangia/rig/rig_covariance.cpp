@@ -29,6 +29,7 @@ constexpr std::array kPose = {
     "rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "x_mm", "y_mm", "z_mm"};
 constexpr std::string_view kCamera = "camera.";
 constexpr std::string_view kProjector = "projector.";
+constexpr std::string_view kPitchScale = "projector.pitch_scale";
 
 /// Largest negative eigenvalue of the correlation matrix, and largest difference of correlations
 /// across its diagonal. The file holds nine digits.
@@ -118,6 +119,7 @@ std::vector<std::string> rig_parameter_names(const Rig& rig) {
     if (!rig.projector.is_angular()) names.push_back(std::string(kProjector) + name);
   for (const char* name : kPose)
     names.push_back(std::string(kProjector) + name);
+  if (rig.projector.is_angular()) names.emplace_back(kPitchScale);
   return names;
 }
 
@@ -214,6 +216,8 @@ Rig change_parameters(const Rig& rig,
       change_intrinsic(*pinhole, intrinsic, change);
     } else if (name.starts_with(kProjector) && in_pose < kPose.size()) {
       pose[static_cast<Eigen::Index>(in_pose)] += change;
+    } else if (name == kPitchScale && pinhole == nullptr) {
+      std::get<AngularModel>(changed.projector.model).pitch_scale += change;
     } else {
       throw Error(ErrorKind::Input, fmt::format("'{}' is not a parameter of this rig", name));
     }

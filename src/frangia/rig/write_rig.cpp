@@ -101,6 +101,7 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
     writer.put(
         "field_deg",
         std::vector{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
+    if (angular->pitch_scale != 1.0) writer.put("pitch_scale", angular->pitch_scale);
   } else {
     const auto& pinhole = std::get<PinholeModel>(projector.model);
     if (projector.is_label) {

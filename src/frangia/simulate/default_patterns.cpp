@@ -39,7 +39,8 @@ Pattern angular_pattern(const std::string& name, double fringes_per_degree, int 
 std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
   const double finest = plan.fringes_per_degree;
   const auto& field = std::get<AngularModel>(rig.projector.model);
-  const double fringes = finest * deg_from_rad(field.field_max_rad - field.field_min_rad);
+  const double fringes =
+      finest * deg_from_rad(field.field_max_rad - field.field_min_rad) / field.pitch_scale;
   if (!(finest > 0.0 && fringes <= kMaxFringes)) {
     throw Error(
         ErrorKind::Input,
@@ -115,7 +116,8 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
       continue;
     }
     const auto& field = std::get<AngularModel>(rig.projector.model);
-    const double field_deg = deg_from_rad(field.field_max_rad - field.field_min_rad);
+    const double field_deg =
+        deg_from_rad(field.field_max_rad - field.field_min_rad) / field.pitch_scale;
     patterns.push_back(angular_pattern(name, fringes / field_deg, plan.shifts));
   }
   if (gray)

@@ -15,7 +15,8 @@
 #include "frangia/core/random.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/rig/write_rig.h"
-#include "frangia/simulate/internal/solid_builder.h"
+#include "frangia/simulate/internal/crossing_of_axes.h"
+#include "frangia/simulate/internal/sheet.h"
 #include "frangia/simulate/simulate_scan.h"
 
 namespace frangia {
@@ -26,41 +27,6 @@ constexpr std::uint64_t kPoseStream = 21;
 /// Half of the sides of the printed sheet, mm: the squares and half a square of margin.
 Eigen::Vector2d half_sheet(const Board& board) {
   return 0.5 * board.square_mm * Eigen::Vector2d(board.columns + 2.0, board.rows + 2.0);
-}
-
-/// A plate whose face at z = 0 is the board; its body lies at z > 0.
-Mesh board_plate(const Board& board) {
-  constexpr double kThickness_mm = 3.0;
-  const Eigen::Vector2d half = half_sheet(board);
-  const auto outline = [&](double z) {
-    return Loop{{-half.x(), -half.y(), z},
-                {half.x(), -half.y(), z},
-                {half.x(), half.y(), z},
-                {-half.x(), half.y(), z}};
-  };
-  const Loop face = outline(0.0);
-  const Loop back = outline(kThickness_mm);
-  SolidBuilder solid;
-  solid.add_face(back);
-  solid.add_band(face, back);
-  solid.add_face({face.rbegin(), face.rend()});
-  return solid.build();
-}
-
-/// The point in the middle between the axes of camera and projector where they are nearest.
-Eigen::Vector3d crossing_of(const Rig& rig, const PinholeModel& projector) {
-  const auto axis_of = [](const CameraModel& model) {
-    const Eigen::Vector2d middle(0.5 * (model.width_px - 1), 0.5 * (model.height_px - 1));
-    return Eigen::Vector3d(model.ray(middle).homogeneous().normalized());
-  };
-  const Eigen::Vector3d camera = axis_of(rig.camera.model);
-  const Eigen::Vector3d light = rig.projector.rotation.transpose() * axis_of(projector);
-  Eigen::Matrix<double, 3, 2> directions;
-  directions << camera, -light;
-  const Eigen::Vector2d distances = (directions.transpose() * directions)
-                                        .ldlt()
-                                        .solve(directions.transpose() * rig.projector.position_mm);
-  return 0.5 * (distances[0] * camera + rig.projector.position_mm + distances[1] * light);
 }
 
 bool is_inside(const CameraModel& model, const Eigen::Vector3d& point) {
@@ -121,7 +87,7 @@ std::vector<Eigen::Isometry3d> choose_poses(const CalibrationPlan& plan,
                                             const PinholeModel& projector,
                                             double field_mm,
                                             std::uint64_t seed) {
-  const Eigen::Vector3d crossing = crossing_of(plan.rig, projector);
+  const Eigen::Vector3d crossing = crossing_of_axes(plan.rig);
   constexpr int kTries = 10'000;
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < kTries && static_cast<int>(poses.size()) < plan.poses; ++i) {
@@ -158,7 +124,7 @@ Eigen::Isometry3d choose_standing_pose(const CalibrationPlan& plan,
                                        double field_mm,
                                        std::uint64_t seed) {
   const Eigen::Isometry3d object_from_rig = plan.rig.rig_from_object(0.0).inverse();
-  const Eigen::Vector3d crossing = crossing_of(plan.rig, projector);
+  const Eigen::Vector3d crossing = crossing_of_axes(plan.rig);
   constexpr std::uint64_t kTries = 10'000;
   for (std::uint64_t i = 0; i < kTries; ++i) {
     constexpr double kTilt_rad = 0.3;
@@ -220,7 +186,7 @@ Scan simulate_calibration(const CalibrationPlan& given,
   const auto* projector = std::get_if<PinholeModel>(&plan.rig.projector.model);
   require(projector != nullptr,
           "the rig's projector is angular, but a board calibrates a digital projector only");
-  const Eigen::Vector3d crossing = crossing_of(plan.rig, *projector);
+  const Eigen::Vector3d crossing = crossing_of_axes(plan.rig);
   const CameraModel& camera = plan.rig.camera.model;
   const double field_mm = crossing.z() * std::min(camera.width_px / camera.focal_px.x(),
                                                   camera.height_px / camera.focal_px.y());
@@ -254,7 +220,7 @@ Scan simulate_calibration(const CalibrationPlan& given,
   }
   SimulateOptions printed = options;
   printed.board = plan.board;
-  Scan written = simulate_scan(board_plate(plan.board), scan, printed, run);
+  Scan written = simulate_scan(make_sheet(half_sheet(plan.board)), scan, printed, run);
   Rig truth = written.rig;
   truth.turntable = given.rig.turntable;
   write_rig(plan.folder / "truth-rig.toml", truth);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "frangia/rig/artifact.h"
 #include "frangia/rig/board.h"
 
 namespace frangia {
@@ -33,6 +34,7 @@ struct SimulateOptions {
   // The surface.
   double texture = 0.0;           ///< 0: white; 1: smooth patches from white to black
   std::optional<Board> board;     ///< printed on the part's plane z = 0, in black on white
+  std::optional<Screen> screen;   ///< the part's plane z = 0 is a monitor that shows the patterns
   double gloss = 0.0;             ///< strength of the highlight, relative to the diffuse white
   double shininess = 40.0;        ///< exponent of the highlight
   double speckle = 0.0;           ///< speckle contrast, 0 to 1, constant within a view

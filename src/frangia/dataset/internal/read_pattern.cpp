@@ -42,8 +42,13 @@ std::string file_name_part(TomlReader& reader, std::string_view key) {
   return name;
 }
 
+/// Whether the fringes of a pattern are those of an interferometer.
+bool is_angular(const Rig& rig, const Pattern& pattern) {
+  return rig.projector.is_angular() && pattern.source == PatternSource::Projector;
+}
+
 void read_fringes(TomlReader& reader, const Rig& rig, Pattern& pattern) {
-  if (rig.projector.is_angular()) {
+  if (is_angular(rig, pattern)) {
     pattern.fringes_per_degree = reader.positive("fringes_per_degree");
   } else {
     pattern.period_px = reader.positive("period_px");
@@ -82,6 +87,8 @@ InvertedFrames read_inverted(TomlReader& reader) {
 void read_gray(TomlReader& reader, const Rig& rig, Pattern& pattern) {
   constexpr int kMaxBits = 24;
   pattern.kind = PatternKind::Gray;
+  if (pattern.source == PatternSource::Screen)
+    reader.fail("kind", "is \"gray\" on a screen; show fringes with a period of the screen's size");
   const auto* model = std::get_if<PinholeModel>(&rig.projector.model);
   if (model == nullptr) reader.fail("kind", "is \"gray\", which an angular projector cannot show");
   pattern.bits = reader.integer("bits", 1, kMaxBits);
@@ -128,7 +135,7 @@ void read_exposures(TomlReader& reader, Pattern& pattern) {
 void read_direction(TomlReader& reader, const Rig& rig, Pattern& pattern) {
   if (!reader.has("direction")) return;
   const std::string direction = reader.text("direction");
-  if (direction == "horizontal" && rig.projector.is_angular())
+  if (direction == "horizontal" && is_angular(rig, pattern))
     reader.fail("direction", "is \"horizontal\", but an angular projector's fringes are vertical");
   if (direction != "vertical" && direction != "horizontal") {
     reader.fail("direction",
@@ -142,6 +149,8 @@ void read_direction(TomlReader& reader, const Rig& rig, Pattern& pattern) {
 Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
   Pattern pattern;
   pattern.name = file_name_part(reader, "name");
+  if (read_word(reader, "source", {"projector", "screen"}) == 1)
+    pattern.source = PatternSource::Screen;
   read_direction(reader, rig, pattern);
   const std::string kind = reader.text("kind");
   if (kind == "fringe") {

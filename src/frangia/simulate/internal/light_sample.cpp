@@ -66,7 +66,7 @@ bool project_to_projector(const Projector& projector, const Vector3d& point, Lig
   }
   const auto& field = std::get<AngularModel>(projector.model);
   const double psi = std::atan2(p.x(), p.z());
-  sample.u = static_cast<float>(deg_from_rad(psi));
+  sample.u = static_cast<float>(deg_from_rad(psi) / field.pitch_scale);
   return psi >= field.field_min_rad && psi <= field.field_max_rad;
 }
 
@@ -77,6 +77,20 @@ Vector3d shading_normal(const SimulatedScene& scene, const RayHit& hit) {
               scene.normals[hit.triangle][corner].cast<double>();
   }
   return normal.squaredNorm() > 0.0 ? normal.normalized() : hit.normal;
+}
+
+/// The light of a monitor, which shines evenly in all directions; none beside its pixels.
+LightSample screen_light(const Screen& screen, const Vector3d& point) {
+  constexpr double kFace_mm = 0.01;
+  LightSample sample;
+  sample.albedo = 1.0F;
+  sample.u = static_cast<float>(point.x() / screen.pixel_mm + 0.5 * (screen.width_px - 1));
+  sample.v = static_cast<float>(point.y() / screen.pixel_mm + 0.5 * (screen.height_px - 1));
+  const bool shows = std::abs(point.z()) < kFace_mm && std::min(sample.u, sample.v) >= -0.5F &&
+                     sample.u <= static_cast<float>(screen.width_px) - 0.5F &&
+                     sample.v <= static_cast<float>(screen.height_px) - 0.5F;
+  sample.diffuse = shows ? 1.0F : 0.0F;
+  return sample;
 }
 
 }  // namespace
@@ -92,6 +106,8 @@ LightSample sample_light(const SimulatedScene& scene,
   if (!hit) return sample;
   const Vector3d point = camera + hit->distance * direction;
   const Vector3d seen = hit->distance * ray.homogeneous();  // the same in the rig frame, exactly
+  if (scene.options.screen)
+    return screen_light(*scene.options.screen, scene.part_from_object * point);
   sample.albedo = static_cast<float>(albedo_at(point, scene));
   if (!project_to_projector(scene.rig.projector, seen, sample)) return sample;
 

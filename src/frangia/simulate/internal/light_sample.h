@@ -8,8 +8,8 @@ namespace frangia {
 
 /// The light along one camera ray.
 struct LightSample {
-  float u = 0.0F;        ///< where the light left the projector: psi in degrees, or its column
-  float v = 0.0F;        ///< its row; pinhole only
+  float u = 0.0F;  ///< where the light left the projector: psi in nominal degrees, or its column
+  float v = 0.0F;  ///< its row; pinhole only
   float diffuse = 0.0F;  ///< light of the fully lit projector, 1 on a white surface that faces it
   float glossy = 0.0F;   ///< the highlight on top of it
   float line = 0.0F;     ///< share of the laser sheet's peak that falls here

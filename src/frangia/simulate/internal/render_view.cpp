@@ -28,7 +28,7 @@ void check(const Pattern& pattern, const Rig& rig) {
     if (pattern.bits < 1 || !(pattern.stripe_px > 0.0)) fail("needs bits and stripes above 0");
     return;
   }
-  if (rig.projector.is_angular()) {
+  if (rig.projector.is_angular() && pattern.source == PatternSource::Projector) {
     if (!(pattern.fringes_per_degree > 0.0)) fail("needs fringes_per_degree above 0");
     if (pattern.direction == FringeDirection::Horizontal) {
       fail("is horizontal, but an angular projector's fringes are vertical");

@@ -1,0 +1,491 @@
+// Over 250 lines: the one place that knows the blocks of the adjustment and their order.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include "frangia/calibrate/internal/artifact_model.h"
+#include "frangia/calibrate/internal/artifact_residuals.h"
+
+namespace frangia {
+namespace {
+
+constexpr double kHuberSigmas = 3.0;
+/// Relative standard deviation of a certified length; it only has to be far below that of the data.
+constexpr double kCertified = 1e-5;
+
+std::array<double, 9> block_of(const CameraModel& model) {
+  return {model.focal_px.x(),
+          model.focal_px.y() / model.focal_px.x(),
+          model.principal_point_px.x(),
+          model.principal_point_px.y(),
+          model.distortion[0],
+          model.distortion[1],
+          model.distortion[2],
+          model.distortion[3],
+          model.distortion[4]};
+}
+
+CameraModel with_intrinsics(CameraModel model, const std::array<double, 9>& values) {
+  model.focal_px = {values[0], values[0] * values[1]};
+  model.principal_point_px = {values[2], values[3]};
+  std::copy(values.begin() + 4, values.end(), model.distortion.begin());
+  return model;
+}
+
+LinearRay ray_at(const CameraModel& model, const Eigen::Vector2d& pixel) {
+  const std::array<double, 9> values = block_of(model);
+  LinearRay out;
+  out.ray = model.ray(pixel);
+  out.intrinsics = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(values.data());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double step = i == 0 || i == 2 || i == 3 ? 1e-2 : 1e-5;
+    std::array<double, 9> up = values;
+    std::array<double, 9> down = values;
+    up.at(i) += step;
+    down.at(i) -= step;
+    out.by_intrinsics.col(static_cast<Eigen::Index>(i)) =
+        (with_intrinsics(model, up).ray(pixel) - with_intrinsics(model, down).ray(pixel)) /
+        (2.0 * step);
+  }
+  return out;
+}
+
+TurnedSurface surface_at(const ArtifactProblem& problem,
+                         std::size_t capture,
+                         const ArtifactView& view,
+                         int surface,
+                         const Eigen::Vector2d& pixel) {
+  const ArtifactCapture& seen = problem.captures[capture];
+  const auto* balls = std::get_if<Balls>(&seen.artifact);
+  return {ray_at(problem.start.camera.model, pixel),
+          {problem.start.turntable->point_mm, problem.start.turntable->axis},
+          view.angle_rad,
+          seen.surfaces[static_cast<std::size_t>(surface)],
+          balls != nullptr,
+          balls != nullptr ? 0.5 * balls->diameter_mm : 0.0};
+}
+
+/// Information about camera, projector, pose and pitch from an earlier calibration.
+class RigPrior final : public ceres::CostFunction {
+ public:
+  RigPrior(Eigen::MatrixXd root, const std::array<double, 25>& mean)
+      : root_(std::move(root)), mean_(mean) {
+    set_num_residuals(static_cast<int>(root_.rows()));
+    *mutable_parameter_block_sizes() = {9, 9, 6, 1};
+  }
+  bool Evaluate(const double* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    const std::vector<int>& sizes = parameter_block_sizes();
+    Eigen::VectorXd change(static_cast<Eigen::Index>(mean_.size()));
+    Eigen::Index at = 0;
+    for (std::size_t block = 0; block < sizes.size(); ++block) {
+      const Eigen::MatrixXd columns = root_.middleCols(at, sizes[block]);
+      for (int i = 0; i < sizes[block]; ++i)
+        change[at + i] = parameters[block][i] - mean_.at(static_cast<std::size_t>(at) + i);
+      if (jacobians != nullptr && jacobians[block] != nullptr) {
+        Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+            jacobians[block], columns.rows(), columns.cols()) = columns;
+      }
+      at += sizes[block];
+    }
+    Eigen::Map<Eigen::VectorXd>(residuals, root_.rows()) = root_ * change;
+    return true;
+  }
+
+ private:
+  Eigen::MatrixXd root_;
+  std::array<double, 25> mean_;
+};
+
+/// A block of the adjustment and the names of the parameters that are estimated.
+struct FreeBlock {
+  double* values;
+  std::vector<std::string> names;
+};
+
+/// Declares a block. Parameters with an empty name are held.
+void add_block(ceres::Problem& problem,
+               double* values,
+               const std::vector<std::string>& names,
+               std::vector<FreeBlock>& blocks) {
+  const int size = static_cast<int>(names.size());
+  problem.AddParameterBlock(values, size);
+  std::vector<int> constant;
+  FreeBlock block{values, {}};
+  for (int i = 0; i < size; ++i) {
+    const std::string& name = names[static_cast<std::size_t>(i)];
+    if (name.empty()) {
+      constant.push_back(i);
+    } else {
+      block.names.push_back(name);
+    }
+  }
+  if (block.names.empty()) {
+    problem.SetParameterBlockConstant(values);
+    return;
+  }
+  if (!constant.empty())
+    problem.SetManifold(values, new ceres::SubsetManifold(size, constant));  // NOLINT owned
+  blocks.push_back(std::move(block));
+}
+
+std::vector<std::string> intrinsic_names(const char* device, bool free) {
+  if (!free) return std::vector<std::string>(9);
+  std::vector<std::string> names;
+  for (const char* name : {"focal_px",
+                           "focal_ratio",
+                           "principal_x_px",
+                           "principal_y_px",
+                           "k1",
+                           "k2",
+                           "p1",
+                           "p2",
+                           "k3"})
+    names.push_back(fmt::format("{}.{}", device, name));
+  return names;
+}
+
+/// Declares the blocks of the rig.
+void add_rig_blocks(const ArtifactProblem& problem,
+                    ArtifactParameters& parameters,
+                    ceres::Problem& out,
+                    std::vector<FreeBlock>& blocks) {
+  const bool angular = problem.start.projector.is_angular();
+  add_block(out, parameters.camera.data(), intrinsic_names("camera", problem.free_camera), blocks);
+  add_block(out,
+            parameters.projector.data(),
+            intrinsic_names("projector", !angular && problem.free_intrinsics),
+            blocks);
+  add_block(out,
+            parameters.pose.data(),
+            {"projector.rotation_x_rad",
+             "projector.rotation_y_rad",
+             "projector.rotation_z_rad",
+             "projector.x_mm",
+             angular ? "" : "projector.y_mm",  // along the fringes
+             "projector.z_mm"},
+            blocks);
+  add_block(out, &parameters.pitch_scale, {angular ? "projector.pitch_scale" : ""}, blocks);
+  add_block(out,
+            parameters.table.data(),
+            {"turntable.tilt_1", "turntable.tilt_2", "turntable.shift_1", "turntable.shift_2"},
+            blocks);
+  if (problem.has_line)
+    add_block(out, parameters.sheet.data(), {"line.tilt_1", "line.tilt_2", "line.offset"}, blocks);
+}
+
+/// Declares the angles and surfaces of all captures, with what is known of them.
+void add_capture_blocks(const ArtifactProblem& problem,
+                        const ArtifactNoise& noise,
+                        ArtifactParameters& parameters,
+                        ceres::Problem& out,
+                        std::vector<FreeBlock>& blocks) {
+  for (std::size_t c = 0; c < problem.captures.size(); ++c) {
+    for (std::size_t v = 0; v < parameters.angle_errors[c].size(); ++v) {
+      double* angle = &parameters.angle_errors[c][v];
+      // The first view of an artifact defines where it stands.
+      add_block(out, angle, {v == 0 ? "" : fmt::format("angle.{}.{}", c, v)}, blocks);
+      if (v == 0) continue;
+      out.AddResidualBlock(new ceres::AutoDiffCostFunction<NumberPrior, 1, 1>(
+                               new NumberPrior{0, 0.0, 1.0 / noise.angle_rad}),
+                           nullptr,
+                           angle);
+    }
+    const auto* balls = std::get_if<Balls>(&problem.captures[c].artifact);
+    for (std::size_t s = 0; s < parameters.surfaces[c].size(); ++s) {
+      double* surface = parameters.surfaces[c][s].data();
+      std::vector<std::string> names;
+      for (int i = 0; i < 4; ++i)
+        names.push_back(i == 3 && balls == nullptr ? "" : fmt::format("surface.{}.{}.{}", c, s, i));
+      add_block(out, surface, names, blocks);
+      if (balls == nullptr) continue;
+      out.AddResidualBlock(new ceres::AutoDiffCostFunction<NumberPrior, 1, 4>(
+                               new NumberPrior{3, 0.0, 1.0 / problem.options.diameter_sigma}),
+                           nullptr,
+                           surface);
+    }
+    if (balls == nullptr || !balls->spacing_mm) continue;
+    const double spacing = *balls->spacing_mm;
+    out.AddResidualBlock(new ceres::AutoDiffCostFunction<SpacingResidual, 1, 4, 4>(
+                             new SpacingResidual{spacing, 1.0 / (kCertified * spacing)}),
+                         nullptr,
+                         parameters.surfaces[c][0].data(),
+                         parameters.surfaces[c][1].data());
+  }
+}
+
+Eigen::Vector2d weight_of(const LightSite& site, double noise) {
+  Eigen::Vector2d weight = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2; ++i)
+    if (std::isfinite(site.light[i]) && site.sigma[i] > 0.0)
+      weight[i] = 1.0 / (noise * site.sigma[i]);
+  return weight;
+}
+
+void add_views(const ArtifactProblem& problem,
+               const ArtifactNoise& noise,
+               ArtifactParameters& parameters,
+               ceres::Problem& out) {
+  const bool angular = problem.start.projector.is_angular();
+  for (std::size_t c = 0; c < problem.captures.size(); ++c) {
+    for (std::size_t v = 0; v < problem.captures[c].views.size(); ++v) {
+      const ArtifactView& view = problem.captures[c].views[v];
+      for (std::size_t i = 0; i < view.sites.size(); ++i) {
+        const LightSite& site = view.sites[i];
+        out.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<LightResidual, 2, 9, 9, 6, 1, 4, 1, 4>(
+                new LightResidual{surface_at(problem, c, view, view.surface[i], site.camera_px),
+                                  angular,
+                                  site.light,
+                                  weight_of(site, noise.light)}),
+            new ceres::HuberLoss(kHuberSigmas),
+            parameters.camera.data(),
+            parameters.projector.data(),
+            parameters.pose.data(),
+            &parameters.pitch_scale,
+            parameters.table.data(),
+            &parameters.angle_errors[c][v],
+            parameters.surfaces[c][static_cast<std::size_t>(view.surface[i])].data());
+      }
+      if (!problem.has_line) continue;
+      for (const LinePixel& pixel : view.line) {
+        // Millimetres across the line per pixel, at the distance of the table.
+        const double mm_per_px =
+            problem.start.turntable->point_mm.z() / problem.start.camera.model.focal_px.x();
+        out.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<SheetResidual, 1, 9, 4, 1, 4, 3>(
+                new SheetResidual{surface_at(problem, c, view, 0, pixel.camera_px),
+                                  problem.start.laser_sheet->normal,
+                                  1.0 / (noise.line * pixel.sigma_px * mm_per_px)}),
+            new ceres::HuberLoss(kHuberSigmas),
+            parameters.camera.data(),
+            parameters.table.data(),
+            &parameters.angle_errors[c][v],
+            parameters.surfaces[c][0].data(),
+            parameters.sheet.data());
+      }
+    }
+  }
+}
+
+/// Composes the adjustment; returns the blocks that are estimated.
+std::vector<FreeBlock> compose(const ArtifactProblem& problem,
+                               const ArtifactNoise& noise,
+                               ArtifactParameters& parameters,
+                               ceres::Problem& out) {
+  std::vector<FreeBlock> blocks;
+  add_rig_blocks(problem, parameters, out, blocks);
+  add_capture_blocks(problem, noise, parameters, out, blocks);
+  add_views(problem, noise, parameters, out);
+  if (problem.prior.rows() > 0) {
+    out.AddResidualBlock(new RigPrior(problem.prior, problem.prior_mean),
+                         nullptr,
+                         parameters.camera.data(),
+                         parameters.projector.data(),
+                         parameters.pose.data(),
+                         &parameters.pitch_scale);
+  }
+  const bool prior_scale = problem.prior.rows() > 0 && problem.free_intrinsics;
+  if (problem.options.baseline_mm || (!problem.has_scale && !prior_scale)) {
+    // Without a known length the baseline keeps that of the start.
+    const double length =
+        problem.options.baseline_mm.value_or(problem.start.projector.position_mm.norm());
+    out.AddResidualBlock(new ceres::AutoDiffCostFunction<LengthResidual, 1, 6>(
+                             new LengthResidual{length, 1.0 / (kCertified * length)}),
+                         nullptr,
+                         parameters.pose.data());
+  }
+  return blocks;
+}
+
+class StopArtifacts final : public ceres::IterationCallback {
+ public:
+  explicit StopArtifacts(const Run& run) : run_(run) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    return run_.stop.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Run& run_;
+};
+
+}  // namespace
+
+ArtifactParameters artifact_start(const ArtifactProblem& problem) {
+  const Rig& rig = problem.start;
+  ArtifactParameters out;
+  out.camera = block_of(rig.camera.model);
+  if (const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
+    out.projector = block_of(*pinhole);
+  } else {
+    out.pitch_scale = std::get<AngularModel>(rig.projector.model).pitch_scale;
+  }
+  const Eigen::AngleAxisd turn(rig.projector.rotation);
+  const Eigen::Vector3d rotation = turn.angle() * turn.axis();
+  const Eigen::Vector3d translation = -(rig.projector.rotation * rig.projector.position_mm);
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.pose.at(i) = rotation[static_cast<Eigen::Index>(i)];
+    out.pose.at(i + 3) = translation[static_cast<Eigen::Index>(i)];
+  }
+  if (rig.laser_sheet) out.sheet[2] = rig.laser_sheet->offset_mm;
+  for (const ArtifactCapture& capture : problem.captures) {
+    out.angle_errors.emplace_back(capture.views.size(), 0.0);
+    out.surfaces.emplace_back();
+    const bool plate = std::holds_alternative<Plate>(capture.artifact);
+    for (const Eigen::Vector4d& surface : capture.surfaces) {
+      if (plate) {
+        out.surfaces.back().push_back({0.0, 0.0, surface[3], 0.0});
+      } else {
+        out.surfaces.back().push_back({surface[0], surface[1], surface[2], 0.0});
+      }
+    }
+  }
+  return out;
+}
+
+Rig artifact_rig(const ArtifactProblem& problem, const ArtifactParameters& parameters) {
+  Rig rig = problem.start;
+  rig.camera.model = with_intrinsics(rig.camera.model, parameters.camera);
+  if (auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
+    *pinhole = with_intrinsics(*pinhole, parameters.projector);
+  } else {
+    std::get<AngularModel>(rig.projector.model).pitch_scale = parameters.pitch_scale;
+  }
+  const Eigen::Isometry3d projector_from_camera = isometry_of(parameters.pose);
+  rig.projector.rotation = projector_from_camera.linear();
+  rig.projector.position_mm =
+      -(rig.projector.rotation.transpose() * projector_from_camera.translation());
+  const Eigen::Vector3d axis = problem.start.turntable->axis;
+  const Eigen::Vector3d u = axis.unitOrthogonal();
+  rig.turntable->axis = tilted(axis, parameters.table[0], parameters.table[1]);
+  rig.turntable->point_mm += parameters.table[2] * u + parameters.table[3] * axis.cross(u);
+  if (problem.has_line) {
+    rig.laser_sheet->normal =
+        tilted(problem.start.laser_sheet->normal, parameters.sheet[0], parameters.sheet[1]);
+    rig.laser_sheet->offset_mm = parameters.sheet[2];
+  }
+  return rig;
+}
+
+Eigen::Vector4d artifact_surface(const ArtifactProblem& problem,
+                                 std::size_t capture,
+                                 std::size_t surface,
+                                 const ArtifactParameters& parameters) {
+  const ArtifactCapture& seen = problem.captures[capture];
+  const ArtifactParameters::Surface& values = parameters.surfaces[capture][surface];
+  if (!std::holds_alternative<Plate>(seen.artifact)) return {values[0], values[1], values[2], 0.0};
+  const Eigen::Vector3d normal =
+      tilted(Eigen::Vector3d(seen.surfaces[surface].head<3>()), values[0], values[1]);
+  return {normal.x(), normal.y(), normal.z(), values[2]};
+}
+
+bool adjust_artifacts(const ArtifactProblem& problem,
+                      const ArtifactNoise& noise,
+                      ArtifactParameters& parameters,
+                      const Run& run) {
+  ceres::Problem composed;
+  static_cast<void>(compose(problem, noise, parameters, composed));
+  StopArtifacts stop(run);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = problem.options.max_iterations;
+  options.function_tolerance = 1e-9;
+  options.parameter_tolerance = 1e-11;
+  options.num_threads = 1;  // the same bytes on any machine
+  options.logging_type = ceres::SILENT;
+  options.callbacks.push_back(&stop);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &composed, &summary);
+  run.check();
+  return summary.IsSolutionUsable();
+}
+
+ArtifactResiduals artifact_residuals(const ArtifactProblem& problem,
+                                     const ArtifactParameters& parameters) {
+  ArtifactResiduals out;
+  const bool angular = problem.start.projector.is_angular();
+  for (std::size_t c = 0; c < problem.captures.size(); ++c) {
+    for (std::size_t v = 0; v < problem.captures[c].views.size(); ++v) {
+      const ArtifactView& view = problem.captures[c].views[v];
+      for (std::size_t i = 0; i < view.sites.size(); ++i) {
+        const LightSite& site = view.sites[i];
+        const Eigen::Vector2d weight = weight_of(site, 1.0);
+        Eigen::Vector2d sigmas = Eigen::Vector2d::Zero();
+        const LightResidual residual{surface_at(problem, c, view, view.surface[i], site.camera_px),
+                                     angular,
+                                     site.light,
+                                     weight};
+        const bool hit =
+            residual(parameters.camera.data(),
+                     parameters.projector.data(),
+                     parameters.pose.data(),
+                     &parameters.pitch_scale,
+                     parameters.table.data(),
+                     &parameters.angle_errors[c][v],
+                     parameters.surfaces[c][static_cast<std::size_t>(view.surface[i])].data(),
+                     sigmas.data());
+        if (!hit) ++out.missed;
+        for (int k = 0; hit && k < 2; ++k) {
+          if (!(weight[k] > 0.0)) continue;
+          out.light_sigmas.push_back(sigmas[k]);
+          out.light.push_back(sigmas[k] / weight[k]);
+        }
+      }
+      for (const LinePixel& pixel : view.line) {
+        if (!problem.has_line) break;
+        double distance_mm = 0.0;
+        const double mm_per_px =
+            problem.start.turntable->point_mm.z() / problem.start.camera.model.focal_px.x();
+        const SheetResidual residual{surface_at(problem, c, view, 0, pixel.camera_px),
+                                     problem.start.laser_sheet->normal,
+                                     1.0};
+        if (!residual(parameters.camera.data(),
+                      parameters.table.data(),
+                      &parameters.angle_errors[c][v],
+                      parameters.surfaces[c][0].data(),
+                      parameters.sheet.data(),
+                      &distance_mm))
+          continue;
+        out.line_mm.push_back(distance_mm);
+        out.line_sigmas.push_back(distance_mm / (pixel.sigma_px * mm_per_px));
+      }
+    }
+  }
+  return out;
+}
+
+ArtifactLinearization linearize_artifacts(const ArtifactProblem& problem,
+                                          const ArtifactNoise& noise,
+                                          const ArtifactParameters& parameters) {
+  ArtifactParameters copy = parameters;
+  ceres::Problem composed;
+  const std::vector<FreeBlock> blocks = compose(problem, noise, copy, composed);
+  ceres::Problem::EvaluateOptions options;
+  ArtifactLinearization out;
+  for (const FreeBlock& block : blocks) {
+    options.parameter_blocks.push_back(block.values);
+    out.names.insert(out.names.end(), block.names.begin(), block.names.end());
+  }
+  ceres::CRSMatrix sparse;
+  composed.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
+  out.normal = Eigen::MatrixXd::Zero(sparse.num_cols, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row) {
+    const int begin = sparse.rows[static_cast<std::size_t>(row)];
+    const int end = sparse.rows[static_cast<std::size_t>(row) + 1];
+    for (int i = begin; i < end; ++i) {
+      for (int k = begin; k < end; ++k) {
+        const auto at = static_cast<std::size_t>(i);
+        const auto other = static_cast<std::size_t>(k);
+        out.normal(sparse.cols[at], sparse.cols[other]) += sparse.values[at] * sparse.values[other];
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace frangia

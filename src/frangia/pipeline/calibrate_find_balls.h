@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/geometry/fit_sphere.h"
+
+namespace frangia {
+
+/// Limits of `find_balls`.
+struct FindBallsOptions {
+  double radius_error = 0.25;   ///< relative; a rig of unknown scale measures another radius
+  double tolerance = 0.02;      ///< distance from the sphere, as a share of its radius
+  std::size_t min_points = 60;  ///< on one ball
+  int tries = 4000;             ///< random sets of four points
+};
+
+/// A ball and the points that lie on it.
+struct FoundBall {
+  Sphere sphere;
+  std::vector<std::size_t> points;  ///< indices of the given ones
+};
+
+/// Finds balls of a known radius among measured points, the one with most points first.
+///
+/// @units    mm
+/// @missing  NaN points are on no ball
+/// @source   RANSAC on four neighboring points, then `fit_sphere`
+[[nodiscard]] std::vector<FoundBall> find_balls(std::span<const Eigen::Vector3d> points,
+                                                double radius_mm,
+                                                std::size_t count,
+                                                const FindBallsOptions& options = {});
+
+}  // namespace frangia

@@ -1,0 +1,111 @@
+"""Calibrates a simulated rig with an interferometer from a screen, a plate and a ball bar, and checks it.
+
+The truth is the rig that rendered the captures. `frangia simulate` starts rig.toml 5 % and 3 degrees off.
+"""
+import math
+import subprocess
+import json
+import tomllib
+
+import numpy
+
+TITLE = "Calibration of a rig with an interferometer"
+
+POSES, ANGLES, STATIONS = 8, 13, 5  # of screen, plate and ball bar
+SEEDS = (1, 2, 3)
+
+
+def rig_of(path):
+    return tomllib.loads(path.read_text())
+
+
+def degrees_between(a, b):
+    a, b = numpy.array(a, float), numpy.array(b, float)
+    return math.degrees(math.atan2(numpy.linalg.norm(numpy.cross(a, b)), a @ b))
+
+
+def across(point, other, axis):
+    """Distance of two points across an axis."""
+    between = numpy.array(point) - other
+    return numpy.linalg.norm(between - numpy.array(axis) * (between @ axis))
+
+
+def theta0(rig):
+    """Angle between the axes of camera and projector in the plane across the fringes, degrees."""
+    rotation = rig["projector"]["rotation"]
+    return math.degrees(math.atan2(rotation[0][2], rotation[2][2]))
+
+
+def errors_of(found, truth):
+    """Names and errors of the parameters."""
+    table, true_table = found["turntable"], truth["turntable"]
+    shift = across(found["projector"]["position_mm"], truth["projector"]["position_mm"], truth["projector"]["rotation"][1])
+    return {
+        "focal length, px": found["camera"]["focal_px"][0] - truth["camera"]["focal_px"][0],
+        "principal point, px": max(abs(a - b) for a, b in zip(found["camera"]["principal_point_px"], truth["camera"]["principal_point_px"])),
+        "theta0, degrees": theta0(found) - theta0(truth),
+        "pitch, %": 100 * (found["projector"].get("pitch_scale", 1) / truth["projector"].get("pitch_scale", 1) - 1),
+        "direction of the fringes, degrees": degrees_between(found["projector"]["rotation"][1], truth["projector"]["rotation"][1]),
+        "place of the projector across its fringes, mm": shift,
+        "axis of the turntable, degrees": degrees_between(table["axis"], true_table["axis"]),
+        "axis of the turntable, mm": across(table["point_mm"], true_table["point_mm"], true_table["axis"]),
+        "laser sheet, degrees": degrees_between(found["line"]["normal"], truth["line"]["normal"]),
+    }
+
+
+def captures(study, seed):
+    """Screen, plate and ball bar of the built-in angular rig."""
+    made = lambda kind, views, *more: study.made(
+        f"angular-{kind}-{seed}", "simulate", "--calibration", kind, "--rig", "angular", "--views", views, "--seed", seed, *more)
+    return made("screen", POSES), made("plate", ANGLES, "--samples", 4), made("ball-bar", STATIONS, "--samples", 4)
+
+
+def check(study, rig, scan):
+    """The answer of `frangia calibrate check`, which ends with 1 where the rig is no longer what it was."""
+    answer = subprocess.run([study.program, "--json", "calibrate", "check", rig, scan], capture_output=True, text=True)
+    if answer.returncode not in (0, 1):
+        raise SystemExit(answer.stderr)
+    return json.loads(answer.stdout)
+
+
+def knocked(rig, degrees, shift_mm):
+    """The text of a rig.toml whose projector has turned about its fringes and moved."""
+    parsed = rig_of(rig)
+    turn = math.radians(degrees)
+    about = numpy.array([[math.cos(turn), 0, math.sin(turn)], [0, 1, 0], [-math.sin(turn), 0, math.cos(turn)]])
+    rotation = (about @ numpy.array(parsed["projector"]["rotation"])).tolist()
+    position = [parsed["projector"]["position_mm"][0] + shift_mm, *parsed["projector"]["position_mm"][1:]]
+    lines = []
+    for line in rig.read_text().splitlines():
+        if line.startswith("position_mm"):
+            line = f"position_mm = {position}"
+        if line.startswith("rotation"):
+            line = f"rotation = {rotation}"
+        lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
+def measure(study):
+    study.add(f"`frangia calibrate rig screen plate ball-bar -o rig.toml`: a screen in {POSES} poses, a plate on the turntable at {ANGLES} angles over 120 degrees, a ball bar at {STATIONS}; the built-in angular rig, 512 × 512 pixels, started 5 % and 3 degrees off. Largest error over {len(SEEDS)} seeds of noise and start.\n")
+    errors, starts = [], []
+    for seed in SEEDS:
+        scans = captures(study, seed)
+        rig = study.work / f"angular-rig-{seed}.toml"
+        study.run("calibrate", "rig", *scans, "-o", rig)
+        truth = rig_of(scans[1] / "truth-rig.toml")
+        errors.append(errors_of(rig_of(rig), truth))
+        starts.append(errors_of(rig_of(scans[1] / "rig.toml"), truth))
+    study.table("parameter", "error at the start", "largest error")
+    for name in errors[0]:
+        start = "" if "px" in name else f"{max(abs(s[name]) for s in starts):.3g}"
+        study.row(name, start, f"{max(abs(e[name]) for e in errors):.4f}")
+    study.add("\n`frangia calibrate check rig.toml SCAN`, with the found rig and with one whose projector was turned by 0.1 degrees and moved by 0.5 mm afterwards.\n")
+    study.table("scan", "rig", "figure", "deviation, mm", "limit, mm", "")
+    plate, bar = scans[1], scans[2]
+    moved = study.work / "angular-rig-moved.toml"
+    moved.write_text(knocked(rig, 0.1, 0.5))
+    part = study.simulated("bracket", "angular", "angular-part")
+    for name, scan in (("ball-bar", bar), ("plate", plate), ("part (bracket)", part)):
+        for state, file in (("as found", rig), ("moved", moved)):
+            for item in check(study, file, scan)["items"]:
+                study.row(name, state, item["name"], f"{item['deviation_mm']:+.4f}", f"{item['limit_mm']:.4f}", "passed" if item["passed"] else "failed")
