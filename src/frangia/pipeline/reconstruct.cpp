@@ -18,6 +18,7 @@
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
+#include "frangia/pipeline/refine_scan_rig.h"
 
 namespace frangia {
 namespace {
@@ -69,9 +70,24 @@ MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
                          run);
 }
 
+/// Refines the rig and reconstructs with it from the frames on.
+Reconstruction reconstruct_with_refined_rig(const Scan& scan,
+                                            ReconstructOptions options,
+                                            const Run& run) {
+  options.refine_rig = false;
+  RigRefinement refinement = refine_scan_rig(scan, options, run);
+  run.note(refinement.text());
+  Scan refined = scan;
+  refined.rig = refinement.rig;
+  Reconstruction out = reconstruct(refined, options, run);
+  out.refinement = std::move(refinement);
+  return out;
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
+  if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
   warn_of_relative_distances(scan, run);
   const CameraModel& camera = scan.rig.camera.model;
   const auto rays = rays_of(camera);
