@@ -56,6 +56,7 @@ void add_calibrate_refine_verb(CLI::App& calibrate, Terminal& terminal) {
   verb->add_option("SCAN", arguments->scan, "the scan folder, with scan.toml and rig.toml")
       ->required();
   verb->add_option("-o,--output", arguments->output, "rig.toml to write")->required();
+  add_known_length(*verb, arguments->options.refinement.ball_distance_mm);
   verb->add_option("--clip-below",
                    arguments->options.clip_below_mm,
                    "ignore points below this height over the turntable's origin, mm")

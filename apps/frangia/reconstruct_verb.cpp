@@ -220,6 +220,7 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
                 arguments.options.refine_rig,
                 "refine the rig by the surfaces of the views first: a projector or camera that "
                 "drifted or was knocked after the calibration");
+  add_known_length(verb, arguments.options.refinement.ball_distance_mm)->needs("--refine-rig");
   verb.add_flag(
       "--no-register", arguments.no_register, "do not refine the turntable's axis and angles");
 }

@@ -13,7 +13,8 @@ nlohmann::ordered_json json_of(const RigRefinement& refinement) {
                               {"rms_after_mm", refinement.rms_after_mm},
                               {"directions", refinement.directions},
                               {"held_directions", refinement.held},
-                              {"axis_moved_mm", refinement.axis_moved_mm}};
+                              {"axis_moved_mm", refinement.axis_moved_mm},
+                              {"scale", refinement.scale}};
   json["not_determined"] = nlohmann::ordered_json::array();
   for (const RefinedParameter& parameter : refinement.parameters) {
     json["parameters"][parameter.name] = {{"change", parameter.change},
@@ -26,7 +27,7 @@ nlohmann::ordered_json json_of(const RigRefinement& refinement) {
 
 void print_refinement(const RigRefinement& refinement) {
   write_output(refinement.text() + "\n");
-  if (refinement.kept_rig) return;
+  if (refinement.kept_rig && refinement.scale == 1.0) return;
   TextColumn name{"parameter", {}, false};
   TextColumn change{"change", {}};
   TextColumn sigma{"sigma", {}};

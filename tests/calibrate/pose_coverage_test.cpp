@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-const Board kBoard{.kind = BoardKind::Checkerboard, .columns = 10, .rows = 7, .square_mm = 20.0};
+const Board kSquares{.kind = BoardKind::Checkerboard, .columns = 10, .rows = 7, .square_mm = 20.0};
 
 CameraModel camera_of(double focal_px) {
   return {.width_px = 1200,
@@ -27,7 +27,7 @@ BoardView seen(const CameraModel& camera,
   const Eigen::AngleAxisd turn(rad_from_deg(turn_deg), axis);
   BoardView view{"view", {}};
   int index = 0;
-  for (const Eigen::Vector2d& point : board_points_mm(kBoard)) {
+  for (const Eigen::Vector2d& point : board_points_mm(kSquares)) {
     const Eigen::Vector3d on_board(point.x() - 90.0, point.y() - 60.0, 0.0);
     view.points.push_back({index++, camera.project(place_mm + turn * on_board)});
   }
@@ -40,7 +40,7 @@ TEST(PoseCoverage, MeasuresTiltsDistancesAndCells) {
   const std::vector<BoardView> views{
       seen(camera, {0.0, 0.0, 600.0}, Eigen::Vector3d::UnitY(), 25.0),
       seen(camera, {0.0, 0.0, 720.0}, Eigen::Vector3d::UnitX(), 20.0)};
-  const PoseCoverage coverage = measure_pose_coverage(views, kBoard, camera);
+  const PoseCoverage coverage = measure_pose_coverage(views, kSquares, camera);
   EXPECT_EQ(coverage.poses, 2U);
   EXPECT_NEAR(coverage.tilts_deg[0], 25.0, 0.5);  // left side away
   EXPECT_NEAR(coverage.tilts_deg[1], 0.0, 0.5);
@@ -59,17 +59,17 @@ TEST(PoseCoverage, AsksForWhatIsMissingMost) {
     views.push_back(seen(camera, {0.0, 0.0, 600.0}, Eigen::Vector3d::UnitY(), turn_deg));
     views.push_back(seen(camera, {0.0, 0.0, 600.0}, Eigen::Vector3d::UnitX(), turn_deg));
   }
-  EXPECT_NE(measure_pose_coverage(views, kBoard, camera).next.find("by a tenth of its distance"),
+  EXPECT_NE(measure_pose_coverage(views, kSquares, camera).next.find("by a tenth of its distance"),
             std::string::npos);
   for (const double x : {-150.0, 150.0}) {
     for (const double y : {-110.0, 110.0})
       views.push_back(seen(camera, {x, y, 720.0}));
   }
-  const PoseCoverage all = measure_pose_coverage(views, kBoard, camera);
+  const PoseCoverage all = measure_pose_coverage(views, kSquares, camera);
   EXPECT_TRUE(all.sufficient()) << all.next;
   EXPECT_NE(all.next.find("sufficient"), std::string::npos);
   views.push_back({"view", {}});
-  EXPECT_NE(measure_pose_coverage(views, kBoard, camera).next.find("the same place again"),
+  EXPECT_NE(measure_pose_coverage(views, kSquares, camera).next.find("the same place again"),
             std::string::npos);
 }
 
@@ -78,7 +78,7 @@ TEST(PoseCoverage, NeedsNoFocalLength) {
   const std::vector<BoardView> views{
       seen(unknown, {0.0, 0.0, 600.0}, Eigen::Vector3d::UnitY(), 25.0)};
   unknown.focal_px.setConstant(std::nan(""));
-  EXPECT_NEAR(measure_pose_coverage(views, kBoard, unknown).tilts_deg[0], 25.0, 6.0);
+  EXPECT_NEAR(measure_pose_coverage(views, kSquares, unknown).tilts_deg[0], 25.0, 6.0);
 }
 
 }  // namespace

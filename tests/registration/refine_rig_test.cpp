@@ -89,7 +89,12 @@ std::vector<std::size_t> counted(int count) {
 
 /// Shape error of a view that a rig triangulates: RMS distance from the true points after the
 /// similarity that fits best, as a share of the true distance.
-double shape_error(const ViewStore& truth, const Rig& true_one, const Rig& rig) {
+struct ShapeError {
+  double shape = 0.0;
+  double scale = 1.0;  ///< true size over measured size
+};
+
+ShapeError shape_error(const ViewStore& truth, const Rig& true_one, const Rig& rig) {
   const View right = truth.load(0);
   const ViewStore other = retriangulate_views(truth, kColumns, true_one, rig);
   const View wrong = other.load(0);
@@ -115,16 +120,22 @@ double shape_error(const ViewStore& truth, const Rig& true_one, const Rig& rig) 
   const Eigen::Matrix4d motion = Eigen::umeyama(a, b, true);
   const Eigen::Matrix3Xd moved =
       (motion.topLeftCorner<3, 3>() * a).colwise() + motion.topRightCorner<3, 1>();
-  return std::sqrt((moved - b).colwise().squaredNorm().mean()) / b.colwise().norm().mean();
+  return {std::sqrt((moved - b).colwise().squaredNorm().mean()) / b.colwise().norm().mean(),
+          motion.topLeftCorner<3, 1>().norm()};
 }
 
 struct Refined {
   RigRefinement result;
   double error_before = 0.0;
   double error_after = 0.0;
+  double scale_before = 1.0;
+  double scale_after = 1.0;
 };
 
-Refined refine(const Shape& shape, double scale, int count = 6) {
+Refined refine(const Shape& shape,
+               double scale,
+               const RefineRigOptions& options = {},
+               int count = 6) {
   const Rig unit = true_rig();
   const Rig truth = true_rig(scale);
   const Rig given = drifted(truth, scale);
@@ -132,9 +143,13 @@ Refined refine(const Shape& shape, double scale, int count = 6) {
   const ViewStore views = retriangulate_views(seen, kColumns, truth, given);
   const std::vector<RigSurfaces> surfaces{{views, kColumns, counted(count)}};
   Refined out;
-  out.result = refine_rig(given, surfaces, stations_of(count, rad_from_deg(0.05)));
-  out.error_before = shape_error(seen, truth, given);
-  out.error_after = shape_error(seen, truth, out.result.rig);
+  out.result = refine_rig(given, surfaces, stations_of(count, rad_from_deg(0.05)), options);
+  const ShapeError before = shape_error(seen, truth, given);
+  const ShapeError after = shape_error(seen, truth, out.result.rig);
+  out.error_before = before.shape;
+  out.error_after = after.shape;
+  out.scale_before = before.scale;
+  out.scale_after = after.scale;
   return out;
 }
 
@@ -174,6 +189,23 @@ TEST(RefineRig, IsNotWorseWithAPartThatIsRoundAboutTheAxis) {
   const Refined found = refine(sphere(38.0), 1.0);
   EXPECT_LE(found.error_after, 1.05 * found.error_before);
   EXPECT_GT(found.result.held, 4U) << found.result.text();
+}
+
+TEST(RefineRig, TakesTheScaleFromTheBallsOfABallBar) {
+  const Shape bar = testing::both(
+      testing::both(sphere(14.0, {0.0, -22.0, 12.0}), sphere(14.0, {0.0, 22.0, 12.0})),
+      testing::box({8.0, 40.0, 4.0}, {0.0, 0.0, -20.0}));
+  RefineRigOptions options;
+  options.ball_distance_mm = 44.0;
+  const Refined found = refine(bar, 1.0, options);
+  EXPECT_GT(std::abs(found.scale_before - 1.0), 1e-3);
+  EXPECT_NEAR(found.scale_after, 1.0, 4e-4);
+  EXPECT_LT(found.error_after, 0.5 * found.error_before);
+  options.ball_distance_mm = 60.0;
+  EXPECT_NE(testing::error_of([&] {
+              static_cast<void>(refine(bar, 1.0, options, 3));
+            }).find("the two balls are 4"),
+            std::string::npos);
 }
 
 TEST(RefineRig, FindsTheProjectorOfOneViewFromBothDirectionsOfFringes) {

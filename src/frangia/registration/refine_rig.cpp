@@ -4,9 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
@@ -14,6 +11,7 @@
 #include "frangia/local_fit/make_surfel_maps.h"
 #include "frangia/registration/internal/drift_bundle.h"
 #include "frangia/registration/internal/drift_model.h"
+#include "frangia/registration/internal/known_length.h"
 #include "frangia/registration/internal/make_bundle.h"
 #include "frangia/registration/internal/retriangulate_views.h"
 
@@ -126,9 +124,13 @@ Rig with_table(Rig rig, const Turntable& given, const Turntable& refined) {
 
 std::vector<RefinedParameter> describe(const DriftModel& model,
                                        const Eigen::VectorXd& w,
-                                       const RigCovariance& after) {
+                                       const RigCovariance& after,
+                                       const RigRefinement& result) {
   constexpr double kDetermined = 1.0 / 3.0;  // of the prior's standard deviation
-  const Eigen::VectorXd changes = model.factor() * w;
+  Eigen::VectorXd changes = model.factor() * w;
+  // The translation is the last of the parameters, and the scale changes it alone.
+  const Projector& projector = result.rig.projector;
+  changes.tail<3>() -= (1.0 - 1.0 / result.scale) * (projector.rotation * projector.position_mm);
   const Eigen::VectorXd prior = model.factor().rowwise().norm();
   std::vector<RefinedParameter> parameters;
   for (std::size_t i = 0; i < model.parameters().size(); ++i) {
@@ -271,14 +273,13 @@ RigRefinement refine_rig(const Rig& rig,
   RigRefinement result;
   result.directions = static_cast<std::size_t>(model.count());
   result.held = result.directions - static_cast<std::size_t>(free_directions.cols());
-  const RigCovariance covariance = model.updated(information);
-  result.parameters = describe(model, bundle.linearized_at, covariance);
 
   // Both rigs by the wider of their gates.
   bundle.gate_mm = std::max(gate_alone_mm, gate_after_mm);
   bundle.state.w = bundle.linearized_at;
   const DriftSums after = sum_drift(bundle, kComparedSurfels);
   const DriftState found = bundle.state;
+  std::vector<DriftView> refined_views = std::move(bundle.views);
   bundle.views = views_of(surfaces, rig, rig, false, run);
   bundle.camera = camera;
   bundle.state = alone;
@@ -290,39 +291,30 @@ RigRefinement refine_rig(const Rig& rig,
   result.kept_rig = static_cast<double>(after.distances_mm.size()) < fewest ||
                     static_cast<double>(median(given.distances_mm)) <
                         options.as_good_as_given * static_cast<double>(median(after.distances_mm));
-  const DriftState& end = result.kept_rig ? alone : found;
-  result.angles_rad = end.table.angles_rad;
+  if (!result.kept_rig) {
+    bundle.views = std::move(refined_views);
+    bundle.camera = FastCameraModel(refined.camera.model);
+    bundle.state = found;
+    bundle.linearized_at = found.w;
+  }
+  const TableState& end = bundle.state.table;
+  result.angles_rad = end.angles_rad;
   result.rig = rig;
-  if (result.kept_rig) return result;
-  result.rig = turns ? with_table(refined, *rig.turntable, end.table.table) : refined;
+  if (!result.kept_rig)
+    result.rig = turns ? with_table(refined, *rig.turntable, end.table) : refined;
+  if (options.ball_distance_mm) {
+    const KnownLength length = measure_known_length(bundle, options);
+    information += length.information;
+    scale_rig(result.rig, length.scale);
+    result.scale = length.scale;
+  }
   if (turns)
     result.axis_moved_mm = (result.rig.turntable->point_mm - rig.turntable->point_mm).norm();
-  result.rig.calibration = refined_calibration(rig, covariance, stations.size());
+  const RigCovariance covariance = model.updated(information);
+  result.parameters = describe(model, bundle.state.w, covariance, result);
+  if (!result.kept_rig || options.ball_distance_mm)
+    result.rig.calibration = refined_calibration(rig, covariance, stations.size());
   return result;
-}
-
-std::string RigRefinement::text() const {
-  if (kept_rig) {
-    return fmt::format(
-        "the rig is kept: its surfaces agree to {:.3g} mm RMS, and no drift explains them better "
-        "({:.3g} mm)",
-        rms_before_mm,
-        rms_after_mm);
-  }
-  std::vector<std::string> held_names;
-  for (const RefinedParameter& parameter : parameters)
-    if (!parameter.determined) held_names.push_back(parameter.name);
-  std::string words = fmt::format(
-      "the rig has drifted: its surfaces agree to {:.3g} mm RMS (before: {:.3g} mm); the part "
-      "determines {} of {} independent changes, and the others are held",
-      rms_after_mm,
-      rms_before_mm,
-      directions - held,
-      directions);
-  if (!held_names.empty()) {
-    words += fmt::format("; not determined by themselves: {}", fmt::join(held_names, ", "));
-  }
-  return words;
 }
 
 }  // namespace frangia

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +11,7 @@
 #include "frangia/core/run.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/registration/register_views.h"
+#include "frangia/registration/rig_refinement.h"
 #include "frangia/rig/rig.h"
 #include "frangia/views/view_store.h"
 
@@ -33,7 +34,11 @@ struct RefineRigOptions {
   int max_rounds = 6;                      ///< each triangulates all points anew
   double min_gain = 1.0;  ///< information of the surfaces in units of the prior's, below which a
                           ///< direction of the parameters is held
-  double as_good_as_given = 1.02;  ///< the given rig stays unless it fits worse by this factor
+  /// Known distance of the centers of the two balls of a ball bar in the scan: it fixes the scale.
+  std::optional<double> ball_distance_mm{};
+  double relative_length_sigma = 1e-4;  ///< of that distance: 7 um of 70 mm
+  double max_scale_error = 0.05;        ///< beyond it the balls are not those of the known distance
+  double as_good_as_given = 1.02;       ///< the given rig stays unless it fits worse by this factor
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
@@ -44,31 +49,6 @@ struct RigSurfaces {
   const ViewStore& views;             ///< points that the given rig triangulated
   Pattern pattern;                    ///< any fringe pattern in the direction of the fringes
   std::vector<std::size_t> stations;  ///< of each view: the index of its station
-};
-
-/// One parameter of a rig after the refinement.
-struct RefinedParameter {
-  std::string name;          ///< as in the covariance of the calibration
-  double change = 0.0;       ///< from the given rig
-  double prior_sigma = 0.0;  ///< of calibration and drift together
-  double sigma = 0.0;        ///< after the refinement
-  bool determined = false;   ///< `sigma` is less than a third of `prior_sigma`
-};
-
-/// A refined rig and how well the surfaces determine it.
-struct RigRefinement {
-  Rig rig;                ///< with axis and covariance; the given one when `kept_rig`
-  bool kept_rig = false;  ///< the given rig fits as well
-  std::vector<RefinedParameter> parameters;
-  std::size_t directions = 0;  ///< independent changes of the parameters
-  std::size_t held = 0;        ///< of them, those that the surfaces do not determine
-  double rms_before_mm = 0.0;  ///< of the distances between views, axis and angles refined alone
-  double rms_after_mm = 0.0;   ///< the same with the refined rig
-  std::vector<double> angles_rad;  ///< of each station, refined
-  double axis_moved_mm = 0.0;      ///< distance of the refined axis from the given one
-
-  /// The findings in words: clauses separated by semicolons.
-  [[nodiscard]] std::string text() const;
 };
 
 /// Refines the pose of the projector, the focal lengths and principal points of projector and
@@ -83,7 +63,8 @@ struct RigRefinement {
 ///           not compared
 /// @units    mm, rad
 /// @errors   Error(Input) when no two views can be compared: a rig without a turntable needs both
-///           directions of fringes; and as `RefineRigOptions::check`
+///           directions of fringes; when `ball_distance_mm` is given and the scan holds no ball bar
+///           of about that distance; and as `RefineRigOptions::check`
 /// @source   point-to-plane bundle adjustment by `minimize_robustly` with Gaussian priors
 [[nodiscard]] RigRefinement refine_rig(const Rig& rig,
                                        std::span<const RigSurfaces> surfaces,
