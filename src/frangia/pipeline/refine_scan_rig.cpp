@@ -26,7 +26,8 @@ bool shows_fringes(const Scan& scan, FringeDirection direction) {
 std::vector<DirectionChoice> directions_of(const Scan& scan, DirectionChoice wanted) {
   if (wanted == DirectionChoice::Vertical || wanted == DirectionChoice::Horizontal) return {wanted};
   std::vector<DirectionChoice> directions;
-  if (shows_fringes(scan, FringeDirection::Vertical)) directions.push_back(DirectionChoice::Vertical);
+  if (shows_fringes(scan, FringeDirection::Vertical))
+    directions.push_back(DirectionChoice::Vertical);
   if (shows_fringes(scan, FringeDirection::Horizontal))
     directions.push_back(DirectionChoice::Horizontal);
   return directions;
