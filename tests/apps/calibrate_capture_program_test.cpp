@@ -90,11 +90,11 @@ TEST_F(CaptureOfPoses, OnTheTurntableNeedsNobody) {
 
 TEST_F(CaptureOfPoses, LeavesOutAPoseThatWasInterrupted) {
   const std::string command = capture(maker_rig("real_time = true\n"), "--poses 2 --exposure 100");
-  const Answer stopped = run_shell(
-      fmt::format("(echo; sleep 60) | {} & until ls {}/views/*/*-1.png >/dev/null 2>&1 || ! kill "
-                  "-0 $!; do sleep 0.05; done; kill -TERM $!; wait $!",
-                  command,
-                  poses()));
+  const Answer stopped = run_shell(fmt::format(
+      "(echo; sleep 20) 2>/dev/null | {} & until ls {}/views/*/*-1.png >/dev/null 2>&1 || ! kill "
+      "-0 $!; do sleep 0.05; done; kill -TERM $!; wait $!",
+      command,
+      poses()));
   EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
   EXPECT_TRUE(says(stopped, "continue with: ")) << stopped.output;
   const Answer finished = run_shell("printf '\\n' | " + command);

@@ -21,6 +21,7 @@ std::vector<DriftView> drift_views(std::span<const RigSurfaces> surfaces,
                                    const Rig& rig,
                                    bool changed,
                                    const Run& run) {
+  const Run silent{.stop = run.stop};
   std::vector<DriftView> views;
   for (const RigSurfaces& surface : surfaces) {
     const std::size_t budget = surfels_per_view(kSurfelsOfView, surface.views.size());
@@ -28,8 +29,9 @@ std::vector<DriftView> drift_views(std::span<const RigSurfaces> surfaces,
         changed
             ? make_surfel_maps(retriangulate_views(surface.views, surface.pattern, given, rig, run),
                                rig.camera.model,
-                               budget)
-            : make_surfel_maps(surface.views, rig.camera.model, budget);
+                               budget,
+                               silent)
+            : make_surfel_maps(surface.views, rig.camera.model, budget, silent);
     for (std::size_t i = 0; i < maps.size(); ++i)
       views.push_back({maps[i], surface.stations[i], {}});
   }
