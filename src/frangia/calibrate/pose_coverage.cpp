@@ -30,8 +30,8 @@ double focal_of(const CameraModel& camera) {
 }
 
 std::optional<BoardPose> homography_pose(const BoardView& view,
-                                 const std::vector<Eigen::Vector2d>& points_mm,
-                                 const CameraModel& camera) {
+                                         const std::vector<Eigen::Vector2d>& points_mm,
+                                         const CameraModel& camera) {
   if (view.points.size() < 4) return std::nullopt;
   const double focal = focal_of(camera);
   const Eigen::Vector2d middle(0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1));
