@@ -14,9 +14,14 @@ bool can_ask() {
 }
 
 bool ask(const std::string& question, const Run& run) {
+  const std::string line = read_answer(question + " [y/N]", run).value_or("");
+  return line == "y" || line == "Y" || line == "yes";
+}
+
+std::optional<std::string> read_answer(const std::string& prompt, const Run& run) {
   constexpr int kCheck_ms = 100;  // between checks for Ctrl-C
   static_cast<void>(
-      std::fprintf(stderr, "%s [y/N] ", terminal_text(question).c_str()));  // NOLINT(*-vararg)
+      std::fprintf(stderr, "%s ", terminal_text(prompt).c_str()));  // NOLINT(*-vararg)
   static_cast<void>(std::fflush(stderr));
   std::string line;
   for (;;) {
@@ -24,10 +29,14 @@ bool ask(const std::string& question, const Run& run) {
     ::pollfd input{STDIN_FILENO, POLLIN, 0};
     if (::poll(&input, 1, kCheck_ms) <= 0) continue;
     char letter = 0;
-    if (::read(STDIN_FILENO, &letter, 1) != 1 || letter == '\n') break;
+    if (::read(STDIN_FILENO, &letter, 1) != 1) {
+      if (line.empty()) return std::nullopt;
+      break;
+    }
+    if (letter == '\n') break;
     line += letter;
   }
-  return line == "y" || line == "Y" || line == "yes";
+  return line;
 }
 
 }  // namespace frangia

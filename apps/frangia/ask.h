@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "frangia/core/run.h"
@@ -14,5 +15,11 @@ namespace frangia {
 ///
 /// @errors   Error(Cancelled) as Run::check
 [[nodiscard]] bool ask(const std::string& question, const Run& run);
+
+/// Prints a prompt on standard error and returns a line of standard input, which need not be a
+/// terminal; nothing at its end. Ctrl-C ends it.
+///
+/// @errors   Error(Cancelled) as Run::check
+[[nodiscard]] std::optional<std::string> read_answer(const std::string& prompt, const Run& run);
 
 }  // namespace frangia

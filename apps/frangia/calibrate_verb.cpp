@@ -17,11 +17,13 @@
 
 #ifdef FRANGIA_WITH_CALIBRATION
 #include "calibrate_board_verb.h"
+#include "calibrate_capture_verb.h"
 #include "calibrate_check_verb.h"
 #include "calibrate_exchange_verbs.h"
 #include "calibrate_rig_verb.h"
 #include "calibrate_turntable_verb.h"
 #endif
+#include "calibrate_refine_verb.h"
 #include "check_can_write.h"
 #include "drivers.h"
 #include "option_values.h"
@@ -99,11 +101,13 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
   verb->require_subcommand(1);
 #ifdef FRANGIA_WITH_CALIBRATION
   add_calibrate_board_verb(*verb, terminal);
+  add_calibrate_capture_verb(*verb, terminal);
   add_calibrate_rig_verb(*verb, terminal);
   add_calibrate_turntable_verb(*verb, terminal);
   add_calibrate_check_verb(*verb, terminal);
   add_calibrate_exchange_verbs(*verb, terminal);
 #endif
+  add_calibrate_refine_verb(*verb, terminal);
   auto* piezo = verb->add_subcommand(
       "piezo", "measure the phase shift of each command of a phase shifter, from the frames alone");
   piezo->footer(

@@ -54,7 +54,7 @@ Json find_devices(const std::vector<Driver>& drivers, const Run& run) {
 Json test_devices(const std::filesystem::path& rig_file,
                   const std::vector<Driver>& drivers,
                   const Run& run) {
-  const Rig rig = read_rig(rig_file, run);
+  const Rig rig = read_rig(rig_file, run, RigContent::StartValues);
   DeviceSession session;
   std::vector<Guardian::Watch> watches;
   std::vector<std::unique_ptr<Device>> opened;  // kept open: tables may share a board

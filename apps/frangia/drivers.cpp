@@ -8,11 +8,18 @@
 
 namespace frangia {
 
-std::vector<Driver> all_drivers() {
+namespace {
+
+std::vector<Driver> with_hardware(std::vector<Driver> simulated) {
   std::vector<Driver> drivers = hardware_drivers();
-  std::vector<Driver> simulated = simulated_drivers();
   std::move(simulated.begin(), simulated.end(), std::back_inserter(drivers));
   return drivers;
+}
+
+}  // namespace
+
+std::vector<Driver> all_drivers() {
+  return with_hardware(simulated_drivers());
 }
 
 GuardianProgram guardian_program() {
@@ -22,5 +29,16 @@ GuardianProgram guardian_program() {
 OpenRig::OpenRig(const std::filesystem::path& rig_file, const Rig& rig, const Run& run)
     : devices_(open_devices(
           rig_file, rig, all_drivers(), Deadline::in(30.0, run.stop), run, &session_.guardian)) {}
+
+OpenRig::OpenRig(const std::filesystem::path& rig_file,
+                 const Rig& rig,
+                 const SimulatedBoard& board,
+                 const Run& run)
+    : devices_(open_devices(rig_file,
+                            rig,
+                            with_hardware(simulated_drivers(board)),
+                            Deadline::in(30.0, run.stop),
+                            run,
+                            &session_.guardian)) {}
 
 }  // namespace frangia

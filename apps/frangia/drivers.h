@@ -6,6 +6,7 @@
 #include "frangia/devices/driver.h"
 #include "frangia/devices/guardian.h"
 #include "frangia/devices/rig_devices.h"
+#include "frangia/simulate/simulated_drivers.h"
 
 #include "interrupt.h"
 
@@ -31,6 +32,11 @@ class OpenRig {
   ///
   /// @errors   as `open_devices`
   OpenRig(const std::filesystem::path& rig_file, const Rig& rig, const Run& run);
+  /// The same; before a simulated camera stands a board.
+  OpenRig(const std::filesystem::path& rig_file,
+          const Rig& rig,
+          const SimulatedBoard& board,
+          const Run& run);
 
   [[nodiscard]] RigDevices& devices() { return devices_; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -67,6 +68,16 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
                   "discard pixels whose phase has a larger standard deviation, rad")
       ->check(above_zero())
       ->capture_default_str();
+}
+
+/// The known length that fixes the scale of a refined rig.
+inline CLI::Option* add_known_length(CLI::App& verb, std::optional<double>& length_mm) {
+  return verb
+      .add_option("--length",
+                  length_mm,
+                  "known distance of the centers of the two balls of a ball bar in the scan, which "
+                  "fixes the scale of the refined rig")
+      ->transform(length_above_zero());
 }
 
 }  // namespace frangia

@@ -21,6 +21,7 @@
 #include "option_values.h"
 #include "print_text.h"
 #include "reconstruct_options.h"
+#include "refinement_text.h"
 #include "text_table.h"
 #include "verbs.h"
 #include "write_options.h"
@@ -166,6 +167,7 @@ void print_result(const Reconstruction& result,
                          {"over_noise", result.camera_disagreement_over_noise}};
     }
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
+    if (result.refinement) json["refinement"] = json_of(*result.refinement);
     if (result.registration) json["registration"] = json_of(*result.registration);
     if (!std::isnan(result.turntable_top_height_mm))
       json["turntable_top_height_mm"] = result.turntable_top_height_mm;
@@ -181,6 +183,7 @@ void print_result(const Reconstruction& result,
              counted(result.views, "view"),
              result.mesh.triangles.size(),
              text_of(result.sigma));
+  if (result.refinement) print_refinement(*result.refinement);
   if (!std::isnan(result.disagreement_mm)) {
     print_text("directions of fringes: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
                result.disagreement_mm,
@@ -238,6 +241,11 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
   verb.add_flag("--keep-turntable-top",
                 arguments.options.keep_turntable_top,
                 "keep the points of the turntable top, which are removed by default");
+  verb.add_flag("--refine-rig",
+                arguments.options.refine_rig,
+                "refine the rig by the surfaces of the views first: a projector or camera that "
+                "drifted or was knocked after the calibration");
+  add_known_length(verb, arguments.options.refinement.ball_distance_mm)->needs("--refine-rig");
   verb.add_flag(
       "--no-register", arguments.no_register, "do not refine the turntable's axis and angles");
 }

@@ -23,7 +23,9 @@ std::vector<std::filesystem::path> examples() {
 /// What the drivers say of each device; all they may miss here is the device itself.
 std::vector<std::string> faults_of(const std::filesystem::path& file,
                                    const std::vector<std::string>& devices) {
-  const Rig rig = read_rig(file);
+  // A maker's rig is not calibrated yet.
+  const bool maker = file.stem().string().find("maker") != std::string::npos;
+  const Rig rig = read_rig(file, {}, maker ? RigContent::StartValues : RigContent::Complete);
   const auto drivers = testing::all_drivers();
   std::vector<std::string> faults;
   std::vector<std::string> tables;
@@ -49,6 +51,7 @@ TEST(ExampleRigs, HaveEveryKeyThatTheirDriversAskFor) {
       {"maker-projector", {"camera", "fringes", "turntable"}},
       {"simulated-binocular", {"camera", "camera-left", "fringes", "turntable"}},
       {"simulated-digital", {"camera", "fringes", "turntable"}},
+      {"simulated-maker", {"camera", "fringes", "turntable"}},
       {"simulated-interferometer", {"camera", "fringes", "light", "line", "turntable"}}};
   std::size_t rigs = 0;
   for (const auto& file : examples()) {

@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/run_program.h"
+#include "support/small_scan.h"
 #include "support/temporary_folder.h"
 #include "support/text_of.h"
 
@@ -34,6 +36,31 @@ TEST(CalibrateProgram, WritesABoardAtTrueScale) {
   const Answer even = run_program("calibrate board --corners 9,7 -o " + file.string());
   EXPECT_EQ(even.exit_code, 3);
   EXPECT_NE(even.output.find("looks the same upside down"), std::string::npos) << even.output;
+}
+
+TEST(CalibrateProgram, RefinesARigByAScanAndRefusesWhatCannotRefineIt) {
+  const TemporaryFolder folder;
+  const std::string rig = (folder.path() / "small.toml").string();
+  write_rig(rig, testing::small_rig("digital"));
+  const std::string scan = (folder.path() / "scan").string();
+  ASSERT_EQ(run_program("simulate ball-bar --views 4 --rig " + rig + " -o " + scan).exit_code, 0);
+  const std::string out = (folder.path() / "refined.toml").string();
+  const Answer kept = run_program("calibrate refine " + scan + " -o " + out);
+  EXPECT_EQ(kept.exit_code, 0) << kept.output;
+  EXPECT_NE(kept.output.find("the rig is kept"), std::string::npos) << kept.output;
+  EXPECT_EQ(read_rig(out).projector.position_mm,
+            testing::small_rig("digital").projector.position_mm);
+  const Answer scaled = run_program("calibrate refine " + scan + " --length 70.7mm -o " + out);
+  EXPECT_EQ(scaled.exit_code, 0) << scaled.output;
+  const double ratio = read_rig(out).projector.position_mm.norm() /
+                       testing::small_rig("digital").projector.position_mm.norm();
+  EXPECT_NEAR(ratio, 1.01, 0.001);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "refined-covariance.csv"));
+  const std::string one = (folder.path() / "one").string();
+  ASSERT_EQ(run_program("simulate ball-bar --views 1 --rig " + rig + " -o " + one).exit_code, 0);
+  const Answer refused = run_program("calibrate refine " + one + " -o " + out);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.output.find("needs several views"), std::string::npos) << refused.output;
 }
 
 /// Scans a part with a calibrated rig, and reconstructs it with and without the covariance.

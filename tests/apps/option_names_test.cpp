@@ -27,7 +27,8 @@ std::string code_of(const std::filesystem::path& path) {
 
 std::set<std::string> flags_of_all_verbs() {
   std::string help = run_program("--help-all").output;
-  for (const char* verb : {"board", "rig", "turntable", "import", "export", "piezo"})
+  for (const char* verb :
+       {"board", "capture", "rig", "turntable", "refine", "import", "export", "piezo"})
     help += run_program(std::string("calibrate ") + verb + " --help").output;
   const std::regex flag("--([a-z][a-z0-9-]*)");
   std::set<std::string> flags;

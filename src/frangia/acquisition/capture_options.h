@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,13 @@ struct CaptureOptions {
   /// Present angle of a turntable without a home switch. Empty: 0 when a scan begins. A scan that
   /// is continued requires it.
   std::optional<double> table_at_rad;
+  /// Called before each view that a person sets up, with white light on where the plan has such a
+  /// pattern; false ends the capture with the views so far. A view that an earlier session began
+  /// but did not complete is left out: nobody can set it up again. Empty: nothing is set up by
+  /// hand.
+  std::function<bool(std::size_t view)> before_view;
+  /// Called after each complete view, also those of earlier sessions; its frames are on the disk.
+  std::function<void(std::size_t view)> after_view;
 };
 
 /// A view that could not be captured.

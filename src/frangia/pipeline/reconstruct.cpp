@@ -20,6 +20,7 @@
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
 #include "frangia/pipeline/internal/tie_cameras.h"
 #include "frangia/rig/rig_of_camera.h"
+#include "frangia/pipeline/refine_scan_rig.h"
 
 namespace frangia {
 namespace {
@@ -83,9 +84,24 @@ MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
                          run);
 }
 
+/// Refines the rig and reconstructs with it from the frames on.
+Reconstruction reconstruct_with_refined_rig(const Scan& scan,
+                                            ReconstructOptions options,
+                                            const Run& run) {
+  options.refine_rig = false;
+  RigRefinement refinement = refine_scan_rig(scan, options, run);
+  run.note(refinement.text());
+  Scan refined = scan;
+  refined.rig = refinement.rig;
+  Reconstruction out = reconstruct(refined, options, run);
+  out.refinement = std::move(refinement);
+  return out;
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
+  if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
   warn_of_relative_distances(scan, run);
   const auto rays = rays_of(scan.rig.camera.model);
   Reconstruction out;

@@ -18,6 +18,7 @@
 #include "frangia/pipeline/view_summary.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/registration/find_turntable_top.h"
+#include "frangia/registration/refine_rig.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/views/collect_points.h"
 
@@ -32,6 +33,8 @@ struct ReconstructOptions {
   FringeOrderCorrectionOptions fringe_order_correction;
   bool register_views = true;    ///< refine the turntable's axis and angles by the overlap of views
   RegisterOptions registration;  ///< refinement of axis and angles
+  bool refine_rig = false;       ///< refines the rig itself by the surfaces of the views first
+  RefineRigOptions refinement;   ///< prior of the rig's drift
   bool keep_turntable_top = false;    ///< otherwise it is found and removed
   TurntableTopOptions turntable_top;  ///< criteria of the turntable top that is removed
   double clip_below_mm =
@@ -52,6 +55,7 @@ struct Reconstruction {
   std::size_t views = 0;   ///< that hold points
   std::vector<ViewSummary> view_summaries;         ///< of all views, in the order of the scan
   std::optional<RegistrationReport> registration;  ///< empty when not done
+  std::optional<RigRefinement> refinement;         ///< empty when not done
   double turntable_top_height_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed
   /// Median over the views of the median distance between the points of vertical and of horizontal

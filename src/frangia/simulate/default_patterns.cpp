@@ -148,4 +148,23 @@ std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
   return patterns;
 }
 
+std::vector<Pattern> calibration_patterns(const Rig& rig, const PatternPlan& plan) {
+  const auto* projector = std::get_if<PinholeModel>(&rig.projector.model);
+  require(projector != nullptr,
+          "the rig's projector is angular, but a board calibrates a digital projector only");
+  std::vector<Pattern> patterns = default_patterns(rig, plan);
+  const double ratio = static_cast<double>(projector->height_px) / projector->width_px;
+  for (std::size_t i = 0, count = patterns.size(); i < count; ++i) {
+    Pattern across = patterns[i];
+    if (across.kind != PatternKind::Fringe) continue;
+    patterns[i].name = fmt::format("columns-{}", i);
+    across.name = fmt::format("rows-{}", i);
+    across.direction = FringeDirection::Horizontal;
+    across.period_px *= ratio;
+    patterns.push_back(across);
+  }
+  patterns.push_back({.name = "white", .kind = PatternKind::White});
+  return patterns;
+}
+
 }  // namespace frangia

@@ -33,4 +33,11 @@ struct PatternPlan {
 ///          0 or gives more than 1e6 fringes, or an option that the projector cannot show
 [[nodiscard]] std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan = {});
 
+/// Returns patterns with which a board is captured: those of `default_patterns`, the same fringes
+/// in the other direction, and one frame of white light.
+///
+/// @errors   Error(Input) when the projector is angular, and as `default_patterns`
+[[nodiscard]] std::vector<Pattern> calibration_patterns(const Rig& rig,
+                                                        const PatternPlan& plan = {});
+
 }  // namespace frangia

@@ -144,23 +144,6 @@ Eigen::Isometry3d choose_standing_pose(const CalibrationPlan& plan,
                           plan.board.square_mm));
 }
 
-/// The patterns of vertical fringes, the same in the other direction, and white light.
-std::vector<Pattern> both_directions(const CalibrationPlan& plan, const PinholeModel& projector) {
-  std::vector<Pattern> patterns = default_patterns(plan.rig, plan.patterns);
-  const double ratio = static_cast<double>(projector.height_px) / projector.width_px;
-  for (std::size_t i = 0, count = patterns.size(); i < count; ++i) {
-    Pattern across = patterns[i];
-    if (across.kind != PatternKind::Fringe) continue;
-    patterns[i].name = fmt::format("columns-{}", i);
-    across.name = fmt::format("rows-{}", i);
-    across.direction = FringeDirection::Horizontal;
-    across.period_px *= ratio;
-    patterns.push_back(across);
-  }
-  patterns.push_back({.name = "white", .kind = PatternKind::White});
-  return patterns;
-}
-
 /// What a user knows before a calibration: sizes.
 Rig sizes_of(const Rig& rig) {
   const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
@@ -179,9 +162,7 @@ Rig sizes_of(const Rig& rig) {
 
 }  // namespace
 
-Scan simulate_calibration(const CalibrationPlan& given,
-                          const SimulateOptions& options,
-                          const Run& run) {
+BoardPoses plan_board_poses(const CalibrationPlan& given, std::uint64_t seed) {
   CalibrationPlan plan = given;
   const auto* projector = std::get_if<PinholeModel>(&plan.rig.projector.model);
   require(projector != nullptr,
@@ -204,26 +185,33 @@ Scan simulate_calibration(const CalibrationPlan& given,
   scan.name = name_of(plan.board.kind);
   scan.rig = plan.rig;
   scan.board = plan.board;
-  scan.patterns = both_directions(plan, *projector);
+  scan.patterns = calibration_patterns(plan.rig, plan.patterns);
   if (plan.on_turntable) {
     const auto angles = table_angles_rad(plan);
-    scan.part_poses[0] = choose_standing_pose(plan, *projector, field_mm, options.seed);
+    scan.part_poses[0] = choose_standing_pose(plan, *projector, field_mm, seed);
     for (std::size_t i = 0; i < angles.size(); ++i)
       scan.views.push_back({angles[i], fmt::format("views/{:03}", i), 0});
   } else {
     // Each pose is a setup of its own: a part pose with one view.
-    const auto poses = choose_poses(plan, *projector, field_mm, options.seed);
+    const auto poses = choose_poses(plan, *projector, field_mm, seed);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       scan.part_poses[static_cast<int>(i)] = object_from_rig * poses[i];
       scan.views.push_back({0.0, fmt::format("views/{:03}", i), static_cast<int>(i)});
     }
   }
+  return {std::move(scan), make_sheet(half_sheet(plan.board))};
+}
+
+Scan simulate_calibration(const CalibrationPlan& given,
+                          const SimulateOptions& options,
+                          const Run& run) {
+  const BoardPoses plan = plan_board_poses(given, options.seed);
   SimulateOptions printed = options;
-  printed.board = plan.board;
-  Scan written = simulate_scan(make_sheet(half_sheet(plan.board)), scan, printed, run);
+  printed.board = plan.scan.board;
+  Scan written = simulate_scan(plan.plate, plan.scan, printed, run);
   Rig truth = written.rig;
   truth.turntable = given.rig.turntable;
-  write_rig(plan.folder / "truth-rig.toml", truth);
+  write_rig(given.folder / "truth-rig.toml", truth);
   written.rig = sizes_of(written.rig);
   for (ScanView& view : written.views)
     view.setup = 0;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/geometry/mesh.h"
 #include "frangia/rig/board.h"
 #include "frangia/rig/rig.h"
 #include "frangia/simulate/default_patterns.h"
@@ -25,6 +27,17 @@ struct CalibrationPlan {
   double max_tilt_rad = 0.6;  ///< of the board against the plane across the camera's axis
   PatternPlan patterns;       ///< of the vertical fringes; horizontal ones are added likewise
 };
+
+/// A board and the poses in which it is captured.
+struct BoardPoses {
+  Scan scan;   ///< one setup for each pose, with its part pose; its rig is the true one
+  Mesh plate;  ///< whose face at z = 0 shows the board
+};
+
+/// Chooses poses in which camera and projector see the whole board.
+///
+/// @errors   Error(Input) when the projector is angular or no pose shows the whole board
+[[nodiscard]] BoardPoses plan_board_poses(const CalibrationPlan& plan, std::uint64_t seed);
 
 /// Renders poses of a printed board into a scan folder: fringes in both directions and one frame of
 /// white light. Returns the scan as written.

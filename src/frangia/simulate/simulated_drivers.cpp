@@ -38,6 +38,12 @@ std::vector<Driver> simulated_drivers() {
   return simulated_drivers(std::make_shared<SimulatedBench>());
 }
 
+std::vector<Driver> simulated_drivers(const SimulatedBoard& board) {
+  const auto bench = std::make_shared<SimulatedBench>();
+  bench->board = board;
+  return simulated_drivers(bench);
+}
+
 std::vector<Driver> simulated_drivers(const BenchPtr& bench) {
   std::vector<Driver> drivers;
   drivers.push_back(driver(

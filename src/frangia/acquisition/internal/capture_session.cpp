@@ -71,13 +71,35 @@ CaptureReport CaptureSession::capture() {
 void CaptureSession::capture_views() {
   captured_.views.clear();
   for (std::size_t view = 0; view < plan_.views.size(); ++view) {
+    const Setup setup = set_up(view);
+    if (setup == Setup::End) return;
+    if (setup == Setup::Unusable) continue;
     const std::string why = capture_view(view);
     if (why.empty()) {
       captured_.views.push_back(plan_.views[view]);
+      if (options_.after_view) {
+        store_.drain();
+        options_.after_view(view);
+      }
     } else {
       skip(view, why);
     }
   }
+}
+
+/// Has a person set up a view that is not captured yet.
+CaptureSession::Setup CaptureSession::set_up(std::size_t view) {
+  if (!options_.before_view || files_.is_complete(view)) return Setup::Ready;
+  if (files_.is_begun(view)) {
+    run_.note(fmt::format("view {} was interrupted and is left out", view + 1));
+    return Setup::Unusable;
+  }
+  for (const Pattern& pattern : plan_.patterns) {
+    if (pattern.kind != PatternKind::White) continue;
+    devices_.begin_set(pattern, 1.0);
+    devices_.show(pattern, 0);
+  }
+  return options_.before_view(view) ? Setup::Ready : Setup::End;
 }
 
 void CaptureSession::capture_view_once(std::size_t view) {
@@ -132,6 +154,8 @@ void CaptureSession::skip(std::size_t view, const std::string& why) {
 void CaptureSession::finish() {
   store_.drain();
   assessor_.report(true);
+  if (captured_.views.empty() && report_.skipped.empty())
+    throw Error(ErrorKind::Input, "no view was captured; the same command begins again");
   if (captured_.views.empty())
     throw Error(ErrorKind::Device,
                 "no view could be captured; " + report_.skipped.front().sentence());

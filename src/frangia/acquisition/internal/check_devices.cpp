@@ -137,7 +137,7 @@ void check_devices(const RigDevices& devices, const Scan& plan, const CaptureOpt
       std::none_of(plan.patterns.begin(), plan.patterns.end(), has_exposures))
     check_exposure(*devices.camera, options.camera.exposure_ms);
   if (devices.turntable) return check_angles(*devices.turntable, plan.views);
-  require(plan.views.size() < 2,
+  require(plan.views.size() < 2 || options.before_view != nullptr,
           "the rig has no [devices.turntable], which several views need; add it to rig.toml, or "
           "set `views` to 1");
 }

@@ -52,6 +52,14 @@ bool SetFiles::is_complete(std::size_t view) const {
   });
 }
 
+bool SetFiles::is_begun(std::size_t view) const {
+  return std::any_of(plan_.patterns.begin(), plan_.patterns.end(), [&](const Pattern& pattern) {
+    const std::vector<bool> stored = stored_frames(view, pattern);
+    return manifest_.attempt_of(set_of(view, pattern)) > 0 ||
+           std::find(stored.begin(), stored.end(), true) != stored.end();
+  });
+}
+
 double SetFiles::scale_of(std::size_t view, const Pattern& pattern) const {
   for (int frame = 0; frame < pattern.frame_count(); ++frame) {
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {

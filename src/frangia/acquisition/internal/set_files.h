@@ -34,6 +34,8 @@ class SetFiles {
   [[nodiscard]] bool has_all_frames(std::size_t view, const Pattern& pattern) const;
   /// Whether all sets of a view are stored and none is rejected.
   [[nodiscard]] bool is_complete(std::size_t view) const;
+  /// Whether any frame of a view was ever stored.
+  [[nodiscard]] bool is_begun(std::size_t view) const;
   /// Which frames of a set by the reference camera are stored, in the order of capture: all
   /// exposures of a frame, then the next frame.
   [[nodiscard]] std::vector<bool> stored_frames(std::size_t view, const Pattern& pattern) const;

@@ -9,6 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/pipeline/decode_view.h"
+#include "frangia/rig/has_geometry.h"
 
 namespace frangia {
 namespace {
@@ -27,8 +28,9 @@ std::string word_for(const FrameAssessment& frames, std::size_t points) {
 
 }  // namespace
 
-ViewAssessor::ViewAssessor(const Scan& plan, const Run& run)
-    : plan_(plan), run_(run), rays_(rays_of(plan.rig.camera.model)) {}
+ViewAssessor::ViewAssessor(const Scan& plan, const Run& run) : plan_(plan), run_(run) {
+  if (has_geometry(plan.rig)) rays_ = rays_of(plan.rig.camera.model);
+}
 
 void ViewAssessor::begin(std::size_t view, std::vector<std::shared_ptr<const Frame>> frames) {
   report(true);

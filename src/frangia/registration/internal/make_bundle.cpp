@@ -11,6 +11,19 @@
 namespace frangia {
 namespace {
 
+/// Pose of the part in each view, relative to the first setup at angle 0.
+std::vector<Eigen::Isometry3d> poses_of(const TableState& state) {
+  std::vector<Eigen::Isometry3d> poses;
+  const Eigen::Isometry3d table_from_rig = state.table.rig_from_object(0.0).inverse();
+  for (std::size_t view = 0; view < state.angles_rad.size(); ++view) {
+    poses.push_back(state.table.rig_from_object(state.angles_rad[view]) * table_from_rig *
+                    state.part_pose(state.setup_of(view)));
+  }
+  return poses;
+}
+
+}  // namespace
+
 Eigen::VectorXd prior_sigmas(const TableState& state,
                              const RegisterOptions& options,
                              double distance_mm) {
@@ -26,19 +39,6 @@ Eigen::VectorXd prior_sigmas(const TableState& state,
   }
   return sigma;
 }
-
-/// Pose of the part in each view, relative to the first setup at angle 0.
-std::vector<Eigen::Isometry3d> poses_of(const TableState& state) {
-  std::vector<Eigen::Isometry3d> poses;
-  const Eigen::Isometry3d table_from_rig = state.table.rig_from_object(0.0).inverse();
-  for (std::size_t view = 0; view < state.angles_rad.size(); ++view) {
-    poses.push_back(state.table.rig_from_object(state.angles_rad[view]) * table_from_rig *
-                    state.part_pose(state.setup_of(view)));
-  }
-  return poses;
-}
-
-}  // namespace
 
 TableState given_state(const TurntableStations& given, const RegisterOptions& options) {
   TableState state{given.table, {}, {}, {}};

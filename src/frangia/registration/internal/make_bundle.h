@@ -12,6 +12,11 @@ namespace frangia {
 [[nodiscard]] TableState given_state(const TurntableStations& given,
                                      const RegisterOptions& options);
 
+/// Standard deviations of the prior of each unknown of a state.
+[[nodiscard]] Eigen::VectorXd prior_sigmas(const TableState& state,
+                                           const RegisterOptions& options,
+                                           double distance_mm);
+
 /// A bundle with the surfel map of each view, in the given state. Lengths of the options are
 /// relative to the working distance, the median distance of the surfels from the camera.
 [[nodiscard]] Bundle make_bundle(const ViewStore& views,

@@ -7,24 +7,6 @@
 #include "frangia/geometry/robust_gauss_newton.h"
 
 namespace frangia {
-namespace {
-
-/// Difference of the state from the given one, in the unknowns. Part poses have no prior.
-Eigen::VectorXd deviation_from_prior(const Bundle& bundle) {
-  const Eigen::Matrix<double, 3, 2> sides = perpendicular_directions(bundle.state.table);
-  Eigen::VectorXd away = Eigen::VectorXd::Zero(bundle.prior_sigma.size());
-  away.head<2>() = sides.transpose() * bundle.given.table.axis.cross(bundle.state.table.axis);
-  away.segment<2>(2) =
-      sides.transpose() * (bundle.state.table.point_mm - bundle.given.table.point_mm);
-  for (std::size_t view = 1; view < bundle.state.angles_rad.size(); ++view) {
-    away[static_cast<Eigen::Index>(view) + 3] =
-        bundle.state.angles_rad[view] - bundle.given.angles_rad[view];
-  }
-  return away;
-}
-
-}  // namespace
-
 double effective_weight(const Bundle& bundle, const BundleSums& sums) {
   constexpr double kSigmaFromMedian = 1.4826;  // of the absolute values of normal residuals
   const double pairs = static_cast<double>(std::max<std::size_t>(1, sums.distances_mm.size()));
@@ -67,7 +49,8 @@ void optimize_bundle(Bundle& bundle,
     Linearization at;
     at.hessian = weight * sums.hessian;
     at.hessian.diagonal() += information;
-    at.gradient = weight * sums.gradient + information.cwiseProduct(deviation_from_prior(bundle));
+    at.gradient =
+        weight * sums.gradient + information.cwiseProduct(deviation(bundle.state, bundle.given));
     at.median_residual = static_cast<double>(median(std::move(sums.distances_mm)));
     return at;
   };

@@ -45,4 +45,14 @@ TableState apply_update(const TableState& state, const Eigen::VectorXd& step) {
   return next;
 }
 
+Eigen::VectorXd deviation(const TableState& state, const TableState& given) {
+  const Eigen::Matrix<double, 3, 2> sides = perpendicular_directions(state.table);
+  Eigen::VectorXd away = Eigen::VectorXd::Zero(state.unknowns());
+  away.head<2>() = sides.transpose() * given.table.axis.cross(state.table.axis);
+  away.segment<2>(2) = sides.transpose() * (state.table.point_mm - given.table.point_mm);
+  for (std::size_t view = 1; view < state.angles_rad.size(); ++view)
+    away[static_cast<Eigen::Index>(view) + 3] = state.angles_rad[view] - given.angles_rad[view];
+  return away;
+}
+
 }  // namespace frangia

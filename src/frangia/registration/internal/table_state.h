@@ -47,4 +47,8 @@ struct TableState {
 /// The state after a step in the unknowns.
 [[nodiscard]] TableState apply_update(const TableState& state, const Eigen::VectorXd& step);
 
+/// The difference of a state from the given one, in the unknowns. That of part poses is 0: they
+/// have no prior.
+[[nodiscard]] Eigen::VectorXd deviation(const TableState& state, const TableState& given);
+
 }  // namespace frangia

@@ -51,7 +51,9 @@ struct BenchCamera::Light {
       : scene(bench.scene),
         table_rad(bench.table_rad),
         view(view_of),
-        renderer(*scene, scene->rig.rig_from_object(table_rad), static_cast<std::size_t>(view)),
+        renderer(*scene,
+                 bench.rig_from_part(static_cast<std::size_t>(view)),
+                 static_cast<std::size_t>(view)),
         rows(static_cast<std::size_t>(scene->rays.height())) {
     parallel_rows(scene->rays.height(),
                   [&](int y) { rows[static_cast<std::size_t>(y)] = renderer.sample_row(y); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "frangia/core/image.h"
@@ -8,6 +9,7 @@
 #include "frangia/simulate/internal/light_sample.h"
 #include "frangia/simulate/internal/simulated_scene.h"
 #include "frangia/simulate/internal/view_renderer.h"
+#include "frangia/simulate/simulated_drivers.h"
 
 namespace frangia {
 
@@ -15,6 +17,10 @@ namespace frangia {
 /// on this state and on its label, so that an interrupted scan continues with the same bytes.
 struct SimulatedBench {
   std::shared_ptr<const SimulatedScene> scene;  ///< null until a simulated camera is opened
+  std::optional<SimulatedBoard> board;          ///< stands in place of the part
+  /// Motions of the part away from where the scene has it, object frame, one for each view in turn;
+  /// empty: it stays.
+  std::vector<Eigen::Isometry3d> moves;
 
   double table_rad = 0.0;           ///< true angle of the turntable top
   bool fringe_light = true;         ///< the lamp, or the laser through the interferometer
@@ -24,6 +30,12 @@ struct SimulatedBench {
   double piezo_rad = 0.0;           ///< true phase of the interferometer's fringes
   double drift_rad_per_view = 0.0;
   double jitter_rad = 0.0;  ///< rms, independent per piezo position
+
+  /// Pose of the part in a view.
+  [[nodiscard]] Eigen::Isometry3d rig_from_part(std::size_t view) const {
+    const Eigen::Isometry3d on_table = scene->rig.rig_from_object(table_rad);
+    return moves.empty() ? on_table : on_table * moves[view % moves.size()];
+  }
 
   CameraSettings camera;
   double reference_exposure_ms = 10.0;  ///< puts the brightest diffuse pixel at 80 % of white

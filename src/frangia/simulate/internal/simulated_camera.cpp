@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,9 +12,11 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
 #include "frangia/files/read_mesh.h"
+#include "frangia/rig/read_rig.h"
 #include "frangia/simulate/internal/fault_script.h"
 #include "frangia/simulate/internal/simulated_devices.h"
 #include "frangia/simulate/parts.h"
+#include "frangia/simulate/simulate_calibration.h"
 
 namespace frangia {
 namespace {
@@ -61,7 +64,52 @@ Mesh read_part(DeviceSettings& settings) {
   return read_mesh(file);
 }
 
-std::shared_ptr<const SimulatedScene> make_scene(DeviceSettings& settings, const Rig& rig) {
+/// A board in the poses that a person, or the turntable, gives it.
+std::shared_ptr<const SimulatedScene> make_board_scene(DeviceSettings& settings,
+                                                       const Rig& rig,
+                                                       SimulatedBench& bench) {
+  if (settings.has("part")) static_cast<void>(settings.text_or("part", ""));
+  SimulateOptions options = read_options(settings, rig);
+  const BoardPoses planned = plan_board_poses({.folder = {},
+                                               .rig = rig,
+                                               .board = bench.board->board,
+                                               .poses = bench.board->poses,
+                                               .on_turntable = bench.board->on_turntable,
+                                               .turn_rad = bench.board->turn_rad,
+                                               .patterns = {}},
+                                              options.seed);
+  const std::map<int, Eigen::Isometry3d>& poses = planned.scan.part_poses;
+  const Eigen::Isometry3d first = poses.at(0);
+  for (const auto& [number, pose] : poses)
+    bench.moves.emplace_back(pose * first.inverse());
+  options.board = planned.scan.board;
+  Mesh plate = planned.plate;
+  for (Eigen::Vector3f& vertex : plate.vertices_mm)
+    vertex = (first * vertex.cast<double>()).cast<float>();
+  const std::vector<SimulatedView> views{{0, 0.0}};
+  return std::make_shared<const SimulatedScene>(
+      make_simulated_scene(plate, planned.scan.rig, views, options, first));
+}
+
+/// The rig that the simulation is; by default, the one that uses it.
+Rig true_rig(DeviceSettings& settings, const Rig& known) {
+  if (!settings.has("true_rig")) return known;
+  Rig truth = read_rig(settings.path("true_rig"));
+  if (truth.camera.model.width_px != known.camera.model.width_px ||
+      truth.camera.model.height_px != known.camera.model.height_px)
+    settings.fail("true_rig", "has a camera of another size; correct [camera] size_px");
+  truth.camera.white_level = known.camera.white_level;
+  return truth;
+}
+
+std::shared_ptr<const SimulatedScene> make_scene(DeviceSettings& settings,
+                                                 const Rig& rig,
+                                                 SimulatedBench& bench) {
+  if (bench.board) {
+    if (!rig.camera.name.empty())
+      settings.fail("driver", "shows a simulated board to one camera; remove [[more_cameras]]");
+    return make_board_scene(settings, rig, bench);
+  }
   // The brightest pixel of a full turn sets the exposure, independent of the plan's views.
   constexpr std::size_t kStations = 8;
   std::vector<SimulatedView> views;
@@ -78,7 +126,7 @@ class SimulatedCamera final : public CameraDevice {
         faults_(read_faults(settings, {"lost", "incomplete", "saturated", "motion", "unplugged"})),
         real_time_(settings.flag_or("real_time", false)) {
     reference_exposure_ms_ = settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5);
-    scene_ = make_scene(settings, rig);
+    scene_ = make_scene(settings, true_rig(settings, rig), *bench_);
     if (rig.camera.name.empty()) bench_->scene = scene_;  // of the reference camera
     info_.width_px = rig.camera.model.width_px;
     info_.height_px = rig.camera.model.height_px;

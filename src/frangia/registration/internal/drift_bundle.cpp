@@ -1,0 +1,194 @@
+#include "frangia/registration/internal/drift_bundle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "frangia/core/median.h"
+#include "frangia/core/parallel.h"
+#include "frangia/geometry/robust_gauss_newton.h"
+#include "frangia/registration/internal/surfel_pair.h"
+#include "frangia/registration/internal/view_transfer.h"
+
+namespace frangia {
+namespace {
+
+constexpr double kSigmaOfMedian = 1.4826;  // of the absolute values of normal residuals
+
+/// Sums one view against the views that it is paired with.
+class ViewComparison {
+ public:
+  ViewComparison(const DriftBundle& bundle, std::size_t from)
+      : bundle_(bundle),
+        from_(bundle.views[from]),
+        moved_((bundle.state.w - bundle.linearized_at).cast<float>()),
+        free_(bundle.free_directions.cast<float>()) {
+    const Eigen::Index count = free_.cols() + bundle.state.table.unknowns();
+    sums.hessian = Eigen::MatrixXd::Zero(count, count);
+    sums.gradient = Eigen::VectorXd::Zero(count);
+  }
+
+  void compare_with(std::size_t other, std::size_t every) {
+    const DriftView& to = bundle_.views[other];
+    const ViewTransfer transfer(bundle_.state.table, from_.station, to.station);
+    const auto own = from_.map.surfels.pixels();
+    std::size_t present = 0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (own[i].sigma_mm > 0.0F && present++ % every == 0) add_pair(own[i], i, to, transfer);
+    }
+  }
+
+  DriftSums sums;
+
+ private:
+  [[nodiscard]] Eigen::Vector3d place_of(const SurfelMap::Surfel& surfel,
+                                         const PointDrift::Derivative& by) const {
+    return (surfel.point_mm + by * moved_).cast<double>();
+  }
+
+  void add_pair(const SurfelMap::Surfel& surfel,
+                std::size_t index,
+                const DriftView& to,
+                const ViewTransfer& transfer) {
+    const PointDrift::Derivative& by_from = from_.derivatives[index];
+    const Eigen::Vector3d own = place_of(surfel, by_from);
+    const Eigen::Vector3d point = transfer.apply(own);
+    const SurfelMap::Surfel* found = surfel_at(to.map, bundle_.camera, point);
+    if (found == nullptr) return;
+    const PointDrift::Derivative& by_to =
+        to.derivatives[static_cast<std::size_t>(found - to.map.surfels.pixels().data())];
+    SurfelMap::Surfel target = *found;
+    target.point_mm = place_of(*found, by_to).cast<float>();
+    const Eigen::Vector3d facing = transfer.rotation() * surfel.normal.cast<double>();
+    const SurfelPair pair(point, facing, target);
+    if (facing.dot(point) >= 0.0 || !pair.faces_alike()) return;
+    const double distance = pair.distance_mm();
+    if (!(std::abs(distance) < bundle_.gate_mm)) return;
+    const double weight = tukey_weight(distance, bundle_.gate_mm) /
+                          (std::pow(static_cast<double>(surfel.sigma_mm), 2) +
+                           std::pow(static_cast<double>(target.sigma_mm), 2));
+    const Eigen::Vector3f at_to = pair.normal.cast<float>();
+    const Eigen::Vector3f at_from = (transfer.rotation().transpose() * pair.normal).cast<float>();
+    const Eigen::VectorXd by_rig =
+        (free_.transpose() * (by_from.transpose() * at_from - by_to.transpose() * at_to))
+            .cast<double>();
+    add_row(by_rig, transfer.jacobian(pair.normal, own), weight, distance, to.station);
+    sums.distances_mm.push_back(static_cast<float>(std::abs(distance)));
+  }
+
+  void add_row(const Eigen::VectorXd& by_rig,
+               const PairJacobian& by,
+               double weight,
+               double distance,
+               std::size_t to) {
+    indices_.clear();
+    values_.clear();
+    const auto add = [&](Eigen::Index unknown, double value) {
+      indices_.push_back(unknown);
+      values_.push_back(value);
+    };
+    const Eigen::Index table = by_rig.size();
+    for (Eigen::Index i = 0; i < table; ++i)
+      add(i, by_rig[i]);
+    if (to != from_.station) {
+      for (Eigen::Index i = 0; i < 2; ++i) {
+        add(table + i, by.tilt[i]);
+        add(table + 2 + i, by.shift[i]);
+      }
+      if (to != 0) add(table + 3 + static_cast<Eigen::Index>(to), by.angle_to);
+      if (from_.station != 0)
+        add(table + 3 + static_cast<Eigen::Index>(from_.station), by.angle_from);
+    }
+    for (std::size_t i = 0; i < indices_.size(); ++i) {
+      sums.gradient[indices_[i]] += weight * values_[i] * distance;
+      for (std::size_t j = 0; j < indices_.size(); ++j)
+        sums.hessian(indices_[i], indices_[j]) += weight * values_[i] * values_[j];
+    }
+  }
+
+  const DriftBundle& bundle_;
+  const DriftView& from_;
+  Eigen::VectorXf moved_;
+  Eigen::MatrixXf free_;
+  std::vector<Eigen::Index> indices_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+double DriftSums::weight(const DriftBundle& bundle) const {
+  if (distances_mm.empty()) return 0.0;
+  const auto view_pairs = static_cast<double>(count_pairs(bundle.pairs));
+  const double scatter = kSigmaOfMedian * static_cast<double>(median(distances_mm));
+  const double independent = view_pairs * std::pow(bundle.noise_mm / bundle.systematic_mm, 2);
+  const double excess = std::max(1.0, std::pow(scatter / bundle.noise_mm, 2));
+  return std::min(1.0, independent / static_cast<double>(distances_mm.size())) / excess;
+}
+
+DriftSums sum_drift(const DriftBundle& bundle, std::size_t surfels) {
+  std::vector<DriftSums> parts(bundle.views.size());
+  parallel_chunks(parts.size(), 1, [&](std::size_t view, std::size_t /*end*/) {
+    const auto own = bundle.views[view].map.surfels.pixels();
+    const auto present = static_cast<std::size_t>(
+        std::count_if(own.begin(), own.end(), [](const auto& s) { return s.sigma_mm > 0.0F; }));
+    ViewComparison comparison(bundle, view);
+    for (const std::size_t other : bundle.pairs[view])
+      comparison.compare_with(other, present / surfels + 1);
+    parts[view] = std::move(comparison.sums);
+  });
+  DriftSums all = std::move(parts.front());
+  for (std::size_t view = 1; view < parts.size(); ++view) {
+    all.hessian += parts[view].hessian;
+    all.gradient += parts[view].gradient;
+    all.distances_mm.insert(
+        all.distances_mm.end(), parts[view].distances_mm.begin(), parts[view].distances_mm.end());
+  }
+  return all;
+}
+
+void optimize_drift(DriftBundle& bundle, std::size_t surfels, int max_iterations, const Run& run) {
+  const Eigen::Index changes = bundle.free_directions.cols();
+  const Eigen::VectorXd table_information = bundle.table_sigma.cwiseAbs2().cwiseInverse();
+  const auto linearize = [&](double gate_mm) {
+    bundle.gate_mm = gate_mm;
+    DriftSums sums = sum_drift(bundle, surfels);
+    const double weight = sums.weight(bundle);
+    Linearization at;
+    at.solvable = !sums.distances_mm.empty();
+    if (!at.solvable) return at;
+    at.hessian = weight * sums.hessian;
+    at.hessian.diagonal().head(changes).array() += 1.0;
+    at.hessian.diagonal().tail(table_information.size()) += table_information;
+    at.gradient = weight * sums.gradient;
+    at.gradient.head(changes) += bundle.free_directions.transpose() * bundle.state.w;
+    at.gradient.tail(table_information.size()) +=
+        table_information.cwiseProduct(deviation(bundle.state.table, bundle.given));
+    at.median_residual = static_cast<double>(median(std::move(sums.distances_mm)));
+    return at;
+  };
+  const auto update = [&](const Eigen::VectorXd& step) {
+    bundle.state.w += bundle.free_directions * step.head(changes);
+    bundle.state.table = apply_update(bundle.state.table, step.tail(step.size() - changes));
+  };
+  const auto result = minimize_robustly(
+      {linearize, update},
+      {.gate = bundle.gate_mm, .min_gate = bundle.min_gate_mm, .max_iterations = max_iterations},
+      run);
+  bundle.gate_mm = result.gate;
+}
+
+Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums) {
+  const Eigen::Index changes = bundle.free_directions.cols();
+  const Eigen::Index table = bundle.table_sigma.size();
+  Eigen::MatrixXd hessian = sums.weight(bundle) * sums.hessian;
+  hessian.diagonal().tail(table) += bundle.table_sigma.cwiseAbs2().cwiseInverse();
+  const Eigen::MatrixXd across = hessian.topRightCorner(changes, table);
+  const Eigen::MatrixXd of_free =
+      hessian.topLeftCorner(changes, changes) -
+      across * hessian.bottomRightCorner(table, table).ldlt().solve(across.transpose());
+  return bundle.free_directions * of_free * bundle.free_directions.transpose();
+}
+
+}  // namespace frangia

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/pattern/pattern.h"
+#include "frangia/registration/refine_rig.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// The changes that a rig may undergo after its calibration, in units of their prior: a vector w
+/// with independent elements of unit variance gives the changes `factor() * w` of the parameters.
+class DriftModel {
+ public:
+  DriftModel(const Rig& given, const RefineRigOptions& options, double working_distance_mm);
+
+  [[nodiscard]] const std::vector<std::string>& parameters() const { return parameters_; }
+  /// @shape    parameters x independent changes
+  [[nodiscard]] const Eigen::MatrixXd& factor() const { return factor_; }
+  [[nodiscard]] Eigen::Index count() const { return factor_.cols(); }
+  /// The rig after a change.
+  [[nodiscard]] Rig rig_at(const Eigen::VectorXd& w) const;
+  /// The covariance of all known parameters after a measurement of w.
+  ///
+  /// @shape    `information`: count x count, of the measurement alone
+  [[nodiscard]] RigCovariance updated(const Eigen::MatrixXd& information) const;
+
+ private:
+  Rig given_;
+  std::vector<std::string> parameters_;
+  Eigen::MatrixXd drift_;   ///< covariance of `parameters_` due to drift
+  Eigen::MatrixXd factor_;  ///< of the covariance due to drift and calibration
+};
+
+/// Derivatives of triangulated points by the changes of a rig.
+class PointDrift {
+ public:
+  /// @shape    3 x changes
+  using Derivative = Eigen::Matrix3Xf;
+
+  /// Linearizes about the state `w` of a model.
+  PointDrift(const DriftModel& model, const Eigen::VectorXd& w);
+
+  /// The derivative of a point that stays on its pixel and its phase of `pattern`.
+  ///
+  /// @missing  zero where the changed rigs do not measure the point
+  [[nodiscard]] Derivative of(const Eigen::Vector3d& point_mm, const Pattern& pattern) const;
+
+ private:
+  Rig rig_;
+  std::vector<Rig> changed_;  ///< in pairs: by +kStep and by -kStep
+};
+
+}  // namespace frangia

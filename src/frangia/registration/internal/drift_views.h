@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/registration/internal/drift_bundle.h"
+#include "frangia/registration/internal/view_pairs.h"
+#include "frangia/registration/refine_rig.h"
+
+namespace frangia {
+
+/// The surfel maps of all surfaces, one after the other, triangulated by `rig`; with `changed`
+/// false, `rig` is the given one and nothing is triangulated.
+[[nodiscard]] std::vector<DriftView> drift_views(std::span<const RigSurfaces> surfaces,
+                                                 const Rig& given,
+                                                 const Rig& rig,
+                                                 bool changed,
+                                                 const Run& run);
+
+/// Computes the derivatives of all surfels about a state.
+void differentiate(std::vector<DriftView>& views,
+                   std::span<const RigSurfaces> surfaces,
+                   const PointDrift& drift);
+
+/// The views of the same setup that overlap; without a turntable, those of one station.
+[[nodiscard]] ViewPairs comparable_pairs(const std::vector<DriftView>& views,
+                                         std::span<const Station> stations,
+                                         const TableState& table,
+                                         const FastCameraModel& camera,
+                                         bool turns);
+
+/// Medians over some surfels of all views.
+struct SurfelScale {
+  double distance_mm = 0.0;  ///< from the camera
+  double sigma_mm = 0.0;     ///< of a surfel
+};
+
+/// @errors   Error(Numeric) when the views hold no surfel
+[[nodiscard]] SurfelScale scale_of(const std::vector<DriftView>& views);
+
+}  // namespace frangia

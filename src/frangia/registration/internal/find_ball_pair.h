@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/geometry/fit_sphere.h"
+
+namespace frangia {
+
+/// A point of a surface and its unit normal, outwards.
+struct OrientedPoint {
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+};
+
+/// A ball and the points on it.
+struct FoundBall {
+  Sphere sphere;
+  std::vector<std::size_t> points;  ///< indices
+};
+
+/// The two balls of a ball bar.
+struct BallPair {
+  FoundBall first;
+  FoundBall second;
+
+  [[nodiscard]] double distance_mm() const {
+    return (first.sphere.center_mm - second.sphere.center_mm).norm();
+  }
+};
+
+/// Finds the two balls that hold most of some points. Planes, cylinders and the rest of the part do
+/// not matter as long as each ball holds a twentieth of the points.
+///
+/// @missing  empty when there are no two such balls
+/// @source   RANSAC over pairs of oriented points, with a fixed sequence of pairs; `fit_sphere`
+[[nodiscard]] std::optional<BallPair> find_ball_pair(std::span<const OrientedPoint> points);
+
+}  // namespace frangia

@@ -1,0 +1,50 @@
+"""The way of docs/calibration.md without hardware: from a rig of which sizes are known to a measured ball bar."""
+import re
+import shutil
+import subprocess
+
+from refine_rig import balls
+from study import ROOT
+
+TITLE = "From sizes to a measured ball bar"
+
+COMMANDS = """frangia calibrate board --square 14mm -o board.pdf
+frangia calibrate capture simulated-maker.toml -o poses --square 14mm
+frangia calibrate rig poses -o rig.toml --report calibration.html
+frangia calibrate capture rig.toml -o turned --square 14mm --table
+frangia calibrate turntable turned --rig rig.toml -o rig.toml
+frangia scan rig.toml -o ball-bar
+frangia reconstruct ball-bar -o ball-bar.ply"""
+
+
+def draw(study, report):
+    """The figures of the report as pictures of docs/calibration.md: coverage, residuals, and the first board."""
+    html = report.read_text()
+    figures = re.findall(r"<figure>(<svg .*?</svg>)<figcaption>(.*?)</figcaption>", html, re.S)
+    for name, caption in (("coverage", "Coverage"), ("residuals", "residuals of all points")):
+        svg = next(svg for svg, text in figures if caption in text)
+        write_picture(name, svg)
+    write_picture("board", next(svg for svg, _ in figures if "data:image/png" in svg))
+
+
+def write_picture(name, svg):
+    svg = svg.replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', 1)
+    (ROOT / "docs" / "images" / f"calibration-{name}.svg").write_text(svg + "\n")
+
+
+def measure(study):
+    folder = study.work / "maker-path"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for rig in ("simulated-maker.toml", "simulated-digital.toml"):
+        shutil.copy(ROOT / "examples" / rig, folder)
+    study.add("The commands of [calibration.md](calibration.md), on [examples/simulated-maker.toml](../examples/simulated-maker.toml), with Enter for each pose:\n")
+    for command in COMMANDS.splitlines():
+        study.add(f"    {command}")
+        subprocess.run([study.program, "--quiet", *command.split()[1:]], check=True, cwd=folder, input="\n" * 20, text=True, stderr=subprocess.DEVNULL)
+    errors, spacing = balls(folder / "ball-bar.ply")
+    study.add()
+    study.table("", "measured", "true")
+    study.row("spacing of the balls, mm", f"{spacing:.4f}", "70")
+    study.row("form error of the balls, RMS mm", ", ".join(f"{error:.4f}" for error in errors), "0")
+    draw(study, folder / "calibration.html")
