@@ -8,7 +8,7 @@
 #include "support/error_of.h"
 #include "support/webcam_jpeg.h"
 
-namespace frangia {
+namespace frangia::mjpeg {
 namespace {
 
 constexpr int kWidth = 64;
@@ -64,4 +64,4 @@ TEST(DecodeMjpeg, RefusesDamagedFramesAndOtherSizes) {
 }
 
 }  // namespace
-}  // namespace frangia
+}  // namespace frangia::mjpeg

@@ -39,7 +39,10 @@ void append_white_and_black(ImportLayout& layout) {
   white.name = "white";
   white.kind = PatternKind::White;
   append(layout, white);
-  layout.images.emplace_back(std::nullopt);
+  Pattern black;
+  black.name = "black";
+  black.kind = PatternKind::Ambient;
+  append(layout, black);
 }
 
 Pattern gray_of_columns(int bits, InvertedFrames inverted) {

@@ -10,6 +10,7 @@
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
+#include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/internal/calibration_part.h"
 #include "frangia/pipeline/internal/explain_no_points.h"
@@ -78,7 +79,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   Reconstruction out;
 
   // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
-  MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
+  DecodeOptions decode = options.decode;
+  decode.colors = options.colors;
+  MeasuredViews measured = measure_views(scan, rays, decode, options.mixed_pixels, run);
   release_cached_pixels();
   out.views = measured.views.size();
   out.view_summaries = std::move(measured.summaries);
@@ -118,7 +121,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   FusionOptions fusion = options.fusion;
   fusion.add_systematic = calibration_part(views, scan.rig, joined.measured.coarsest, rays);
   if (options.keep_raw) out.raw = collect_points(views, camera, run, fusion.add_systematic);
-  out.mesh = finish_mesh(fuse_views(views, camera, fusion, run), options.finish, run);
+  Mesh fused = fuse_views(views, camera, fusion, run);
+  color_vertices(fused, views, camera, run);
+  out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);

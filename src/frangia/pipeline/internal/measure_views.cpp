@@ -200,7 +200,8 @@ MeasuredViews measure_views(const Scan& scan,
     all.setups.push_back(scan.views[i].setup);
     all.views.add({std::move(measured.range),
                    scan.rig.rig_from_object(scan.views[i].angle_rad),
-                   std::move(measured.edge_pixels)});
+                   std::move(measured.edge_pixels),
+                   std::move(decoded.color)});
     all.points += measured.points;
   }
   scan_fit.finish();
