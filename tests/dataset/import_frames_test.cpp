@@ -102,6 +102,7 @@ TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
 }
 
 TEST_F(ImportFrames, KeepsTheColorOfAWhiteFrameBesideGreyFringes) {
+  options.projector_px = {1280, 800};
   write_fringes("a");
   Image<Rgb> picture(8, 6, Rgb{10, 100, 200});
   picture(3, 2) = {255, 0, 51};
@@ -122,6 +123,7 @@ TEST_F(ImportFrames, KeepsTheColorOfAWhiteFrameBesideGreyFringes) {
 }
 
 TEST_F(ImportFrames, DemosaicsAWhiteFrame) {
+  options.projector_px = {1280, 800};
   options.color = parse_color_choice("demosaic:RGGB");
   write_fringes("a");
   Image<std::uint8_t> mosaic(8, 6);
@@ -203,7 +205,7 @@ TEST_F(ImportFrames, StatesTheVarianceOfAJpeg) {
   EXPECT_EQ(read_frames(scan, 0)[0].compression_counts2, scan.frames.compression_counts2);
 }
 
-TEST_F(ImportFrames, NumbersTheViewsAndLeavesOutBlackImages) {
+TEST_F(ImportFrames, NumbersTheViewsAndTakesBlackImagesAsAmbient) {
   options = {};
   options.layout = "3dunderworld";
   options.names = "v{view}/{frame:04}.png";
@@ -221,6 +223,8 @@ TEST_F(ImportFrames, NumbersTheViewsAndLeavesOutBlackImages) {
   const auto stacks = read_frames(scan, 1);
   EXPECT_EQ(counts_at(stacks[0].frames[0], 0, 0), 0);  // white is the first image
   EXPECT_EQ(counts_at(stacks[2].frames[1], 0, 0), 7);  // the last inverse of the rows
+  EXPECT_EQ(stacks[3].pattern.kind, PatternKind::Ambient);
+  EXPECT_EQ(counts_at(stacks[3].frames[0], 0, 0), 1);
 }
 
 TEST_F(ImportFrames, WritesTheCameraAloneWhereNothingElseIsKnown) {

@@ -122,7 +122,7 @@ TEST(ImportLayout, ShowsTheFringesOfSlStudio) {
   }
   // The ten widest of eleven bits over 1280 columns.
   const ImportLayout gray = layout_of("slstudio-gray-code", 12, {1280, 800});
-  EXPECT_EQ(gray.patterns[2].stripe_px, 2.0);  // after white and black
+  EXPECT_EQ(gray.patterns[1].stripe_px, 2.0);
   EXPECT_EQ(layout_of("slstudio-gray-code", 18, {1280, 800}).patterns.size(), 4U);
 }
 

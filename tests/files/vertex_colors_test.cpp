@@ -91,7 +91,7 @@ TEST_F(VertexColors, AreAbsentInFilesOfMeshesWithoutThem) {
   for (const char* name : {"a.ply", "a.obj", "a.glb", "a.3mf", "a.pcd"}) {
     write_mesh(at(name), mesh);
     EXPECT_TRUE(read_mesh(at(name)).colors.empty()) << name;
-    for (const char* word : {"red", "COLOR_0", "colorgroup"})
+    for (const char* word : {"uchar red", "COLOR_0", "colorgroup", " rgb"})
       EXPECT_EQ(bytes_in(name).find(word), std::string::npos) << name;
   }
 }

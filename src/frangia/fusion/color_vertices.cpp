@@ -114,7 +114,7 @@ class ColoredView {
       ramp += share * static_cast<float>(steps_(column, row));
     }
     const double nearness = cosine / p.z();
-    constexpr float kLeast = 0.05F;  // at the edge itself, where no other view may see the vertex
+    constexpr float kLeast = 0.01F;  // at the edge itself, where no other view may see the vertex
     return static_cast<float>(nearness * nearness) * std::max(ramp, kLeast) * sum;
   }
 

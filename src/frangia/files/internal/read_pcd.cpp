@@ -233,8 +233,11 @@ class PcdReader {
   float binary(const Field& field, std::string_view& body) {
     if (body.size() < field.bytes) reader_.fail("the file is truncated");
     if (field.type == 'F') return field.bytes == 4 ? take<float>(body) : take<double>(body);
-    body.remove_prefix(field.bytes);  // no integer field is read
-    return 0.0F;
+    std::uint32_t number = 0;  // a color is the only integer that is read
+    if (field.bytes == sizeof number) std::memcpy(&number, body.data(), sizeof number);
+    body.remove_prefix(field.bytes);
+    constexpr std::uint32_t kColor = 0xFFFFFF;  // without alpha
+    return static_cast<float>(number & kColor);
   }
 
   std::string_view text_;
