@@ -24,7 +24,8 @@ struct GrayAloneOptions {
 /// Each bit is the comparison of a frame with its inverse, or with `threshold_counts`. Along an
 /// image row (or column), the border of two neighbouring stripes lies where the difference crosses
 /// zero, between two pixels. The columns of the pixels between the two borders of a stripe are
-/// interpolated, with the curvature that the next borders show. A stripe without two borders gives
+/// interpolated, with the curvature that the next borders show. A stripe with one border continues
+/// the rate of its neighbour; one without borders gives
 /// the column of its centre.
 ///
 /// Stripes that the camera does not resolve are left out: without its last bits, the code is that

@@ -266,9 +266,34 @@ class GrayLineDecoder {
     return count == 0 ? 0.0 : sum / count;
   }
 
+  /// The column in a stripe with one border, at the end of the measured pixels, with the rate of
+  /// the stripe beyond the border; none if there is no such stripe, or the result leaves the own
+  /// one.
+  [[nodiscard]] std::optional<Located> extrapolate(std::size_t i,
+                                                   const StripeBorder& near,
+                                                   bool is_left) const {
+    constexpr double kRateError = 0.2;  // of two neighbouring stripes, relative
+    const auto beyond = static_cast<std::size_t>(near.at) + (is_left ? 0U : 1U);
+    const StripeBorder* far = border(beyond, is_left ? -1 : 1);
+    if (far == nullptr || far->column == near.column) return std::nullopt;
+    const double rate = (near.column - far->column) / (near.at - far->at);
+    const double distance = rate * (static_cast<double>(i) - near.at);
+    const double column = near.column + distance;
+    const double first = static_cast<double>(stripes_[i]) * code_.stripe_px - 0.5 - code_.offset_px;
+    if (column < first || column > first + code_.stripe_px) return std::nullopt;
+    return Located{column,
+                   std::abs(rate) * near.noise_px,
+                   std::hypot(rate * near.width_px, kRateError * distance),
+                   0.0};
+  }
+
   [[nodiscard]] Located locate(std::size_t i) const {
     const StripeBorder* left = border(i, -1);
     const StripeBorder* right = border(i, 1);
+    if ((left == nullptr) != (right == nullptr)) {
+      if (const auto found = extrapolate(i, left != nullptr ? *left : *right, left != nullptr))
+        return *found;
+    }
     if (left == nullptr || right == nullptr || left->column == right->column) {
       const double stripe = static_cast<double>(stripes_[i]) + 0.5;
       const double centre = stripe * code_.stripe_px - 0.5 - code_.offset_px;
