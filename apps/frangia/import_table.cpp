@@ -18,6 +18,7 @@ namespace {
 /// The parameters of a pattern in a few words.
 std::string parameters_of(const Pattern& pattern) {
   if (pattern.kind == PatternKind::White) return "full light";
+  if (pattern.kind == PatternKind::Ambient) return "no light of the projector";
   if (pattern.kind == PatternKind::Line) return "laser line";
   if (pattern.kind == PatternKind::Ramp) return counted(pattern.levels.size(), "level");
   const char* const lines = pattern.direction == FringeDirection::Horizontal ? "rows" : "columns";

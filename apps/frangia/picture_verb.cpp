@@ -32,6 +32,7 @@ struct PictureArguments {
   RenderOptions shade;
   ReadOptions read;
   std::string up = "z";
+  std::string color = "auto";
 };
 
 /// The rotation that turns the direction `text`, such as "y", "-x" or "0,1,0.2", to z.
@@ -67,6 +68,13 @@ void draw(PictureArguments arguments, Terminal& terminal) {
     run.stage(path.filename().string());
     const Mesh mesh =
         transform_mesh(read_surface(path, run, arguments.read), upright(arguments.up));
+    if (arguments.color == "vertex" && mesh.colors.empty()) {
+      throw Error(
+          ErrorKind::Input,
+          fmt::format("{}: its vertices have no colors; set `color` to plain", path.string()));
+    }
+    arguments.shade.vertex_colors =
+        arguments.color == "vertex" || (arguments.color == "auto" && !arguments.shade.show_marks);
     pictures.push_back(render_mesh(mesh, arguments.shade, run));
   }
   if (pictures.size() == 1) {
@@ -108,6 +116,12 @@ void add_picture_verb(CLI::App& program, Terminal& terminal) {
   verb->add_flag("--marks",
                  arguments->shade.show_marks,
                  "color what was displaced yellow, what was synthesized blue");
+  verb->add_option("--color",
+                   arguments->color,
+                   "color of the surface: auto (that of the vertices if they have any), vertex or "
+                   "plain")
+      ->check(one_of({"auto", "vertex", "plain"}))
+      ->capture_default_str();
   verb->add_flag("!--no-ground", arguments->shade.ground, "leave out the shadow on the ground");
   verb->add_flag("!--no-legend", arguments->shade.legend, "leave out the meaning of the colors");
   add_allow_memory(*verb, arguments->read);

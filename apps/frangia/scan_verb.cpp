@@ -58,7 +58,10 @@ void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
   auto* sequence = verb.add_option(
       "--sequence",
       patterns.sequence,
-      "instead of these: doubling, negative-exponential, heterodyne or gray, with --fringes");
+      "instead of these: doubling, negative-exponential, heterodyne, gray or gray-alone (no "
+      "fringes), with --fringes");
+  verb.add_flag("--white", patterns.white, "add a frame of full light for the colors");
+  verb.add_flag("--dark", patterns.dark, "add a frame of the ambient light, which is subtracted");
   verb.add_option("--fringes", patterns.fringes, "finest fringes of --sequence over the field")
       ->check(above_zero())
       ->needs(sequence)

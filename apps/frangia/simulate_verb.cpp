@@ -95,7 +95,8 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
   auto* sequence = verb.add_option(
       "--sequence",
       arguments.patterns.sequence,
-      "instead of these: doubling, negative-exponential, heterodyne or gray, with --fringes");
+      "instead of these: doubling, negative-exponential, heterodyne, gray or gray-alone (no "
+      "fringes), with --fringes");
   verb.add_option("--exposures",
                   arguments.patterns.exposures_ms,
                   "capture each frame at these exposures, ms, such as 2,8; the first is --exposure")
@@ -105,6 +106,9 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
                   arguments.patterns.ramp,
                   "levels of a grey ramp to measure the projector response; 0 for none")
       ->check(from_to(0, 256));
+  verb.add_flag("--white", arguments.patterns.white, "add a frame of full light for the colors");
+  verb.add_flag(
+      "--dark", arguments.patterns.dark, "add a frame of the ambient light, which is subtracted");
   verb.add_option(
           "--fringes", arguments.patterns.fringes, "finest fringes of --sequence over the field")
       ->check(above_zero())
@@ -213,6 +217,8 @@ void add_part_faults(CLI::App& verb, SimulateArguments& arguments) {
   SimulateOptions& options = arguments.options;
   add_fault(verb, kGroup, "--texture", options.texture, "strength of dark patches, 0 to 1")
       ->check(from_to(0.0, 1.0));
+  add_fault(verb, kGroup, "--color", options.color, "strength of bands of changing hue, 0 to 0.95")
+      ->check(from_to(0.0, 0.95));
   add_fault(verb, kGroup, "--gloss", options.gloss, "strength of the highlight")
       ->check(zero_or_more());
   add_fault(verb, kGroup, "--shininess", options.shininess, "exponent of the highlight")

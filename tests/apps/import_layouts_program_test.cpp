@@ -11,6 +11,7 @@
 
 #include "frangia/dataset/import_layout.h"
 #include "frangia/dataset/read_frames.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/frames/png.h"
 
 #include "support/run_program.h"
@@ -111,6 +112,48 @@ TEST_P(ImportLayouts, TakeInAFolderOfTheirProgramInOneCommand) {
       EXPECT_TRUE(std::ranges::equal(a.pixels(), b.pixels())) << i << ' ' << k;
     }
   }
+}
+
+/// A rig of 1280 x 800 projector pixels and twice the camera's pixels of the others: 2 projector
+/// pixels to a pixel.
+TEST(ImportLayoutsOfGrayCode, GiveColumnsAndACloud) {
+  const TemporaryFolder folder;
+  const auto at = [&](const char* name) { return folder.path() / name; };
+  Scan plan;
+  plan.folder = at("made");
+  plan.name = "made";
+  plan.rig = testing::small_rig("digital");
+  const auto& model = std::get<PinholeModel>(plan.rig.projector.model);
+  const ImportLayout layout =
+      make_layout(*find_layout("scan3d-capture"), 42, {model.width_px, model.height_px});
+  plan.patterns = layout.patterns;
+  plan.views.push_back({0.0, "views/000"});
+  const Scan made = simulate_scan(make_part("plate"), plan, {.samples_per_px = 4, .color = 0.5});
+  std::filesystem::create_directory(at("images"));
+  int number = 1;
+  for (const auto& image : layout.images) {
+    std::filesystem::copy_file(
+        made.folder / "views/000" /
+            frame_file_name(layout.patterns[image->first], static_cast<int>(image->second)),
+        at("images") / fmt::format("cam_{:02}.png", number++));
+  }
+  const Answer imported =
+      run_program(fmt::format("import {} -o {} --layout scan3d-capture --rig {}",
+                              at("images").string(),
+                              at("scan").string(),
+                              (made.folder / "rig.toml").string()));
+  ASSERT_EQ(imported.exit_code, 0) << imported.output;
+  const Answer decoded =
+      run_program(fmt::format("decode {} -o {}", at("scan").string(), at("stages").string()));
+  ASSERT_EQ(decoded.exit_code, 0) << decoded.output;
+  EXPECT_TRUE(std::filesystem::exists(at("stages") / "columns.tiff"));
+  EXPECT_TRUE(std::filesystem::exists(at("stages") / "rows.tiff"));
+  const Answer cloud = run_program(
+      fmt::format("reconstruct {} -o {}", at("scan").string(), at("cloud.ply").string()));
+  ASSERT_EQ(cloud.exit_code, 0) << cloud.output;
+  const Mesh mesh = read_mesh(at("cloud.ply"));
+  EXPECT_GT(mesh.vertices_mm.size(), 2000U);
+  EXPECT_EQ(mesh.colors.size(), mesh.vertices_mm.size()) << "from the white frame";
 }
 
 // The digital rig projects 1280 x 800 pixels: eleven and ten bits.

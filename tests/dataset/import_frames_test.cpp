@@ -101,6 +101,44 @@ TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
   EXPECT_EQ(scan.rig.camera.white_level, 255);
 }
 
+TEST_F(ImportFrames, KeepsTheColorOfAWhiteFrameBesideGreyFringes) {
+  options.projector_px = {1280, 800};
+  write_fringes("a");
+  Image<Rgb> picture(8, 6, Rgb{10, 100, 200});
+  picture(3, 2) = {255, 0, 51};
+  write_png(images() / "white_00.png", picture);
+  write("black_00.png", 5);
+  const Scan scan = import();
+  ASSERT_EQ(scan.patterns.size(), 3U);
+  EXPECT_EQ(scan.patterns[1].kind, PatternKind::Ambient);
+  EXPECT_EQ(scan.patterns[2].kind, PatternKind::White);
+  EXPECT_EQ(scan.rig.camera.white_level, 255);
+  const auto stacks = read_frames(scan, 0);
+  EXPECT_TRUE(stacks[1].color.empty());
+  ASSERT_EQ(stacks[2].color.width(), 8);
+  EXPECT_TRUE(stacks[2].color(3, 2).isApprox(Eigen::Vector3f(1.0F, 0.0F, 0.2F)));
+  // ITU-R BT.601: 0.299 R + 0.587 G + 0.114 B.
+  EXPECT_EQ(counts_at(stacks[2].frames[0], 3, 2), 82);
+  EXPECT_EQ(counts_at(stacks[2].frames[0], 0, 0), 84);
+}
+
+TEST_F(ImportFrames, DemosaicsAWhiteFrame) {
+  options.projector_px = {1280, 800};
+  options.color = parse_color_choice("demosaic:RGGB");
+  write_fringes("a");
+  Image<std::uint8_t> mosaic(8, 6);
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 8; ++x)
+      mosaic(x, y) = y % 2 == 0 && x % 2 == 0 ? 51 : (x + y) % 2 == 1 ? 102 : 153;
+  }
+  write_png(images() / "white_00.png", Frame(std::move(mosaic)));
+  const auto stacks = read_frames(import(), 0);
+  for (const int x : {0, 3, 7}) {
+    EXPECT_TRUE(stacks[1].color(x, 4).isApprox(Eigen::Vector3f(0.2F, 0.4F, 0.6F)))
+        << stacks[1].color(x, 4).transpose();
+  }
+}
+
 TEST_F(ImportFrames, RecordsEachOriginalWithItsChecksum) {
   options.projector_px = {1280, 800};
   options.names = "{frame}.bmp";
@@ -167,7 +205,7 @@ TEST_F(ImportFrames, StatesTheVarianceOfAJpeg) {
   EXPECT_EQ(read_frames(scan, 0)[0].compression_counts2, scan.frames.compression_counts2);
 }
 
-TEST_F(ImportFrames, NumbersTheViewsAndLeavesOutBlackImages) {
+TEST_F(ImportFrames, NumbersTheViewsAndTakesBlackImagesAsAmbient) {
   options = {};
   options.layout = "3dunderworld";
   options.names = "v{view}/{frame:04}.png";
@@ -185,6 +223,8 @@ TEST_F(ImportFrames, NumbersTheViewsAndLeavesOutBlackImages) {
   const auto stacks = read_frames(scan, 1);
   EXPECT_EQ(counts_at(stacks[0].frames[0], 0, 0), 0);  // white is the first image
   EXPECT_EQ(counts_at(stacks[2].frames[1], 0, 0), 7);  // the last inverse of the rows
+  EXPECT_EQ(stacks[3].pattern.kind, PatternKind::Ambient);
+  EXPECT_EQ(counts_at(stacks[3].frames[0], 0, 0), 1);
 }
 
 TEST_F(ImportFrames, WritesTheCameraAloneWhereNothingElseIsKnown) {

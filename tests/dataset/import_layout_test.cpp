@@ -56,14 +56,14 @@ TEST(ImportLayout, ShowsTheStripesThatOpenCvGenerates) {
   for (std::size_t i = 0; i < kOpenCvImages.size(); ++i)
     EXPECT_EQ(stripes(layout, i, i < 10 ? 24 : 10), kOpenCvImages[i]) << i;
   EXPECT_EQ(layout.patterns[layout.images[18]->first].kind, PatternKind::White);
-  EXPECT_FALSE(layout.images[19]);
+  EXPECT_EQ(layout.patterns[layout.images[19]->first].kind, PatternKind::Ambient);
   EXPECT_EQ(layout_of("opencv-gray-code", 18, {24, 10}).images.size(), 18U);
 }
 
 TEST(ImportLayout, ShowsTheSameStripesFor3dunderworldAfterWhiteAndBlack) {
   const ImportLayout layout = layout_of("3dunderworld", 20, {24, 10});
   EXPECT_EQ(layout.patterns[layout.images[0]->first].kind, PatternKind::White);
-  EXPECT_FALSE(layout.images[1]);
+  EXPECT_EQ(layout.patterns[layout.images[1]->first].kind, PatternKind::Ambient);
   for (std::size_t i = 0; i < kOpenCvImages.size(); ++i)
     EXPECT_EQ(stripes(layout, i + 2, i < 10 ? 24 : 10), kOpenCvImages[i]) << i;
 }
@@ -123,7 +123,7 @@ TEST(ImportLayout, ShowsTheFringesOfSlStudio) {
   // The ten widest of eleven bits over 1280 columns.
   const ImportLayout gray = layout_of("slstudio-gray-code", 12, {1280, 800});
   EXPECT_EQ(gray.patterns[1].stripe_px, 2.0);
-  EXPECT_EQ(layout_of("slstudio-gray-code", 18, {1280, 800}).patterns.size(), 3U);
+  EXPECT_EQ(layout_of("slstudio-gray-code", 18, {1280, 800}).patterns.size(), 4U);
 }
 
 TEST(ImportLayout, RefusesAnotherNumberOfImages) {

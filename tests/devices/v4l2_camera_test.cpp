@@ -10,6 +10,7 @@
 #include <linux/videodev2.h>
 
 #include "support/error_of.h"
+#include "support/webcam_jpeg.h"
 
 namespace frangia {
 namespace {
@@ -21,6 +22,7 @@ class FakeWebcam final : public V4l2System {
  public:
   static constexpr int kWidth = 32;
   static constexpr int kHeight = 8;
+  static constexpr unsigned kMostBytes = 65'536;  // of a compressed frame
 
   [[nodiscard]] int open(const char* path) override {
     if (std::string(path) == "/dev/video0") return 7;
@@ -70,7 +72,7 @@ class FakeWebcam final : public V4l2System {
       }
       case VIDIOC_QUERYBUF: {
         auto* answer = static_cast<v4l2_buffer*>(argument);
-        answer->length = row_bytes() * kHeight;
+        answer->length = format_ == V4L2_PIX_FMT_MJPEG ? kMostBytes : row_bytes() * kHeight;
         answer->m.offset = answer->index;
         return 0;
       }
@@ -100,6 +102,7 @@ class FakeWebcam final : public V4l2System {
   int unmapped = 0;
   int exposure = 0;
   int frame = 0;
+  int quality = 75;  ///< of compressed frames
 
  private:
   static int refuse(int code) {
@@ -112,7 +115,7 @@ class FakeWebcam final : public V4l2System {
   int set_format(v4l2_pix_format& wanted) {
     const bool can = std::find(formats.begin(), formats.end(), wanted.pixelformat) != formats.end();
     if (!can)
-      wanted.pixelformat = V4L2_PIX_FMT_MJPEG;  // drivers substitute a format that they support
+      wanted.pixelformat = formats.front();  // drivers substitute a format that they support
     format_ = wanted.pixelformat;
     wanted.width = kWidth;
     wanted.height = kHeight;
@@ -122,6 +125,15 @@ class FakeWebcam final : public V4l2System {
   /// The luminance encodes the frame, the column and the exposure.
   void paint(std::vector<std::uint8_t>& pixels) {
     ++frame;
+    if (format_ == V4L2_PIX_FMT_MJPEG) {
+      const std::vector<std::uint8_t> jpeg =
+          testing::webcam_jpeg(kWidth, kHeight, quality, [&](int x, int) {
+            return static_cast<std::uint8_t>(x + 40 * (frame % 4));
+          });
+      jpeg_bytes_ = static_cast<unsigned>(jpeg.size());
+      std::copy(jpeg.begin(), jpeg.end(), pixels.begin());
+      return;
+    }
     const std::size_t step = format_ == V4L2_PIX_FMT_GREY ? 1 : 2;
     std::fill(pixels.begin(), pixels.end(), std::uint8_t{128});  // colour
     for (std::size_t y = 0; y < kHeight; ++y) {
@@ -134,7 +146,11 @@ class FakeWebcam final : public V4l2System {
   int hand_out(v4l2_buffer& buffer) {
     buffer.index = queued_.front();
     queued_.pop_front();
-    buffer.bytesused = broken ? 10 : row_bytes() * kHeight;
+    if (format_ == V4L2_PIX_FMT_MJPEG) {
+      buffer.bytesused = broken ? jpeg_bytes_ - 10 : jpeg_bytes_;
+    } else {
+      buffer.bytesused = broken ? 10 : row_bytes() * kHeight;
+    }
     buffer.sequence = static_cast<unsigned>(frame);
     buffer.timestamp.tv_sec = static_cast<long>(now_);
     buffer.timestamp.tv_usec =
@@ -144,6 +160,7 @@ class FakeWebcam final : public V4l2System {
 
   double now_ = 100.0;
   unsigned format_ = 0;
+  unsigned jpeg_bytes_ = 0;
   std::array<std::vector<std::uint8_t>, 3> memory_;
   std::deque<unsigned> queued_;
 };
@@ -184,6 +201,35 @@ TEST(V4l2Camera, ReadsLuminanceFromGreyAndYuyv) {
   }
 }
 
+TEST(V4l2Camera, DecodesMotionJpegAndStatesItsQuality) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  webcam->formats = {V4L2_PIX_FMT_MJPEG};
+  const auto camera = open_v4l2_camera(settings(), webcam);
+  EXPECT_EQ(camera->info().jpeg_quality, 75);
+  EXPECT_NE(camera->test(at_once()).find("JPEG of quality 75"), std::string::npos);
+  const CapturedFrame captured = camera->capture({}, at_once());
+  ASSERT_TRUE(captured.complete) << captured.incomplete_cause;
+  for (int x = 0; x < FakeWebcam::kWidth; ++x)
+    EXPECT_NEAR(counts_at(captured.frame, x, 5), x + 40 * (static_cast<int>(captured.id) % 4), 3);
+  webcam->broken = true;
+  const CapturedFrame truncated = camera->capture({}, at_once());
+  EXPECT_FALSE(truncated.complete);
+  EXPECT_NE(truncated.incomplete_cause.find("truncated or damaged"), std::string::npos)
+      << truncated.incomplete_cause;
+  webcam->broken = false;
+  webcam->quality = 40;
+  const CapturedFrame worse = camera->capture({}, at_once());
+  EXPECT_FALSE(worse.complete);
+  EXPECT_NE(worse.incomplete_cause.find("fell from 75 to 40"), std::string::npos);
+}
+
+TEST(V4l2Camera, PrefersUncompressedFrames) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  webcam->formats = {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_YUYV};
+  const auto camera = open_v4l2_camera(settings(), webcam);
+  EXPECT_FALSE(camera->info().jpeg_quality.has_value());
+}
+
 TEST(V4l2Camera, MarksAShortFrameIncomplete) {
   const auto webcam = std::make_shared<FakeWebcam>();
   const auto camera = open_v4l2_camera(settings(), webcam);
@@ -211,10 +257,10 @@ TEST(V4l2Camera, ReportsFaultsInOneSentenceAndClosesTheCamera) {
   EXPECT_TRUE(webcam->closed);
   EXPECT_EQ(webcam->unmapped, 3);
   const auto other = std::make_shared<FakeWebcam>();
-  other->formats = {V4L2_PIX_FMT_MJPEG};
+  other->formats = {V4L2_PIX_FMT_H264};
   EXPECT_NE(error_of([&] {
               static_cast<void>(open_v4l2_camera(settings(), other));
-            }).find("only compressed images"),
+            }).find("delivers neither grey, YUYV nor Motion JPEG images"),
             std::string::npos);
   V4l2Settings nobody = settings();
   nobody.path = "/dev/video9";

@@ -13,6 +13,7 @@
 #include "frangia/acquisition/internal/check_devices.h"
 #include "frangia/acquisition/internal/describe_devices.h"
 #include "frangia/core/angles.h"
+#include "frangia/frames/jpeg_noise.h"
 
 namespace frangia {
 namespace {
@@ -47,6 +48,18 @@ Scan with_gain(Scan plan, double gain_db) {
   return plan;
 }
 
+/// Counts the noise of a camera that compresses its frames.
+void count_compression(const CameraInfo& camera, Scan& plan, const Run& run) {
+  if (!camera.jpeg_quality) return;
+  plan.frames.compression_counts2 = jpeg_noise_counts2(*camera.jpeg_quality);
+  run.warn(
+      fmt::format("the camera delivers JPEGs of quality {}: the compression adds noise of {:.2g} "
+                  "counts to each pixel, and sigma counts it; a camera with a grey or YUYV format, "
+                  "or a smaller size, gives the full accuracy",
+                  *camera.jpeg_quality,
+                  std::sqrt(plan.frames.compression_counts2)));
+}
+
 }  // namespace
 
 std::string SkippedView::sentence() const {
@@ -73,6 +86,7 @@ CaptureReport capture_scan(const Scan& plan,
   const SafeStateGuard safe(devices);
   check_devices(devices, plan, options);
   Scan real = with_gain(plan, options.camera.gain_db);
+  count_compression(devices.camera->info(), real, run);
   claim_folder(real, {describe(options), describe_devices(devices.settings)}, run);
   return CaptureSession(std::move(real), devices, options, run).capture();
 }

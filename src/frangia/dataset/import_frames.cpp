@@ -1,6 +1,7 @@
 #include "frangia/dataset/import_frames.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -80,7 +81,13 @@ FrameStorage float_storage(const std::vector<WrittenFrame>& frames,
 }
 
 /// The scan of a plan whose frames were written.
-Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& frames, const Run& run) {
+Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, const Run& run) {
+  std::vector<WrittenFrame> frames;  // in grey
+  std::copy_if(
+      written.begin(), written.end(), std::back_inserter(frames), [](const WrittenFrame& frame) {
+        return !frame.is_color;
+      });
+  require(!frames.empty(), "the images are white or ambient frames alone; add those of patterns");
   Scan scan;
   scan.rig = plan.rig;
   scan.patterns = plan.patterns;

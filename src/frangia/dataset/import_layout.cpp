@@ -39,7 +39,7 @@ void append_white_and_black(ImportLayout& layout) {
   white.name = "white";
   white.kind = PatternKind::White;
   append(layout, white);
-  layout.images.emplace_back(std::nullopt);
+  layout.images.emplace_back(std::nullopt);  // black, which is added last
 }
 
 Pattern gray_of_columns(int bits, InvertedFrames inverted) {
@@ -182,6 +182,11 @@ ImportLayout make_layout(const KnownLayout& layout,
                          std::size_t images,
                          const ProjectorSize& projector_px) {
   ImportLayout made = layout_for(layout.name, images, projector_px);
+  for (auto& image : made.images) {
+    if (image) continue;
+    image = {made.patterns.size(), std::size_t{0}};
+    made.patterns.push_back({.name = "black", .kind = PatternKind::Ambient});
+  }
   if (made.images.size() != images) {
     throw Error(
         ErrorKind::Input,

@@ -19,7 +19,7 @@ using ProjectorSize = std::array<int, 2>;
 struct ImportLayout {
   std::vector<Pattern> patterns;  ///< in the order of projection
   /// Pattern and frame of each image, in the order of their numbers; empty: an image that a scan
-  /// does not hold, as of a dark projector.
+  /// does not hold.
   std::vector<std::optional<std::pair<std::size_t, std::size_t>>> images;
 };
 

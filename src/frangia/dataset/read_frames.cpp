@@ -1,10 +1,12 @@
 #include "frangia/dataset/read_frames.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -103,17 +105,57 @@ Frame read_float_frame(const Scan& scan, const std::filesystem::path& path) {
   return counts;
 }
 
-/// Reads a frame inside the scan folder, of the size of the rig's camera.
-Frame read_frame(const Scan& scan, const std::filesystem::path& relative) {
-  const std::filesystem::path path = scan.folder / relative;
-  std::error_code ignored;
-  if (std::filesystem::is_symlink(path, ignored) && leads_outside(scan.folder, relative)) {
-    refuse(path, "is a link to a file outside of the scan folder; copy the file into the folder");
+/// Sets a coloured frame of a stack and its luminance, in 8 or 16 bits as the file has.
+template <typename T>
+void set_color(const Image<T>& samples, int full_scale, FrameStack& stack) {
+  constexpr std::array<float, 3> kLuminance = {0.299F, 0.587F, 0.114F};  // ITU-R BT.601
+  Image<T> luminance(samples.width() / 3, samples.height(), Uninitialized{});
+  stack.color = Image<Eigen::Vector3f>(luminance.width(), luminance.height(), Uninitialized{});
+  for (std::size_t i = 0; i < luminance.pixels().size(); ++i) {
+    float sum = 0.0F;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto value = static_cast<float>(samples.pixels()[3 * i + c]);
+      stack.color.pixels()[i][static_cast<Eigen::Index>(c)] =
+          std::min(value / static_cast<float>(full_scale), 1.0F);
+      sum += kLuminance.at(c) * value;
+    }
+    luminance.pixels()[i] = static_cast<T>(std::lround(sum));
   }
-  if (scan.frames.is_float) return read_float_frame(scan, path);
-  return read_png(path, [&](int width_px, int height_px) {
-    check_size(scan.rig.camera, path, width_px, height_px);
-  });
+  stack.frames.front() = std::move(luminance);
+}
+
+/// Whether a file begins as a PNG in colour does.
+bool is_color_png(const std::filesystem::path& path) {
+  constexpr std::string_view kMagic = "\x89PNG\r\n\x1a\n";
+  constexpr std::size_t kColorType = 25;  // offset in the header
+  constexpr unsigned kColor = 2;          // bit of the colour type
+  std::array<char, kColorType + 1> header{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(header.data(), header.size());
+  return file.good() && std::string_view(header.data(), kMagic.size()) == kMagic &&
+         (static_cast<unsigned char>(header.back()) & kColor) != 0;
+}
+
+/// Whether a frame may be coloured: it gives the vertices their colors.
+bool may_have_color(const Pattern& pattern) {
+  return pattern.kind == PatternKind::White || pattern.kind == PatternKind::Ambient;
+}
+
+/// Reads a frame of kind white or ambient, grey or in colour. 8 bits of colour have a full scale of
+/// 255, 16 bits the white level of the camera if that has more than 8 bits.
+void read_color_frame(const Scan& scan, const std::filesystem::path& path, FrameStack& stack) {
+  const ImageFile file(path);
+  check_size(scan.rig.camera, path, file.info().width_px, file.info().height_px);
+  const RasterImage image = file.read();
+  if (image.channels != 3) refuse(path, "is neither grey nor red, green and blue; convert it");
+  if (const auto* const narrow = std::get_if<Image<std::uint8_t>>(&image.samples)) {
+    set_color(*narrow, 255, stack);
+  } else if (const auto* const wide = std::get_if<Image<std::uint16_t>>(&image.samples)) {
+    const int white = scan.rig.camera.white_level;
+    set_color(*wide, white > 255 ? white : 65535, stack);
+  } else {
+    refuse(path, "is a floating-point image in colour; convert it to 8 or 16 bits");
+  }
 }
 
 void check_counts(const Frame& frame,
@@ -143,7 +185,26 @@ void check_counts(const Frame& frame,
 struct FrameFile {
   std::filesystem::path relative;  ///< to the scan folder
   Frame* frame;
+  FrameStack* stack;
 };
+
+/// Reads a frame inside the scan folder, of the size of the rig's camera.
+void read_frame(const Scan& scan, const FrameFile& file) {
+  const std::filesystem::path path = scan.folder / file.relative;
+  std::error_code ignored;
+  if (std::filesystem::is_symlink(path, ignored) && leads_outside(scan.folder, file.relative)) {
+    refuse(path, "is a link to a file outside of the scan folder; copy the file into the folder");
+  }
+  if (scan.frames.is_float) {
+    *file.frame = read_float_frame(scan, path);
+  } else if (may_have_color(file.stack->pattern) && is_color_png(path)) {
+    read_color_frame(scan, path, *file.stack);
+  } else {
+    *file.frame = read_png(path, [&](int width_px, int height_px) {
+      check_size(scan.rig.camera, path, width_px, height_px);
+    });
+  }
+}
 
 /// Calls `work` for every file on all cores. Every file is tried, and the error of the first one
 /// that failed is thrown: the message does not depend on the number of threads.
@@ -196,15 +257,18 @@ std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Ru
       std::filesystem::path name =
           frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure);
       if (scan.frames.is_float) name.replace_extension(kFloatEnding);
-      files.push_back({scan.views[view].folder / name, &stack.frames[i]});
+      files.push_back({scan.views[view].folder / name, &stack.frames[i], &stack});
     }
   }
   for_each_file(files, [&](const FrameFile& file) {
     run.check();
-    *file.frame = read_frame(scan, file.relative);
+    read_frame(scan, file);
   });
+  const auto first = std::find_if(
+      files.begin(), files.end(), [](const FrameFile& file) { return file.stack->color.empty(); });
   for_each_file(files, [&](const FrameFile& file) {
-    check_counts(*file.frame, *files.front().frame, scan.rig.camera, scan.folder / file.relative);
+    if (!file.stack->color.empty()) return;
+    check_counts(*file.frame, *first->frame, scan.rig.camera, scan.folder / file.relative);
   });
   return stacks;
 }

@@ -17,7 +17,7 @@ double rounded(double value) {
 }
 
 void put_pattern(TomlWriter& writer, const Pattern& pattern) {
-  static constexpr std::array kKinds = {"fringe", "line", "gray", "ramp", "white"};
+  static constexpr std::array kKinds = {"fringe", "line", "gray", "ramp", "white", "ambient"};
   writer.begin_table_of_list("pattern");
   writer.put("name", pattern.name);
   writer.put("kind", std::string(kKinds.at(static_cast<std::size_t>(pattern.kind))));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "frangia/devices/device.h"
@@ -23,6 +24,8 @@ struct CameraInfo {
   double min_exposure_ms = 0.01;      ///< shortest exposure time
   double max_exposure_ms = 10'000.0;  ///< longest exposure time
   double max_gain_db = 0.0;           ///< 0 when the gain cannot be set
+  /// Quality, 1 to 100, of the JPEG compression of frames that the camera delivers compressed.
+  std::optional<int> jpeg_quality{};
 };
 
 /// Identifies a frame within a scan. Real cameras ignore it; a replay uses it to find the file, and

@@ -35,7 +35,7 @@ bool EditState::operator==(const EditState& other) const {
          same_bytes(mesh.sigma_mm, other.mesh.sigma_mm) &&
          same_bytes(mesh.sigma_noise_mm, other.mesh.sigma_noise_mm) &&
          same_bytes(mesh.sigma_systematic_mm, other.mesh.sigma_systematic_mm) &&
-         same_bytes(mesh.views, other.mesh.views) &&
+         same_bytes(mesh.views, other.mesh.views) && same_bytes(mesh.colors, other.mesh.colors) &&
          same_bytes(mesh.vertex_marks, other.mesh.vertex_marks) &&
          same_bytes(mesh.triangle_marks, other.mesh.triangle_marks) &&
          same_bytes(selection, other.selection) && combine == other.combine &&

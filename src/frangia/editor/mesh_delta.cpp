@@ -88,6 +88,7 @@ MeshDelta::MeshDelta(const EditState& before, const EditState& after)
   arrays_.push_back(compare(before.selection, after.selection));
   arrays_.push_back(compare(before.mesh.sigma_noise_mm, after.mesh.sigma_noise_mm));
   arrays_.push_back(compare(before.mesh.sigma_systematic_mm, after.mesh.sigma_systematic_mm));
+  arrays_.push_back(compare(before.mesh.colors, after.mesh.colors));
 }
 
 void MeshDelta::apply(EditState& state, bool back) const {
@@ -101,6 +102,7 @@ void MeshDelta::apply(EditState& state, bool back) const {
   patch(state.selection, arrays_[7], back);
   patch(state.mesh.sigma_noise_mm, arrays_[8], back);
   patch(state.mesh.sigma_systematic_mm, arrays_[9], back);
+  patch(state.mesh.colors, arrays_[10], back);
   state.combine = back ? combine_before_ : combine_after_;
   state.max_sigmas = back ? sigmas_before_ : sigmas_after_;
 }

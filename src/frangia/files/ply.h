@@ -11,7 +11,8 @@ namespace frangia {
 ///
 /// @shape    the properties read are x y z; nx ny nz when all three exist; sigma_mm, and
 ///          its parts sigma_noise_mm and sigma_systematic_mm when both exist; views (ushort); mark
-///          (uchar, of vertices and faces: 0 measured, 1 displaced, 2 synthesized). Polygons become
+///          (uchar, of vertices and faces: 0 measured, 1 displaced, 2 synthesized); red green blue
+///          (uchar, or ushort, or float from 0 to 1; also diffuse_red and so on). Polygons become
 ///          triangles. Other properties and elements are skipped.
 /// @units    as in the file, assumed to be mm
 /// @missing  a normal that is not finite becomes zero
@@ -23,8 +24,8 @@ namespace frangia {
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
 
 /// Writes a binary little-endian PLY: x y z, then nx ny nz, sigma_mm, sigma_noise_mm and
-/// sigma_systematic_mm where the mesh has them (all float), views (ushort), mark (uchar); faces,
-/// with their mark where the mesh has it.
+/// sigma_systematic_mm where the mesh has them (all float), views (ushort), mark (uchar), red green
+/// blue (uchar); faces, with their mark where the mesh has it.
 ///
 /// @units    mm
 /// @errors   Error(Input) when check_mesh fails; Error(File) when the file cannot be written

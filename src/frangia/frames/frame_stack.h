@@ -2,6 +2,9 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
 #include "frangia/frames/frame.h"
 #include "frangia/pattern/pattern.h"
 
@@ -16,6 +19,9 @@ struct FrameStack {
   int exposure = 0;           ///< index into pattern.exposures_ms
   /// Variance that a lossy compression added to each pixel, counts squared.
   double compression_counts2 = 0.0;
+  /// Of a white or ambient frame in colour: linear red, green and blue as shares of full scale.
+  /// `frames` then holds its luminance.
+  Image<Eigen::Vector3f> color{};
 
   /// Exposure time relative to the first exposure of the pattern.
   [[nodiscard]] double gain() const {

@@ -49,10 +49,9 @@ Image<Computed<T>> luminance_of(const Image<T>& image) {
 }
 
 /// Bilinear interpolation: the mean of the nearest pixels with each filter, which are the pixel
-/// itself, two or four neighbours.
-template <typename T>
-Image<Computed<T>> demosaiced_luminance(const Image<T>& image, const std::string& mosaic) {
-  Image<Computed<T>> grey(image.width(), image.height(), Uninitialized{});
+/// itself, two or four neighbours. Calls `use(x, y, red, green, blue)`.
+template <typename T, typename Use>
+void demosaic(const Image<T>& image, const std::string& mosaic, const Use& use) {
   const auto filter_at = [&](int x, int y) {
     constexpr std::string_view kFilters = "RGB";
     return kFilters.find(mosaic[static_cast<std::size_t>(2 * (y & 1) + (x & 1))]);
@@ -79,13 +78,33 @@ Image<Computed<T>> demosaiced_luminance(const Image<T>& image, const std::string
           counts[filter] += 1.0;
         }
       }
-      double value = 0.0;
       for (std::size_t c = 0; c < sums.size(); ++c)
-        value += kLuminance[c] * sums[c] / counts[c];
-      grey(x, y) = computed<T>(value);
+        sums[c] /= counts[c];
+      use(x, y, sums);
     }
   });
+}
+
+template <typename T>
+Image<Computed<T>> demosaiced_luminance(const Image<T>& image, const std::string& mosaic) {
+  Image<Computed<T>> grey(image.width(), image.height(), Uninitialized{});
+  demosaic(image, mosaic, [&](int x, int y, const std::array<double, 3>& channels) {
+    double value = 0.0;
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      value += kLuminance[c] * channels[c];
+    grey(x, y) = computed<T>(value);
+  });
   return grey;
+}
+
+template <typename T>
+Image<Computed<T>> demosaiced_color(const Image<T>& image, const std::string& mosaic) {
+  Image<Computed<T>> color(3 * image.width(), image.height(), Uninitialized{});
+  demosaic(image, mosaic, [&](int x, int y, const std::array<double, 3>& channels) {
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      color(3 * x + static_cast<int>(c), y) = computed<T>(channels[c]);
+  });
+  return color;
 }
 
 template <typename T>
@@ -119,6 +138,19 @@ ColorChoice parse_color_choice(const std::string& text) {
 bool has_color(const RasterImage& image) {
   return image.channels == 3 &&
          std::visit([](const auto& samples) { return channels_differ(samples); }, image.samples);
+}
+
+std::optional<RasterImage> color_image(const RasterImage& image, const ColorChoice& choice) {
+  if (std::holds_alternative<Image<float>>(image.samples)) return std::nullopt;
+  if (image.channels == 3) return has_color(image) ? std::optional(image) : std::nullopt;
+  if (choice.from != GreyFrom::Demosaic) return std::nullopt;
+  require(image.width_px() >= 2 && image.height_px() >= 2,
+          "a mosaic has at least 2 x 2 pixels; set another `color`");
+  return std::visit(
+      [&](const auto& samples) {
+        return std::optional(RasterImage{demosaiced_color(samples, choice.mosaic), 3});
+      },
+      image.samples);
 }
 
 Samples grey_image(RasterImage image, const ColorChoice& choice) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "frangia/frames/image_file.h"
@@ -39,5 +40,14 @@ struct ColorChoice {
 ///          mosaic has fewer than 2 x 2 pixels
 /// @source   ITU-R BT.601 for the weights
 [[nodiscard]] Samples grey_image(RasterImage image, const ColorChoice& choice);
+
+/// Returns the red, green and blue of a coloured image, or of a mosaic as `choice` says, whose
+/// values are scaled as those of `grey_image`.
+///
+/// @shape    three samples per pixel
+/// @missing  empty for a grey image and for floating-point samples
+/// @errors   Error(Input) when a mosaic has fewer than 2 x 2 pixels
+[[nodiscard]] std::optional<RasterImage> color_image(const RasterImage& image,
+                                                     const ColorChoice& choice);
 
 }  // namespace frangia

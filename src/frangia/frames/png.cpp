@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -163,6 +164,25 @@ void write_png(const std::filesystem::path& path, const Image<Rgb>& picture) {
                    encode(header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
                           picture.pixels().data(),
                           picture.pixels().size_bytes()));
+}
+
+void write_png(const std::filesystem::path& path, const RasterImage& image) {
+  const auto bytes = std::visit(
+      [&](const auto& samples) -> std::vector<char> {
+        using Sample = std::remove_cvref_t<decltype(samples.pixels()[0])>;
+        if constexpr (std::is_floating_point_v<Sample>) {
+          fail(path, "floating-point samples do not fit into a PNG");
+        } else {
+          spng_ihdr header = header_of(
+              samples,
+              8 * static_cast<int>(sizeof(Sample)),
+              image.channels == 3 ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_GRAYSCALE);
+          header.width = static_cast<std::uint32_t>(image.width_px());
+          return encode(header, samples.pixels().data(), samples.pixels().size_bytes());
+        }
+      },
+      image.samples);
+  write_atomically(path, bytes);
 }
 
 }  // namespace frangia

@@ -8,6 +8,7 @@
 
 #include "frangia/core/image.h"
 #include "frangia/frames/frame.h"
+#include "frangia/frames/image_file.h"
 
 namespace frangia {
 
@@ -37,5 +38,9 @@ void write_png(const std::filesystem::path& path, const Frame& frame);
 ///
 /// @errors   Error(File) when it cannot be written
 void write_png(const std::filesystem::path& path, const Image<Rgb>& picture);
+/// Writes an image of 8 or 16 bits in grey or color as a PNG atomically.
+///
+/// @errors   Error(File) when it cannot be written; Error(Input) for floating-point samples
+void write_png(const std::filesystem::path& path, const RasterImage& image);
 
 }  // namespace frangia

@@ -136,6 +136,7 @@ void split_at(const std::vector<bool>& boundary, Mesh& mesh) {
       repeat(mesh.sigma_noise_mm, around[0].vertex);
       repeat(mesh.sigma_systematic_mm, around[0].vertex);
       repeat(mesh.views, around[0].vertex);
+      repeat(mesh.colors, around[0].vertex);
       repeat(mesh.vertex_marks, around[0].vertex);
       for (std::size_t i = 0; i < fans.size(); ++i) {
         if (fans[i] == fan) mesh.triangles[around[i].triangle][around[i].index] = added;
@@ -197,6 +198,7 @@ void remove_unused_vertices(Mesh& mesh) {
   keep(mesh.sigma_noise_mm);
   keep(mesh.sigma_systematic_mm);
   keep(mesh.views);
+  keep(mesh.colors);
   keep(mesh.vertex_marks);
   parallel_chunks(mesh.triangles.size(), 65536, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {

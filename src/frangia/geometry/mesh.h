@@ -16,6 +16,12 @@ enum class Mark : std::uint8_t {
   Synthesized  ///< created where nothing was measured
 };
 
+/// Red, green and blue from 0 to 255 as a screen shows them (sRGB).
+using VertexColor = std::array<std::uint8_t, 3>;
+
+/// Color of vertices of which none is known, beside others that have one: light grey.
+inline constexpr VertexColor kUnknownColor{204, 204, 204};
+
 /// A triangle mesh in the object frame. Triangles are counter-clockwise seen from outside.
 struct Mesh {
   using Triangle = std::array<std::uint32_t, 3>;  ///< indices of the three corners in `vertices_mm`
@@ -31,6 +37,7 @@ struct Mesh {
   /// The systematic part of `sigma_mm`, or empty.
   std::vector<float> sigma_systematic_mm;
   std::vector<std::uint16_t> views;  ///< number that observed it, one for each vertex, or empty
+  std::vector<VertexColor> colors;   ///< one for each vertex, or empty
   std::vector<Mark> vertex_marks;    ///< one for each vertex; empty: all measured
   std::vector<Mark> triangle_marks;  ///< one for each triangle; empty: all measured
 

@@ -21,6 +21,27 @@ void repeat(std::vector<T>& values, std::uint32_t which) {
   if (!values.empty()) values.push_back(T(values[which]));
 }
 
+/// Mean of some vertices' colors, weighted by one over the square of their distance from a point.
+VertexColor color_from(const Mesh& mesh,
+                       const Eigen::Vector3f& position_mm,
+                       std::span<const std::uint32_t> around) {
+  if (around.empty()) return kUnknownColor;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weights = 0.0;
+  for (const std::uint32_t vertex : around) {
+    const double square = (mesh.vertices_mm[vertex] - position_mm).cast<double>().squaredNorm();
+    const double weight = 1.0 / std::max(square, 1e-30);
+    const VertexColor& color = mesh.colors[vertex];
+    sum += weight * Eigen::Vector3d(color[0], color[1], color[2]);
+    weights += weight;
+  }
+  VertexColor mean{};
+  for (std::size_t i = 0; i < mean.size(); ++i)
+    mean.at(i) =
+        static_cast<std::uint8_t>(std::lround(sum[static_cast<Eigen::Index>(i)] / weights));
+  return mean;
+}
+
 /// Appends `more` to an attribute that one of two meshes may lack.
 template <typename T>
 void join(std::vector<T>& values, std::size_t count, const std::vector<T>& more, T missing) {
@@ -53,6 +74,15 @@ void discard_sigma(Mesh& mesh) {
     std::fill(sigma->begin(), sigma->end(), kMissing);
 }
 
+VertexColor mix_colors(const VertexColor& a, const VertexColor& b, float t) {
+  VertexColor mixed{};
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const float value = (1.0F - t) * static_cast<float>(a.at(i)) + t * static_cast<float>(b.at(i));
+    mixed.at(i) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
+  }
+  return mixed;
+}
+
 void ensure_marks(Mesh& mesh) {
   mesh.vertex_marks.resize(mesh.vertices_mm.size(), Mark::Measured);
   mesh.triangle_marks.resize(mesh.triangles.size(), Mark::Measured);
@@ -73,6 +103,7 @@ std::uint32_t copy_vertex(Mesh& mesh, std::uint32_t from) {
   repeat(mesh.sigma_noise_mm, from);
   repeat(mesh.sigma_systematic_mm, from);
   repeat(mesh.views, from);
+  repeat(mesh.colors, from);
   repeat(mesh.vertex_marks, from);
   return last_vertex(mesh);
 }
@@ -85,6 +116,7 @@ std::uint32_t add_interpolated_vertex(Mesh& mesh, std::uint32_t a, std::uint32_t
     mesh.normals[fresh] = Eigen::Vector3f(mean(mesh.normals)).stableNormalized();
   }
   set_sigma(mesh, fresh, mean);
+  if (!mesh.colors.empty()) mesh.colors[fresh] = mix_colors(mesh.colors[a], mesh.colors[b], t);
   if (!mesh.vertex_marks.empty()) {
     mesh.vertex_marks[fresh] = std::max(mesh.vertex_marks[a], mesh.vertex_marks[b]);
   }
@@ -97,6 +129,7 @@ std::uint32_t add_synthesized_vertex(Mesh& mesh,
   mesh.vertices_mm.push_back(position_mm);
   if (!mesh.normals.empty()) mesh.normals.emplace_back(Eigen::Vector3f::Zero());
   if (!mesh.views.empty()) mesh.views.push_back(0);
+  if (!mesh.colors.empty()) mesh.colors.push_back(color_from(mesh, position_mm, around));
   if (!mesh.vertex_marks.empty()) mesh.vertex_marks.push_back(Mark::Synthesized);
   for (std::vector<float>* sigma :
        {&mesh.sigma_mm, &mesh.sigma_noise_mm, &mesh.sigma_systematic_mm})
@@ -148,6 +181,7 @@ void append_mesh(Mesh& mesh, const Mesh& other) {
   join(mesh.sigma_noise_mm, vertices, other.sigma_noise_mm, kMissing);
   join(mesh.sigma_systematic_mm, vertices, other.sigma_systematic_mm, kMissing);
   join(mesh.views, vertices, other.views, std::uint16_t{0});
+  join(mesh.colors, vertices, other.colors, VertexColor(kUnknownColor));
   join(mesh.vertex_marks, vertices, other.vertex_marks, Mark::Measured);
   join(mesh.triangle_marks, mesh.triangles.size(), other.triangle_marks, Mark::Measured);
   mesh.vertices_mm.insert(
@@ -160,6 +194,7 @@ void append_mesh(Mesh& mesh, const Mesh& other) {
        {&mesh.sigma_mm, &mesh.sigma_noise_mm, &mesh.sigma_systematic_mm})
     if (!sigma->empty()) sigma->resize(all, kMissing);
   if (!mesh.views.empty()) mesh.views.resize(all, 0);
+  if (!mesh.colors.empty()) mesh.colors.resize(all, kUnknownColor);
   if (!mesh.vertex_marks.empty() || !mesh.triangle_marks.empty()) ensure_marks(mesh);
 }
 

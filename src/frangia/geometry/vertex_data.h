@@ -40,6 +40,9 @@ void set_sigma(Mesh& mesh, std::uint32_t vertex, const ValueOf& value_of) {
       combined_sigma(mesh.sigma_noise_mm[vertex], mesh.sigma_systematic_mm[vertex]);
 }
 
+/// Returns a + t (b - a) for each channel.
+[[nodiscard]] VertexColor mix_colors(const VertexColor& a, const VertexColor& b, float t);
+
 /// Gives every vertex and triangle a mark, `Measured` by default.
 void ensure_marks(Mesh& mesh);
 
@@ -53,8 +56,8 @@ std::uint32_t copy_vertex(Mesh& mesh, std::uint32_t from);
 /// number of views is that of the nearer end.
 std::uint32_t add_interpolated_vertex(Mesh& mesh, std::uint32_t a, std::uint32_t b, float t);
 
-/// Appends a synthesized vertex, with zero views and the largest sigma of `around`, and returns its
-/// number.
+/// Appends a synthesized vertex, with zero views, the largest sigma of `around` and the mean of
+/// their colors, weighted by one over the squared distance, and returns its number.
 ///
 /// @units    mm
 /// @missing  its sigma is NaN when `around` is empty, its normal is zero
@@ -72,8 +75,9 @@ void keep_triangles(Mesh& mesh, std::span<const std::uint8_t> keep);
 
 /// Appends another mesh.
 ///
-/// @missing  attributes that only one of the meshes has are zero normals, NaN sigma or zero views
-///           for the vertices of the other; a sigma without parts counts as noise alone
+/// @missing  attributes that only one of the meshes has are zero normals, NaN sigma, zero views or
+///           `kUnknownColor` for the vertices of the other; a sigma without parts counts as noise
+///           alone
 /// @errors   Error(Input) for more than 4 billion vertices
 void append_mesh(Mesh& mesh, const Mesh& other);
 

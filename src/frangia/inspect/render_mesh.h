@@ -26,6 +26,8 @@ struct RenderOptions {
 
   bool show_edges = false;  ///< draw the edges of the triangles
   bool show_marks = false;  ///< displaced triangles in yellow, synthesized ones in blue
+  /// Shows the colors of the vertices, where the mesh has them, instead of light grey.
+  bool vertex_colors = false;
 
   Selection highlighted;                     ///< triangles shown in violet; empty: none
   std::string highlight_label = "selected";  ///< in the legend

@@ -157,6 +157,12 @@ class Decimation {
   void collapse(std::uint32_t a, std::uint32_t b, const Vector3d& target_mm) {
     topology_.collapse(a, b);
     cost_.collapse(a, b);
+    if (!mesh_.colors.empty()) {
+      const Vector3d edge = position(b) - position(a);
+      const double along = edge.dot(target_mm - position(a)) / std::max(edge.squaredNorm(), 1e-300);
+      mesh_.colors[a] = mix_colors(
+          mesh_.colors[a], mesh_.colors[b], static_cast<float>(std::clamp(along, 0.0, 1.0)));
+    }
     mesh_.vertices_mm[a] = target_mm.cast<float>();
     set_sigma(
         mesh_, a, [&](const std::vector<float>& values) { return std::max(values[a], values[b]); });

@@ -11,7 +11,8 @@ enum class PatternKind {
   Line,    ///< the laser sheet, one frame
   Gray,    ///< Gray code of the projector's columns or rows, one frame per bit
   Ramp,    ///< a uniformly lit field, one frame per level
-  White    ///< full light over the whole field, one frame
+  White,   ///< full light over the whole field, one frame
+  Ambient  ///< the projector is dark, one frame
 };
 
 /// Orientation of the fringes.
@@ -69,6 +70,7 @@ struct Pattern {
     switch (kind) {
       case PatternKind::Line:
       case PatternKind::White:
+      case PatternKind::Ambient:
         return 1;
       case PatternKind::Gray:
         return inverted == InvertedFrames::None ? bits : 2 * bits;

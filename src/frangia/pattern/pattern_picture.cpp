@@ -21,6 +21,7 @@ namespace {
 float light_at(const Pattern& pattern, int frame, int position) {
   const auto index = static_cast<std::size_t>(frame);
   if (pattern.kind == PatternKind::White) return 1.0F;
+  if (pattern.kind == PatternKind::Ambient) return 0.0F;
   if (pattern.kind == PatternKind::Ramp) return static_cast<float>(pattern.levels[index]);
   if (pattern.kind == PatternKind::Gray)
     return is_stripe_bright(pattern, frame, position) ? 1.0F : 0.0F;

@@ -10,6 +10,7 @@
 
 #include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/check_gray_code.h"
+#include "frangia/phase/decode_gray_alone.h"
 #include "frangia/phase/decode_gray_code.h"
 #include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/estimate_noise.h"
@@ -157,6 +158,33 @@ void decide_by_orientation(const WrappedPhase& fringes,
     std::erase_if(check.fits, contradicts);
 }
 
+/// Decodes the Gray code of one direction of a scan without fringes.
+DecodedView decode_code_alone(std::span<const FrameStack> stacks,
+                              FringeDirection direction,
+                              const Rig& rig,
+                              const DecodeOptions& options,
+                              const Run& run) {
+  const auto gray = gray_of(stacks, direction);
+  const auto find = [&](PatternKind kind) -> const FrameStack* {
+    const auto found = std::find_if(stacks.begin(), stacks.end(), [&](const FrameStack& stack) {
+      return stack.pattern.kind == kind;
+    });
+    return found == stacks.end() ? nullptr : &*found;
+  };
+  run.check();
+  DecodedView out;
+  out.noise = rig.camera.noise ? *rig.camera.noise : estimate_gray_noise(gray.front());
+  out.noise.floor_counts2 += stacks.front().compression_counts2;
+  Image<float> threshold;
+  if (gray.front().pattern.inverted == InvertedFrames::None)
+    threshold = gray_threshold(gray.front(), find(PatternKind::White), find(PatternKind::Ambient));
+  GrayAloneOptions limits;
+  limits.max_wrong_stripe = options.temporal.max_wrong_order;
+  out.phase = decode_gray_alone(gray, threshold, out.noise, limits);
+  out.coarsest = out.phase.pattern;
+  return out;
+}
+
 /// Decodes the fringes of one direction.
 DecodedView decode_direction(std::span<const FrameStack> stacks,
                              FringeDirection direction,
@@ -164,8 +192,9 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
                              const Image<Eigen::Vector2f>& rays,
                              const DecodeOptions& options,
                              const Run& run) {
-  DecodedView out;
   const auto fringes = fringes_of(stacks, direction);
+  if (fringes.empty()) return decode_code_alone(stacks, direction, rig, options, run);
+  DecodedView out;
   out.noise = noise_of(stacks, rig, options);
   out.coarsest = fringes.front()->pattern;
   const auto patterns = patterns_of(fringes);

@@ -10,6 +10,7 @@
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
 #include "frangia/frames/frame_stack.h"
+#include "frangia/frames/png.h"
 #include "frangia/fringe_order/resolve_regions.h"
 #include "frangia/phase/assess_frames.h"
 #include "frangia/phase/check_sequence.h"
@@ -33,6 +34,13 @@ enum class DirectionChoice {
   Horizontal  ///< horizontal fringes only
 };
 
+/// Which colors of the pixels are kept, see `view_color`.
+enum class FrameColors {
+  None,    ///< none
+  Linear,  ///< the frames are proportional to light, as those of machine cameras
+  Encoded  ///< the frames are coded for a screen, as photographs are
+};
+
 /// Options of the stages from frames to absolute phase.
 struct DecodeOptions {
   std::string algorithm = "auto";  ///< name, see `fit_algorithm`
@@ -53,14 +61,15 @@ struct DecodeOptions {
   DirectionChoice directions = DirectionChoice::Fused;  ///< of a scan that has both directions
   /// Triangulates frames that do not fit scan.toml.
   bool accept_inconsistent = false;
-  SequenceCheckOptions sequence_check;  ///< comparison of the patterns with each other
-  ScanSurvey survey;                    ///< noise and gain error pooled over several views
-  WrapOptions wrap;                     ///< limit of the phase noise
-  TemporalUnwrapOptions temporal;       ///< temporal unwrapping
-  SpatialUnwrapOptions spatial;         ///< spatial unwrapping, for scans without a sequence
-  LaserProfileOptions line;             ///< detection of the laser line
-  FringeOrderOptions fringe_order;      ///< fringe orders from the laser line
-  FillOptions fill;                     ///< interpolation of enclosed pixels
+  SequenceCheckOptions sequence_check;     ///< comparison of the patterns with each other
+  ScanSurvey survey;                       ///< noise and gain error pooled over several views
+  WrapOptions wrap;                        ///< limit of the phase noise
+  TemporalUnwrapOptions temporal;          ///< temporal unwrapping
+  SpatialUnwrapOptions spatial;            ///< spatial unwrapping, for scans without a sequence
+  LaserProfileOptions line;                ///< detection of the laser line
+  FringeOrderOptions fringe_order;         ///< fringe orders from the laser line
+  FillOptions fill;                        ///< interpolation of enclosed pixels
+  FrameColors colors = FrameColors::None;  ///< colors of the pixels that are kept
 };
 
 /// The phase of one view and the intermediate results.
@@ -79,6 +88,7 @@ struct DecodedView {
   /// Comparison of the patterns with each other: one per decoded direction, that of `phase` first.
   std::vector<SequenceCheck> checks;
   std::vector<UnresolvedRegion> unresolved;  ///< regions without a fringe order
+  Image<Rgb> color;                          ///< of each pixel; empty unless `colors` asks for it
 };
 
 /// Computes the absolute phase of one view from its frames.
@@ -97,7 +107,10 @@ struct DecodedView {
 ///           a rig without geometry
 /// @units    rad, counts
 /// @missing  NaN in a phase; `status` gives the reason
-/// @errors   Error(Input) when no pattern holds fringes, or none in the chosen direction
+/// A scan of Gray code alone is decoded to the columns of its stripes, see `decode_gray_alone`.
+///
+/// @errors   Error(Input) when no pattern holds fringes or a Gray code, or none in the chosen
+/// direction
 [[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
                                       const Rig& rig,
                                       const Image<Eigen::Vector2f>& rays,

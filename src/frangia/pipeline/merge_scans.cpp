@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/local_fit/make_surfel_maps.h"
 #include "frangia/pipeline/internal/assess_merge.h"
@@ -124,8 +125,9 @@ MergedScans merge_scans(const std::vector<RangeScan>& scans,
           all.views.rig_from_object(i).inverse() * cameras[i].rig_from_scan;
   }
   run.stage("surface");
-  out.mesh =
-      finish_mesh(fuse_views(all.views, all.model, options.fusion, run), options.finish, run);
+  Mesh fused = fuse_views(all.views, all.model, options.fusion, run);
+  color_vertices(fused, all.views, all.model, run);
+  out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   return out;
 }

@@ -10,6 +10,7 @@
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
+#include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/internal/calibration_part.h"
 #include "frangia/pipeline/internal/explain_no_points.h"
@@ -19,8 +20,8 @@
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
 #include "frangia/pipeline/internal/tie_cameras.h"
-#include "frangia/rig/rig_of_camera.h"
 #include "frangia/pipeline/refine_scan_rig.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -108,7 +109,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   out.cameras = camera_count(scan.rig);
 
   // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
-  MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
+  DecodeOptions decode = options.decode;
+  decode.colors = options.colors;
+  MeasuredViews measured = measure_views(scan, rays, decode, options.mixed_pixels, run);
   release_cached_pixels();
   out.views = measured.views.size();
   out.view_summaries = std::move(measured.summaries);
@@ -151,8 +154,10 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, rays);
   if (options.keep_raw)
     out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
-  out.mesh =
-      finish_mesh(fuse_views(views_of_cameras(all, scan.rig), fusion, run), options.finish, run);
+  const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
+  Mesh fused = fuse_views(cameras, fusion, run);
+  color_vertices(fused, cameras, run);
+  out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);

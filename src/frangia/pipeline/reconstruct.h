@@ -43,6 +43,7 @@ struct ReconstructOptions {
       std::numeric_limits<double>::infinity();  ///< removes points farther from the axis
   FusionOptions fusion;                         ///< fusion of the views
   FinishOptions finish;                         ///< hole filling and decimation
+  FrameColors colors = FrameColors::Linear;     ///< of the vertices
   bool keep_raw = false;                        ///< returns the registered points, too
 };
 

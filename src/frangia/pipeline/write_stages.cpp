@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/frames/float_tiff.h"
@@ -160,6 +161,18 @@ Image<float> combined_sigma(const AbsolutePhase& phase) {
   return out;
 }
 
+/// The coordinate of the projector that a Gray code alone gives.
+void write_coordinate(const AbsolutePhase& phase, StageWriter& out) {
+  const bool columns = phase.pattern.direction == FringeDirection::Vertical;
+  Image<float> coordinate = phase.phase_rad;
+  for (float& value : coordinate.pixels())
+    value *= static_cast<float>(phase.pattern.period_px / kTwoPi);
+  out.map(columns ? "columns" : "rows",
+          coordinate,
+          columns ? "column of the projector" : "row of the projector",
+          "px");
+}
+
 }  // namespace
 
 std::vector<StageFile> write_stages(const DecodedView& decoded,
@@ -171,8 +184,13 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
     write_wrapped(level, out);
   if (decoded.relative) write_relative(*decoded.relative, out);
   out.picture("mask", status_picture(decoded.phase.status), mask_caption(decoded.phase.status));
-  const auto fringes = fringe_orders(decoded.wrapped.back().phase_rad, decoded.phase.phase_rad);
-  out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
+  if (decoded.wrapped.empty()) {
+    write_coordinate(decoded.phase, out);
+    if (decoded.second_phase) write_coordinate(*decoded.second_phase, out);
+  } else {
+    const auto fringes = fringe_orders(decoded.wrapped.back().phase_rad, decoded.phase.phase_rad);
+    out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
+  }
   out.map("absolute", decoded.phase.phase_rad, "final phase", "rad");
   out.map("absolute-sigma",
           combined_sigma(decoded.phase),

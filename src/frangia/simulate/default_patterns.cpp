@@ -99,7 +99,8 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const Pattern
 std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) {
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns;
-  const bool gray = plan.sequence == "gray";
+  const bool alone = plan.sequence == "gray-alone";
+  const bool gray = alone || plan.sequence == "gray";
   require(
       !gray || pinhole != nullptr,
       "Gray code is for a digital projector, but the rig's projector is angular; choose another "
@@ -125,6 +126,7 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
         gray_code_for_fringes(patterns.front(),
                               pinhole->width_px,
                               plan.inverted ? InvertedFrames::After : InvertedFrames::None));
+  if (alone) patterns.erase(patterns.begin());
   return patterns;
 }
 
@@ -145,6 +147,8 @@ std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
       ramp.levels.push_back(static_cast<double>(i) / (plan.ramp - 1));
     patterns.push_back(ramp);
   }
+  if (plan.white) patterns.push_back({.name = "white", .kind = PatternKind::White});
+  if (plan.dark) patterns.push_back({.name = "ambient", .kind = PatternKind::Ambient});
   return patterns;
 }
 

@@ -13,13 +13,16 @@ struct PatternPlan {
   double fringes_per_degree = 1.0;  ///< angular projector: pitch of the finest pattern
   std::vector<double> periods_px;   ///< pinhole projector; empty: width, width / 8, width / 64
   /// Replaces the two above when not empty: a name known to `fringe_sequence`, or "gray" for the
-  /// finest fringes alone with a Gray code that gives their order.
+  /// finest fringes alone with a Gray code that gives their order, or "gray-alone" for this code
+  /// without the fringes.
   std::string sequence;
   double fringes = 64.0;             ///< over the field, of the sequence's finest pattern
   int shifts = 4;                    ///< frames per fringe pattern, evenly over 2 pi
   bool inverted = true;              ///< Gray code: shows each frame inverted as well
   std::vector<double> exposures_ms;  ///< of fringes and Gray code; empty: the camera's exposure
   int ramp = 0;                      ///< levels of an additional grey ramp; 0 for none
+  bool white = false;                ///< adds a frame of full light
+  bool dark = false;                 ///< adds a frame without the projector's light
 };
 
 /// Returns patterns from which a rig's phase is absolute.

@@ -33,6 +33,7 @@ struct SimulateOptions {
 
   // The surface.
   double texture = 0.0;           ///< 0: white; 1: smooth patches from white to black
+  double color = 0.0;             ///< 0: grey; below 1: strength of bands of changing hue
   std::optional<Board> board;     ///< printed on the part's plane z = 0, in black on white
   std::optional<Screen> screen;   ///< the part's plane z = 0 is a monitor that shows the patterns
   double gloss = 0.0;             ///< strength of the highlight, relative to the diffuse white

@@ -1,7 +1,9 @@
 #include "frangia/simulate/simulate_scan.h"
 
+#include <cmath>
 #include <map>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/srgb.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
@@ -17,6 +20,7 @@
 #include "frangia/rig/rig_of_camera.h"
 #include "frangia/simulate/internal/render_view.h"
 #include "frangia/simulate/internal/simulated_scene.h"
+#include "frangia/simulate/internal/surface_color.h"
 
 namespace frangia {
 namespace {
@@ -38,7 +42,34 @@ std::filesystem::path claim(const std::filesystem::path& folder) {
 struct FrameFile {
   std::filesystem::path path;
   const Frame* frame;
+  const FrameStack* stack;
 };
+
+/// The color of a stack in the depth of its frames.
+RasterImage raster_of(const FrameStack& stack) {
+  return std::visit(
+      [&](const auto& grey) {
+        using Sample = std::remove_cvref_t<decltype(grey.pixels()[0])>;
+        Image<Sample> samples(3 * grey.width(), grey.height(), Uninitialized{});
+        for (std::size_t i = 0; i < samples.pixels().size(); ++i) {
+          const float light = stack.color.pixels()[i / 3][static_cast<Eigen::Index>(i % 3)];
+          samples.pixels()[i] =
+              static_cast<Sample>(std::lround(light * static_cast<float>(stack.white_level)));
+        }
+        return RasterImage{std::move(samples), 3};
+      },
+      stack.frames.front());
+}
+
+/// The part with the colors of its surface, as a screen shows them.
+Mesh colored(Mesh part, double strength) {
+  for (const Eigen::Vector3f& vertex : part.vertices_mm) {
+    const Eigen::Vector3d color = surface_color(vertex.cast<double>(), strength);
+    part.colors.push_back(
+        {srgb_from_linear(color[0]), srgb_from_linear(color[1]), srgb_from_linear(color[2])});
+  }
+  return part;
+}
 
 /// Encoding a PNG takes longer than rendering it, so all frames of a view are encoded in parallel.
 void write_frames(const std::filesystem::path& folder, const std::vector<FrameStack>& stacks) {
@@ -46,11 +77,17 @@ void write_frames(const std::filesystem::path& folder, const std::vector<FrameSt
   for (const FrameStack& stack : stacks) {
     for (std::size_t i = 0; i < stack.frames.size(); ++i) {
       files.push_back({folder / frame_file_name(stack.pattern, static_cast<int>(i), stack.exposure),
-                       &stack.frames[i]});
+                       &stack.frames[i],
+                       &stack});
     }
   }
   parallel_chunks(files.size(), 1, [&](std::size_t begin, std::size_t) {
-    write_png(files[begin].path, *files[begin].frame);
+    const FrameFile& file = files[begin];
+    if (file.stack->color.empty()) {
+      write_png(file.path, *file.frame);
+    } else {
+      write_png(file.path, raster_of(*file.stack));
+    }
   });
 }
 
@@ -140,7 +177,7 @@ Scan simulate_scan(const Mesh& part,
   const std::filesystem::path mark = claim(plan.folder);
   for (const SimulatedSetup& setup : setups)
     render_setup(setup, plan, run);
-  write_ply(plan.folder / "truth.ply", part);
+  write_ply(plan.folder / "truth.ply", options.color > 0.0 ? colored(part, options.color) : part);
   if (!plan.part_poses.empty()) {
     write_part_poses(plan.folder / "truth-setups.toml", plan.part_poses);
   }

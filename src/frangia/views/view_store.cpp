@@ -81,34 +81,33 @@ std::size_t pixels_in(const PixelBox& box) {
 }
 
 /// Writes the pixels of a box, row by row; `buffer` lends its memory.
-void write_box(const Image<float>& image,
-               const PixelBox& box,
-               std::vector<float>& buffer,
-               Cursor& cursor) {
+template <typename T>
+void write_box(const Image<T>& image, const PixelBox& box, std::vector<T>& buffer, Cursor& cursor) {
   if (image.empty() || box.empty()) return;
   buffer.resize(pixels_in(box));
-  float* to = buffer.data();
+  T* to = buffer.data();
   for (int y = box.top; y < box.bottom; ++y)
     to = std::copy_n(&image(box.left, y), box.width(), to);
   cursor.write(std::as_bytes(std::span(buffer)));
 }
 
-/// Reads an image of which the file holds the pixels of a box.
-Image<float> read_box(
-    int width, int height, const PixelBox& box, std::vector<float>& buffer, Cursor& cursor) {
-  if (box.empty()) return {width, height, kMissing};
-  Image<float> image(width, height, Uninitialized{});
+/// Reads an image of which the file holds the pixels of a box; the others become `missing`.
+template <typename T>
+Image<T> read_box(
+    int width, int height, const PixelBox& box, T missing, std::vector<T>& buffer, Cursor& cursor) {
+  if (box.empty()) return {width, height, missing};
+  Image<T> image(width, height, Uninitialized{});
   buffer.resize(pixels_in(box));
   cursor.read(std::as_writable_bytes(std::span(buffer)));
-  float* to = image.pixels().data();
-  const float* from = buffer.data();
+  T* to = image.pixels().data();
+  const T* from = buffer.data();
   for (int y = 0; y < height; ++y) {
     const bool within = y >= box.top && y < box.bottom;
-    to = std::fill_n(to, within ? box.left : width, kMissing);
+    to = std::fill_n(to, within ? box.left : width, missing);
     if (!within) continue;
     to = std::copy_n(from, box.width(), to);
     from += box.width();
-    to = std::fill_n(to, width - box.right, kMissing);
+    to = std::fill_n(to, width - box.right, missing);
   }
   return image;
 }
@@ -136,14 +135,17 @@ void ViewStore::write(const View& view, Entry& entry) {
   const RangeGrid& range = view.range;
   require(same_size(range.depth_mm, range.sigma_mm) &&
               (range.phase_rad.empty() || same_size(range.depth_mm, range.phase_rad)) &&
-              (range.systematic_mm.empty() || same_size(range.depth_mm, range.systematic_mm)),
+              (range.systematic_mm.empty() || same_size(range.depth_mm, range.systematic_mm)) &&
+              (view.color.empty() || same_size(range.depth_mm, view.color)),
           "ViewStore: the images of the range grid differ in size");
   entry.box = measured_box(range.depth_mm);
   entry.edge_pixels = view.edge_pixels.size();
   const std::size_t images =
       2U + (range.phase_rad.empty() ? 0U : 1U) + (range.systematic_mm.empty() ? 0U : 1U);
-  const auto bytes = static_cast<std::int64_t>(images * sizeof(float) * pixels_in(entry.box) +
-                                               std::span(view.edge_pixels).size_bytes());
+  const std::size_t color_bytes = view.color.empty() ? 0U : sizeof(PixelColor);
+  const auto bytes =
+      static_cast<std::int64_t>((images * sizeof(float) + color_bytes) * pixels_in(entry.box) +
+                                std::span(view.edge_pixels).size_bytes());
   if (bytes > entry.reserved) {
     entry.offset = end_;
     entry.reserved = bytes;
@@ -155,6 +157,8 @@ void ViewStore::write(const View& view, Entry& entry) {
        {&range.depth_mm, &range.sigma_mm, &range.phase_rad, &range.systematic_mm})
     write_box(*image, entry.box, buffer, cursor);
   cursor.write(std::as_bytes(std::span(view.edge_pixels)));
+  std::vector<PixelColor> colors;
+  write_box(view.color, entry.box, colors, cursor);
 }
 
 void ViewStore::add(const View& view) {
@@ -165,6 +169,7 @@ void ViewStore::add(const View& view) {
   entry.height = depth.height();
   entry.has_phase = !view.range.phase_rad.empty();
   entry.has_systematic = !view.range.systematic_mm.empty();
+  entry.has_color = !view.color.empty();
   write(view, entry);
   entries_.push_back(entry);
 }
@@ -179,6 +184,8 @@ void ViewStore::replace(std::size_t index, const View& view) {
   require(
       !view.range.systematic_mm.empty() == entry.has_systematic,
       "ViewStore::replace: the grid must have a systematic part exactly when it had one before");
+  require(!view.color.empty() == entry.has_color,
+          "ViewStore::replace: the view must have colors exactly when it had them before");
   require(view.edge_pixels.size() <= entry.edge_pixels,
           "ViewStore::replace: the view has more edge pixels than before");
   write(view, entry);
@@ -196,7 +203,17 @@ View ViewStore::load(std::size_t index) const {
 }
 
 View ViewStore::load_points(std::size_t index, PointSigma sigma) const {
-  return read(index, {.phase = false, .systematic = sigma == PointSigma::BothParts});
+  return read(index,
+              {.phase = false, .systematic = sigma == PointSigma::BothParts, .color = false});
+}
+
+View ViewStore::load_colored_points(std::size_t index) const {
+  return read(index, {.phase = false, .systematic = false});
+}
+
+bool ViewStore::has_color() const {
+  return std::any_of(
+      entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.has_color; });
 }
 
 bool ViewStore::has_systematic() const {
@@ -216,7 +233,7 @@ Image<float> ViewStore::load_depth_mm(std::size_t index) const {
   const Entry& entry = entries_.at(index);
   Cursor cursor(file_, entry.offset);
   std::vector<float> buffer;
-  return read_box(entry.width, entry.height, entry.box, buffer, cursor);
+  return read_box(entry.width, entry.height, entry.box, kMissing, buffer, cursor);
 }
 
 View ViewStore::read(std::size_t index, const OptionalImages& wanted) const {
@@ -227,7 +244,7 @@ View ViewStore::read(std::size_t index, const OptionalImages& wanted) const {
   Cursor cursor(file_, entry.offset);
   std::vector<float> buffer;
   const auto next_image = [&] {
-    return read_box(entry.width, entry.height, entry.box, buffer, cursor);
+    return read_box(entry.width, entry.height, entry.box, kMissing, buffer, cursor);
   };
   view.range.depth_mm = next_image();
   view.range.sigma_mm = next_image();
@@ -241,6 +258,10 @@ View ViewStore::read(std::size_t index, const OptionalImages& wanted) const {
   next_optional(entry.has_phase, wanted.phase, view.range.phase_rad);
   next_optional(entry.has_systematic, wanted.systematic, view.range.systematic_mm);
   cursor.read(std::as_writable_bytes(std::span(view.edge_pixels)));
+  if (entry.has_color && wanted.color) {
+    std::vector<PixelColor> colors;
+    view.color = read_box(entry.width, entry.height, entry.box, PixelColor{}, colors, cursor);
+  }
   return view;
 }
 

@@ -42,8 +42,8 @@ class ViewStore {
   void add(const View& view);                                         ///< appends a view
   /// Replaces view `index`.
   ///
-  /// @errors   Error(Input) unless the grid keeps its size and has a phase image and a systematic
-  ///           part when it had them before, and the number of edge pixels does not grow
+  /// @errors   Error(Input) unless the grid keeps its size and has a phase image, a systematic part
+  ///           and colors when it had them before, and the number of edge pixels does not grow
   void replace(std::size_t index, const View& view);
   /// Removes all points of view `index`; the view itself remains.
   void clear(std::size_t index);
@@ -51,6 +51,10 @@ class ViewStore {
   /// Loads a view without its phase image, for stages that use points only, and without the
   /// systematic part of their uncertainty unless that is asked for.
   [[nodiscard]] View load_points(std::size_t index, PointSigma sigma = PointSigma::Noise) const;
+  /// Loads a view as `load_points` does, with the colors of its pixels.
+  [[nodiscard]] View load_colored_points(std::size_t index) const;
+  /// Whether the colors of any view are known.
+  [[nodiscard]] bool has_color() const;
   /// Whether a systematic part of the uncertainty is known of the points of any view.
   [[nodiscard]] bool has_systematic() const;
   /// Loads the depth image alone.
@@ -74,6 +78,7 @@ class ViewStore {
     int height = 0;
     bool has_phase = false;
     bool has_systematic = false;
+    bool has_color = false;
     std::size_t edge_pixels = 0;  ///< pixels
     std::int64_t offset = 0;
     std::int64_t reserved = 0;  ///< bytes of the file from `offset` on
@@ -82,6 +87,7 @@ class ViewStore {
   struct OptionalImages {
     bool phase = true;
     bool systematic = true;
+    bool color = true;
   };
   [[nodiscard]] View read(std::size_t index, const OptionalImages& wanted) const;
   /// Writes a view to the place of its entry, or to the end of the file if the place is too small.

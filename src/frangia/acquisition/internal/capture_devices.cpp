@@ -83,6 +83,10 @@ void CaptureDevices::begin_set(const Pattern& pattern, double scale) {
 }
 
 void CaptureDevices::show(const Pattern& pattern, int frame) {
+  if (shift_ && pattern.kind == PatternKind::Ambient) {
+    switch_to(Light::None);
+    return;
+  }
   switch_to(pattern.kind == PatternKind::Line ? Light::Line : Light::Fringes);
   if (pattern.kind == PatternKind::Line) return;
   if (shift_) {

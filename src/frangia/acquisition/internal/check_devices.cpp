@@ -29,6 +29,7 @@ void check_on_shifter(const Pattern& pattern, const PhaseShifter& shifter) {
                        "digital projector",
                        shifter.name()));
   }
+  if (pattern.kind == PatternKind::Ambient) return;  // its light is switched off
   const ShifterInfo& info = shifter.info();
   if (!(pattern.fringes_per_degree > 0.0))
     refuse(pattern, fmt::format("has no fringes_per_degree, which {} needs", shifter.name()));

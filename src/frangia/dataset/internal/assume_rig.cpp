@@ -70,7 +70,12 @@ void choose_projector_model(TomlReader& scan_toml, Projector& projector) {
 }
 
 void take_camera_from_frames(Scan& scan, const Run& run) {
-  const Pattern& pattern = scan.patterns.front();
+  // White and ambient frames may be in colour.
+  const auto grey =
+      std::find_if(scan.patterns.begin(), scan.patterns.end(), [](const Pattern& pattern) {
+        return pattern.kind != PatternKind::White && pattern.kind != PatternKind::Ambient;
+      });
+  const Pattern& pattern = grey == scan.patterns.end() ? scan.patterns.front() : *grey;
   const std::filesystem::path path =
       scan.folder / scan.views.front().folder / frame_file_name(pattern, 0);
   const Frame frame = read_png(path);

@@ -8,6 +8,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
+#include "frangia/dataset/internal/import_patterns.h"
 
 namespace frangia {
 namespace {
@@ -123,17 +124,27 @@ void check_images(std::vector<NamedFile>& files, ImportPlan& plan, const Run& ru
   });
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
-  plan.image = infos.front();
+  const auto has_fringes = [&](std::size_t i) {
+    return !is_light_alone(files[i].fields.pattern, plan.patterns);
+  };
+  std::size_t first = 0;
+  while (first + 1 < files.size() && !has_fringes(first))
+    ++first;
+  plan.image = infos[first];
   for (std::size_t i = 0; i < files.size(); ++i) {
     files[i].pages = infos[i].pages;
     const ImageInfo& image = infos[i];
+    // A white or ambient frame may be in colour beside grey frames.
+    const bool same_kind =
+        (image.bits == plan.image.bits && image.channels == plan.image.channels) ||
+        (!has_fringes(i) && image.channels == 3 && image.bits <= 16);
     if (image.width_px != plan.image.width_px || image.height_px != plan.image.height_px ||
-        image.bits != plan.image.bits || image.channels != plan.image.channels) {
+        !same_kind) {
       refuse_import(
           fmt::format("{} has {}, but {} has {}; frames of a scan have one size and depth",
                       files[i].path.string(),
                       kind_of(image),
-                      files.front().path.string(),
+                      files[first].path.string(),
                       kind_of(plan.image)));
     }
     if (image.jpeg_quality) {
@@ -142,9 +153,9 @@ void check_images(std::vector<NamedFile>& files, ImportPlan& plan, const Run& ru
     }
   }
   if (plan.image.channels == 3 && plan.options.color.from == GreyFrom::Nothing &&
-      has_color(ImageFile(files.front().path, plan.options.files).read())) {
+      has_color(ImageFile(files[first].path, plan.options.files).read())) {
     refuse_import(fmt::format("{}: is a colour image; set `color` to red, green, blue or luminance",
-                              files.front().path.string()));
+                              files[first].path.string()));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "frangia/dataset/internal/import_patterns.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <variant>
 
@@ -75,7 +76,32 @@ double period_of(const std::vector<PatternValue>& values,
   return values[at++].value;
 }
 
+/// Whether a pattern of one frame is white or ambient by its name; sets the kind.
+bool has_name_of_kind(std::string name, PatternKind& kind) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  if (name == "white" || name == "texture" || name == "color" || name == "colour") {
+    kind = PatternKind::White;
+    return true;
+  }
+  if (name == "ambient" || name == "black" || name == "dark") {
+    kind = PatternKind::Ambient;
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+bool is_light_alone(const std::string& pattern, const std::vector<Pattern>& described) {
+  PatternKind kind = PatternKind::Fringe;
+  const auto found = std::find_if(described.begin(), described.end(), [&](const Pattern& known) {
+    return known.name == pattern;
+  });
+  if (found == described.end()) return described.empty() && has_name_of_kind(pattern, kind);
+  return found->kind == PatternKind::White || found->kind == PatternKind::Ambient;
+}
 
 std::vector<Pattern> read_patterns_file(const std::filesystem::path& path,
                                         const Rig& rig,
@@ -139,6 +165,11 @@ std::vector<Pattern> patterns_from_options(const ImportOptions& options,
   std::size_t at = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     Pattern pattern;
+    if (!names.empty() && frames[i] == 1 && has_name_of_kind(names[i], pattern.kind)) {
+      pattern.name = names[i];
+      patterns.push_back(std::move(pattern));
+      continue;
+    }
     const PatternValue* const own = names.empty() ? &values[i] : nullptr;
     pattern.name = own == nullptr         ? names[i]
                    : own->pattern.empty() ? fmt::format("fringes-{}", i + 1)

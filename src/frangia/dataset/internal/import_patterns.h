@@ -16,8 +16,14 @@ namespace frangia {
                                                       const Rig& rig,
                                                       const Run& run);
 
-/// The fringe patterns that the options describe, for patterns with these names and numbers of
-/// frames. An empty list of names stands for one pattern per value, which share the frames evenly.
+/// Whether a pattern is a white or ambient frame: as described, or without descriptions by its name
+/// (white, texture, color; ambient, black, dark).
+[[nodiscard]] bool is_light_alone(const std::string& pattern,
+                                  const std::vector<Pattern>& described);
+
+/// The fringe patterns that the options describe, and white and ambient ones of one frame by their
+/// names, for patterns with these names and numbers of frames. An empty list of names stands for
+/// one pattern per value, which share the frames evenly.
 ///
 /// @errors   Error(Input) that names the option
 [[nodiscard]] std::vector<Pattern> patterns_from_options(const ImportOptions& options,

@@ -165,10 +165,13 @@ Pattern read_pattern(TomlReader reader, const Rig& rig, const Run& run) {
     read_ramp(reader, pattern);
   } else if (kind == "white") {
     pattern.kind = PatternKind::White;
+  } else if (kind == "ambient") {
+    pattern.kind = PatternKind::Ambient;
   } else {
-    reader.fail(
-        "kind",
-        fmt::format(R"(is "{}"; it must be "fringe", "line", "gray", "ramp" or "white")", kind));
+    reader.fail("kind",
+                fmt::format(R"(is "{}"; it must be "fringe", "line", "gray", "ramp", "white" or )"
+                            R"("ambient")",
+                            kind));
   }
   read_exposures(reader, pattern);
   reader.warn_of_unused_keys(run);

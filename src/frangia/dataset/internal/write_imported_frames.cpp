@@ -60,23 +60,33 @@ WrittenFrame write_frame(const ImportPlan& plan,
     throw Error(ErrorKind::Input,
                 fmt::format("{}: changed during the import; import again", frame.file.string()));
   }
+  const Pattern& pattern = plan.patterns[frame.pattern];
+  fs::path name =
+      fs::path(view_folder(frame.view)) / frame_file_name(pattern, static_cast<int>(frame.frame));
+  WrittenFrame written{.file = name.generic_string(),
+                       .codec = info.codec,
+                       .bytes = file.bytes(),
+                       .crc32 = file.crc32(),
+                       .jpeg_quality = info.jpeg_quality,
+                       .stated_white = info.white_level};
+  RasterImage image = file.read(frame.page);
+  if (pattern.kind == PatternKind::White || pattern.kind == PatternKind::Ambient) {
+    if (const auto color = color_image(image, plan.options.color)) {
+      written.is_color = true;
+      write_png(folder / name, *color);
+      return written;
+    }
+  }
   Samples samples;
   try {
-    samples = grey_image(file.read(frame.page), plan.options.color);
+    samples = grey_image(std::move(image), plan.options.color);
   } catch (const Error& error) {
     const std::string what = error.what();
     const bool named = what.find(frame.file.string()) != std::string::npos;
     if (named || error.kind() != ErrorKind::Input) throw;
     throw Error(error.kind(), fmt::format("{}: {}", frame.file.string(), what));
   }
-  WrittenFrame written{.codec = info.codec,
-                       .bytes = file.bytes(),
-                       .crc32 = file.crc32(),
-                       .jpeg_quality = info.jpeg_quality,
-                       .stated_white = info.white_level};
   note_range(samples, written);
-  fs::path name = fs::path(view_folder(frame.view)) /
-                  frame_file_name(plan.patterns[frame.pattern], static_cast<int>(frame.frame));
   if (auto* const values = std::get_if<Image<float>>(&samples)) {
     name.replace_extension(".tiff");
     write_float_tiff(folder / name, *values);

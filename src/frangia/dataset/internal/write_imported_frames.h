@@ -19,6 +19,7 @@ struct WrittenFrame {
   std::size_t bytes = 0;
   std::uint32_t crc32 = 0;
   std::optional<int> jpeg_quality{};
+  bool is_color = false;        ///< a white or ambient frame in colour
   int bits = 8;                 ///< of the frame in the scan; 32: floating point
   int stated_white = 0;         ///< full scale that the original states
   int largest = 0;              ///< of whole numbers

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <linux/videodev2.h>
 
+#include "frangia/frames/decode_mjpeg.h"
+
 namespace frangia {
 namespace {
 
@@ -59,7 +61,10 @@ class V4l2Camera final : public CameraDevice {
                        reinterpret_cast<const char*>(capability.card),  // NOLINT
                        info_.width_px,
                        info_.height_px,
-                       format_ == V4L2_PIX_FMT_GREY ? "grey" : "YUYV");
+                       format_ == V4L2_PIX_FMT_GREY ? "grey"
+                       : format_ == V4L2_PIX_FMT_YUYV
+                           ? "YUYV"
+                           : fmt::format("JPEG of quality {}", info_.jpeg_quality.value_or(0)));
   }
   void make_safe() noexcept override { stop(); }
 
@@ -164,10 +169,28 @@ class V4l2Camera final : public CameraDevice {
     info_.min_exposure_ms = kExposureUnit_ms * range.minimum;
     info_.max_exposure_ms = kExposureUnit_ms * range.maximum;
     map_buffers();
+    if (is_compressed()) read_quality();
+  }
+
+  [[nodiscard]] bool is_compressed() const {
+    return format_ == V4L2_PIX_FMT_MJPEG || format_ == V4L2_PIX_FMT_JPEG;
+  }
+
+  /// Reads the quality of the compression from the first frame that arrives, rounded down: webcams
+  /// vary it a little.
+  void read_quality() {
+    constexpr double kTimeout_s = 5.0;
+    constexpr int kStep = 5;
+    const CapturedFrame first = capture({}, Deadline::in(kTimeout_s));
+    if (!first.complete)
+      fail(fmt::format("its first frame is damaged: {}", first.incomplete_cause));
+    info_.jpeg_quality = std::max(1, quality_ / kStep * kStep);
   }
 
   void choose_format() {
-    for (const unsigned format : {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV}) {
+    // Compression costs accuracy: it is the last choice.
+    for (const unsigned format :
+         {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_JPEG}) {
       auto wanted = zeroed<v4l2_format>();
       wanted.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
       wanted.fmt.pix.width = static_cast<unsigned>(settings_.width_px);
@@ -185,8 +208,8 @@ class V4l2Camera final : public CameraDevice {
       return;
     }
     fail(
-        "delivers only compressed images, whose artefacts corrupt the phase, not grey or YUYV; "
-        "use another camera or a smaller size");
+        "delivers neither grey, YUYV nor Motion JPEG images of this size; use another camera or a "
+        "smaller size");
   }
 
   void map_buffers() {
@@ -233,6 +256,10 @@ class V4l2Camera final : public CameraDevice {
     captured.settings.exposure_ms = exposure_ms_;
     captured.id = buffer.sequence;
     captured.timestamp_s = stamp_s;
+    if (is_compressed()) {
+      decompress(buffer, captured);
+      return captured;
+    }
     const std::size_t wanted =
         static_cast<std::size_t>(row_bytes_) * static_cast<std::size_t>(info_.height_px);
     if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytesused < wanted) {
@@ -254,6 +281,31 @@ class V4l2Camera final : public CameraDevice {
     return captured;
   }
 
+  void decompress(const v4l2_buffer& buffer, CapturedFrame& captured) {
+    const MappedBuffer& mapped = mapped_.at(buffer.index);
+    const auto* const bytes = static_cast<const std::uint8_t*>(mapped.memory);
+    captured.complete = false;
+    if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytesused > mapped.length) {
+      captured.incomplete_cause = fmt::format("{} bytes arrived damaged", buffer.bytesused);
+      return;
+    }
+    try {
+      MjpegFrame frame = decode_mjpeg({bytes, buffer.bytesused}, info_.width_px, info_.height_px);
+      quality_ = frame.quality;
+      captured.frame = std::move(frame.brightness);
+    } catch (const Error& error) {
+      captured.incomplete_cause = error.what();
+      return;
+    }
+    constexpr int kTolerance = 5;
+    captured.complete = quality_ + kTolerance >= info_.jpeg_quality.value_or(0);
+    if (captured.complete) return;
+    captured.incomplete_cause =
+        fmt::format("its JPEG quality fell from {} to {}; use a smaller size",
+                    info_.jpeg_quality.value_or(0),
+                    quality_);
+  }
+
   std::shared_ptr<V4l2System> system_;
   V4l2Settings settings_;
   std::string name_;
@@ -261,6 +313,7 @@ class V4l2Camera final : public CameraDevice {
   int file_;
   unsigned format_ = 0;
   unsigned row_bytes_ = 0;
+  int quality_ = 0;  ///< of the last compressed frame
   double exposure_ms_ = 10.0;
   bool streaming_ = false;
   std::vector<MappedBuffer> mapped_;

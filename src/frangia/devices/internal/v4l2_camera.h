@@ -17,7 +17,9 @@ struct V4l2Settings {
   int skip_frames = 1;  ///< frames in the pipeline of the camera at a request
 };
 
-/// Opens a webcam with Video4Linux2 in a grey or YUYV format, of which the luminance is used.
+/// Opens a webcam with Video4Linux2 in a grey or YUYV format, or else in Motion JPEG; the luminance
+/// is used. The quality of the compression is read from a frame when it is opened; a later frame of
+/// much lower quality counts as incomplete.
 /// Webcams have no trigger: frames exposed before the request are discarded by their time stamps.
 ///
 /// @errors   Error(Device) when the camera does not exist, is in use, or does not support the size

@@ -47,6 +47,7 @@ void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   check_count(mesh.sigma_noise_mm.size(), "values of sigma_noise_mm");
   check_count(mesh.sigma_systematic_mm.size(), "values of sigma_systematic_mm");
   check_count(mesh.views.size(), "counts of views");
+  check_count(mesh.colors.size(), "colors");
   check_count(mesh.vertex_marks.size(), "marks");
   if (!mesh.triangle_marks.empty() && mesh.triangle_marks.size() != mesh.triangles.size()) {
     refuse(path,

@@ -39,6 +39,10 @@ struct GltfDocument {
   /// @errors   Error(Input) that names the file
   [[noreturn]] void fail(const std::string& why) const;
 
+  /// The number of components of an element of an accessor: 1, 3 or 4; 0 for another shape.
+  ///
+  /// @errors   Error(Input) for an accessor that does not exist
+  [[nodiscard]] std::size_t width_of(std::uint64_t accessor) const;
   /// Where the numbers of an accessor with `width` components per element are.
   ///
   /// @errors   Error(Input) for an accessor that does not exist, has another width, is sparse, or

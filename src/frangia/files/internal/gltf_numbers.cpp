@@ -69,6 +69,11 @@ double full_scale(std::uint64_t type) {
 
 }  // namespace
 
+std::size_t GltfDocument::width_of(std::uint64_t accessor) const {
+  const std::string shape = item("accessors", accessor).at("type").get<std::string>();
+  return shape == "SCALAR" ? 1 : shape == "VEC3" ? 3 : shape == "VEC4" ? 4 : 0;
+}
+
 GltfNumbers GltfDocument::locate(std::uint64_t accessor, std::size_t width) const {
   const nlohmann::json& a = item("accessors", accessor);
   if (a.contains("sparse") || !a.contains("bufferView")) {
@@ -77,8 +82,7 @@ GltfNumbers GltfDocument::locate(std::uint64_t accessor, std::size_t width) cons
   const std::uint64_t type = whole(a.at("componentType"));
   const std::size_t size = bytes_of_component(type);
   const std::uint64_t count = whole(a.at("count"));
-  const std::string shape = a.at("type").get<std::string>();
-  const std::size_t has = shape == "SCALAR" ? 1 : shape == "VEC3" ? 3 : 0;
+  const std::size_t has = width_of(accessor);
   if (size == 0 || has != width)
     fail(fmt::format("accessor {} has the wrong type; export it again", accessor));
   const nlohmann::json& view = item("bufferViews", whole(a.at("bufferView")));

@@ -9,6 +9,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/memory_budget.h"
+#include "frangia/core/srgb.h"
 #include "frangia/files/internal/append_transformed.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
@@ -178,6 +179,16 @@ class GltfReader {
     }
     for (const double views : read("_VIEWS", 1))
       part.views.push_back(static_cast<std::uint16_t>(views > 0 ? std::min(views, 65'535.0) : 0.0));
+    if (attributes.contains("COLOR_0")) {
+      const std::size_t width = document_.width_of(document_.whole(attributes.at("COLOR_0")));
+      if (width < 3) document_.fail("its COLOR_0 is neither VEC3 nor VEC4; export it again");
+      const std::vector<double> colors = read("COLOR_0", width);
+      for (std::size_t i = 0; i < colors.size(); i += width) {
+        part.colors.push_back({srgb_from_linear(colors[i]),
+                               srgb_from_linear(colors[i + 1]),
+                               srgb_from_linear(colors[i + 2])});
+      }
+    }
     for (const double mark : read("_MARK", 1)) {
       part.vertex_marks.push_back(mark == 1.0   ? Mark::Displaced
                                   : mark == 2.0 ? Mark::Synthesized

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/files/internal/add_polygon.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
 #include "frangia/files/internal/read_bytes.h"
@@ -57,6 +59,7 @@ class ObjReader {
       const std::string_view keyword = reader_.word_on_line();
       if (keyword == "v") {
         mesh_.vertices_mm.push_back(read_vector(reader_));
+        read_color();
       } else if (keyword == "vn") {
         mesh_.normals.push_back(read_vector(reader_));
       } else if (keyword == "f") {
@@ -68,10 +71,22 @@ class ObjReader {
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {
       mesh_.normals.clear();
     }
+    if (mesh_.colors.size() != mesh_.vertices_mm.size()) mesh_.colors.clear();
     return std::move(mesh_);
   }
 
  private:
+  /// Three further numbers of a vertex are its color; a single one is a weight.
+  void read_color() {
+    std::array<float, 3> channels{};
+    for (float& channel : channels) {
+      const std::optional<float> number = parse_float(reader_.word_on_line());
+      if (!number) return;
+      channel = *number;
+    }
+    mesh_.colors.push_back(color_of(channels[0], channels[1], channels[2]));
+  }
+
   void read_face() {
     corners_.clear();
     for (auto word = reader_.word_on_line(); !word.empty(); word = reader_.word_on_line()) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -19,15 +20,17 @@
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 9> kKept{"x",
-                                                "y",
-                                                "z",
-                                                "normal_x",
-                                                "normal_y",
-                                                "normal_z",
-                                                "sigma_mm",
-                                                "sigma_noise_mm",
-                                                "sigma_systematic_mm"};
+constexpr std::array<std::string_view, 10> kKept{"x",
+                                                 "y",
+                                                 "z",
+                                                 "normal_x",
+                                                 "normal_y",
+                                                 "normal_z",
+                                                 "sigma_mm",
+                                                 "sigma_noise_mm",
+                                                 "sigma_systematic_mm",
+                                                 "rgb"};
+constexpr std::size_t kRgb = 9;
 constexpr std::uint64_t kMaxFieldCount = 65'536;
 
 struct Field {
@@ -58,6 +61,8 @@ class PcdReader {
     has_sigma_ = slot_of("sigma_mm") != kNone;
     has_parts_ =
         has_sigma_ && slot_of("sigma_noise_mm") != kNone && slot_of("sigma_systematic_mm") != kNone;
+    const std::size_t rgb = slot_of("rgb");
+    has_colors_ = rgb != kNone && header_.fields[rgb].bytes == 4;
     Mesh mesh;
     if (header_.data == "ascii") {
       read_points(mesh, left_out, [&](const Field& field) { return ascii(field); });
@@ -173,11 +178,14 @@ class PcdReader {
     }
     mesh.vertices_mm.reserve(header_.points);
     std::array<float, kKept.size()> kept{};
+    std::uint32_t packed = 0;
     for (std::uint64_t i = 0; i < header_.points; ++i) {
       for (std::size_t f = 0; f < slots.size(); ++f) {
         for (std::uint64_t k = 0; k < header_.fields[f].count; ++k) {
           const float value = next(header_.fields[f]);
-          if (k == 0 && slots[f] < kept.size()) kept.at(slots[f]) = value;
+          if (k > 0 || slots[f] >= kept.size()) continue;
+          kept.at(slots[f]) = value;
+          if (slots[f] == kRgb) packed = packed_color(header_.fields[f], value);
         }
       }
       const Eigen::Vector3f point(kept[0], kept[1], kept[2]);
@@ -190,11 +198,23 @@ class PcdReader {
       if (has_normals_) {
         mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
       }
+      if (has_colors_) {
+        mesh.colors.push_back({static_cast<std::uint8_t>(packed >> 16U),
+                               static_cast<std::uint8_t>(packed >> 8U),
+                               static_cast<std::uint8_t>(packed)});
+      }
       if (has_sigma_) mesh.sigma_mm.push_back(kept[6]);
       if (!has_parts_) continue;
       mesh.sigma_noise_mm.push_back(kept[7]);
       mesh.sigma_systematic_mm.push_back(kept[8]);
     }
+  }
+
+  /// Red, green and blue in the low bytes. As a float (PCL's habit) they are its bits.
+  static std::uint32_t packed_color(const Field& field, float value) {
+    if (field.type == 'F') return std::bit_cast<std::uint32_t>(value);
+    constexpr float kMost = 16'777'215.0F;  // 24 bits, which a float holds exactly
+    return static_cast<std::uint32_t>(std::clamp(value, 0.0F, kMost));
   }
 
   float ascii(const Field& field) {
@@ -213,8 +233,11 @@ class PcdReader {
   float binary(const Field& field, std::string_view& body) {
     if (body.size() < field.bytes) reader_.fail("the file is truncated");
     if (field.type == 'F') return field.bytes == 4 ? take<float>(body) : take<double>(body);
-    body.remove_prefix(field.bytes);  // no integer field is read
-    return 0.0F;
+    std::uint32_t number = 0;  // a color is the only integer that is read
+    if (field.bytes == sizeof number) std::memcpy(&number, body.data(), sizeof number);
+    body.remove_prefix(field.bytes);
+    constexpr std::uint32_t kColor = 0xFFFFFF;  // without alpha
+    return static_cast<float>(number & kColor);
   }
 
   std::string_view text_;
@@ -223,6 +246,7 @@ class PcdReader {
   bool has_normals_ = false;
   bool has_sigma_ = false;
   bool has_parts_ = false;
+  bool has_colors_ = false;
 };
 
 }  // namespace

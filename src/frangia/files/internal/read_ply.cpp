@@ -9,6 +9,7 @@
 
 #include "frangia/files/internal/add_polygon.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/ply_source.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/ply.h"
@@ -16,7 +17,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 11> kKeptOfVertices{"x",
+constexpr std::array<std::string_view, 14> kKeptOfVertices{"x",
                                                            "y",
                                                            "z",
                                                            "nx",
@@ -26,19 +27,39 @@ constexpr std::array<std::string_view, 11> kKeptOfVertices{"x",
                                                            "views",
                                                            "mark",
                                                            "sigma_noise_mm",
-                                                           "sigma_systematic_mm"};
+                                                           "sigma_systematic_mm",
+                                                           "red",
+                                                           "green",
+                                                           "blue"};
 constexpr std::size_t kViews = 7;
 constexpr std::size_t kMark = 8;
 constexpr std::size_t kNoise = 9;
 constexpr std::size_t kSystematic = 10;
+constexpr std::size_t kRed = 11;
+
+/// The value of a color's channel in a file's type that stands for full light.
+float full_light(PlyType type) {
+  switch (type) {
+    case PlyType::Uint16:
+      return 65'535.0F;
+    case PlyType::Float32:
+    case PlyType::Float64:
+      return 1.0F;
+    default:
+      return 255.0F;
+  }
+}
 
 /// For each property of a vertex its index in kKeptOfVertices; for a skipped property the size of
 /// kKeptOfVertices.
 std::vector<std::size_t> slots_of(const PlyElement& element) {
   std::vector<std::size_t> slots;
   for (const PlyProperty& property : element.properties) {
-    const auto* const found =
-        std::find(kKeptOfVertices.begin(), kKeptOfVertices.end(), property.name);
+    std::string_view name = property.name;
+    constexpr std::string_view kDiffuse =
+        "diffuse_";  // of older programs, before a color's channel
+    if (name.starts_with(kDiffuse)) name.remove_prefix(kDiffuse.size());
+    const auto* const found = std::find(kKeptOfVertices.begin(), kKeptOfVertices.end(), name);
     const bool kept =
         !property.count_type &&
         (property.name != kKeptOfVertices[kViews] || property.type == PlyType::Uint16) &&
@@ -75,13 +96,16 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
   const bool has_parts = has_sigma && has(slots, kNoise, 2);
   const bool has_views = has(slots, kViews, 1);
   const bool has_marks = has(slots, kMark, 1);
+  const bool has_colors = has(slots, kRed, 3);
   if (!has(slots, 0, 3)) source.fail("its vertices have no x, y or z");
   mesh.vertices_mm.reserve(element.count);
   std::array<float, kKeptOfVertices.size()> kept{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (std::size_t p = 0; p < slots.size(); ++p) {
       if (slots[p] < kept.size()) {
-        kept.at(slots[p]) = static_cast<float>(source.value(element.properties[p].type));
+        const PlyType type = element.properties[p].type;
+        kept.at(slots[p]) = static_cast<float>(source.value(type));
+        if (slots[p] >= kRed) kept.at(slots[p]) /= full_light(type);
       } else {
         skip(source, element.properties[p]);
       }
@@ -95,6 +119,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
     if (has_views)
       mesh.views.push_back(static_cast<std::uint16_t>(std::clamp(kept[kViews], 0.0F, 65'535.0F)));
     if (has_marks) mesh.vertex_marks.push_back(mark_from(static_cast<double>(kept[kMark])));
+    if (has_colors) mesh.colors.push_back(color_of(kept[kRed], kept[kRed + 1], kept[kRed + 2]));
     if (!has_normals) continue;
     const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
     mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());

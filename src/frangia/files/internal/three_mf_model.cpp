@@ -1,6 +1,8 @@
 #include "frangia/files/internal/three_mf_model.h"
 
 #include <array>
+#include <charconv>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,22 @@ namespace frangia {
 namespace {
 
 constexpr std::string_view kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02|";
+
+constexpr std::string_view kMaterials =
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02|";
+
+/// A color of the form #RRGGBB or #RRGGBBAA.
+VertexColor color_of_text(std::string_view text) {
+  VertexColor color = kUnknownColor;
+  if (text.size() < 7 || text.front() != '#') return color;
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    const char* const digits = text.data() + 1 + 2 * i;
+    std::uint8_t value = 0;
+    if (std::from_chars(digits, digits + 2, value, 16).ptr != digits + 2) return kUnknownColor;
+    color.at(i) = value;
+  }
+  return color;
+}
 
 [[noreturn]] void fail_3mf(const std::string& why) {
   throw Error(ErrorKind::Input, why);
@@ -59,6 +77,14 @@ void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes)
   constexpr double kGrowth = 2.0;       // of a vector: its capacity is up to twice its size
   constexpr double kMapNode = 64.0;     // bytes that a map adds to an entry
   constexpr double kCorners = 3.0 * 4;  // bytes of a vertex or triangle
+  if (name.starts_with(kMaterials)) {
+    name.remove_prefix(kMaterials.size());
+    if (name == "colorgroup") color_group_ = attributes.value("id");
+    if (name != "color") return;
+    colors_[color_group_].push_back(color_of_text(attributes.value("color")));
+    collected_bytes_ += kGrowth * sizeof(VertexColor);
+    return;
+  }
   if (!name.starts_with(kCore)) return;
   name.remove_prefix(kCore.size());
   if (name == "vertex") {
@@ -151,10 +177,32 @@ void ThreeMfModel::triangle(const XmlAttributes& attributes) {
     }
   }
   const bool own = !attributes.value("pid").empty();
+  color_corners(owner, corners, attributes);
   add_triangle(owner.mesh,
                corners,
                mark_of_material(own ? attributes.value("pid") : owner.material,
                                 own ? attributes.value("p1") : owner.index));
+}
+
+/// Gives the corners of a triangle the colors that it refers to, if these are of a color group.
+void ThreeMfModel::color_corners(Object& owner,
+                                 const Mesh::Triangle& corners,
+                                 const XmlAttributes& attributes) {
+  if (colors_.empty()) return;
+  const bool own = !attributes.value("pid").empty();
+  const auto group = colors_.find(std::string(own ? attributes.value("pid") : owner.material));
+  if (group == colors_.end()) return;
+  constexpr std::array<std::string_view, 3> kNames{"p1", "p2", "p3"};
+  const std::string_view first = own ? attributes.value("p1") : std::string_view(owner.index);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::string_view text = own ? attributes.value(kNames.at(i)) : first;
+    const auto index = parse_integer(text.empty() ? first : text);
+    const bool exists =
+        index && *index >= 0 && static_cast<std::uint64_t>(*index) < group->second.size();
+    if (!exists) continue;
+    owner.mesh.colors.resize(owner.mesh.vertices_mm.size(), kUnknownColor);
+    owner.mesh.colors[corners.at(i)] = group->second[static_cast<std::size_t>(*index)];
+  }
 }
 
 Mark ThreeMfModel::mark_of_material(std::string_view id, std::string_view index) const {

@@ -45,6 +45,7 @@ class ThreeMfModel {
   void begin_object(const XmlAttributes& attributes);
   void vertex(const XmlAttributes& attributes);
   void triangle(const XmlAttributes& attributes);
+  void color_corners(Object& owner, const Mesh::Triangle& corners, const XmlAttributes& attributes);
   [[nodiscard]] Mark mark_of_material(std::string_view id, std::string_view index) const;
   [[nodiscard]] const Object& object_of(const Reference& reference, int depth) const;
   [[nodiscard]] double memory_of(const Reference& reference,
@@ -58,6 +59,8 @@ class ThreeMfModel {
 
   std::map<std::uint32_t, Object> objects_;
   std::map<std::string, std::vector<std::string>> materials_;
+  std::map<std::string, std::vector<VertexColor>> colors_;  ///< by the id of their group
+  std::string color_group_;
   std::vector<Reference> items_;
   std::uint32_t current_ = 0xFFFFFFFF;
   std::string material_;

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -55,7 +58,47 @@ void write_vertices(ZipWriter& file, const Mesh& mesh) {
   file.text("    </vertices>\n");
 }
 
-void write_triangles(ZipWriter& file, const Mesh& mesh) {
+std::uint32_t packed(const VertexColor& color) {
+  return std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | std::uint32_t{color[2]};
+}
+
+/// The different colors of a mesh, ascending.
+std::vector<std::uint32_t> palette_of(const Mesh& mesh) {
+  std::vector<std::uint32_t> palette;
+  palette.reserve(mesh.colors.size());
+  for (const VertexColor& color : mesh.colors)
+    palette.push_back(packed(color));
+  std::sort(palette.begin(), palette.end());
+  palette.erase(std::unique(palette.begin(), palette.end()), palette.end());
+  return palette;
+}
+
+/// Refers to the colors of a triangle's corners in the color group.
+void write_corner_colors(ZipWriter& file,
+                         const Mesh& mesh,
+                         const Mesh::Triangle& triangle,
+                         const std::vector<std::uint32_t>& palette) {
+  constexpr std::array kNames{" p1=\"", " p2=\"", " p3=\""};
+  file.text("\" pid=\"3\"");
+  for (std::size_t i = 0; i < triangle.size(); ++i) {
+    const auto at =
+        std::lower_bound(palette.begin(), palette.end(), packed(mesh.colors[triangle.at(i)]));
+    file.text(kNames.at(i));
+    write_number(file, static_cast<std::size_t>(at - palette.begin()));
+    file.text("\"");
+  }
+  file.text("/>\n");
+}
+
+void write_color_group(ZipWriter& file, const std::vector<std::uint32_t>& palette) {
+  if (palette.empty()) return;
+  file.text("  <m:colorgroup id=\"3\">\n");
+  for (const std::uint32_t color : palette)
+    file.text(fmt::format("   <m:color color=\"#{:06X}FF\"/>\n", color));
+  file.text("  </m:colorgroup>\n");
+}
+
+void write_triangles(ZipWriter& file, const Mesh& mesh, const std::vector<std::uint32_t>& palette) {
   file.text("    <triangles>\n");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& [a, b, c] = mesh.triangles[i];
@@ -67,6 +110,10 @@ void write_triangles(ZipWriter& file, const Mesh& mesh) {
     file.text("\" v3=\"");
     write_number(file, c);
     const Mark mark = mark_of(mesh, i);
+    if (mark == Mark::Measured && !palette.empty()) {
+      write_corner_colors(file, mesh, mesh.triangles[i], palette);
+      continue;
+    }
     file.text(mark == Mark::Measured    ? "\"/>\n"
               : mark == Mark::Displaced ? "\" pid=\"1\" p1=\"1\"/>\n"
                                         : "\" pid=\"1\" p1=\"2\"/>\n");
@@ -75,10 +122,12 @@ void write_triangles(ZipWriter& file, const Mesh& mesh) {
 }
 
 void write_model(ZipWriter& file, const Mesh& mesh) {
+  const std::vector<std::uint32_t> palette = palette_of(mesh);
   file.text(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<model unit=\"millimeter\" xml:lang=\"en-US\" "
-      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
+      "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\">\n"
       " <metadata name=\"Application\">Frangia</metadata>\n"
       " <resources>\n"
       "  <basematerials id=\"1\">\n");
@@ -87,12 +136,13 @@ void write_model(ZipWriter& file, const Mesh& mesh) {
                           kMarkNames.at(static_cast<std::size_t>(mark)),
                           fmt::join(mark_screen_color(mark), "")));
   }
+  file.text("  </basematerials>\n");
+  write_color_group(file, palette);
   file.text(
-      "  </basematerials>\n"
       "  <object id=\"2\" type=\"model\" name=\"scan\" pid=\"1\" pindex=\"0\">\n"
       "   <mesh>\n");
   write_vertices(file, mesh);
-  write_triangles(file, mesh);
+  write_triangles(file, mesh, palette);
   file.text(
       "   </mesh>\n"
       "  </object>\n"
@@ -124,8 +174,9 @@ void write_3mf(const std::filesystem::path& path, const Mesh& mesh, const Run& r
       " <Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
       "</Relationships>\n");
-  constexpr std::uint64_t kMaxLine = 128;  // bytes of a vertex or triangle
-  file.begin("3D/3dmodel.model", kMaxLine * (mesh.vertices_mm.size() + mesh.triangles.size()));
+  constexpr std::uint64_t kMaxLine = 160;  // bytes of a vertex or triangle, and of a color
+  file.begin("3D/3dmodel.model",
+             kMaxLine * (mesh.vertices_mm.size() + mesh.colors.size() + mesh.triangles.size()));
   write_model(file, mesh);
   file.commit();
   if (const std::size_t open = count_open_edges(mesh); open > 0) {

@@ -9,6 +9,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
+#include "frangia/core/srgb.h"
 #include "frangia/files/internal/base64.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
@@ -113,6 +114,10 @@ class Layout {
       sink.number(static_cast<float>(views));
     for (const Mark mark : mesh_.vertex_marks)
       sink.number(static_cast<float>(mark));
+    for (const VertexColor& color : mesh_.colors) {
+      for (const std::uint8_t channel : color)
+        sink.number(static_cast<float>(linear_from_srgb(channel)));
+    }
     for (std::size_t mark = 0; mark < kMarkNames.size(); ++mark) {
       for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         if (static_cast<std::size_t>(mark_of(mesh_, i)) != mark) continue;
@@ -148,6 +153,7 @@ class Layout {
       attributes_["_SIGMA_SYSTEMATIC_MM"] = accessor(count, kFloat, "SCALAR");
     if (!mesh_.views.empty()) attributes_["_VIEWS"] = accessor(count, kFloat, "SCALAR");
     if (!mesh_.vertex_marks.empty()) attributes_["_MARK"] = accessor(count, kFloat, "SCALAR");
+    if (!mesh_.colors.empty()) attributes_["COLOR_0"] = accessor(count, kFloat, "VEC3");
   }
 
   void describe_triangles(const std::array<std::size_t, 3>& counts) {
@@ -157,7 +163,10 @@ class Layout {
                              {"indices", accessor(3 * counts.at(mark), kUnsigned, "SCALAR")},
                              {"material", materials_.size()},
                              {"mode", 4}});
-      const auto& [red, green, blue] = kMarkColors.at(mark);  // linear, as glTF defines them
+      // Linear, as glTF defines them. A material's color multiplies those of the vertices.
+      constexpr std::array<double, 3> kWhite{1.0, 1.0, 1.0};
+      const bool own = !mesh_.colors.empty() && mark == 0;
+      const auto& [red, green, blue] = own ? kWhite : kMarkColors.at(mark);
       materials_.push_back({{"name", kMarkNames.at(mark)},
                             {"pbrMetallicRoughness",
                              {{"baseColorFactor", {red, green, blue, 1.0}},

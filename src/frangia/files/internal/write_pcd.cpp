@@ -36,6 +36,7 @@ void write_header(FileWriter& file, const Mesh& mesh) {
   if (!mesh.sigma_systematic_mm.empty()) fields.add("sigma_systematic_mm", 4, 'F');
   if (!mesh.views.empty()) fields.add("views", 2, 'U');
   if (!mesh.vertex_marks.empty()) fields.add("mark", 1, 'U');
+  if (!mesh.colors.empty()) fields.add("rgb", 4, 'U');
   const std::size_t count = mesh.vertices_mm.size();
   file.text("# .PCD v0.7 - Point Cloud Data file format; Frangia, lengths in mm\nVERSION 0.7\n");
   file.text(
@@ -55,7 +56,7 @@ void write_pcd(const std::filesystem::path& path, const Mesh& mesh) {
   check_mesh(mesh, path);
   FileWriter file(path);
   write_header(file, mesh);
-  write_vertices(file, mesh);
+  write_vertices(file, mesh, ColorLayout::Packed);
   file.commit();
 }
 

@@ -20,6 +20,8 @@ void write_ply_header(FileWriter& file, const Mesh& mesh) {
   if (!mesh.sigma_systematic_mm.empty()) file.text("property float sigma_systematic_mm\n");
   if (!mesh.views.empty()) file.text("property ushort views\n");
   if (!mesh.vertex_marks.empty()) file.text("property uchar mark\n");
+  if (!mesh.colors.empty())
+    file.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");
   file.text(fmt::format("element face {}\n", mesh.triangles.size()));
   file.text("property list uchar int vertex_indices\n");
   if (!mesh.triangle_marks.empty()) file.text("property uchar mark\n");
@@ -32,7 +34,7 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
   check_mesh(mesh, path);
   FileWriter file(path);
   write_ply_header(file, mesh);
-  write_vertices(file, mesh);
+  write_vertices(file, mesh, ColorLayout::Bytes);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     file.binary(std::uint8_t{3});
     for (const std::uint32_t corner : mesh.triangles[i])

@@ -4,7 +4,7 @@
 
 namespace frangia {
 
-void write_vertices(FileWriter& file, const Mesh& mesh) {
+void write_vertices(FileWriter& file, const Mesh& mesh, ColorLayout colors) {
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
     for (const float coordinate : mesh.vertices_mm[i])
       file.binary(coordinate);
@@ -17,6 +17,14 @@ void write_vertices(FileWriter& file, const Mesh& mesh) {
     if (!mesh.sigma_systematic_mm.empty()) file.binary(mesh.sigma_systematic_mm[i]);
     if (!mesh.views.empty()) file.binary(mesh.views[i]);
     if (!mesh.vertex_marks.empty()) file.binary(static_cast<std::uint8_t>(mesh.vertex_marks[i]));
+    if (mesh.colors.empty()) continue;
+    const auto& [red, green, blue] = mesh.colors[i];
+    if (colors == ColorLayout::Packed) {
+      file.binary(std::uint32_t{red} << 16U | std::uint32_t{green} << 8U | std::uint32_t{blue});
+      continue;
+    }
+    for (const std::uint8_t channel : {red, green, blue})
+      file.binary(channel);
   }
 }
 

@@ -1,85 +1,13 @@
-#include <array>
-#include <csetjmp>
-#include <cstdio>  // jpeglib.h needs FILE
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
-#include <jpeglib.h>
 
 #include "frangia/frames/internal/image_decoders.h"
-#include "frangia/frames/jpeg_noise.h"
+#include "frangia/frames/internal/jpeg_codec.h"
 
 namespace frangia {
 namespace {
-
-/// libjpeg's error manager, which returns to `jump` with the message. Damage that libjpeg repairs
-/// with a warning counts as an error.
-struct JpegErrors {
-  jpeg_error_mgr base{};
-  std::jmp_buf jump{};
-  std::array<char, JMSG_LENGTH_MAX> message{};
-};
-
-void leave_libjpeg(j_common_ptr codec) {
-  auto* const errors = reinterpret_cast<JpegErrors*>(codec->err);
-  (*codec->err->format_message)(codec, errors->message.data());
-  std::longjmp(errors->jump, 1);  // NOLINT(cert-err52-cpp): libjpeg's way out
-}
-
-void treat_warning_as_error(j_common_ptr codec, int level) {
-  if (level < 0) leave_libjpeg(codec);
-}
-
-/// Refuses progressive files of absurdly many scans, each of which passes over the whole image.
-void limit_scans(j_common_ptr codec) {
-  constexpr int kMaxScans = 100;
-  auto* const decompress = reinterpret_cast<j_decompress_ptr>(codec);
-  if (decompress->input_scan_number > kMaxScans) leave_libjpeg(codec);
-}
-
-/// A libjpeg decompressor that is destroyed at the end.
-struct JpegCodec {
-  JpegCodec() {
-    codec.err = jpeg_std_error(&errors.base);
-    errors.base.error_exit = leave_libjpeg;
-    errors.base.emit_message = treat_warning_as_error;
-    progress.progress_monitor = limit_scans;
-  }
-  JpegCodec(const JpegCodec&) = delete;
-  JpegCodec& operator=(const JpegCodec&) = delete;
-  JpegCodec(JpegCodec&&) = delete;
-  JpegCodec& operator=(JpegCodec&&) = delete;
-  ~JpegCodec() { jpeg_destroy_decompress(&codec); }
-
-  JpegErrors errors;
-  jpeg_progress_mgr progress{};
-  jpeg_decompress_struct codec{};
-};
-
-/// Reads the header. No object with a destructor lives across the jump.
-bool read_jpeg_header(JpegCodec& jpeg, const unsigned char* bytes, unsigned long size) {
-  if (setjmp(jpeg.errors.jump) != 0) return false;  // NOLINT(cert-err52-cpp)
-  jpeg_create_decompress(&jpeg.codec);
-  jpeg.codec.progress = &jpeg.progress;
-  jpeg_mem_src(&jpeg.codec, bytes, size);
-  jpeg_read_header(&jpeg.codec, TRUE);
-  return true;
-}
-
-/// Decodes into rows of `stride` bytes.
-bool read_jpeg_rows(JpegCodec& jpeg, unsigned char* pixels, std::size_t stride, bool grey) {
-  if (setjmp(jpeg.errors.jump) != 0) return false;  // NOLINT(cert-err52-cpp)
-  jpeg.codec.out_color_space = grey ? JCS_GRAYSCALE : JCS_RGB;
-  jpeg.codec.dct_method = JDCT_ISLOW;
-  jpeg_start_decompress(&jpeg.codec);
-  while (jpeg.codec.output_scanline < jpeg.codec.output_height) {
-    JSAMPROW row = pixels + stride * jpeg.codec.output_scanline;
-    jpeg_read_scanlines(&jpeg.codec, &row, 1);
-  }
-  jpeg_finish_decompress(&jpeg.codec);
-  return true;
-}
 
 class JpegDecoder : public ImageDecoder {
  public:
@@ -101,12 +29,8 @@ class JpegDecoder : public ImageDecoder {
     // A block of 64 samples takes at least one bit.
     constexpr double kMostPerByte = 64.0 * 8;
     file_->check_size(codec.image_width, codec.image_height, 1, 8 * info_.channels, kMostPerByte);
-    const JQUANT_TBL* const table = codec.quant_tbl_ptrs[codec.comp_info[0].quant_tbl_no & 3];
-    if (table == nullptr) file_->fail("is a JPEG without a quantization table; copy it again");
-    std::array<int, 64> steps{};
-    for (std::size_t i = 0; i < steps.size(); ++i)
-      steps[i] = table->quantval[i];
-    info_.jpeg_quality = jpeg_quality(steps);
+    info_.jpeg_quality = quality_of(jpeg);
+    if (!info_.jpeg_quality) file_->fail("is a JPEG without a quantization table; copy it again");
   }
   [[nodiscard]] const ImageInfo& info() const override { return info_; }
   [[nodiscard]] RasterImage read(std::size_t /*page*/) override {

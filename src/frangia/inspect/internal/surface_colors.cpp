@@ -6,6 +6,7 @@
 #include <string>
 
 #include "frangia/core/missing.h"
+#include "frangia/core/srgb.h"
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
@@ -27,6 +28,17 @@ Vector3d color_of_mark(Mark mark) {
 /// A color of a map in linear light. Maps are defined for the screen, with gamma 2.2.
 Vector3d mapped_color(ColorMap map, float share) {
   return color_of(map, share).cast<double>().array().pow(2.2);
+}
+
+/// The color of the corners in linear light, interpolated.
+Vector3d vertex_color_at(const Mesh& mesh, const RayHit& hit) {
+  Vector3d light = Vector3d::Zero();
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto& [red, green, blue] = mesh.colors[mesh.triangles[hit.triangle].at(corner)];
+    light += hit.barycentric[static_cast<Eigen::Index>(corner)] *
+             Vector3d(linear_from_srgb(red), linear_from_srgb(green), linear_from_srgb(blue));
+  }
+  return light;
 }
 
 bool is_open(const Mesh& mesh) {
@@ -59,7 +71,10 @@ Vector3d front_color(const Mesh& mesh, const RenderOptions& options, const RayHi
   if (!options.highlighted.empty() && options.highlighted[hit.triangle] != 0) return kHighlighted;
   if (options.show_marks && mark_of(mesh, hit.triangle) != Mark::Measured)
     return color_of_mark(mark_of(mesh, hit.triangle));
-  if (options.values.empty()) return color_of_mark(Mark::Measured);
+  if (options.values.empty()) {
+    return options.vertex_colors && !mesh.colors.empty() ? vertex_color_at(mesh, hit)
+                                                         : color_of_mark(Mark::Measured);
+  }
   float value = 0.0F;
   for (std::size_t corner = 0; corner < 3; ++corner) {
     value += static_cast<float>(hit.barycentric[static_cast<Eigen::Index>(corner)]) *

@@ -1,6 +1,8 @@
 #include "frangia/mesh/internal/transfer_vertex_data.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 
@@ -39,6 +41,15 @@ void transfer_at(Mesh& mesh, std::size_t vertex, const Mesh& from, const Nearest
           combined_sigma(mesh.sigma_noise_mm[vertex], mesh.sigma_systematic_mm[vertex]);
     }
   }
+  if (!from.colors.empty()) {
+    const Eigen::Vector3f barycentric = barycentric_of(from, t, near.point_mm);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3f values(
+          from.colors[t[0]].at(i), from.colors[t[1]].at(i), from.colors[t[2]].at(i));
+      mesh.colors[vertex].at(i) =
+          static_cast<std::uint8_t>(std::lround(std::clamp(barycentric.dot(values), 0.0F, 255.0F)));
+    }
+  }
   if (!from.views.empty()) {
     mesh.views[vertex] = std::min({from.views[t[0]], from.views[t[1]], from.views[t[2]]});
   }
@@ -61,6 +72,7 @@ void transfer_vertex_data(Mesh& mesh, const RayScene& scene, const Run& run) {
     mesh.sigma_systematic_mm.assign(count, 0.0F);
   }
   if (!from.views.empty()) mesh.views.assign(count, 0);
+  if (!from.colors.empty()) mesh.colors.assign(count, kUnknownColor);
   if (!from.vertex_marks.empty()) mesh.vertex_marks.assign(count, Mark::Measured);
   parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
     if (run.stop.stop_requested()) return;  // run.check() below throws

@@ -11,9 +11,9 @@
 namespace frangia {
 namespace {
 
-bool has_fringes(std::span<const Pattern> patterns, FringeDirection direction) {
+bool has_kind(std::span<const Pattern> patterns, PatternKind kind, FringeDirection direction) {
   return std::any_of(patterns.begin(), patterns.end(), [&](const Pattern& pattern) {
-    return pattern.kind == PatternKind::Fringe && pattern.direction == direction;
+    return pattern.kind == kind && pattern.direction == direction;
   });
 }
 
@@ -24,12 +24,14 @@ bool is_absolute_direction(std::span<const Pattern> patterns,
                            const Projector& projector) {
   std::vector<Pattern> fringes;
   bool gray = false;
+  bool code_alone = true;
   for (const Pattern& pattern : patterns) {
+    code_alone = code_alone && pattern.kind != PatternKind::Fringe;
     if (pattern.direction != direction) continue;
     gray = gray || pattern.kind == PatternKind::Gray;
     if (pattern.kind == PatternKind::Fringe) fringes.push_back(pattern);
   }
-  if (fringes.empty()) return false;
+  if (fringes.empty()) return gray && code_alone;
   if (gray) return true;
   std::stable_sort(fringes.begin(), fringes.end(), [](const Pattern& a, const Pattern& b) {
     return a.fringes_per_unit() < b.fringes_per_unit();
@@ -42,15 +44,20 @@ std::vector<FringeDirection> directions_to_decode(std::span<const Pattern> patte
                                                   DirectionChoice choice) {
   constexpr auto kVertical = FringeDirection::Vertical;
   constexpr auto kHorizontal = FringeDirection::Horizontal;
-  const bool vertical = has_fringes(patterns, kVertical);
-  const bool horizontal = has_fringes(patterns, kHorizontal);
-  require(vertical || horizontal, "scan.toml has no pattern of kind \"fringe\"; add one");
+  const bool fringes = has_kind(patterns, PatternKind::Fringe, kVertical) ||
+                       has_kind(patterns, PatternKind::Fringe, kHorizontal);
+  const PatternKind kind = fringes ? PatternKind::Fringe : PatternKind::Gray;
+  const bool vertical = has_kind(patterns, kind, kVertical);
+  const bool horizontal = has_kind(patterns, kind, kHorizontal);
+  require(vertical || horizontal,
+          "scan.toml has no pattern of kind \"fringe\" or \"gray\"; add one");
   if (choice == DirectionChoice::Vertical || choice == DirectionChoice::Horizontal) {
     const bool wants_vertical = choice == DirectionChoice::Vertical;
     if (!(wants_vertical ? vertical : horizontal)) {
       throw Error(ErrorKind::Input,
-                  fmt::format("scan.toml has no {} fringes; choose other `directions`",
-                              wants_vertical ? "vertical" : "horizontal"));
+                  fmt::format("scan.toml has no {} {}; choose other `directions`",
+                              wants_vertical ? "vertical" : "horizontal",
+                              fringes ? "fringes" : "Gray code"));
     }
     return {wants_vertical ? kVertical : kHorizontal};
   }

@@ -234,7 +234,8 @@ MeasuredViews measure_views(const Scan& scan,
       ViewStore& views = camera == 0 ? all.views : all.more[camera - 1];
       views.add({std::move(seen.range),
                  camera_from_rig(scan.rig, camera) * rig_from_object,
-                 std::move(seen.edge_pixels)});
+                 std::move(seen.edge_pixels),
+                 std::move(decoded[camera].decoded.color)});
     }
     all.points += summary.points;
   }

@@ -55,18 +55,34 @@ Eigen::Vector3d mean_normal(const Mesh& mesh) {
   return sum.norm() > 0.0 ? sum.normalized() : Eigen::Vector3d::UnitZ();
 }
 
+/// The color of a point on a triangle, interpolated between its corners.
+PixelColor color_at(const Mesh& mesh, const RayHit& hit) {
+  const Mesh::Triangle& corners = mesh.triangles[hit.triangle];
+  PixelColor color{};
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    const Eigen::Vector3d values(mesh.colors[corners[0]].at(i),
+                                 mesh.colors[corners[1]].at(i),
+                                 mesh.colors[corners[2]].at(i));
+    color.at(i) =
+        static_cast<std::uint8_t>(std::lround(std::clamp(hit.barycentric.dot(values), 0.0, 255.0)));
+  }
+  return color;
+}
+
 /// Fills depths with the first hits of the camera's rays on the triangles.
 void cast_rays(const RayScene& scene,
                const VirtualCamera& camera,
                const Image<Eigen::Vector2f>& rays,
-               Image<float>& depth) {
+               Image<float>& depth,
+               Image<PixelColor>& color) {
   const Eigen::Isometry3d scan_from_rig = camera.rig_from_scan.inverse();
   parallel_rows(depth.height(), [&](int y) {
     for (int x = 0; x < depth.width(); ++x) {
       const Eigen::Vector3d ray = rays(x, y).homogeneous().cast<double>();
       const auto hit = scene.first_hit(scan_from_rig.translation(), scan_from_rig.linear() * ray);
-      if (hit && hit->normal.dot(scan_from_rig.linear() * ray) < 0.0)
-        depth(x, y) = static_cast<float>(hit->distance);
+      if (!hit || !(hit->normal.dot(scan_from_rig.linear() * ray) < 0.0)) continue;
+      depth(x, y) = static_cast<float>(hit->distance);
+      if (!color.empty()) color(x, y) = color_at(scene.mesh(), *hit);
     }
   });
 }
@@ -75,9 +91,10 @@ void cast_rays(const RayScene& scene,
 void splat(const Mesh& mesh,
            const VirtualCamera& camera,
            const CameraModel& model,
-           Image<float>& depth) {
-  for (const auto& point : mesh.vertices_mm) {
-    const Eigen::Vector3d seen = camera.rig_from_scan * point.cast<double>();
+           Image<float>& depth,
+           Image<PixelColor>& color) {
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    const Eigen::Vector3d seen = camera.rig_from_scan * mesh.vertices_mm[i].cast<double>();
     const Eigen::Vector2d pixel = model.project(seen);
     const bool inside = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < depth.width() - 0.5 &&
                         pixel.y() < depth.height() - 0.5;
@@ -85,7 +102,9 @@ void splat(const Mesh& mesh,
     const auto x = static_cast<int>(std::lround(pixel.x()));
     const auto y = static_cast<int>(std::lround(pixel.y()));
     const auto z = static_cast<float>(seen.z());
-    if (!(depth(x, y) <= z)) depth(x, y) = z;
+    if (depth(x, y) <= z) continue;
+    depth(x, y) = z;
+    if (!color.empty()) color(x, y) = mesh.colors[i];
   }
 }
 
@@ -216,10 +235,12 @@ ResampledScan resample_scan(const RangeScan& scan,
   ResampledScan out;
   View& view = out.view;
   view.range.depth_mm = Image<float>(model.width_px, model.height_px, kMissing);
+  if (!scan.mesh.colors.empty())
+    view.color = Image<PixelColor>(model.width_px, model.height_px, kUnknownColor);
   if (scan.mesh.triangles.empty()) {
-    splat(scan.mesh, camera, model, view.range.depth_mm);
+    splat(scan.mesh, camera, model, view.range.depth_mm, view.color);
   } else {
-    cast_rays(RayScene(scan.mesh), camera, rays, view.range.depth_mm);
+    cast_rays(RayScene(scan.mesh), camera, rays, view.range.depth_mm, view.color);
   }
   constexpr double kMinNoise = 0.01;  // of the spacing, for scans without noise
   out.noise_mm = std::max(noise_of(view.range.depth_mm), kMinNoise * camera.spacing_mm);

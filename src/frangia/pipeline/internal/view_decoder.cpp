@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "frangia/dataset/read_frames.h"
+#include "frangia/pipeline/internal/view_color.h"
 
 namespace frangia {
 
@@ -43,7 +44,9 @@ ViewDecoder::Outcome ViewDecoder::decode(std::size_t view) const {
   run.on_warning = [&](const std::string& sentence) { out.messages.push_back({true, sentence}); };
   run.on_note = [&](const std::string& sentence) { out.messages.push_back({false, sentence}); };
   try {
-    out.view = decode_view(read_frames(scan_, view, run), scan_.rig, rays_, options_, run);
+    const std::vector<FrameStack> stacks = read_frames(scan_, view, run);
+    out.view = decode_view(stacks, scan_.rig, rays_, options_, run);
+    out.view.color = view_color(stacks, options_.colors);
   } catch (...) {
     out.error = std::current_exception();
   }

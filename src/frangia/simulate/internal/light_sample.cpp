@@ -7,6 +7,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
 #include "frangia/simulate/internal/board_texture.h"
+#include "frangia/simulate/internal/surface_color.h"
 
 namespace frangia {
 namespace {
@@ -109,6 +110,14 @@ LightSample sample_light(const SimulatedScene& scene,
   if (scene.options.screen)
     return screen_light(*scene.options.screen, scene.part_from_object * point);
   sample.albedo = static_cast<float>(albedo_at(point, scene));
+  if (scene.options.color > 0.0) {
+    const Vector3d color = surface_color(scene.part_from_object * point, scene.options.color);
+    const double grey = luminance_of_color(color);
+    sample.albedo *= static_cast<float>(grey);
+    for (std::size_t channel = 0; channel < sample.tint.size(); ++channel)
+      sample.tint.at(channel) =
+          static_cast<float>(color[static_cast<Eigen::Index>(channel)] / grey);
+  }
   if (!project_to_projector(scene.rig.projector, seen, sample)) return sample;
 
   // An open mesh is a thin shell: it shows the side that is looked at.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <Eigen/Geometry>
 
 #include "frangia/simulate/internal/simulated_scene.h"
@@ -14,6 +16,7 @@ struct LightSample {
   float glossy = 0.0F;   ///< the highlight on top of it
   float line = 0.0F;     ///< share of the laser sheet's peak that falls here
   float albedo = 0.0F;   ///< 0 where the ray meets nothing
+  std::array<float, 3> tint{1.0F, 1.0F, 1.0F};  ///< red, green and blue over the grey reflectance
 
   [[nodiscard]] float reflected() const { return diffuse + glossy; }
 };

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
+#include "frangia/simulate/internal/color_frames.h"
 #include "frangia/simulate/internal/view_renderer.h"
 
 namespace frangia {
@@ -22,7 +24,9 @@ void check(const Pattern& pattern, const Rig& rig) {
     if (!rig.laser_sheet) fail("is a line, but the rig has no [line]");
     return;
   }
-  if (pattern.kind == PatternKind::Ramp || pattern.kind == PatternKind::White) return;
+  if (pattern.kind == PatternKind::Ramp || pattern.kind == PatternKind::White ||
+      pattern.kind == PatternKind::Ambient)
+    return;
   if (pattern.kind == PatternKind::Gray) {
     if (rig.projector.is_angular()) fail("is Gray code, which an angular projector cannot show");
     if (pattern.bits < 1 || !(pattern.stripe_px > 0.0)) fail("needs bits and stripes above 0");
@@ -77,10 +81,13 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
                                     const Run& run) {
   std::vector<FrameStack> stacks;
   std::vector<std::vector<Shot>> shots;
+  std::map<std::size_t, ColorFrames> colors;  // by the number of their stack
   for (const Pattern& pattern : patterns) {
     check(pattern, scene.rig);
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
       stacks.push_back(empty_stack(pattern, exposure, scene));
+      if (is_rendered_in_color(pattern, scene.options))
+        colors[stacks.size() - 1] = {{stacks.back(), stacks.back(), stacks.back()}};
       shots.push_back(shots_of(pattern, view, scene.options));
       for (Shot& shot : shots.back()) {
         // The cameras see the same light, each with noise of its own.
@@ -100,6 +107,10 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
       const int y = done + row;
       const std::vector<LightSample> samples = renderer.sample_row(y);
       for (std::size_t i = 0; i < stacks.size(); ++i) {
+        if (const auto color = colors.find(i); color != colors.end()) {
+          fill_color_row(renderer, y, samples, shots[i], color->second);
+          continue;
+        }
         if (scene.options.bits == 8) {
           renderer.fill_row<std::uint8_t>(y, samples, shots[i], stacks[i]);
         } else {
@@ -109,6 +120,8 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
     });
     run.report(static_cast<double>(done + size) / scene.rays.height());
   }
+  for (const auto& [stack, frames] : colors)
+    set_color(frames, stacks[stack]);
   return stacks;
 }
 

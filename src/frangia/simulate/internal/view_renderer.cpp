@@ -78,6 +78,7 @@ double requested_light(const Pattern& pattern,
                        const LightSample& sample,
                        double contrast) {
   if (pattern.kind == PatternKind::White) return 1.0 + contrast;
+  if (pattern.kind == PatternKind::Ambient) return 1.0 - contrast;
   if (pattern.kind == PatternKind::Ramp)
     return 1.0 - contrast + 2.0 * contrast * pattern.levels[static_cast<std::size_t>(frame)];
   const bool vertical = pattern.direction == FringeDirection::Vertical;
