@@ -21,7 +21,7 @@ struct CapturedPose {
   std::string folder;        ///< of the view
   std::size_t points = 0;    ///< of the board that were found
   std::size_t expected = 0;  ///< points of the whole board
-  PoseCoverage coverage;
+  PoseCoverage coverage;     ///< of all poses so far
 };
 
 /// How poses of a board are captured.
@@ -36,8 +36,8 @@ struct CalibrateCaptureOptions {
 
 /// Poses that were captured.
 struct CalibrateCaptureReport {
-  CaptureReport capture;
-  PoseCoverage coverage;
+  CaptureReport capture;                   ///< frames, retries and times
+  PoseCoverage coverage;                   ///< of all poses
   std::vector<std::string> without_board;  ///< folders of the views without the board
 };
 

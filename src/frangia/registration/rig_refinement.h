@@ -20,10 +20,10 @@ struct RefinedParameter {
 /// A refined rig and how well the surfaces determine it.
 struct RigRefinement {
   Rig rig;  ///< with axis and covariance; the given one, at most scaled, when `kept_rig`
-  bool kept_rig = false;  ///< the given rig fits as well
-  std::vector<RefinedParameter> parameters;
-  std::size_t directions = 0;  ///< independent changes of the parameters
-  std::size_t held = 0;        ///< of them, those that the surfaces do not determine
+  bool kept_rig = false;                     ///< the given rig fits as well
+  std::vector<RefinedParameter> parameters;  ///< all that were free to change
+  std::size_t directions = 0;                ///< independent changes of the parameters
+  std::size_t held = 0;                      ///< of them, those that the surfaces do not determine
   double rms_before_mm = 0.0;  ///< of the distances between views, axis and angles refined alone
   double rms_after_mm = 0.0;   ///< the same with the refined rig
   std::vector<double> angles_rad;  ///< of each station, refined

@@ -12,7 +12,7 @@ struct SimulatedBench;
 
 /// A board that stands before the simulated camera in place of its part.
 struct SimulatedBoard {
-  Board board;
+  Board board;                ///< what is printed on it
   int poses = 12;             ///< placed by hand, a new one for each view
   bool on_turntable = false;  ///< the board stands on the turntable instead
   double turn_rad = 1.0;      ///< of the turntable, within which the board is seen whole
