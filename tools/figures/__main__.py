@@ -18,7 +18,7 @@ from study import ROOT, NotMeasured, Study  # noqa: E402
 SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misaligned_turntable", "large", "views",
             "edits", "decimation", "calibration", "calibration_doctor", "captured_scan", "gige", "step_control",
             "polished_blade", "capture_overhead", "import_frames", "file_readers", "harmonics", "sequence_faults",
-            "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
+            "features", "alignment", "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
 
 
 def measure(program, name):
