@@ -139,8 +139,9 @@ ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
   const Eigen::MatrixXd small = block_covariance(points, chosen, fit, weights, inverse, fine);
   const Eigen::MatrixXd large = block_covariance(points, chosen, fit, weights, inverse, coarse);
   // The mean over all parameters is more certain than the growth of one.
-  const double growth =
-      std::clamp(large.diagonal().cwiseQuotient(small.diagonal()).mean(), 1.0, kMostGrowth);
+  const double ratio = large.diagonal().cwiseQuotient(small.diagonal()).mean();
+  // Points that lie exactly on the shape have no gradients.
+  const double growth = std::isfinite(ratio) ? std::clamp(ratio, 1.0, kMostGrowth) : 1.0;
   Eigen::MatrixXd covariance = growth * large;
   // A growth by chance below 1 leaves the finer estimate, which is the more certain one.
   if (small(size, size) > covariance(size, size)) covariance = small;

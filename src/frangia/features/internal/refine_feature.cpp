@@ -86,7 +86,9 @@ std::optional<Feature> refine_feature(const FeaturePoints& points,
   // Schwarz's criterion. Residuals of neighbours are alike, so that about 16 points count as one,
   // and form errors limit the number of independent ones on any surface.
   const double independent = std::clamp(static_cast<double>(chosen.size()) / 16.0, 8.0, 400.0);
-  const double floor = 1e-12 * gate_mm * gate_mm * static_cast<double>(chosen.size());
+  // Residuals of a thousandth of the gate decide nothing: those of a tessellated model are
+  // rounding.
+  const double floor = 1e-6 * gate_mm * gate_mm * static_cast<double>(chosen.size());
   // All fits are compared by one gate: a fit that ignores points must not seem better.
   const auto cost_of = [&](const ShapeFit& fit) {
     double squares = floor;
