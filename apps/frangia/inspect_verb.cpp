@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,14 +13,20 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/features/find_features.h"
+#include "frangia/files/write_mesh.h"
 #include "frangia/frames/png.h"
+#include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/inspect/surface_validity.h"
 
 #include "allow_memory.h"
+#include "check_can_write.h"
 #include "fixed_text.h"
+#include "inspect_alignment.h"
+#include "inspect_features.h"
 #include "option_values.h"
 #include "picture_file.h"
 #include "print_text.h"
@@ -40,6 +47,10 @@ struct InspectArguments {
   double within_mm = 0.2;
   double max_angle_deg = 75.0;
   bool legend = true;
+  bool features = false;
+  AlignmentArguments alignment;
+  std::vector<std::filesystem::path> outputs;
+  double unit_mm = 1.0;
   int width_px = RenderOptions{}.width_px;
   int height_px = RenderOptions{}.height_px;
   ReadOptions read;
@@ -113,33 +124,33 @@ void draw(const InspectArguments& arguments,
   write_png(arguments.picture, render_mesh(mesh, options, run));
 }
 
-void print_result(const SurfaceError& error,
-                  const SurfaceCompleteness& completeness,
-                  const SurfaceValidity& validity,
-                  const InspectArguments& arguments,
-                  Terminal& terminal) {
-  terminal.finish();
-  if (terminal.json) {
-    nlohmann::ordered_json json{
-        {"vertices", error.count},
-        {"rms_mm", error.rms_mm},
-        {"mean_mm", error.mean_mm},
-        {"bias_mm", error.bias_mm},
-        {"p95_mm", error.p95_mm},
-        {"p99_mm", error.p99_mm},
-        {"max_mm", error.max_mm},
-        {"sigma_ratio",
-         std::isnan(validity.sigma_ratio) ? nlohmann::ordered_json()
-                                          : nlohmann::ordered_json(validity.sigma_ratio)},
-        {"non_manifold_edges", validity.non_manifold_edges},
-        {"inward_triangles", validity.inward_triangles},
-        {"completeness", completeness.share},
-        {"completeness_within_mm", arguments.within_mm}};
-    if (!arguments.picture.empty()) json["picture"] = arguments.picture.string();
-    print_json(json);
-    return;
-  }
-  print_text(
+/// What the verb found, for machines and for people.
+struct InspectAnswer {
+  nlohmann::ordered_json json;
+  std::string text;
+};
+
+void add_comparison(InspectAnswer& answer,
+                    const SurfaceError& error,
+                    const SurfaceCompleteness& completeness,
+                    const SurfaceValidity& validity,
+                    const InspectArguments& arguments) {
+  answer.json.update(nlohmann::ordered_json{
+      {"vertices", error.count},
+      {"rms_mm", error.rms_mm},
+      {"mean_mm", error.mean_mm},
+      {"bias_mm", error.bias_mm},
+      {"p95_mm", error.p95_mm},
+      {"p99_mm", error.p99_mm},
+      {"max_mm", error.max_mm},
+      {"sigma_ratio",
+       std::isnan(validity.sigma_ratio) ? nlohmann::ordered_json()
+                                        : nlohmann::ordered_json(validity.sigma_ratio)},
+      {"non_manifold_edges", validity.non_manifold_edges},
+      {"inward_triangles", validity.inward_triangles},
+      {"completeness", completeness.share},
+      {"completeness_within_mm", arguments.within_mm}});
+  answer.text += fmt::format(
       "{} vertices: RMS {:.4f} mm, bias {}, 95 % within {:.4f}, 99 % within {:.4f}, all "
       "within {:.4f}\n",
       error.count,
@@ -148,35 +159,85 @@ void print_result(const SurfaceError& error,
       error.p95_mm,
       error.p99_mm,
       error.max_mm);
-  print_text("{:.1f} % of the {} has mesh within {} mm\n",
-             100.0 * completeness.share,
-             arguments.scan.empty() ? "reference" : "reference that the scan's views could measure",
-             arguments.within_mm);
+  answer.text += fmt::format(
+      "{:.1f} % of the {} has mesh within {} mm\n",
+      100.0 * completeness.share,
+      arguments.scan.empty() ? "reference" : "reference that the scan's views could measure",
+      arguments.within_mm);
+}
+
+void compare(InspectAnswer& answer,
+             const InspectArguments& arguments,
+             const Mesh& mesh,
+             const RayScene& reference,
+             const Run& run) {
+  const RayScene mesh_scene(mesh, run);
+  const SurfaceError error = surface_error(mesh, reference, {}, run);
+  const SurfaceCompleteness completeness = completeness_of(arguments, reference, mesh_scene, run);
+  add_comparison(answer, error, completeness, surface_validity(mesh, reference, run), arguments);
+}
+
+/// Checks before the work that the options of the alignment go together.
+void check_alignment(const InspectArguments& arguments) {
+  const AlignmentArguments& alignment = arguments.alignment;
+  require(alignment.align.empty() || !arguments.reference.empty(),
+          "--align needs a --reference to align the mesh to; give one");
+  require(arguments.outputs.empty() || !alignment.align.empty(),
+          "-o writes the aligned mesh; choose how by --align");
+  require(alignment.start == 0 || alignment.align == "best-fit",
+          "--start chooses a pose of --align best-fit; add it");
+  for (const auto& path : arguments.outputs) {
+    check_mesh_extension(path);
+    check_can_write(path);
+  }
+}
+
+Mesh read_reference(const InspectArguments& arguments, const Run& run) {
+  Mesh reference = read_surface(arguments.reference, run, arguments.read);
+  if (arguments.unit_mm == 1.0) return reference;
+  for (auto& vertex : reference.vertices_mm)
+    vertex *= static_cast<float>(arguments.unit_mm);
+  return reference;
 }
 
 void inspect(const InspectArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  require(!arguments.reference.empty() || !arguments.picture.empty(),
-          "nothing to do: give a --reference to measure against or a --picture to draw");
-  if (!arguments.picture.empty()) check_picture_output(arguments.picture);
-  const Mesh mesh = read_surface(arguments.mesh, run, arguments.read);
-  if (!arguments.picture.empty()) check_shown(arguments, mesh);
+  const bool drawn = !arguments.picture.empty();
+  require(!arguments.reference.empty() || drawn || arguments.features,
+          "nothing to do: give a --reference to measure against, --features, or a --picture to "
+          "draw");
+  if (drawn) check_picture_output(arguments.picture);
+  check_alignment(arguments);
+  Mesh mesh = read_surface(arguments.mesh, run, arguments.read);
+  if (drawn) check_shown(arguments, mesh);
   std::optional<RayScene> reference;
-  if (!arguments.reference.empty())
-    reference.emplace(read_surface(arguments.reference, run, arguments.read), run);
-  if (!arguments.picture.empty()) draw(arguments, mesh, reference, run);
-  if (!reference) {
-    if (terminal.json) {
-      print_json(nlohmann::ordered_json{{"picture", arguments.picture.string()}});
-    }
-    terminal.print_written(arguments.picture.string());
-    return;
+  if (!arguments.reference.empty()) reference.emplace(read_reference(arguments, run), run);
+  InspectAnswer answer;
+  if (!arguments.alignment.align.empty()) {
+    const Alignment alignment = align(mesh, *reference, arguments.alignment, run);
+    add_alignment(answer.json, alignment);
+    answer.text += alignment_text(alignment);
+    mesh = transform_mesh(std::move(mesh), alignment.pose.reference_from_mesh);
   }
-  const RayScene mesh_scene(mesh, run);
-  const SurfaceError error = surface_error(mesh, *reference, {}, run);
-  const SurfaceCompleteness completeness = completeness_of(arguments, *reference, mesh_scene, run);
-  print_result(error, completeness, surface_validity(mesh, *reference, run), arguments, terminal);
-  if (!arguments.picture.empty()) terminal.print_written(arguments.picture.string());
+  if (arguments.features) {
+    const std::vector<Feature> features = find_features(mesh, {}, run);
+    add_features(answer.json, features);
+    answer.text += feature_table(features);
+  }
+  if (drawn) draw(arguments, mesh, reference, run);
+  if (reference) compare(answer, arguments, mesh, *reference, run);
+  for (const auto& path : arguments.outputs)
+    write_mesh(path, mesh, {}, run);
+  if (drawn) answer.json["picture"] = arguments.picture.string();
+  terminal.finish();
+  if (terminal.json) {
+    print_json(answer.json);
+  } else {
+    write_output(answer.text);
+  }
+  if (drawn) terminal.print_written(arguments.picture.string());
+  for (const auto& path : arguments.outputs)
+    terminal.print_written(path.string());
 }
 
 }  // namespace
@@ -186,9 +247,26 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   CLI::App* verb = program.add_subcommand("inspect", "measure a mesh against a reference");
   verb->footer(
       "example:\n  frangia inspect bust.ply --reference bust-scan/truth.ply --scan bust-scan "
-      "--picture bust.png");
+      "--picture bust.png\n"
+      "  frangia inspect blade.ply --reference nominal.stl --align best-fit -o aligned.ply\n"
+      "  frangia inspect shaft.ply --features");
   verb->add_option("MESH", arguments->mesh, "the measured mesh")->required();
-  verb->add_option("--reference", arguments->reference, "the reference mesh, in the same frame");
+  verb->add_option("--reference",
+                   arguments->reference,
+                   "the reference mesh, in the frame of the mesh unless --align finds its pose");
+  verb->add_option("--units",
+                   arguments->unit_mm,
+                   "unit of the reference: um, mm (default), cm, m, in, ft, or its length")
+      ->transform(unit_length());
+  add_alignment_options(*verb, arguments->alignment);
+  verb->add_option("-o,--output",
+                   arguments->outputs,
+                   "write the aligned mesh; may repeat, the ending chooses the format")
+      ->allow_extra_args(false);
+  verb->add_flag("--features",
+                 arguments->features,
+                 "find planes, cylinders, spheres, cones and tori, and the lines and circles where "
+                 "they meet, with the uncertainty of their sizes");
   verb->add_option("--scan",
                    arguments->scan,
                    "completeness counts only what the views of this scan can measure");

@@ -1,0 +1,88 @@
+#include "inspect_alignment.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+
+#include "option_values.h"
+
+namespace frangia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of_matrix(const Eigen::Isometry3d& pose) {
+  Json rows = Json::array();
+  for (Eigen::Index row = 0; row < 4; ++row) {
+    const Eigen::Vector4d values = pose.matrix().row(row).transpose();
+    rows.push_back({values[0], values[1], values[2], values[3]});
+  }
+  return rows;
+}
+
+Json json_of_pose(const AlignmentPose& pose) {
+  return {{"matrix", json_of_matrix(pose.reference_from_mesh)},
+          {"rms_mm", pose.rms_mm},
+          {"overlap", pose.overlap}};
+}
+
+}  // namespace
+
+void add_alignment_options(CLI::App& verb, AlignmentArguments& arguments) {
+  verb.add_option("--align",
+                  arguments.align,
+                  "move the mesh onto the reference first: best-fit, from any start; none, as it "
+                  "stands, with its overlap")
+      ->check(one_of({"best-fit", "none"}));
+  verb.add_option(
+          "--start",
+          arguments.start,
+          "of the poses that --align best-fit lists because they fit alike, the one to take")
+      ->check(from_to(1, 1000));
+  verb.add_option("--tolerance",
+                  arguments.tolerance_mm,
+                  "deviation within which the mesh overlaps the reference, mm; 0.2 % of the size "
+                  "of the reference by default")
+      ->transform(length_above_zero());
+}
+
+Alignment align(const Mesh& mesh,
+                const RayScene& reference,
+                const AlignmentArguments& arguments,
+                const Run& run) {
+  BestFitOptions options;
+  options.tolerance_mm = arguments.tolerance_mm;
+  if (arguments.start > 0) options.start = arguments.start - 1;
+  if (arguments.align == "best-fit") return align_best_fit(mesh, reference, options, run);
+  Alignment as_it_stands;
+  as_it_stands.pose = assess_pose(mesh, reference, Eigen::Isometry3d::Identity(), options, run);
+  return as_it_stands;
+}
+
+void add_alignment(nlohmann::ordered_json& json, const Alignment& alignment) {
+  json["alignment"] = json_of_pose(alignment.pose);
+  Json poses = Json::array();
+  for (const AlignmentPose& pose : alignment.alternatives)
+    poses.push_back(json_of_pose(pose));
+  json["alignment_details"] = {{"iterations", alignment.pose.iterations},
+                               {"free_directions", alignment.free_directions},
+                               {"poses", poses}};
+}
+
+std::string alignment_text(const Alignment& alignment) {
+  const AlignmentPose& pose = alignment.pose;
+  const Eigen::AngleAxisd turn(pose.reference_from_mesh.linear());
+  std::string text = fmt::format(
+      "alignment: turned by {:.3f} degrees and moved by {:.4f} mm; {:.1f} % of the mesh "
+      "lies on the reference, RMS {:.4f} mm\n",
+      deg_from_rad(turn.angle()),
+      pose.reference_from_mesh.translation().norm(),
+      100.0 * pose.overlap,
+      pose.rms_mm);
+  for (const std::string& direction : alignment.free_directions)
+    text += fmt::format("not determined by the shape: {}\n", direction);
+  return text;
+}
+
+}  // namespace frangia

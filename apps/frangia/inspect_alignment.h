@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "frangia/align/align_best_fit.h"
+
+namespace frangia {
+
+/// Options of the alignment of a mesh to its reference.
+struct AlignmentArguments {
+  std::string align;          ///< empty: as it stands, and nothing is said of it
+  std::size_t start = 0;      ///< of poses that fit alike, counted from 1; 0: none chosen
+  double tolerance_mm = 0.0;  ///< of the overlap
+};
+
+/// Adds the options.
+void add_alignment_options(CLI::App& verb, AlignmentArguments& arguments);
+
+/// The pose that the options ask for.
+[[nodiscard]] Alignment align(const Mesh& mesh,
+                              const RayScene& reference,
+                              const AlignmentArguments& arguments,
+                              const Run& run);
+
+/// Adds `alignment` and `alignment_details`.
+void add_alignment(nlohmann::ordered_json& json, const Alignment& alignment);
+
+/// The alignment in a line or more, for people.
+[[nodiscard]] std::string alignment_text(const Alignment& alignment);
+
+}  // namespace frangia

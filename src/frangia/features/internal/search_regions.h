@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/features/find_features.h"
+#include "frangia/features/internal/grow_region.h"
+
+namespace frangia {
+
+/// Regions of cells that lie on shapes, and the scatter of the cells about them.
+struct FoundRegions {
+  std::vector<ShapeRegion> regions;  ///< no two share a cell
+  double gate_mm = 0.0;              ///< the largest distance of a cell from its shape
+};
+
+/// Looks for regions that lie on shapes: the largest first.
+[[nodiscard]] FoundRegions search_regions(const FeaturePoints& points,
+                                          const SurfaceCells& cells,
+                                          const FindFeaturesOptions& options,
+                                          const Run& run);
+
+}  // namespace frangia

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "frangia/core/missing.h"
+#include "frangia/features/feature_points.h"
+#include "frangia/features/fit_shape.h"
+
+namespace frangia {
+
+/// Expanded uncertainty of the size of a fitted shape: the diameter, or the offset of a plane.
+struct ShapeUncertainty {
+  double u95_mm = kMissing;         ///< half the width of the 95 % interval
+  double noise_mm = kMissing;       ///< standard uncertainty by noise, form and edges
+  double systematic_mm = kMissing;  ///< standard uncertainty by the systematic part of sigma
+  /// Half the width of the 95 % interval of the center: along the normal of a plane, across the
+  /// axis of a cylinder or cone, in the worst direction otherwise.
+  double center_u95_mm = kMissing;
+  double axis_u95_rad = kMissing;   ///< of the direction of the axis; NaN for a sphere
+  double angle_u95_rad = kMissing;  ///< of the half angle of a cone; NaN otherwise
+};
+
+/// Estimates the uncertainty of a fit from its own residuals.
+///
+/// Residuals of neighbouring points are alike, so the points are split into compact blocks and the
+/// spread of the blocks' gradients is propagated: the larger result of about 32 and 128 blocks,
+/// with Student's factor. It is never smaller than the stated noise of the points propagates to.
+/// The systematic part of sigma is propagated as one error that is alike in all points.
+///
+/// @units    mm, rad
+/// @missing  NaN when the points do not determine the shape
+/// @source   Liang & Zeger 1986 (clustered errors); GUM (JCGM 100:2008), 5.2.2
+[[nodiscard]] ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
+                                                 std::span<const std::uint32_t> chosen,
+                                                 const ShapeFit& fit);
+
+}  // namespace frangia

@@ -1,0 +1,98 @@
+// Features and alignment by `frangia inspect`.
+#include <filesystem>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/files/read_mesh.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/geometry/transform_mesh.h"
+#include "frangia/simulate/parts.h"
+
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+#include "support/test_meshes.h"
+
+namespace frangia {
+namespace {
+
+using testing::Answer;
+using testing::run_program;
+
+class InspectProgram : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return (folder_.path() / name).string();
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(InspectProgram, StatesTheFieldsOfEachFeature) {
+  write_mesh(at("ball.ply"), testing::sphere({1, 2, 3}, 20.0));
+  const Answer answer = run_program("--json inspect " + at("ball.ply") + " --features");
+  ASSERT_EQ(answer.exit_code, 0) << answer.output;
+  const auto features = nlohmann::json::parse(answer.output).at("features");
+  ASSERT_EQ(features.size(), 1U);
+  const auto& ball = features[0];
+  EXPECT_EQ(ball.size(), 7U);
+  EXPECT_EQ(ball.at("kind"), "sphere");
+  EXPECT_NEAR(ball.at("diameter_mm").get<double>(), 40.0, 0.01);
+  EXPECT_NEAR(ball.at("center_mm")[2].get<double>(), 3.0, 0.01);
+  EXPECT_TRUE(ball.at("axis").is_null());
+  EXPECT_GT(ball.at("points").get<int>(), 1000);
+  EXPECT_GE(ball.at("u95_mm").get<double>(), 0.0);
+  EXPECT_GE(ball.at("form_mm").get<double>(), 0.0);
+}
+
+TEST_F(InspectProgram, WritesTheAlignedMeshAndStatesItsPose) {
+  Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+  moved.linear() =
+      Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  moved.translation() = Eigen::Vector3d(300, -400, 50);
+  write_mesh(at("reference.stl"), make_bracket());
+  write_mesh(at("moved.ply"), transform_mesh(make_bracket(), moved));
+  const Answer answer = run_program("--json inspect " + at("moved.ply") + " --reference " +
+                                    at("reference.stl") + " --align best-fit -o " + at("back.ply"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.output;
+  const auto alignment = nlohmann::json::parse(answer.output).at("alignment");
+  EXPECT_EQ(alignment.size(), 3U);
+  EXPECT_GT(alignment.at("overlap").get<double>(), 0.999);
+  EXPECT_LT(alignment.at("rms_mm").get<double>(), 0.001);
+  const Eigen::Matrix4d back = moved.inverse().matrix();
+  for (Eigen::Index row = 0; row < 4; ++row) {
+    for (Eigen::Index column = 0; column < 4; ++column) {
+      const auto value =
+          alignment.at("matrix")[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
+              .get<double>();
+      EXPECT_NEAR(value, back(row, column), column < 3 ? 1e-5 : 1e-2);
+    }
+  }
+  const Mesh written = read_mesh(at("back.ply"));
+  const Mesh reference = make_bracket();
+  ASSERT_EQ(written.vertices_mm.size(), reference.vertices_mm.size());
+  EXPECT_LT((written.vertices_mm[7] - reference.vertices_mm[7]).norm(), 0.01F);
+}
+
+TEST_F(InspectProgram, EndsWithItsExitCodesWithoutAFile) {
+  write_mesh(at("plate.ply"), make_plate());
+  write_mesh(at("shaft.ply"), make_shaft());
+  const std::string out = " --align best-fit -o " + at("out.ply");
+  const Answer alike =
+      run_program("inspect " + at("plate.ply") + " --reference " + at("plate.ply") + out);
+  EXPECT_EQ(alike.exit_code, 5) << alike.output;
+  EXPECT_NE(alike.output.find("--start"), std::string::npos) << alike.output;
+  const Answer foreign =
+      run_program("inspect " + at("plate.ply") + " --reference " + at("shaft.ply") + out);
+  EXPECT_EQ(foreign.exit_code, 3) << foreign.output;
+  EXPECT_FALSE(std::filesystem::exists(at("out.ply")));
+  const Answer without = run_program("inspect " + at("plate.ply") + " --align best-fit");
+  EXPECT_EQ(without.exit_code, 3) << without.output;
+  EXPECT_NE(without.output.find("--reference"), std::string::npos) << without.output;
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,144 @@
+#include "frangia/features/find_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/geometry/transform_mesh.h"
+#include "frangia/simulate/parts.h"
+
+#include "features/noisy_shapes.h"
+#include "support/error_of.h"
+#include "support/test_meshes.h"
+
+namespace frangia {
+namespace {
+
+using testing::add_patch;
+using testing::noisy_cylinder;
+
+/// Five surfaces apart from each other, in mm times `scale`.
+Mesh five_surfaces(double scale) {
+  Mesh mesh;
+  const double noise = 0.01 * scale;
+  const auto add = [&](std::uint64_t seed, const auto& place) {
+    add_patch(mesh, 70, 70, noise, seed, [&](double u, double v) {
+      return Eigen::Vector3d(scale * place(u, v));
+    });
+  };
+  add(1, [](double u, double v) {
+    return Eigen::Vector3d(10 * std::cos(kTwoPi * u), 10 * std::sin(kTwoPi * u), 40 * v);
+  });
+  add(2, [](double u, double v) {
+    const double polar = 0.3 + 2.2 * v;
+    return Eigen::Vector3d(60 + 12 * std::sin(polar) * std::cos(kTwoPi * u),
+                           12 * std::sin(polar) * std::sin(kTwoPi * u),
+                           -12 * std::cos(polar));
+  });
+  add(3, [](double u, double v) {
+    const double radius = 5 + 8 * v;
+    return Eigen::Vector3d(
+        -50 + radius * std::cos(kTwoPi * u), radius * std::sin(kTwoPi * u), 30 * v);
+  });
+  add(4, [](double u, double v) {
+    const double radius = 20 + 6 * std::cos(kTwoPi * v);
+    return Eigen::Vector3d(radius * std::cos(kTwoPi * u),
+                           80 + radius * std::sin(kTwoPi * u),
+                           6 * std::sin(kTwoPi * v));
+  });
+  add(5, [](double u, double v) { return Eigen::Vector3d(-30 + 60 * u, -60 + 40 * v, 5); });
+  return mesh;
+}
+
+const Feature* find(const std::vector<Feature>& features, ShapeKind kind) {
+  const auto at = std::find_if(features.begin(), features.end(), [&](const Feature& feature) {
+    return feature.fit.shape.kind == kind;
+  });
+  return at == features.end() ? nullptr : &*at;
+}
+
+class FindFeaturesAtScale : public ::testing::TestWithParam<double> {};
+
+TEST_P(FindFeaturesAtScale, FindsEachSurfaceOnceWithItsSize) {
+  const double scale = GetParam();
+  const std::vector<Feature> features = find_features(five_surfaces(scale));
+  ASSERT_EQ(features.size(), 5U);
+  const Feature* cylinder = find(features, ShapeKind::Cylinder);
+  const Feature* sphere = find(features, ShapeKind::Sphere);
+  const Feature* cone = find(features, ShapeKind::Cone);
+  const Feature* torus = find(features, ShapeKind::Torus);
+  const Feature* plane = find(features, ShapeKind::Plane);
+  ASSERT_TRUE(cylinder && sphere && cone && torus && plane);
+  EXPECT_NEAR(cylinder->fit.shape.radius_mm, 10 * scale, 0.001 * scale);
+  EXPECT_NEAR(sphere->fit.shape.radius_mm, 12 * scale, 0.001 * scale);
+  EXPECT_NEAR(torus->fit.shape.radius_mm, 20 * scale, 0.002 * scale);
+  EXPECT_NEAR(torus->fit.shape.tube_radius_mm, 6 * scale, 0.002 * scale);
+  EXPECT_NEAR(cone->fit.shape.half_angle_rad, std::atan(8.0 / 30.0), 0.0005);
+  EXPECT_LT((sphere->fit.shape.center_mm - scale * Eigen::Vector3d(60, 0, 0)).norm(),
+            0.002 * scale);
+  EXPECT_NEAR(std::abs(plane->fit.shape.axis.z()), 1.0, 1e-6);
+  EXPECT_NEAR(plane->fit.shape.center_mm.z(), 5 * scale, 0.001 * scale);
+  EXPECT_NEAR(cylinder->fit.rms_mm, 0.01 * scale, 0.0005 * scale);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scales, FindFeaturesAtScale, ::testing::Values(0.1, 1.0, 10.0));
+
+TEST(FindFeatures, FindsTheCylindersOfATessellatedShaft) {
+  const std::vector<Feature> features = find_features(make_shaft());
+  std::map<int, int> found;  // by diameter in mm
+  for (const Feature& feature : features) {
+    if (feature.fit.shape.kind != ShapeKind::Cylinder) continue;
+    const double diameter = 2.0 * feature.fit.shape.radius_mm;
+    if (std::abs(diameter - std::round(diameter)) < 0.01)
+      ++found[static_cast<int>(std::round(diameter))];
+    EXPECT_FALSE(feature.hole && diameter > 10.0);
+  }
+  for (const int diameter : {28, 36, 44, 52})
+    EXPECT_GE(found[diameter], 1) << diameter;
+}
+
+TEST(FindFeatures, NamesTheInsideOfACylinderAHole) {
+  Mesh mesh = noisy_cylinder(8, 20, 0.005, 1);
+  for (auto& triangle : mesh.triangles)
+    std::swap(triangle[1], triangle[2]);
+  const std::vector<Feature> features = find_features(mesh);
+  ASSERT_EQ(features.size(), 1U);
+  EXPECT_TRUE(features[0].hole);
+  EXPECT_FALSE(find_features(noisy_cylinder(8, 20, 0.005, 1)).at(0).hole);
+}
+
+TEST(FindFeatures, FindsTheEdgesOfABox) {
+  const std::vector<Feature> features = find_features(testing::box({0, 0, 0}, {30, 20, 10}));
+  const auto count = [&](ShapeKind kind) {
+    return std::count_if(features.begin(), features.end(), [&](const Feature& feature) {
+      return feature.fit.shape.kind == kind;
+    });
+  };
+  EXPECT_EQ(count(ShapeKind::Plane), 6);
+  EXPECT_EQ(count(ShapeKind::Line), 12);
+  EXPECT_EQ(features.size(), 18U);
+}
+
+TEST(FindFeatures, IgnoresSynthesizedTriangles) {
+  Mesh mesh = noisy_cylinder(8, 20, 0.005, 1);
+  mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Synthesized);
+  EXPECT_NE(testing::error_of([&] { static_cast<void>(find_features(mesh)); }).find("no measured"),
+            std::string::npos);
+}
+
+TEST(FindFeatures, PrefersThePlaneWhereACylinderFitsAsWell) {
+  Mesh mesh;
+  add_patch(mesh, 80, 80, 0.01, 7, [](double u, double v) {
+    return Eigen::Vector3d(30 * u, 30 * v, 0.0);
+  });
+  const std::vector<Feature> features = find_features(mesh);
+  ASSERT_EQ(features.size(), 1U);
+  EXPECT_EQ(features[0].fit.shape.kind, ShapeKind::Plane);
+}
+
+}  // namespace
+}  // namespace frangia
