@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,19 @@ enum class ExposureChoice {
   Given,      ///< `camera.exposure_ms`, or each pattern's `exposures_ms`
   Automatic,  ///< the longest exposure that saturates at most 0.5 % of the lit pixels
   Bracketed   ///< several exposures, for glossy parts
+};
+
+struct DecodedView;
+
+/// What the assessment of a captured view found.
+struct ViewAssessment {
+  std::size_t view = 0;                  ///< index in the plan
+  std::string verdict;                   ///< "good", or the fault and its remedy in a few words
+  bool good = false;                     ///< nothing to remedy
+  double contrast = 0.0;                 ///< of the finest fringes, 0 to 1
+  double saturated_fraction = 0.0;       ///< of the lit pixels, 0 to 1
+  std::size_t points = 0;                ///< pixels with a phase
+  const DecodedView* decoded = nullptr;  ///< valid during the call; null: cannot be decoded
 };
 
 /// How a scan is captured: exposure, repeated attempts and time limits.
@@ -31,6 +45,9 @@ struct CaptureOptions {
   /// Present angle of a turntable without a home switch. Empty: 0 when a scan begins. A scan that
   /// is continued requires it.
   std::optional<double> table_at_rad;
+  /// Called once for each view that is captured in this session, on the thread that decodes it,
+  /// while the capture continues. It does not throw.
+  std::function<void(const ViewAssessment&)> on_view;
 };
 
 /// A view that could not be captured.
