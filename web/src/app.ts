@@ -420,15 +420,16 @@ export class App extends LitElement {
     const lost = this.session.link === 'lost';
     return html`${this.header()}
       <div class="work">
-        ${this.step === 'project' ? '' : html`<h1 class="sr">${t(`step.${this.step}`)}</h1>`}
         ${this.step === 'project' || !this.state.project
           ? projectStep(this)
-          : html`${this.picture()}<main class="panel" tabindex="-1">${this.panel()}</main>`}
-        ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
-        ${this.problem && !lost
-          ? html`<div class="notice" role="alert"><span>${this.problem}</span>
-              <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => { this.problem = ''; this.requestUpdate(); }}>${icon('close')}</button></div>`
-          : ''}
+          : html`${this.picture()}<main class="panel" tabindex="-1"><h1 class="sr">${t(`step.${this.step}`)}</h1>${this.panel()}</main>`}
+        <div class="messages" role="region" aria-label=${t('app.messages')}>
+          ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
+          ${this.problem && !lost
+            ? html`<div class="notice" role="alert"><span>${this.problem}</span>
+                <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => { this.problem = ''; this.requestUpdate(); }}>${icon('close')}</button></div>`
+            : ''}
+        </div>
       </div>
       ${this.footer()}${this.dialogs()}`;
   }

@@ -157,6 +157,7 @@ const CATALOGUE = {
   'app.connecting': ['Connecting', 'Verbindung wird aufgebaut'],
   'app.noWebGL': ['This browser shows no 3D pictures (WebGL is off). Scanning, editing by numbers and exporting work.', 'Dieser Browser zeigt keine 3D-Bilder (WebGL ist aus). Scannen, Bearbeiten nach Zahlen und Export gehen.'],
   'app.dismiss': ['Dismiss', 'Ausblenden'],
+  'app.messages': ['Messages', 'Meldungen'],
   'app.view': ['3D view', '3D-Ansicht'],
   'keys.steps': ['Go to a step', 'Zu einem Schritt'],
   'keys.deselect': ['Turn tool; drop a measurement', 'Drehwerkzeug; Messung verwerfen'],
