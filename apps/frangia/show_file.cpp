@@ -10,12 +10,11 @@
 #include <unistd.h>
 
 namespace frangia {
+namespace {
 
-bool show_file(const std::filesystem::path& path) {
-  // Absolute, so that a name that begins with a dash is no option of xdg-open.
+bool run_xdg_open(std::string what) {
   std::string program = "xdg-open";
-  std::string file = std::filesystem::absolute(path).string();
-  const std::array<char*, 3> arguments = {program.data(), file.data(), nullptr};
+  const std::array<char*, 3> arguments = {program.data(), what.data(), nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -35,6 +34,17 @@ bool show_file(const std::filesystem::path& path) {
   int status = 0;
   return error == 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) &&
          WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+bool show_file(const std::filesystem::path& path) {
+  // Absolute, so that a name that begins with a dash is no option of xdg-open.
+  return run_xdg_open(std::filesystem::absolute(path).string());
+}
+
+bool show_address(const std::string& address) {
+  return run_xdg_open(address);
 }
 
 }  // namespace frangia

@@ -22,5 +22,6 @@ void add_scan_verb(CLI::App& program, Terminal& terminal);
 void add_devices_verb(CLI::App& program, Terminal& terminal);
 void add_import_verb(CLI::App& program, Terminal& terminal);
 void add_calibrate_verb(CLI::App& program, Terminal& terminal);
+void add_serve_verb(CLI::App& program, Terminal& terminal);
 
 }  // namespace frangia

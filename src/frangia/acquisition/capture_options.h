@@ -17,6 +17,19 @@ enum class ExposureChoice {
   Bracketed   ///< several exposures, for glossy parts
 };
 
+struct DecodedView;
+
+/// What the assessment of a captured view found.
+struct ViewAssessment {
+  std::size_t view = 0;                  ///< index in the plan
+  std::string verdict;                   ///< "good", or the fault and its remedy in a few words
+  bool good = false;                     ///< nothing to remedy
+  double contrast = 0.0;                 ///< of the finest fringes, 0 to 1
+  double saturated_fraction = 0.0;       ///< of the lit pixels, 0 to 1
+  std::size_t points = 0;                ///< pixels with a phase
+  const DecodedView* decoded = nullptr;  ///< valid during the call; null: cannot be decoded
+};
+
 /// How a scan is captured: exposure, repeated attempts and time limits.
 struct CaptureOptions {
   CameraSettings camera;  ///< `exposure_ms` is the initial guess of Automatic and Bracketed
@@ -39,6 +52,9 @@ struct CaptureOptions {
   std::function<bool(std::size_t view)> before_view;
   /// Called after each complete view, also those of earlier sessions; its frames are on the disk.
   std::function<void(std::size_t view)> after_view;
+  /// Called once for each view that is captured in this session, on the thread that decodes it,
+  /// while the capture continues. It does not throw.
+  std::function<void(const ViewAssessment&)> on_view;
 };
 
 /// A view that could not be captured.

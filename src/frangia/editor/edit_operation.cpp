@@ -69,6 +69,8 @@ void check_step(const EditStep& step) {
       require(step.value.empty(), "the operation takes no value");
     } else if (pattern == "MARK") {
       static_cast<void>(edit_mark(step.value));
+    } else if (pattern == kOutlinePattern) {
+      static_cast<void>(edit_outline(step.value));
     } else {
       static_cast<void>(edit_numbers(pattern, step.value));
     }

@@ -28,7 +28,7 @@ CaptureSession::CaptureSession(Scan plan,
           plan_, devices_, devices.camera->info(), table_, manifest_, options_, run_)),
       files_(plan_, manifest_),
       store_(manifest_),
-      assessor_(plan_, run),
+      assessor_(plan_, options_.on_view, run),
       sets_({plan_, options_, run_, devices_, table_, manifest_, files_, store_},
             exposures_.single_ms,
             [this](std::ptrdiff_t frames) {

@@ -14,6 +14,8 @@
 namespace frangia {
 namespace {
 
+constexpr const char* kGood = "good";
+
 /// The result in a few words, with the remedy.
 std::string word_for(const FrameAssessment& frames, std::size_t points) {
   constexpr double kOverexposed = 0.02;
@@ -23,20 +25,23 @@ std::string word_for(const FrameAssessment& frames, std::size_t points) {
   if (frames.saturated_fraction > kOverexposed)
     return "overexposed, shorten or bracket the exposure";
   if (frames.contrast < kLowContrast) return "low contrast, reduce ambient light";
-  return "good";
+  return kGood;
 }
 
 }  // namespace
 
-ViewAssessor::ViewAssessor(const Scan& plan, const Run& run) : plan_(plan), run_(run) {
+ViewAssessor::ViewAssessor(const Scan& plan,
+                           const std::function<void(const ViewAssessment&)>& on_view,
+                           const Run& run)
+    : plan_(plan), on_view_(on_view), run_(run) {
   if (has_geometry(plan.rig)) rays_ = rays_of(plan.rig.camera.model);
 }
 
 void ViewAssessor::begin(std::size_t view, std::vector<std::shared_ptr<const Frame>> frames) {
   report(true);
   view_ = view;
-  decoding_ =
-      std::async(std::launch::async, [this, all = std::move(frames)] { return decode(all); });
+  decoding_ = std::async(std::launch::async,
+                         [this, view, all = std::move(frames)] { return decode(view, all); });
 }
 
 void ViewAssessor::report(bool wait) {
@@ -49,7 +54,8 @@ void ViewAssessor::report(bool wait) {
                         decoding_.get()));
 }
 
-std::string ViewAssessor::decode(const std::vector<std::shared_ptr<const Frame>>& frames) const {
+std::string ViewAssessor::decode(std::size_t view,
+                                 const std::vector<std::shared_ptr<const Frame>>& frames) const {
   std::vector<FrameStack> stacks;
   std::size_t next = 0;
   for (const Pattern& pattern : plan_.patterns) {
@@ -60,21 +66,32 @@ std::string ViewAssessor::decode(const std::vector<std::shared_ptr<const Frame>>
       stacks.push_back(std::move(stack));
     }
   }
+  ViewAssessment found;
+  found.view = view;
   try {
     const DecodedView decoded = decode_view(stacks, plan_.rig, rays_);
     const auto phase = decoded.phase.phase_rad.pixels();
-    auto points = static_cast<std::size_t>(
+    found.points = static_cast<std::size_t>(
         std::count_if(phase.begin(), phase.end(), [](float value) { return !std::isnan(value); }));
     for (const UnresolvedRegion& region : decoded.unresolved)
-      points += region.pixel.size();
+      found.points += region.pixel.size();
     const FrameAssessment& finest = decoded.assessments.back();
+    found.verdict = word_for(finest, found.points);
+    found.good = found.verdict == kGood;
+    found.contrast = finest.contrast;
+    found.saturated_fraction = finest.saturated_fraction;
+    found.decoded = &decoded;
+    if (on_view_) on_view_(found);
     return fmt::format("{}: contrast {:.2f}, {:.1f} % saturated, {} points",
-                       word_for(finest, points),
-                       finest.contrast,
-                       100.0 * finest.saturated_fraction,
-                       points);
+                       found.verdict,
+                       found.contrast,
+                       100.0 * found.saturated_fraction,
+                       found.points);
   } catch (const Error& error) {
-    return fmt::format("cannot be decoded: {}", error.what());
+    found.verdict = fmt::format("cannot be decoded: {}", error.what());
+    found.decoded = nullptr;
+    if (on_view_) on_view_(found);
+    return found.verdict;
   }
 }
 

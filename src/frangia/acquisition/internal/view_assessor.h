@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "frangia/acquisition/capture_options.h"
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
@@ -19,7 +21,10 @@ namespace frangia {
 /// of points of each.
 class ViewAssessor {
  public:
-  ViewAssessor(const Scan& plan, const Run& run);
+  /// Passes each assessment to `on_view`, where it is set. The references must outlive this object.
+  ViewAssessor(const Scan& plan,
+               const std::function<void(const ViewAssessment&)>& on_view,
+               const Run& run);
   ViewAssessor(const ViewAssessor&) = delete;
   ViewAssessor& operator=(const ViewAssessor&) = delete;
   ViewAssessor(ViewAssessor&&) = delete;
@@ -33,9 +38,11 @@ class ViewAssessor {
   void report(bool wait);
 
  private:
-  [[nodiscard]] std::string decode(const std::vector<std::shared_ptr<const Frame>>& frames) const;
+  [[nodiscard]] std::string decode(std::size_t view,
+                                   const std::vector<std::shared_ptr<const Frame>>& frames) const;
 
   const Scan& plan_;
+  const std::function<void(const ViewAssessment&)>& on_view_;
   const Run& run_;
   Image<Eigen::Vector2f> rays_;
   std::size_t view_ = 0;

@@ -131,6 +131,31 @@ Eigen::Hyperplane<double, 3> edit_plane(const std::vector<double>& numbers) {
   return {normal.normalized(), -numbers.at(3)};
 }
 
+ViewedOutline edit_outline(const std::string& value) {
+  constexpr std::size_t kMostCorners = 4096;
+  constexpr std::size_t kCoordinates = 3;
+  const auto words = split_at_commas(value);
+  std::vector<double> numbers;
+  for (const std::string_view word : words) {
+    if (words.size() > (kMostCorners + 1) * kCoordinates) break;
+    const auto number = number_of_word(ValueUnit::Length, word);
+    if (number && is_in_range(kPlainNumber, *number)) numbers.push_back(*number);
+  }
+  if (numbers.size() != words.size() || numbers.size() % kCoordinates != 0 ||
+      numbers.size() < 4 * kCoordinates) {
+    throw Error(ErrorKind::Input,
+                fmt::format("the value is not {}; write the point of view and 3 to {} corners of "
+                            "the outline, three coordinates each",
+                            kOutlinePattern,
+                            kMostCorners));
+  }
+  ViewedOutline outline;
+  outline.eye_mm = {numbers[0], numbers[1], numbers[2]};
+  for (std::size_t i = kCoordinates; i < numbers.size(); i += kCoordinates)
+    outline.corners_mm.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  return outline;
+}
+
 Mark edit_mark(const std::string& value) {
   if (value == "measured") return Mark::Measured;
   if (value == "displaced") return Mark::Displaced;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/editor/internal/select_by_outline.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -26,6 +27,15 @@ namespace frangia {
 ///
 /// @errors   Error(Input) for a normal of length 0
 [[nodiscard]] Eigen::Hyperplane<double, 3> edit_plane(const std::vector<double>& numbers);
+
+/// Pattern of the values that `edit_outline` reads.
+inline constexpr const char* kOutlinePattern = "X,Y,Z,X,Y,Z,...";
+
+/// Reads an outline: the eye and at least three corners, three coordinates each.
+///
+/// @units    mm
+/// @errors   Error(Input) that says how to write one; a value has at most 4096 corners
+[[nodiscard]] ViewedOutline edit_outline(const std::string& value);
 
 /// @errors   Error(Input) unless the value is measured, displaced or synthesized
 [[nodiscard]] Mark edit_mark(const std::string& value);

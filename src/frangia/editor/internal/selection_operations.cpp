@@ -8,6 +8,7 @@
 #include "frangia/editor/internal/edit_value.h"
 #include "frangia/editor/internal/operation_groups.h"
 #include "frangia/editor/internal/select_by_geometry.h"
+#include "frangia/editor/internal/select_by_outline.h"
 #include "frangia/editor/internal/select_by_vertex_data.h"
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/change_selection.h"
@@ -107,6 +108,32 @@ std::vector<EditOperation> geometry_selections() {
                  "HOLE",
                  "select the triangles around a hole by its number in `list`",
                  select_numbered_loop),
+  };
+}
+
+EditOperation by_outline(const char* name, const char* help, bool visible_only) {
+  return {name,
+          kGroup,
+          kOutlinePattern,
+          help,
+          [name, visible_only](EditState& state, const std::string& value, const Run& run) {
+            combine(state,
+                    select_by_outline(state.mesh, edit_outline(value), visible_only, run),
+                    name,
+                    run);
+          }};
+}
+
+std::vector<EditOperation> outline_selections() {
+  return {
+      by_outline("select-outline",
+                 "select what the first point sees within the outline through the others, as a "
+                 "lasso on a screen",
+                 true),
+      by_outline("select-outline-through",
+                 "select everything within the outline as seen from the first point, hidden parts "
+                 "included",
+                 false),
   };
 }
 
@@ -223,7 +250,7 @@ std::vector<EditOperation> selection_changes() {
 
 std::vector<EditOperation> selection_operations() {
   std::vector<EditOperation> all = geometry_selections();
-  for (auto kind : {vertex_data_selections, selection_changes}) {
+  for (auto kind : {outline_selections, vertex_data_selections, selection_changes}) {
     for (EditOperation& operation : kind())
       all.push_back(std::move(operation));
   }

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+namespace frangia {
+
+/// A request after its limits were checked.
+struct HttpRequest {
+  std::string method;         ///< "GET", "POST", ...
+  std::string target;         ///< path and query as sent, such as "/api/state"
+  std::string host;           ///< header Host
+  std::string origin;         ///< header Origin; empty without one
+  std::string fetch_site;     ///< header Sec-Fetch-Site; empty without one
+  std::string content_type;   ///< header Content-Type; empty without one
+  std::string authorization;  ///< header Authorization; empty without one
+  std::string body;
+};
+
+/// The answer to a request.
+struct HttpResponse {
+  unsigned status = 200;
+  std::string type = "application/json";  ///< header Content-Type
+  std::string body = {};
+  bool gzip = false;               ///< `body` is compressed
+  std::string cache = "no-store";  ///< header Cache-Control
+  std::string download = {};       ///< name of a file to save; empty: to show
+};
+
+/// What the server asks of the app. All functions are called on the server's thread.
+struct HttpApp {
+  /// Answers a request. It does not throw.
+  std::function<HttpResponse(const HttpRequest&)> answer;
+  /// Whether a request may open the WebSocket: its path, host and origin.
+  std::function<bool(const HttpRequest&)> may_connect;
+  /// Whether the first message of a WebSocket authorizes it.
+  std::function<bool(std::string_view)> authorizes;
+  /// The message that every WebSocket receives at its beginning and after each change.
+  std::function<std::string()> live_message;
+  /// Content-Security-Policy of all answers, for the port of the server.
+  std::string content_security_policy;
+};
+
+/// Limits that keep one client from hindering others.
+struct HttpLimits {
+  std::size_t header_bytes = 16 * 1024;
+  std::size_t body_bytes = 1024 * 1024;
+  std::size_t connections = 256;            ///< beyond it, the one that is idle longest is closed
+  std::chrono::seconds request_time{10};    ///< for a whole request to arrive
+  std::chrono::seconds response_time{120};  ///< for the answer to be taken
+  std::size_t live_message_bytes = 4096;    ///< of a message from a client
+  std::chrono::milliseconds live_interval{50};  ///< at least, between two live messages
+};
+
+/// An HTTP and WebSocket server on 127.0.0.1, with one thread.
+class HttpServer {
+ public:
+  /// Listens on a port; 0: one that the system chooses.
+  ///
+  /// @errors   Error(Device) that names the port when it cannot be used
+  HttpServer(std::uint16_t port, const HttpLimits& limits);
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+  HttpServer(HttpServer&&) = delete;
+  HttpServer& operator=(HttpServer&&) = delete;
+  ~HttpServer();
+
+  [[nodiscard]] std::uint16_t port() const;  ///< the port that it listens on
+  /// Serves until a stop is requested.
+  void serve(HttpApp app, const std::stop_token& stop);
+  /// Sends the live message to all WebSockets soon. May be called from any thread, also when
+  /// `serve` has not begun or has ended.
+  void announce_change();
+
+ private:
+  struct Implementation;
+  std::shared_ptr<Implementation> implementation_;
+};
+
+}  // namespace frangia

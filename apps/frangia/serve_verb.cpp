@@ -1,0 +1,124 @@
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/error.h"
+#include "frangia/service/service.h"
+#include "frangia/service/session_keys.h"
+
+#include "drivers.h"
+#include "interrupt.h"
+#include "option_values.h"
+#include "print_text.h"
+#include "serve/app_routes.h"
+#include "serve/http_server.h"
+#include "serve/runtime_file.h"
+#include "show_file.h"
+#include "verbs.h"
+
+namespace frangia {
+namespace {
+
+/// Used when it is free and no other port was asked for; the wavelength of a He-Ne laser, 632.8 nm.
+constexpr std::uint16_t kUsualPort = 6328;
+
+struct ServeArguments {
+  std::filesystem::path project;
+  std::filesystem::path projects;
+  std::optional<std::uint16_t> port;
+  bool open = false;
+  bool new_link = false;
+};
+
+/// $XDG_DATA_HOME/frangia/projects, by default in ~/.local/share.
+std::filesystem::path usual_projects() {
+  const auto variable = [](const char* name) -> std::filesystem::path {
+    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): before any thread
+    return value != nullptr && *value == '/' ? value : "";
+  };
+  const auto data = variable("XDG_DATA_HOME");
+  if (!data.empty()) return data / "frangia" / "projects";
+  const auto home = variable("HOME");
+  if (!home.empty()) return home / ".local" / "share" / "frangia" / "projects";
+  return std::filesystem::absolute("frangia-projects");
+}
+
+std::unique_ptr<HttpServer> listen(const ServeArguments& arguments) {
+  if (arguments.port) return std::make_unique<HttpServer>(*arguments.port, HttpLimits{});
+  try {
+    return std::make_unique<HttpServer>(kUsualPort, HttpLimits{});
+  } catch (const Error&) {  // in use; any other one serves as well
+    return std::make_unique<HttpServer>(std::uint16_t{0}, HttpLimits{});
+  }
+}
+
+void print_link(const std::string& link,
+                const std::filesystem::path& projects,
+                Terminal& terminal) {
+  if (terminal.json) {
+    print_json({{"url", link}, {"projects", projects.string()}});
+  } else {
+    print_text("the app is at {}\n", link);
+    if (!terminal.quiet)
+      print_text("The link opens one browser. Projects are in {}. Stop with Ctrl-C.\n",
+                 projects.string());
+  }
+  flush_output();
+}
+
+void serve(ServeArguments& arguments, Terminal& terminal) {
+  if (arguments.new_link) {
+    print_text("{}\n", ask_for_link());
+    return;
+  }
+  if (arguments.projects.empty()) arguments.projects = usual_projects();
+  arguments.projects = std::filesystem::absolute(arguments.projects).lexically_normal();
+  const Run run = terminal.run();
+  const std::unique_ptr<HttpServer> server = listen(arguments);
+  ServiceOptions options;
+  options.projects = arguments.projects;
+  options.version = FRANGIA_VERSION;
+  options.capture = {
+      all_drivers, guardian_program(), [] { return std::make_shared<DeviceScope>(); }};
+  Service service(std::move(options), [&server] { server->announce_change(); });
+  if (!arguments.project.empty()) service.open_folder(arguments.project);
+  SessionKeys keys;
+  const AppRoutes routes(service, keys, server->port());
+  const RuntimeFile file(server->port(), keys.issue_key());
+  const std::string link = routes.new_link();
+  print_link(link, arguments.projects, terminal);
+  if (arguments.open && !show_address(link))
+    run.warn("xdg-open cannot show the link; open it yourself");
+  server->serve(routes.app(), run.stop);
+}
+
+}  // namespace
+
+void add_serve_verb(CLI::App& program, Terminal& terminal) {
+  auto arguments = std::make_shared<ServeArguments>();
+  CLI::App* verb = program.add_subcommand(
+      "serve", "the operator's app: scan, view, edit and export in a browser");
+  verb->footer(
+      "example:\n  frangia serve --open\n  frangia serve out/demo/bust-scan --open\n"
+      "The server answers on 127.0.0.1 only, and only browsers that were given a link.");
+  verb->add_option("PROJECT", arguments->project, "project or scan folder to open first");
+  verb->add_option("--projects",
+                   arguments->projects,
+                   "folder of the projects; default: $XDG_DATA_HOME/frangia/projects");
+  verb->add_option("--port",
+                   arguments->port,
+                   "port to listen on; 0 for any; default: 6328, or any if it is in use")
+      ->check(from_to(0, 65535));
+  verb->add_flag("--open", arguments->open, "open the app in the desktop's browser");
+  verb->add_flag("--new-link",
+                 arguments->new_link,
+                 "print a link for one more browser to the server that runs");
+  verb->callback([arguments, &terminal] { serve(*arguments, terminal); });
+}
+
+}  // namespace frangia

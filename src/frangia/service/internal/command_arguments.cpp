@@ -1,0 +1,69 @@
+#include "frangia/service/internal/command_arguments.h"
+
+#include <fmt/format.h>
+
+#include "frangia/core/check_nesting.h"
+#include "frangia/core/error.h"
+
+namespace frangia {
+namespace {
+
+[[noreturn]] void fail_argument(const char* key, const std::string& what) {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", key, what));
+}
+
+}  // namespace
+
+CommandArguments::CommandArguments(const std::string& text) {
+  constexpr std::size_t kMostBytes = 1'000'000;
+  require(text.size() <= kMostBytes, "the command is longer than 1 MB; send a shorter one");
+  check_json_nesting(text, "command");
+  json_ = text.empty() ? nlohmann::json::object() : nlohmann::json::parse(text, nullptr, false);
+  require(json_.is_object(), "the arguments of a command are a JSON object; send one, such as {}");
+}
+
+const nlohmann::json* CommandArguments::find(const char* key) {
+  read_.insert(key);
+  const auto found = json_.find(key);
+  return found == json_.end() || found->is_null() ? nullptr : &*found;
+}
+
+std::string CommandArguments::text(const char* key) {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr || !value->is_string()) fail_argument(key, "a text is missing here");
+  return value->get<std::string>();
+}
+
+std::string CommandArguments::text_or(const char* key, const std::string& otherwise) {
+  return find(key) == nullptr ? otherwise : text(key);
+}
+
+std::size_t CommandArguments::whole(const char* key, std::size_t least, std::size_t most) {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr || !value->is_number_unsigned() || value->get<std::size_t>() < least ||
+      value->get<std::size_t>() > most)
+    fail_argument(key, fmt::format("a whole number from {} to {} is missing here", least, most));
+  return value->get<std::size_t>();
+}
+
+std::size_t CommandArguments::whole_or(const char* key,
+                                       std::size_t otherwise,
+                                       std::size_t least,
+                                       std::size_t most) {
+  return find(key) == nullptr ? otherwise : whole(key, least, most);
+}
+
+std::optional<double> CommandArguments::positive(const char* key) {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_number() || !(value->get<double>() > 0.0))
+    fail_argument(key, "a number above 0 is missing here");
+  return value->get<double>();
+}
+
+void CommandArguments::check_all_read() const {
+  for (const auto& [key, value] : json_.items())
+    if (!read_.contains(key)) fail_argument(key.c_str(), "the command has no such argument");
+}
+
+}  // namespace frangia

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace frangia {
+
+/// The arguments of a command: a JSON object whose every key is read exactly once.
+///
+/// @errors   each function throws Error(Input) that names the key and what it should be
+class CommandArguments {
+ public:
+  /// Parses at most 1 MB of JSON.
+  explicit CommandArguments(const std::string& text);
+
+  [[nodiscard]] std::string text(const char* key);  ///< a string; required
+  [[nodiscard]] std::string text_or(const char* key, const std::string& otherwise);
+  /// A whole number from `least` to `most`; required.
+  [[nodiscard]] std::size_t whole(const char* key, std::size_t least, std::size_t most);
+  [[nodiscard]] std::size_t whole_or(const char* key,
+                                     std::size_t otherwise,
+                                     std::size_t least,
+                                     std::size_t most);
+  /// A number above 0, or empty.
+  [[nodiscard]] std::optional<double> positive(const char* key);
+  /// Fails when a key is left that no function has read.
+  void check_all_read() const;
+
+ private:
+  [[nodiscard]] const nlohmann::json* find(const char* key);
+
+  nlohmann::json json_;
+  std::set<std::string> read_;
+};
+
+}  // namespace frangia

@@ -1,0 +1,127 @@
+#include "frangia/service/internal/surface_model.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/editor/edit_script.h"
+#include "frangia/files/read_mesh.h"
+#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/connected_components.h"
+#include "frangia/service/encode_arrays.h"
+
+namespace frangia {
+namespace {
+
+template <typename T>
+bool equal_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// Whether clients need the mesh again.
+bool same_picture(const Mesh& a, const Mesh& b) {
+  return equal_bytes(a.triangles, b.triangles) && equal_bytes(a.vertices_mm, b.vertices_mm) &&
+         equal_bytes(a.sigma_mm, b.sigma_mm) && equal_bytes(a.triangle_marks, b.triangle_marks) &&
+         equal_bytes(a.vertex_marks, b.vertex_marks);
+}
+
+std::vector<SurfaceHole> holes_of(const Mesh& mesh) {
+  std::vector<SurfaceHole> holes;
+  const auto loops = boundary_loops(mesh);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    SurfaceHole hole{i, loops[i].size_mm, loops[i].length_mm, Eigen::Vector3d::Zero()};
+    const auto vertices = vertices_of(mesh, loops[i]);
+    for (const std::uint32_t vertex : vertices)
+      hole.center_mm += mesh.vertices_mm[vertex].cast<double>();
+    hole.center_mm /= static_cast<double>(vertices.size());
+    holes.push_back(hole);
+  }
+  std::stable_sort(holes.begin(), holes.end(), [](const SurfaceHole& a, const SurfaceHole& b) {
+    return a.size_mm > b.size_mm;
+  });
+  return holes;
+}
+
+}  // namespace
+
+SurfaceModel::SurfaceModel(const ProjectFolder& project, int revision, const Run& run)
+    : project_(project), revision_(revision) {
+  history_.emplace(read_mesh(project.surface(), run));
+  std::error_code ignored;
+  if (std::filesystem::exists(project.edits(), ignored)) {
+    const EditScript script = read_edit_script(project.edits());
+    for (std::size_t i = 0; i < script.steps.size(); ++i) {
+      run.report(static_cast<double>(i) / static_cast<double>(script.steps.size()));
+      history_->apply(script.steps[i], {.stop = run.stop});
+    }
+    for (std::size_t i = script.done; i < script.steps.size(); ++i)
+      history_->undo();
+  }
+  publish(nullptr);
+}
+
+SurfacePtr SurfaceModel::apply(const EditStep& step, const Run& run) {
+  const EditState before = history_->state();
+  history_->apply(step, run);
+  save();
+  return publish(&before);
+}
+
+SurfacePtr SurfaceModel::select_component_of(std::size_t triangle, const Run& run) {
+  require(triangle < mesh().triangles.size(), "the surface has no such triangle; pick another one");
+  const auto number = connected_components(mesh()).component_of[triangle];
+  return apply({"select-component", std::to_string(number)}, run);
+}
+
+SurfacePtr SurfaceModel::undo() {
+  const EditState before = history_->state();
+  require(history_->undo(), "there is no step to undo");
+  save();
+  return publish(&before);
+}
+
+SurfacePtr SurfaceModel::redo() {
+  const EditState before = history_->state();
+  require(history_->redo(), "there is no step to redo");
+  save();
+  return publish(&before);
+}
+
+SurfacePtr SurfaceModel::publish(const EditState* before) {
+  const EditState& state = history_->state();
+  const bool keeps_mesh = before != nullptr && same_picture(before->mesh, state.mesh);
+  auto next = std::make_shared<SurfaceSnapshot>();
+  ++revision_;
+  next->selection_revision = revision_;
+  if (keeps_mesh) {
+    *next = *snapshot_;
+    next->selection_revision = revision_;
+  } else {
+    next->mesh_revision = revision_;
+    next->vertices = state.mesh.vertices_mm.size();
+    next->triangles = state.mesh.triangles.size();
+    next->sigma = median_sigma(state.mesh);
+    next->components = connected_components(state.mesh).components.size();
+    next->holes = holes_of(state.mesh);
+    next->hole_count = next->holes.size();
+    if (next->holes.size() > SurfaceSnapshot::kMostHoles)
+      next->holes.resize(SurfaceSnapshot::kMostHoles);
+    next->mesh = std::make_shared<const std::string>(encode_mesh(state.mesh));
+  }
+  next->selected = count_selected(state.selection);
+  next->selection = std::make_shared<const std::string>(encode_selection(state.selection));
+  next->steps = history_->steps();
+  next->done = history_->done();
+  snapshot_ = std::move(next);
+  return snapshot_;
+}
+
+void SurfaceModel::save() const {
+  write_edit_script(project_.edits(), {history_->steps(), history_->done()});
+}
+
+}  // namespace frangia

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "frangia/core/run.h"
+
+namespace frangia {
+
+/// State of a job.
+enum class JobState {
+  Waiting,  ///< for the jobs before it
+  Running,  ///< on the queue's thread
+  Done,     ///< ended without an error
+  Failed,   ///< ended with `Job::error`
+  Stopped   ///< ended because its stop was requested
+};
+
+/// A sentence that a job logged.
+struct JobLogLine {
+  bool warning = false;  ///< otherwise a note
+  std::string sentence;  ///< as `Run` passed it
+};
+
+/// What is known of a long task.
+struct Job {
+  int number = 0;                      ///< unique in a queue, from 1
+  std::string kind;                    ///< "scan", "reconstruct", "edit", ...
+  JobState state = JobState::Waiting;  ///< present state
+  double progress = 0.0;               ///< finished share, 0 to 1
+  std::string stage;                   ///< as `Run::stage` announced it
+  std::vector<JobLogLine> log;         ///< the last kMostLogLines sentences
+  std::string error;                   ///< why it failed; empty otherwise
+  double seconds = 0.0;                ///< since it began to run, or its duration
+};
+
+/// Long tasks, one after the other on a thread of the queue's own. They go on whoever watches them.
+/// All functions may be called from any thread.
+class JobQueue {
+ public:
+  static constexpr std::size_t kMostJobs = 16;       ///< finished ones that are remembered
+  static constexpr std::size_t kMostWaiting = 8;     ///< jobs that have not finished
+  static constexpr std::size_t kMostLogLines = 200;  ///< of a job
+
+  /// `on_change` is called after every change, on the thread that made it, without a lock held.
+  explicit JobQueue(std::function<void()> on_change);
+  JobQueue(const JobQueue&) = delete;
+  JobQueue& operator=(const JobQueue&) = delete;
+  JobQueue(JobQueue&&) = delete;
+  JobQueue& operator=(JobQueue&&) = delete;
+  /// Stops all jobs and waits for the present one.
+  ~JobQueue();
+
+  /// Queues a task and returns its number. Its `Run` reports to the job; an exception is the job's
+  /// error.
+  ///
+  /// @errors   Error(Input) when kMostWaiting jobs have not finished
+  int start(std::string kind, std::function<void(const Run&)> work);
+  /// Requests that a job stop. Returns false for a number that is unknown or has finished.
+  bool stop(int number);
+  /// All remembered jobs, oldest first.
+  [[nodiscard]] std::vector<Job> jobs() const;
+  /// Whether a job waits or runs.
+  [[nodiscard]] bool is_busy() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Task {
+    Job job;
+    std::function<void(const Run&)> work;
+    std::stop_source stop;
+    Clock::time_point began;
+  };
+  using TaskPtr = std::shared_ptr<Task>;
+
+  void serve();
+  void run_task(const TaskPtr& task);
+  void change(const TaskPtr& task, const std::function<void(Job&)>& edit);
+  void finish(const TaskPtr& task, JobState state, const std::string& error);
+  void forget_oldest();
+  [[nodiscard]] std::size_t unfinished() const;
+
+  std::function<void()> on_change_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<TaskPtr> tasks_;  ///< oldest first
+  int next_number_ = 1;
+  bool ending_ = false;
+  std::thread thread_;  ///< last: starts when everything else exists
+};
+
+/// Name of a state in the protocol: "waiting", "running", "done", "failed" or "stopped".
+[[nodiscard]] const char* name_of(JobState state);
+
+}  // namespace frangia

@@ -1,0 +1,132 @@
+#include "frangia/service/project_folder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
+
+namespace frangia {
+namespace {
+
+constexpr const char* kProjectFile = "project.json";
+constexpr const char* kProjectText = "{\"format\": \"frangia-project\", \"version\": 1}\n";
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+std::int64_t modified_s(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(path, error);
+  if (error) return 0;
+  const auto system = std::chrono::file_clock::to_sys(time);
+  return std::chrono::duration_cast<std::chrono::seconds>(system.time_since_epoch()).count();
+}
+
+std::int64_t newest_s(const ProjectFolder& project) {
+  std::int64_t newest = 0;
+  for (const auto& path : {project.folder,
+                           project.scan,
+                           project.derived,
+                           project.surface(),
+                           project.edits(),
+                           project.stations()})
+    newest = std::max(newest, modified_s(path));
+  return newest;
+}
+
+bool is_project(const std::filesystem::path& folder) {
+  return is_file(folder / kProjectFile) || is_file(folder / "scan.toml");
+}
+
+}  // namespace
+
+std::filesystem::path ProjectFolder::cloud(std::size_t station) const {
+  return derived / "clouds" / fmt::format("{:03}.bin", station);
+}
+
+ProjectFolder project_in(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto real = std::filesystem::canonical(folder, error);
+  if (error || !is_project(real)) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: is not a project or a scan folder; it holds neither {} nor "
+                            "scan.toml",
+                            folder.string(),
+                            kProjectFile));
+  }
+  ProjectFolder project{real.filename().string(), real, real, real};
+  if (is_file(real / kProjectFile)) {
+    project.scan = real / "scan";
+  } else {
+    project.derived = real / "derived";
+  }
+  return project;
+}
+
+std::vector<ProjectEntry> ProjectLibrary::list() const {
+  std::vector<ProjectEntry> entries;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(root_, error)) {
+    if (entry.is_symlink() || !entry.is_directory(error) || !is_project(entry.path())) continue;
+    const ProjectFolder project = project_in(entry.path());
+    entries.push_back({project.name,
+                       newest_s(project),
+                       is_file(project.scan / "scan.toml"),
+                       is_file(project.surface())});
+  }
+  std::sort(entries.begin(), entries.end(), [](const ProjectEntry& a, const ProjectEntry& b) {
+    return a.modified_s != b.modified_s ? a.modified_s > b.modified_s : a.name < b.name;
+  });
+  return entries;
+}
+
+ProjectFolder ProjectLibrary::find(const std::string& name) const {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(root_, error)) {
+    if (entry.path().filename().string() != name || entry.is_symlink()) continue;
+    return project_in(entry.path());
+  }
+  throw Error(ErrorKind::Input, "there is no project of this name; choose one of the list");
+}
+
+void check_project_name(const std::string& name) {
+  constexpr std::size_t kLongest = 60;
+  const bool plain = std::none_of(name.begin(), name.end(), [](char letter) {
+    return static_cast<unsigned char>(letter) < ' ' || letter == '\x7f' || letter == '/' ||
+           letter == '\\';
+  });
+  if (plain && !name.empty() && name.size() <= kLongest && name.front() != '.' &&
+      name.front() != ' ' && name.front() != '-' && name.back() != ' ')
+    return;
+  throw Error(ErrorKind::Input,
+              fmt::format("a project's name has 1 to {} letters, no slash, and begins with a "
+                          "letter or a digit; write another one",
+                          kLongest));
+}
+
+ProjectFolder ProjectLibrary::create(const std::string& name) const {
+  check_project_name(name);
+  make_folder(root_);
+  const auto folder = root_ / name;
+  std::error_code error;
+  if (!std::filesystem::create_directory(folder, error)) {
+    if (error)
+      throw Error(ErrorKind::File,
+                  fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+    throw Error(ErrorKind::Input,
+                fmt::format("there is a project {} already; write another name", name));
+  }
+  AtomicFile file(folder / kProjectFile);
+  file.stream() << kProjectText;
+  file.commit();
+  return project_in(folder);
+}
+
+}  // namespace frangia

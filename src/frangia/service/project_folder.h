@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frangia {
+
+/// Where the files of a project are. A project is a scan folder with what was derived from it:
+/// either a folder of the operator's app with project.json, or any scan folder with scan.toml.
+struct ProjectFolder {
+  std::string name;               ///< for people: the name of the folder
+  std::filesystem::path folder;   ///< absolute
+  std::filesystem::path scan;     ///< scan folder; the same as `folder` for a plain scan folder
+  std::filesystem::path derived;  ///< for surface.ply, edits.json, stations.json, clouds, exports
+
+  /// Rig with its devices that a scan is captured with.
+  [[nodiscard]] std::filesystem::path rig() const { return folder / "rig.toml"; }
+  /// Reconstructed mesh, before edits.
+  [[nodiscard]] std::filesystem::path surface() const { return derived / "surface.ply"; }
+  /// Figures of the reconstruction, JSON.
+  [[nodiscard]] std::filesystem::path summary() const { return derived / "surface.json"; }
+  /// Script of the edits, see read_edit_script.
+  [[nodiscard]] std::filesystem::path edits() const { return derived / "edits.json"; }
+  /// Quality of each station, JSON.
+  [[nodiscard]] std::filesystem::path stations() const { return derived / "stations.json"; }
+  /// Folder of the exported files.
+  [[nodiscard]] std::filesystem::path exports() const { return derived / "exports"; }
+  /// Points of a station, packed by encode_points.
+  [[nodiscard]] std::filesystem::path cloud(std::size_t station) const;
+};
+
+/// What a list of projects shows of one.
+struct ProjectEntry {
+  std::string name;             ///< name of its folder, unique in a library
+  std::int64_t modified_s = 0;  ///< of its newest derived file, seconds since 1970
+  bool scanned = false;         ///< its scan is complete
+  bool has_surface = false;     ///< a surface was reconstructed
+};
+
+/// Recognizes the project in a folder.
+///
+/// @errors   Error(Input) that names the folder when it is neither a project nor a scan folder
+[[nodiscard]] ProjectFolder project_in(const std::filesystem::path& folder);
+
+/// The projects in one folder. Names that arrive from a network reach the file system through this
+/// class only: `find` compares them with the folder's entries and never makes a path from them.
+class ProjectLibrary {
+ public:
+  /// `root` is created when the first project is.
+  explicit ProjectLibrary(std::filesystem::path root) : root_(std::move(root)) {}
+
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }  ///< the folder
+  /// The projects, the most recent first. Entries that are no projects are left out.
+  [[nodiscard]] std::vector<ProjectEntry> list() const;
+  /// @errors   Error(Input) when there is no project of this name
+  [[nodiscard]] ProjectFolder find(const std::string& name) const;
+  /// Creates the folder of a project, with its project.json.
+  ///
+  /// @errors   Error(Input) for a name that is no plain file name of 1 to 60 bytes, or that is
+  ///          taken; Error(File) when the folder cannot be written
+  [[nodiscard]] ProjectFolder create(const std::string& name) const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+/// Checks the name of a new project.
+///
+/// @errors   Error(Input) that says what a name may hold
+void check_project_name(const std::string& name);
+
+}  // namespace frangia

@@ -1,0 +1,236 @@
+#include "frangia/service/project_scan.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/acquisition/capture_scan.h"
+#include "frangia/core/angles.h"
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/folder_lock.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/devices/rig_devices.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/service/encode_arrays.h"
+#include "frangia/service/internal/station_cloud.h"
+#include "frangia/simulate/default_patterns.h"
+
+namespace frangia {
+namespace {
+
+constexpr double kDegreesPerTurn = 360.0;
+
+nlohmann::ordered_json json_of(const ProjectStation& station) {
+  return {{"angle_deg", station.angle_deg},
+          {"state", name_of(station.state)},
+          {"verdict", station.verdict},
+          {"good", station.good},
+          {"contrast", station.contrast},
+          {"saturated", station.saturated},
+          {"points", station.points},
+          {"has_cloud", station.has_cloud}};
+}
+
+ProjectStation station_from(const nlohmann::json& json) {
+  ProjectStation station;
+  station.angle_deg = json.at("angle_deg").get<double>();
+  const auto state = json.at("state").get<std::string>();
+  if (state == "done") station.state = StationState::Done;
+  if (state == "skipped") station.state = StationState::Skipped;
+  station.verdict = json.at("verdict").get<std::string>();
+  station.good = json.at("good").get<bool>();
+  station.contrast = json.at("contrast").get<double>();
+  station.saturated = json.at("saturated").get<double>();
+  station.points = json.at("points").get<std::size_t>();
+  station.has_cloud = json.at("has_cloud").get<bool>();
+  return station;
+}
+
+/// The stations of one capture, which two threads change.
+class StationBook {
+ public:
+  StationBook(const ProjectFolder& project,
+              std::vector<ProjectStation> stations,
+              const std::function<void(const std::vector<ProjectStation>&)>& on_change)
+      : project_(project), stations_(std::move(stations)), on_change_(on_change) {}
+
+  void change(const std::function<void(std::vector<ProjectStation>&)>& edit) {
+    const std::lock_guard lock(mutex_);
+    edit(stations_);
+    write_stations(project_, stations_);
+    on_change_(stations_);
+  }
+  /// The station that is captured when this share of the frames is stored.
+  void at_share(double done) {
+    const std::lock_guard lock(mutex_);
+    const auto count = static_cast<double>(stations_.size());
+    const auto present = static_cast<std::size_t>(std::min(done * count + 1e-9, count));
+    if (present == present_ || present >= stations_.size()) return;
+    present_ = present;
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+      StationState& state = stations_[i].state;
+      if (i == present && state == StationState::Waiting) state = StationState::Capturing;
+      if (i < present && state == StationState::Capturing) state = StationState::Done;
+    }
+    on_change_(stations_);
+  }
+
+ private:
+  const ProjectFolder& project_;
+  std::mutex mutex_;
+  std::vector<ProjectStation> stations_;
+  const std::function<void(const std::vector<ProjectStation>&)>& on_change_;
+  std::size_t present_ = SIZE_MAX;
+};
+
+Scan plan_of(const ProjectFolder& project,
+             const std::vector<ProjectStation>& stations,
+             const Run& run) {
+  Scan plan;
+  plan.folder = project.scan;
+  plan.name = project.name;
+  plan.rig = read_rig(project.rig(), run);
+  plan.patterns = default_patterns(plan.rig);
+  for (std::size_t i = 0; i < stations.size(); ++i)
+    plan.views.push_back({rad_from_deg(stations[i].angle_deg), fmt::format("views/{:03}", i)});
+  return plan;
+}
+
+/// Stores what an assessment found, and the points of its view.
+void enter(const ViewAssessment& found,
+           const StationCloud& clouds,
+           const ProjectFolder& project,
+           StationBook& book,
+           double angle_rad) {
+  constexpr std::size_t kMostPoints = 60'000;  // of a station, for the picture
+  bool has_cloud = false;
+  if (found.decoded != nullptr) {
+    try {
+      const std::string packed = encode_points(clouds.of(*found.decoded, angle_rad), kMostPoints);
+      AtomicFile file(project.cloud(found.view));
+      file.stream() << packed;
+      file.commit();
+      has_cloud = true;
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the picture alone lacks these points
+    }
+  }
+  book.change([&](std::vector<ProjectStation>& stations) {
+    ProjectStation& station = stations.at(found.view);
+    station.state = StationState::Done;
+    station.verdict = found.verdict;
+    station.good = found.good;
+    station.contrast = found.contrast;
+    station.saturated = found.saturated_fraction;
+    station.points = found.points;
+    station.has_cloud = has_cloud;
+  });
+}
+
+}  // namespace
+
+const char* name_of(StationState state) {
+  switch (state) {
+    case StationState::Waiting:
+      return "waiting";
+    case StationState::Capturing:
+      return "capturing";
+    case StationState::Done:
+      return "done";
+    case StationState::Skipped:
+      return "skipped";
+  }
+  return "waiting";
+}
+
+std::vector<ProjectStation> planned_stations(std::size_t count) {
+  std::vector<ProjectStation> stations(count);
+  for (std::size_t i = 0; i < count; ++i)
+    stations[i].angle_deg = kDegreesPerTurn * static_cast<double>(i) / static_cast<double>(count);
+  return stations;
+}
+
+void write_stations(const ProjectFolder& project, const std::vector<ProjectStation>& stations) {
+  nlohmann::ordered_json json{{"format", "frangia-stations"}, {"version", 1}};
+  json["stations"] = nlohmann::ordered_json::array();
+  for (const ProjectStation& station : stations)
+    json["stations"].push_back(json_of(station));
+  AtomicFile file(project.stations());
+  file.stream() << json.dump(1) << '\n';
+  file.commit();
+}
+
+std::vector<ProjectStation> read_stations(const ProjectFolder& project, const Run& run) {
+  std::vector<ProjectStation> stations;
+  std::error_code ignored;
+  if (std::filesystem::exists(project.stations(), ignored)) {
+    try {
+      const auto json = nlohmann::json::parse(read_text_file(project.stations()));
+      for (const auto& station : json.at("stations"))
+        stations.push_back(station_from(station));
+      return stations;
+    } catch (const nlohmann::json::exception&) {
+      run.warn(fmt::format("{}: is damaged and ignored", project.stations().string()));
+      stations.clear();
+    }
+  }
+  if (!std::filesystem::exists(project.scan / "scan.toml", ignored)) return stations;
+  const Scan scan = read_scan(project.scan, run);
+  for (const ScanView& view : scan.views) {
+    ProjectStation station;
+    station.angle_deg = deg_from_rad(view.angle_rad);
+    station.state = StationState::Done;
+    stations.push_back(station);
+  }
+  return stations;
+}
+
+CaptureReport capture_project(
+    const ProjectFolder& project,
+    std::vector<ProjectStation> stations,
+    const CaptureSetup& setup,
+    const std::function<void(const std::vector<ProjectStation>&)>& on_change,
+    const Run& run) {
+  run.stage("devices");
+  const Scan plan = plan_of(project, stations, run);
+  make_folder(project.derived / "clouds");
+  const FolderLock lock(plan.folder);
+  const std::shared_ptr<void> hold = setup.hold_devices ? setup.hold_devices() : nullptr;
+  std::optional<Guardian> guardian;
+  if (setup.guardian) guardian.emplace(*setup.guardian);
+  constexpr double kOpen_s = 30.0;
+  RigDevices devices = open_devices(project.rig(),
+                                    plan.rig,
+                                    setup.drivers(),
+                                    Deadline::in(kOpen_s, run.stop),
+                                    run,
+                                    guardian ? &*guardian : nullptr);
+  run.stage("scan");
+  StationBook book(project, std::move(stations), on_change);
+  const StationCloud clouds(plan.rig);
+  CaptureOptions options;
+  options.on_view = [&](const ViewAssessment& found) {
+    enter(found, clouds, project, book, plan.views[found.view].angle_rad);
+  };
+  Run watched = run;
+  watched.progress = [&](double done) {
+    book.at_share(done);
+    if (run.progress) run.progress(done);
+  };
+  book.at_share(0.0);
+  const CaptureReport report = capture_scan(plan, devices, lock, options, watched);
+  book.change([&](std::vector<ProjectStation>& all) {
+    for (ProjectStation& station : all)
+      station.state = StationState::Done;
+    for (const SkippedView& skipped : report.skipped) {
+      all.at(skipped.view).state = StationState::Skipped;
+      all.at(skipped.view).verdict = skipped.reason;
+    }
+  });
+  return report;
+}
+
+}  // namespace frangia

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frangia/acquisition/capture_options.h"
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/devices/driver.h"
+#include "frangia/devices/guardian.h"
+#include "frangia/service/project_folder.h"
+
+namespace frangia {
+
+/// Where the capture of a turntable station is.
+enum class StationState {
+  Waiting,    ///< not captured yet
+  Capturing,  ///< being captured
+  Done,       ///< all frames are stored
+  Skipped     ///< its capture failed; `ProjectStation::verdict` gives the reason
+};
+
+/// A turntable station of a project and what its quality assessment found.
+struct ProjectStation {
+  double angle_deg = 0.0;                      ///< of the turntable
+  StationState state = StationState::Waiting;  ///< of its capture
+  std::string verdict;                         ///< of the assessment; empty without one
+  bool good = false;                           ///< nothing to remedy
+  double contrast = 0.0;                       ///< of the finest fringes, 0 to 1
+  double saturated = 0.0;                      ///< share of the lit pixels, 0 to 1
+  std::size_t points = 0;                      ///< measured pixels
+  bool has_cloud = false;                      ///< its points are in ProjectFolder::cloud
+};
+
+/// What the capture of a project needs from the program.
+struct CaptureSetup {
+  std::function<std::vector<Driver>()> drivers;  ///< all drivers that a rig may name
+  std::optional<GuardianProgram> guardian;       ///< switches devices off when the program dies
+  /// Returns an object that lives as long as devices are open; may be empty.
+  std::function<std::shared_ptr<void>()> hold_devices;
+};
+
+/// Returns stations evenly over one turn, all waiting.
+[[nodiscard]] std::vector<ProjectStation> planned_stations(std::size_t count);
+
+/// The stations of a project: as stations.json states them, otherwise those of a complete scan.
+/// A station that was being captured waits again. Empty for a project that was not scanned.
+[[nodiscard]] std::vector<ProjectStation> read_stations(const ProjectFolder& project,
+                                                        const Run& run = {});
+
+/// Writes stations.json.
+///
+/// @errors   Error(File) when it cannot be written
+void write_stations(const ProjectFolder& project, const std::vector<ProjectStation>& stations);
+
+/// Captures a scan at the stations, or continues it, with the devices of the project's rig, and
+/// keeps stations.json and the points of each station. `on_change` receives the stations after each
+/// change, on the calling thread or on that which decodes views.
+///
+/// The points are in the object frame of the rig as calibrated: registration comes later.
+/// @errors   as open_devices and capture_scan
+CaptureReport capture_project(
+    const ProjectFolder& project,
+    std::vector<ProjectStation> stations,
+    const CaptureSetup& setup,
+    const std::function<void(const std::vector<ProjectStation>&)>& on_change,
+    const Run& run = {});
+
+/// Name of a state in the protocol: "waiting", "capturing", "done" or "skipped".
+[[nodiscard]] const char* name_of(StationState state);
+
+}  // namespace frangia

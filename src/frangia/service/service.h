@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "frangia/service/project_scan.h"
+
+namespace frangia {
+
+/// What a service needs to know of its program.
+struct ServiceOptions {
+  std::filesystem::path projects;  ///< folder of the projects
+  CaptureSetup capture;            ///< drivers and the guardian
+  std::string version;             ///< of the program, for the state
+};
+
+/// A file that a client may download.
+struct ExportedFile {
+  std::string name;            ///< "bust.dxf"
+  std::filesystem::path path;  ///< in the project's exports
+};
+
+/// The operator's app without its network: one project at a time, its long tasks, its edit history
+/// and what a client sees of them. Clients send commands and read the state and the arrays; all
+/// functions may be called from any thread and return at once. docs/service-api.md describes the
+/// JSON.
+class Service {
+ public:
+  /// `on_change` is called after every change of the state, on any thread.
+  Service(ServiceOptions options, std::function<void()> on_change);
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
+  Service(Service&&) = delete;
+  Service& operator=(Service&&) = delete;
+  /// Stops all tasks and waits for the present one.
+  ~Service();
+
+  /// Opens a project or a scan folder that the user of this machine named; not for names from a
+  /// network. The surface is read in a job.
+  ///
+  /// @errors   Error(Input) when the folder is neither
+  void open_folder(const std::filesystem::path& folder);
+
+  /// Runs a command with its arguments as a JSON object and returns a JSON object. Long work is
+  /// started as a job, whose number is returned as "job".
+  ///
+  /// @errors   Error(Input) that names the command, the argument or what is missing; errors of the
+  ///          command
+  [[nodiscard]] std::string command(const std::string& name, const std::string& arguments);
+
+  /// The whole state as a JSON object.
+  [[nodiscard]] std::string state() const;
+  /// The mesh of the surface as encode_mesh packs it; null without one. It changes with
+  /// "mesh_revision" of the state.
+  [[nodiscard]] std::shared_ptr<const std::string> mesh() const;
+  /// The selected triangles as encode_selection packs them; null without a surface.
+  [[nodiscard]] std::shared_ptr<const std::string> selection() const;
+  /// The points of a station as encode_points packs them; empty without any.
+  [[nodiscard]] std::string cloud(std::size_t station) const;
+  /// A file that was exported.
+  ///
+  /// @errors   Error(Input) when there is no export of this name
+  [[nodiscard]] ExportedFile exported(const std::string& name) const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace frangia

@@ -1,0 +1,56 @@
+#include "frangia/service/simulated_rig.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+#include "frangia/rig/write_rig.h"
+#include "frangia/simulate/parts.h"
+#include "frangia/simulate/rig_presets.h"
+#include "frangia/simulate/simulate_options.h"
+
+namespace frangia {
+
+void write_simulated_rig(const std::filesystem::path& path, const std::string& part) {
+  const auto parts = part_names();
+  if (std::find(parts.begin(), parts.end(), part) == parts.end()) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("there is no part '{}'; choose one of {}", part, fmt::join(parts, ", ")));
+  }
+  constexpr int kWidth = 640;  // of 960: each view is rendered and decoded in half the time
+  constexpr int kHeight = 512;
+  Rig rig = rig_preset("digital");
+  CameraModel& model = rig.camera.model;
+  const double scale = static_cast<double>(kWidth) / model.width_px;
+  model.width_px = kWidth;
+  model.height_px = kHeight;
+  model.focal_px *= scale;
+  model.principal_point_px = (model.principal_point_px.array() + 0.5) * scale - 0.5;
+  const SimulateOptions camera;
+  constexpr double kWhite = 255.0;
+  rig.camera.noise = NoiseModel::from_camera(camera.full_well_e / kWhite, camera.read_e);
+  AtomicFile file(path);
+  file.stream() << rig_text(rig)
+                << fmt::format(R"(
+[devices.camera]
+driver = "simulated"
+part = "{}"
+samples = 4
+
+[devices.fringes]
+driver = "simulated-display"
+
+[devices.turntable]
+driver = "simulated"
+home = "switch"
+backlash_deg = 0.5
+)",
+                               part);
+  file.commit();
+}
+
+}  // namespace frangia

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace frangia {
+
+/// Writes the rig.toml of the simulated rig that newcomers try: the preset `digital` with a camera
+/// of 640 x 512, a turntable with a home switch, and a built-in part before the camera.
+///
+/// @errors   Error(Input) that lists the parts for an unknown one; Error(File)
+void write_simulated_rig(const std::filesystem::path& path, const std::string& part);
+
+}  // namespace frangia

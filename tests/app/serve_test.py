@@ -1,0 +1,346 @@
+"""Attacks and honest clients against `frangia serve` on the loopback.
+
+    serve_test.py PROGRAM SCHEMA.json
+"""
+import base64
+import contextlib
+import json
+import os
+import pathlib
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM, SCHEMA = sys.argv[1], pathlib.Path(sys.argv[2])
+PATIENCE = 15
+
+
+class Server:
+    """A server with a folder of its own."""
+
+    def __init__(self, folder, *arguments):
+        self.runtime = pathlib.Path(folder) / "run"
+        self.runtime.mkdir(exist_ok=True)
+        self.projects = pathlib.Path(folder) / "projects"
+        self.environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.runtime)}
+        self.process = subprocess.Popen(
+            [PROGRAM, "--json", "serve", "--port", "0", "--projects", str(self.projects), *arguments],
+            stdout=subprocess.PIPE, env=self.environment)
+        printed = b""
+        while b"}" not in printed:
+            line = self.process.stdout.readline()
+            if not line:
+                raise RuntimeError("the server did not start")
+            printed += line
+        self.url = json.loads(printed)["url"]
+        self.port = int(self.url.split(":")[2].split("/")[0])
+        self.token = self.url.split("#token=")[1]
+        self.host = f"127.0.0.1:{self.port}"
+        self.key = None
+
+    def login(self):
+        answer = self.ask("POST", "/api/session", {"token": self.token}, key=None)
+        self.key = json.loads(answer[2])["key"]
+        return self.key
+
+    def connect(self, timeout=PATIENCE):
+        return socket.create_connection(("127.0.0.1", self.port), timeout)
+
+    def raw(self, request, timeout=PATIENCE):
+        """Sends bytes and returns everything until the server closes."""
+        with self.connect(timeout) as line:
+            with contextlib.suppress(OSError):
+                line.sendall(request)
+            answer = b""
+            with contextlib.suppress(OSError):
+                while block := line.recv(65536):
+                    answer += block
+        return answer
+
+    def ask(self, method, path, body=None, key="mine", **headers):
+        """Status, headers and body of an answer."""
+        fields = {"Host": self.host, "Connection": "close"}
+        if key == "mine":
+            key = self.key
+        if key is not None:
+            fields["Authorization"] = f"Bearer {key}"
+        data = b""
+        if body is not None:
+            data = body if isinstance(body, bytes) else json.dumps(body).encode()
+            fields["Content-Type"] = "application/json"
+            fields["Content-Length"] = str(len(data))
+        fields.update({name.replace("_", "-"): value for name, value in headers.items()})
+        head = "".join(f"{name}: {value}\r\n" for name, value in fields.items() if value is not None)
+        answer = self.raw(f"{method} {path} HTTP/1.1\r\n{head}\r\n".encode() + data)
+        head, _, content = answer.partition(b"\r\n\r\n")
+        return int(head.split()[1]) if head else 0, head.decode("latin-1"), content
+
+    def state(self):
+        return json.loads(self.ask("GET", "/api/state")[2])
+
+    def wait(self):
+        for _ in range(600):
+            state = self.state()
+            if all(job["state"] not in ("waiting", "running") for job in state["jobs"]):
+                return state
+            time.sleep(0.05)
+        raise RuntimeError("the jobs do not end")
+
+    def upgrade(self, **headers):
+        """Opens a WebSocket and returns its line, or the status of the refusal."""
+        fields = {"Host": self.host, "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+                  "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(), **headers}
+        line = self.connect()
+        line.sendall(b"GET /api/live HTTP/1.1\r\n" + "".join(f"{n}: {v}\r\n" for n, v in fields.items()).encode() + b"\r\n")
+        head = b""
+        while b"\r\n\r\n" not in head and (block := line.recv(1)):
+            head += block
+        status = int(head.split()[1])
+        if status == 101:
+            return line
+        line.close()
+        return status
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        code = self.process.wait(PATIENCE)
+        self.process.stdout.close()
+        return code
+
+
+def frame(payload, opcode=1, masked=True):
+    length = len(payload)
+    head = bytes([0x80 | opcode])
+    bit = 0x80 if masked else 0
+    if length < 126:
+        head += bytes([bit | length])
+    elif length < 65536:
+        head += bytes([bit | 126]) + struct.pack(">H", length)
+    else:
+        head += bytes([bit | 127]) + struct.pack(">Q", length)
+    if not masked:
+        return head + payload
+    mask = os.urandom(4)
+    return head + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(payload))
+
+
+def exactly(line, count):
+    data = b""
+    while len(data) < count:
+        block = line.recv(count - len(data))
+        if not block:
+            raise EOFError
+        data += block
+    return data
+
+
+def read_frame(line):
+    first, second = exactly(line, 2)
+    length = second & 127
+    if length == 126:
+        length = struct.unpack(">H", exactly(line, 2))[0]
+    elif length == 127:
+        length = struct.unpack(">Q", exactly(line, 8))[0]
+    return first & 15, exactly(line, length)
+
+
+class Serve(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.server = Server(cls.folder.name)
+        cls.server.login()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.code = cls.server.stop()
+        cls.folder.cleanup()
+        if cls.code != 0:
+            raise AssertionError(f"the server ended with {cls.code}")
+
+    def assert_serves(self):
+        self.assertEqual(self.server.ask("GET", "/api/state")[0], 200)
+
+    def test_page_carries_its_security_headers(self):
+        status, head, _ = self.server.ask("GET", "/", key=None)
+        self.assertEqual(status, 200)
+        for field in ("default-src 'none'", "frame-ancestors 'none'", "X-Content-Type-Options: nosniff",
+                      "Referrer-Policy: no-referrer"):
+            self.assertIn(field, head)
+        self.assertNotIn("unsafe", head)
+        self.assertNotIn("Access-Control", head)
+        self.assertNotIn("Set-Cookie", head)
+
+    def test_foreign_host_is_refused(self):
+        for host in ("evil.example", f"evil.example:{self.server.port}", "127.0.0.1", f"127.0.0.1:{self.server.port + 1}",
+                     "", f"127.0.0.1:{self.server.port}.evil.example"):
+            self.assertEqual(self.server.ask("GET", "/api/state", Host=host)[0], 403, host)
+            self.assertEqual(self.server.ask("GET", "/", key=None, Host=host)[0], 403, host)
+        self.assertEqual(self.server.ask("GET", "/api/state", Host=f"localhost:{self.server.port}")[0], 200)
+
+    def test_foreign_origin_is_refused(self):
+        for origin in ("http://evil.example", "null", f"https://127.0.0.1:{self.server.port}",
+                       f"http://127.0.0.1:{self.server.port + 1}", f"http://127.0.0.1:{self.server.port}.evil.example"):
+            self.assertEqual(self.server.ask("GET", "/api/state", Origin=origin)[0], 403, origin)
+            self.assertEqual(self.server.ask("POST", "/api/session", {"token": "x"}, Origin=origin)[0], 403, origin)
+            self.assertEqual(self.server.upgrade(Origin=origin), 403, origin)
+        for site in ("cross-site", "same-site"):
+            self.assertEqual(self.server.ask("GET", "/api/state", Sec_Fetch_Site=site)[0], 403, site)
+        self.assertEqual(self.server.ask("GET", "/", key=None, Sec_Fetch_Site="cross-site")[0], 200)
+
+    def test_no_key_and_wrong_keys_are_refused(self):
+        for key in (None, "", "x", self.server.token, self.server.key[:-1], self.server.key + "x"):
+            self.assertEqual(self.server.ask("GET", "/api/state", key=key)[0], 401, key)
+            self.assertEqual(self.server.ask("POST", "/api/commands/undo", {}, key=key)[0], 401, key)
+        self.assertEqual(self.server.ask("GET", "/api/state", key=None, Cookie=f"key={self.server.key}")[0], 401)
+        self.assertEqual(self.server.ask("GET", f"/api/state?key={self.server.key}", key=None)[0], 401)
+
+    def test_token_works_once(self):
+        self.assertEqual(self.server.ask("POST", "/api/session", {"token": self.server.token}, key=None)[0], 403)
+        link = json.loads(self.server.ask("POST", "/api/links", {})[2])["url"]
+        token = link.split("#token=")[1]
+        self.assertEqual(self.server.ask("POST", "/api/session", {"token": token}, key=None)[0], 200)
+        self.assertEqual(self.server.ask("POST", "/api/session", {"token": token}, key=None)[0], 403)
+        for body in (b"", b"{", b"[]", b'{"token": 3}', b'{"token": ""}', b"\xff\xfe"):
+            self.assertEqual(self.server.ask("POST", "/api/session", body, key=None)[0], 403, body)
+
+    def test_key_of_another_server_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            other = Server(folder)
+            key = other.login()
+            self.assertEqual(self.server.ask("GET", "/api/state", key=key)[0], 401)
+            self.assertEqual(other.stop(), 0)
+
+    def test_cross_site_form_posts_are_refused(self):
+        for kind in ("application/x-www-form-urlencoded", "multipart/form-data; boundary=x", "text/plain"):
+            self.assertEqual(self.server.ask("POST", "/api/commands/undo", b"{}", Content_Type=kind)[0], 415, kind)
+
+    def test_names_reach_no_other_file(self):
+        secret = pathlib.Path(self.folder.name) / "secret.txt"
+        secret.write_text("secret")
+        for name in ("../secret.txt", "..%2fsecret.txt", "%2e%2e/secret.txt", "..%5csecret.txt", "/etc/passwd", "%2fetc%2fpasswd",
+                     "%00", "%", "%4", "%zz", "....//secret.txt"):
+            for path in (f"/api/exports/{name}", f"/api/clouds/{name}", f"/{name}", f"/assets/{name}"):
+                status, _, body = self.server.ask("GET", path)
+                self.assertIn(status, (400, 404), path)
+                self.assertNotIn(b"secret", body)
+                self.assertNotIn(b"root:", body)
+        for name in ("../evil", "/tmp/evil", "a/../../evil", "..", "", "a\u0000b", "x" * 5000):
+            for command in ("create-project", "open-project"):
+                self.assertEqual(self.server.ask("POST", f"/api/commands/{command}", {"name": name})[0], 400, name)
+        self.assertEqual(self.server.ask("POST", "/api/commands/export", {"format": "../../x.dxf"})[0], 400)
+        self.assertFalse((pathlib.Path(self.folder.name) / "evil").exists())
+
+    def test_oversized_and_malformed_requests_are_refused(self):
+        head = f"Host: {self.server.host}\r\nAuthorization: Bearer {self.server.key}\r\n".encode()
+        self.assertIn(b" 413 ", self.server.raw(
+            b"POST /api/commands/edit HTTP/1.1\r\n" + head + b"Content-Type: application/json\r\nContent-Length: 99999999\r\n\r\n")[:40])
+        self.assertIn(b" 431 ", self.server.raw(b"GET /api/state HTTP/1.1\r\n" + head + b"X: " + b"x" * 40000 + b"\r\n\r\n")[:40])
+        for request in (b"\r\n\r\n", b"GET\r\n\r\n", b"\x16\x03\x01\x02\x00\x01\x00", b"GET / HTTP/9.9\r\n\r\n", b"A" * 20000,
+                        b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
+                        b"POST / HTTP/1.1\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n\r\n"):
+            answer = self.server.raw(request, 12)
+            self.assertNotIn(b" 200 ", answer[:20], request[:40])
+        for body in (b"{", b"[" * 100000, b"\xff", b"null", b'{"operation": "' + b"x" * 900000 + b'"}'):
+            self.assertEqual(self.server.ask("POST", "/api/commands/edit", body)[0], 400, body[:20])
+        for method in ("PUT", "DELETE", "OPTIONS", "PATCH"):
+            self.assertIn(self.server.ask(method, "/api/state")[0], (403, 405), method)
+        self.assert_serves()
+
+    def test_websocket_needs_a_key_and_bounds_its_messages(self):
+        for message in (b"", b"{}", b"{", b'{"type": "hello"}', b'{"type": "hello", "key": "x"}',
+                        json.dumps({"type": "hello", "key": self.server.token}).encode(),
+                        json.dumps({"type": 7, "key": self.server.key}).encode()):
+            line = self.server.upgrade()
+            line.sendall(frame(message))
+            opcode, body = read_frame(line)
+            self.assertEqual((opcode, struct.unpack(">H", body[:2])[0]), (8, 1008), message)
+            line.close()
+        hello = json.dumps({"type": "hello", "key": self.server.key}).encode()
+        for attack in (frame(hello, masked=False), frame(b"x" * 10000), b"\xff" * 40, frame(hello, opcode=2), frame(hello)[:9]):
+            line = self.server.upgrade()
+            line.sendall(attack)
+            with contextlib.suppress(OSError):
+                line.shutdown(socket.SHUT_WR)
+            with contextlib.suppress(OSError, EOFError):
+                opcode, body = read_frame(line)
+                self.assertNotIn(b"state", body)
+            line.close()
+        line = self.server.upgrade()
+        line.sendall(frame(hello))
+        opcode, body = read_frame(line)
+        self.assertEqual(opcode, 1)
+        self.assertEqual(json.loads(body)["type"], "state")
+        line.close()
+        self.assert_serves()
+
+    def test_idle_and_slow_clients_hinder_nobody(self):
+        idle = []
+        try:
+            for number in range(1000):
+                idle.append(self.server.connect())
+                if number % 3 == 0:
+                    with contextlib.suppress(OSError):
+                        idle[-1].sendall(b"GET /api/st")  # a slow sender
+                if number % 250 == 249:
+                    begin = time.monotonic()
+                    self.assert_serves()
+                    self.assertLess(time.monotonic() - begin, 2)
+        finally:
+            for line in idle:
+                line.close()
+        self.assert_serves()
+
+    def test_slow_sender_is_cut_off(self):
+        with self.server.connect() as line:
+            begin = time.monotonic()
+            with contextlib.suppress(OSError):
+                for letter in f"GET / HTTP/1.1\r\nHost: {self.server.host}\r\n" * 10:
+                    line.sendall(letter.encode())
+                    time.sleep(0.5)
+                    if time.monotonic() - begin > 13:
+                        self.fail("the server waits for a slow sender")
+            line.settimeout(1)
+            with contextlib.suppress(OSError):
+                self.assertEqual(line.recv(1), b"")
+
+    def test_runtime_file_is_private_and_new_link_works(self):
+        path = self.server.runtime / "frangia-serve.json"
+        self.assertEqual(path.stat().st_mode & 0o777, 0o600)
+        key = json.loads(path.read_text())["key"]
+        self.assertEqual(self.server.ask("GET", "/api/state", key=key)[0], 200)
+        link = subprocess.run([PROGRAM, "serve", "--new-link"], env=self.server.environment, capture_output=True, text=True,
+                              check=True).stdout.strip()
+        self.assertEqual(self.server.ask("POST", "/api/session", {"token": link.split("#token=")[1]}, key=None)[0], 200)
+
+    def test_state_and_refusals_follow_the_schema(self):
+        try:
+            import jsonschema
+        except ImportError:
+            self.skipTest("python3-jsonschema is not installed")
+        schema = json.loads(SCHEMA.read_text())
+
+        def check(name, value):
+            jsonschema.validate(value, {**schema, "$ref": f"#/definitions/{name}"})
+
+        self.assertEqual(self.server.ask("POST", "/api/commands/create-project", {"name": "Schema", "stations": 3})[0], 200)
+        check("state", self.server.wait())
+        check("error", json.loads(self.server.ask("POST", "/api/commands/nothing", {})[2]))
+        check("error", json.loads(self.server.ask("GET", "/api/state", key=None)[2]))
+        check("error", json.loads(self.server.ask("GET", "/api/mesh")[2]))
+        # What the schema calls a command, the server knows; what it forbids, the server refuses.
+        for name, arguments in schema["definitions"]["commands"].items():
+            status, _, body = self.server.ask("POST", f"/api/commands/{name}", {"no such argument": 1})
+            self.assertEqual(status, 400, name)
+            self.assertNotIn("no such command", json.loads(body)["error"])
+            for missing in arguments.get("required", []):
+                self.assertIn(missing, json.loads(self.server.ask("POST", f"/api/commands/{name}", {})[2])["error"], name)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -1,0 +1,197 @@
+#include "frangia/service/service.h"
+
+#include <atomic>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/editor/edit_script.h"
+#include "frangia/files/read_mesh.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/geometry/vertex_data.h"
+
+#include "support/all_drivers.h"
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+#include "support/test_meshes.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+using Json = nlohmann::json;
+
+class ServiceTest : public ::testing::Test {
+ protected:
+  ServiceTest() { restart(); }
+
+  void restart() {
+    service_.reset();
+    ServiceOptions options;
+    options.projects = folder_.path() / "projects";
+    options.capture.drivers = testing::all_drivers;
+    options.version = "test";
+    service_ = std::make_unique<Service>(std::move(options), [this] { ++changes_; });
+  }
+  [[nodiscard]] Json state() const { return Json::parse(service_->state()); }
+  Json command(const std::string& name, const Json& arguments = Json::object()) {
+    return Json::parse(service_->command(name, arguments.dump()));
+  }
+  [[nodiscard]] std::string refusal(const std::string& name, const std::string& arguments) {
+    return error_of([&] { static_cast<void>(service_->command(name, arguments)); });
+  }
+  /// Waits for all jobs and returns the last one.
+  Json finish() {
+    for (int i = 0; i < 30'000; ++i) {
+      const Json jobs = state().at("jobs");
+      bool busy = false;
+      for (const Json& job : jobs)
+        busy = busy || job.at("state") == "waiting" || job.at("state") == "running";
+      if (!busy) return jobs.empty() ? Json() : jobs.back();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ADD_FAILURE() << "the jobs do not end";
+    return {};
+  }
+  /// A project with a surface that no scan made: an open box and a separate ball.
+  void open_box() {
+    const auto folder = folder_.path() / "projects" / "box";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "project.json") << "{}";
+    Mesh mesh = testing::sphere({20, 0, 0}, 3.0, 12);
+    append_mesh(mesh, testing::box({-5, -5, -5}, {5, 5, 5}));
+    mesh.triangles.pop_back();
+    write_mesh(folder / "surface.ply", mesh);
+    static_cast<void>(command("open-project", {{"name", "box"}}));
+    static_cast<void>(finish());
+  }
+
+  testing::TemporaryFolder folder_;
+  std::atomic<int> changes_ = 0;
+  std::unique_ptr<Service> service_;
+};
+
+TEST_F(ServiceTest, RefusesWhatItDoesNotUnderstandInWords) {
+  EXPECT_NE(refusal("no-such-command", "{}"), "");
+  EXPECT_NE(refusal("create-project", ""), "");
+  EXPECT_NE(refusal("create-project", "{"), "");
+  EXPECT_NE(refusal("create-project", "[]"), "");
+  EXPECT_NE(refusal("create-project", R"({"name": 3})"), "");
+  EXPECT_NE(refusal("create-project", R"({"name": "../x"})"), "");
+  EXPECT_NE(refusal("create-project", R"({"name": "x", "part": "no such part"})"), "");
+  EXPECT_NE(refusal("create-project", R"({"name": "x", "stations": 0})"), "");
+  EXPECT_NE(refusal("create-project", R"({"name": "x", "stations": 1e9})"), "");
+  EXPECT_NE(refusal("create-project", R"({"name": "x", "extra": 1})").find("extra"),
+            std::string::npos);
+  EXPECT_NE(refusal("open-project", R"({"name": "../../etc"})"), "");
+  EXPECT_NE(refusal("reconstruct", "{}"), "");
+  EXPECT_NE(refusal("undo", "{}"), "");
+  EXPECT_NE(refusal("stop-job", R"({"job": 4})"), "");
+  EXPECT_NE(refusal("edit", std::string(2'000'000, ' ')), "");
+  EXPECT_NE(refusal("edit", std::string(100'000, '[')), "");
+  EXPECT_TRUE(state().at("projects").empty()) << "a refused command leaves nothing behind";
+}
+
+TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
+  open_box();
+  Json surface = state().at("project").at("surface");
+  const auto triangles = surface.at("triangles").get<std::size_t>();
+  EXPECT_EQ(surface.at("components"), 2);
+  ASSERT_EQ(surface.at("holes").size(), 1U);
+
+  static_cast<void>(command("select-component-of", {{"triangle", 0}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const Json selected = state().at("project").at("surface");
+  EXPECT_EQ(selected.at("mesh_revision"), surface.at("mesh_revision"));
+  EXPECT_NE(selected.at("selection_revision"), surface.at("selection_revision"));
+  EXPECT_EQ(selected.at("selected"), triangles - 11);
+
+  static_cast<void>(command("edit", {{"operation", "delete"}}));
+  static_cast<void>(command("edit", {{"operation", "fill-hole-flat"}, {"value", "0"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  surface = state().at("project").at("surface");
+  EXPECT_EQ(surface.at("triangles"), 12);
+  EXPECT_EQ(surface.at("hole_count"), 0);
+  static_cast<void>(command("undo"));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("surface").at("triangles"), 11);
+  static_cast<void>(command("redo"));
+  static_cast<void>(finish());
+  const std::string mesh = *service_->mesh();
+
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(*service_->mesh(), mesh);
+  EXPECT_EQ(state().at("project").at("surface").at("steps_done"), 3);
+}
+
+TEST_F(ServiceTest, ReplaysItsStepsByTheCommandLineToTheSameMesh) {
+  open_box();
+  static_cast<void>(command("edit", {{"operation", "keep-largest"}, {"value", "1"}}));
+  static_cast<void>(command("edit", {{"operation", "fill-holes-flat"}, {"value", "30mm"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  static_cast<void>(command("export", {{"format", "ply"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const Mesh exported = read_mesh(service_->exported("box.ply").path);
+  const auto folder = folder_.path() / "projects" / "box";
+  EditState state{.mesh = read_mesh(folder / "surface.ply"), .selection = {}};
+  const EditScript script = read_edit_script(folder / "edits.json");
+  for (const EditStep& step : script.steps)
+    apply_step(state, step);
+  EXPECT_EQ(exported.triangles, state.mesh.triangles);
+  EXPECT_EQ(exported.vertices_mm, state.mesh.vertices_mm);
+  for (const char* name : {"../surface.ply", "surface.ply", "", "..", "/etc/passwd"})
+    EXPECT_NE(error_of([&] { static_cast<void>(service_->exported(name)); }), "") << name;
+}
+
+TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
+  open_box();
+  const std::string mesh = *service_->mesh();
+  static_cast<void>(command("edit", {{"operation", "delete"}}));  // nothing is selected
+  const Json job = finish();
+  EXPECT_EQ(job.at("state"), "failed");
+  EXPECT_NE(job.at("error").get<std::string>().find("select"), std::string::npos);
+  EXPECT_EQ(*service_->mesh(), mesh);
+  EXPECT_NE(refusal("edit", R"({"operation": "decimate", "value": "much"})"), "");
+}
+
+TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
+  static_cast<void>(
+      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
+  static_cast<void>(finish());
+  const int number = command("start-scan").at("job").get<int>();
+  const auto share = [&] {
+    for (const Json& job : state().at("jobs"))
+      if (job.at("number") == number && job.at("stage") == "scan")
+        return job.at("progress").get<double>();
+    return 0.0;
+  };
+  for (int i = 0; i < 20'000 && share() < 0.3; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  static_cast<void>(command("stop-job", {{"job", number}}));
+  EXPECT_EQ(finish().at("state"), "stopped");
+  EXPECT_FALSE(state().at("project").at("scan_complete").get<bool>());
+  EXPECT_NE(refusal("start-scan", R"({"stations": 3})"), "");
+
+  restart();
+  static_cast<void>(command("open-project", {{"name", "try"}}));
+  static_cast<void>(finish());
+  static_cast<void>(command("start-scan"));
+  const Json job = finish();
+  ASSERT_EQ(job.at("state"), "done") << job.at("error");
+  const Json project = state().at("project");
+  EXPECT_TRUE(project.at("scan_complete").get<bool>());
+  for (const Json& station : project.at("stations"))
+    EXPECT_EQ(station.at("state"), "done");
+  EXPECT_TRUE(project.at("stations")[1].at("good").get<bool>());
+  EXPECT_GT(project.at("stations")[1].at("points").get<int>(), 5000);
+  EXPECT_FALSE(service_->cloud(1).empty());
+  EXPECT_TRUE(service_->cloud(9).empty());
+  EXPECT_GT(changes_, 10);
+}
+
+}  // namespace
+}  // namespace frangia

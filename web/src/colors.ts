@@ -1,0 +1,32 @@
+export type Rgb = [number, number, number];
+
+/** Samples of viridis (van der Walt, Smith 2015), sRGB. */
+const VIRIDIS: Rgb[] = [
+  [68, 1, 84], [72, 36, 117], [65, 68, 135], [53, 95, 141], [42, 120, 142], [33, 145, 140],
+  [34, 168, 132], [68, 191, 112], [122, 209, 81], [189, 223, 38], [253, 231, 37],
+];
+/** Light grey, yellow, blue: as the program's pictures show marks. */
+export const MARK_COLORS: Rgb[] = [[231, 228, 223], [231, 199, 97], [97, 160, 220]];
+
+export function viridis(share: number): Rgb {
+  const at = Math.min(1, Math.max(0, share)) * (VIRIDIS.length - 1);
+  const low = Math.min(VIRIDIS.length - 2, Math.floor(at));
+  const t = at - low;
+  const a = VIRIDIS[low] as Rgb;
+  const b = VIRIDIS[low + 1] as Rgb;
+  return [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t];
+}
+
+export const css = ([r, g, b]: Rgb): string => `rgb(${Math.round(r)} ${Math.round(g)} ${Math.round(b)})`;
+
+/** The value below which a share of the finite values lies. */
+export function quantile(values: ArrayLike<number>, share: number): number {
+  const step = Math.max(1, Math.floor(values.length / 50_000));
+  const sample: number[] = [];
+  for (let i = 0; i < values.length; i += step) {
+    const value = values[i] as number;
+    if (Number.isFinite(value)) sample.push(value);
+  }
+  sample.sort((a, b) => a - b);
+  return sample.length ? (sample[Math.floor(share * (sample.length - 1))] as number) : NaN;
+}

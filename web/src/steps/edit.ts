@@ -1,0 +1,108 @@
+import { html, type TemplateResult } from 'lit';
+import type { App } from '../app';
+import { icon } from '../icons';
+import { number, t } from '../messages';
+import { choice } from '../ui';
+import type { Tool } from '../viewer';
+
+export type Combine = 'replace' | 'add' | 'within';
+const SHOWN_HOLES = 6;
+
+function selecting(app: App): TemplateResult {
+  const surface = app.project.surface;
+  const selected = surface?.selected ?? 0;
+  const run = (operation: string, value = '') => app.edit(operation, value);
+  return html`<section class="group">
+    <h2>${t('edit.select')}<small>${selected ? t('edit.selected', { count: number(selected) }) : t('edit.nothing')}</small></h2>
+    ${choice<Tool>(
+      t('edit.select'),
+      app.viewer.tool,
+      [
+        ['orbit', html`${icon('orbit')}<span>${t('edit.orbit')}</span>`],
+        ['lasso', html`${icon('lasso')}<span>${t('edit.lasso')}</span>`],
+        ['rectangle', html`${icon('rectangle')}<span class="sr">${t('edit.rectangle')}</span>`],
+        ['part', html`${icon('part')}<span>${t('edit.part')}</span>`],
+      ],
+      (tool) => app.setTool(tool),
+    )}
+    ${choice<Combine>(
+      t('edit.mode'),
+      app.combine,
+      [['replace', t('edit.replace')], ['add', t('edit.add')], ['within', t('edit.within')]],
+      (combine) => app.setCombine(combine),
+    )}
+    <label class="switch"
+      >${t('edit.through')}<input type="checkbox" .checked=${app.viewer.through} @change=${(event: Event) => (app.viewer.through = (event.target as HTMLInputElement).checked)}
+    /></label>
+    <div class="row">
+      <button class="btn small grow" ?disabled=${!selected} @click=${() => run('grow', '1')}>${t('edit.grow')}</button>
+      <button class="btn small grow" ?disabled=${!selected} @click=${() => run('shrink', '1')}>${t('edit.shrink')}</button>
+      <button class="btn small grow" @click=${() => run('invert')}>${t('edit.invert')}</button>
+    </div>
+    <div class="pair">
+      <button class="btn danger" id="delete" ?disabled=${!selected} @click=${() => run('delete')}>${icon('trash')}${t('edit.delete')}</button>
+      <button class="btn" @click=${() => run('smooth', '3')}>${t('edit.smooth')}</button>
+    </div>
+  </section>`;
+}
+
+function repairing(app: App): TemplateResult {
+  const surface = app.project.surface;
+  if (!surface) return html``;
+  const size = app.viewer.size.length();
+  const more = surface.hole_count - SHOWN_HOLES;
+  const tolerance = Math.max(0.001, Number((size / 5000).toPrecision(1)));
+  return html`<section class="group">
+    <h2>${t('edit.holes')}<small class="num">${surface.hole_count || ''}</small></h2>
+    ${surface.hole_count === 0 ? html`<p class="quiet">${t('edit.noHoles')}</p>` : ''}
+    <div>
+      ${surface.holes.slice(0, SHOWN_HOLES).map(
+        (hole) => html`<div class="file">
+          <span class="num">⌀ ${number(hole.size_mm, 2)} mm</span>
+          <button class="btn small" ?disabled=${app.busy} @click=${() => app.edit('fill-hole', String(hole.number))}>${t('edit.fill')}</button>
+          <button class="btn small" ?disabled=${app.busy} @click=${() => app.edit('fill-hole-flat', String(hole.number))}>${t('edit.flat')}</button>
+        </div>`,
+      )}
+    </div>
+    ${more > 0 ? html`<p class="quiet">${t('edit.more', { count: more })}</p>` : ''}
+    ${surface.hole_count > 0
+      ? html`<button class="btn wide" id="fill" ?disabled=${app.busy} @click=${() => app.edit('fill-holes', `${Math.ceil(2 * size)}mm`)}>
+          ${t('edit.fillAll', { count: surface.hole_count })}
+        </button>`
+      : ''}
+  </section>
+  <section class="group">
+    <h2>${t('edit.repair')}</h2>
+    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.edit('remove-spikes')}>${t('edit.spikes')}</button>
+    <button class="btn wide" ?disabled=${app.busy || surface.components < 2} @click=${() => app.edit('keep-largest', '1')}>${t('edit.islands')}</button>
+    <form class="row" @submit=${(event: SubmitEvent) => {
+      event.preventDefault();
+      app.edit('decimate', `${String(new FormData(event.target as HTMLFormElement).get('tolerance'))}mm`);
+    }}>
+      <label class="field grow"><span>${t('edit.within_mm')}, mm</span>
+        <input class="num" name="tolerance" type="number" min="0.0001" step="any" required .defaultValue=${String(tolerance)} /></label>
+      <button class="btn" ?disabled=${app.busy}>${t('edit.decimate')}</button>
+    </form>
+  </section>`;
+}
+
+export function editStep(app: App): TemplateResult {
+  const surface = app.project.surface;
+  if (!surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
+  return html`${selecting(app)}${repairing(app)}
+    <section class="group">
+      <h2>${t('edit.history')}</h2>
+      <div class="pair">
+        <button class="btn" id="undo" ?disabled=${surface.steps_done === 0} @click=${() => app.command('undo')}>${icon('undo')}${t('edit.undo')}</button>
+        <button class="btn" id="redo" ?disabled=${surface.steps_done === surface.steps.length} @click=${() => app.command('redo')}>${icon('redo')}${t('edit.redo')}</button>
+      </div>
+      ${surface.steps.length === 0 ? html`<p class="quiet">${t('edit.noHistory')}</p>` : ''}
+      <ol class="history">
+        ${surface.steps.map(
+          (step, i) => html`<li class=${i < surface.steps_done ? '' : 'undone'}>
+            <div><b>${step.operation}</b>${step.value ? html`<span class="num">${step.value}</span>` : ''}</div>
+          </li>`,
+        )}
+      </ol>
+    </section>`;
+}

@@ -1,0 +1,67 @@
+import { html, type TemplateResult } from 'lit';
+import type { App } from '../app';
+import { icon } from '../icons';
+import { number, t } from '../messages';
+import { bytes, choice } from '../ui';
+
+const FORMATS = ['dxf', 'stl', 'ply', 'obj', 'glb', '3mf'] as const;
+export type Format = (typeof FORMATS)[number];
+export type Variant = 'faces' | 'polyface' | 'mesh';
+/** AutoCAD slows down beyond this; `frangia reconstruct` keeps to it as well. */
+const LIMITS = ['200000', '50000', '0'] as const;
+export type Limit = (typeof LIMITS)[number];
+
+export function exportStep(app: App): TemplateResult {
+  const { project, exporting } = app;
+  if (!project.surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
+  const format = exporting.format;
+  const start = () =>
+    app.command('export', {
+      format,
+      ...(format === 'dxf' ? { dxf: exporting.variant } : {}),
+      ...(exporting.limit === '0' ? {} : { triangles: Number(exporting.limit) }),
+    });
+  return html`<section class="group">
+      <h2>${t('export.format')}</h2>
+      <div class="formats" role="radiogroup" aria-label=${t('export.format')}>
+        ${FORMATS.map(
+          (one) => html`<label
+            ><input type="radio" name="format" .checked=${one === format} @change=${() => app.setExport({ format: one })} /><b
+              >${one.toUpperCase()}</b
+            ><span>${t(`export.${one}`)}</span></label
+          >`,
+        )}
+      </div>
+      ${format === 'dxf'
+        ? html`<h2>${t('export.variant')}</h2>
+            ${choice<Variant>(
+              t('export.variant'),
+              exporting.variant,
+              [['faces', t('export.faces')], ['polyface', t('export.polyface')], ['mesh', t('export.mesh')]],
+              (variant) => app.setExport({ variant }),
+            )}`
+        : ''}
+      <h2>${t('export.limit')}<small>${t('export.triangles')}</small></h2>
+      ${choice<Limit>(
+        t('export.limit'),
+        exporting.limit,
+        LIMITS.map((limit) => [limit, limit === '0' ? t('export.all') : html`<span class="num">${number(Number(limit))}</span>`] as const),
+        (limit) => app.setExport({ limit }),
+      )}
+      <button class="btn primary wide" id="export" ?disabled=${app.busy} @click=${start}>${t('export.write', { format: format.toUpperCase() })}</button>
+    </section>
+    <section class="group">
+      <h2>${t('export.files')}</h2>
+      ${project.exports.length === 0 ? html`<p class="quiet">${t('export.none')}</p>` : ''}
+      <div>
+        ${project.exports.map(
+          (file) => html`<div class="file">
+            <b>${file.name}</b><span class="num quiet">${bytes(file.bytes, number)}</span>
+            <button class="btn small" @click=${() => app.download(file.name)} aria-label="${t('export.download')} ${file.name}">
+              ${icon('download')}
+            </button>
+          </div>`,
+        )}
+      </div>
+    </section>`;
+}

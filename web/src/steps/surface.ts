@@ -1,0 +1,94 @@
+import { html, svg, type TemplateResult } from 'lit';
+import type { App } from '../app';
+import { css, MARK_COLORS } from '../colors';
+import { icon } from '../icons';
+import { legend } from '../legend';
+import { number, t } from '../messages';
+import { choice } from '../ui';
+import type { Coloring, SectionAxis, Shading } from '../viewer';
+
+const um = (value: number | null): TemplateResult =>
+  value === null ? html`<dd class="num">·</dd>` : html`<dd class="num">${number(1000 * value, 1)}<span>µm</span></dd>`;
+
+export function appearance(app: App): TemplateResult {
+  const { look, viewer } = app;
+  const scale = viewer.legend;
+  return html`<section class="group">
+    <h2>${t('surface.shading')}</h2>
+    ${choice<Shading>(
+      t('surface.shading'),
+      look.shading,
+      [['smooth', t('surface.smooth')], ['flat', t('surface.flat')], ['wire', t('surface.wire')]],
+      (shading) => app.setLook({ shading }),
+    )}
+    <h2>${t('surface.color')}</h2>
+    ${choice<Coloring>(
+      t('surface.color'),
+      look.coloring,
+      [['plain', t('surface.plain')], ['sigma', t('surface.sigma')], ['views', t('surface.views')], ['marks', t('surface.marks')]],
+      (coloring) => app.setLook({ coloring }),
+    )}
+    ${look.coloring === 'sigma' && scale ? legend(t('surface.sigmaLegend'), scale, 1000, 1) : ''}
+    ${look.coloring === 'views' && scale ? legend(t('surface.viewsLegend'), scale, 1, 0) : ''}
+    ${look.coloring === 'marks'
+      ? html`<div class="swatches">
+          ${(['surface.measured', 'surface.displaced', 'surface.synthesized'] as const).map(
+            (key, i) => html`<span
+              ><svg viewBox="0 0 14 14" aria-hidden="true">${svg`<rect width="14" height="14" rx="3" fill=${css(MARK_COLORS[i] ?? [0, 0, 0])} />`}</svg>${t(key)}</span
+            >`,
+          )}
+        </div>`
+      : ''}
+  </section>`;
+}
+
+export function surfaceStep(app: App): TemplateResult {
+  const { surface } = app.project;
+  if (!surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
+  const { look, viewer } = app;
+  const size = viewer.size;
+  const { summary } = surface;
+  return html`${appearance(app)}
+    <section class="group">
+      <h2>${t('surface.section')}<small class="num">${look.axis === 'off' ? '' : `${look.axis} = ${number(viewer.sectionAt, 2)} mm`}</small></h2>
+      ${choice<SectionAxis>(
+        t('surface.section'),
+        look.axis,
+        [['off', t('surface.off')], ['x', 'x'], ['y', 'y'], ['z', 'z']],
+        (axis) => app.setLook({ axis }),
+      )}
+      ${look.axis === 'off'
+        ? ''
+        : html`<div class="row">
+            <input class="grow" type="range" min="0" max="1" step="0.002" .value=${String(look.share)} aria-label=${t('surface.position')}
+              @input=${(event: Event) => app.setLook({ share: Number((event.target as HTMLInputElement).value) })} />
+            <button class="icon-btn" title=${t('surface.flip')} aria-label=${t('surface.flip')} @click=${() => app.setLook({ flipped: !look.flipped })}>${icon('flip')}</button>
+          </div>`}
+      <button class="btn wide" aria-pressed=${app.viewer.tool === 'measure'} @click=${() => app.setTool(app.viewer.tool === 'measure' ? 'orbit' : 'measure')}>
+        ${icon('measure')}${t('surface.measure')}
+      </button>
+    </section>
+    <section class="group">
+      <h2>${t('surface.figures')}</h2>
+      <dl class="figures">
+        <dt>${t('surface.sigmaMedian')}</dt>${um(surface.sigma_mm.combined)}
+        ${surface.sigma_mm.systematic === null
+          ? ''
+          : html`<dt class="sub">${t('surface.noise')}</dt>${um(surface.sigma_mm.noise)}<dt class="sub">${t('surface.systematic')}</dt>${um(surface.sigma_mm.systematic)}`}
+        <dt>${t('surface.size')}</dt>
+        <dd class="num">${number(size.x, 1)} × ${number(size.y, 1)} × ${number(size.z, 1)}<span>mm</span></dd>
+        <dt>${t('surface.triangles')}</dt><dd class="num">${number(surface.triangles)}</dd>
+        ${summary
+          ? html`<dt>${t('surface.points')}</dt><dd class="num">${number(summary.points)}</dd>
+              <dt>${t('surface.viewsFused')}</dt><dd class="num">${number(summary.views)}</dd>`
+          : ''}
+        <dt>${t('surface.parts')}</dt><dd class="num">${number(surface.components)}</dd>
+        <dt>${t('surface.holes')}</dt><dd class="num">${number(surface.hole_count)}</dd>
+      </dl>
+      ${summary?.registration ? html`<p class="quiet">${summary.registration}</p>` : ''}
+      ${summary?.untrusted_reason ? html`<p><span class="dot poor"></span>${summary.untrusted_reason}</p>` : ''}
+      ${app.project.scan_complete
+        ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>${t('surface.build')}</button>`
+        : ''}
+    </section>`;
+}

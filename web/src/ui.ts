@@ -1,0 +1,27 @@
+import { html, type TemplateResult } from 'lit';
+
+/** A row of choices, of which one is chosen. */
+export function choice<T extends string>(
+  label: string,
+  value: T,
+  options: readonly (readonly [T, TemplateResult | string])[],
+  choose: (value: T) => void,
+): TemplateResult {
+  return html`<div class="seg" role="radiogroup" aria-label=${label}>
+    ${options.map(
+      ([key, text]) => html`<label
+        ><input type="radio" name=${label} .checked=${key === value} @change=${() => choose(key)} />${text}</label
+      >`,
+    )}
+  </div>`;
+}
+
+export const bytes = (count: number, format: (value: number, digits: number) => string): string =>
+  count < 1000 ? `${format(count, 0)} B` : count < 1e6 ? `${format(count / 1e3, 0)} kB` : `${format(count / 1e6, 1)} MB`;
+
+/** A word as a POSIX shell reads it back. */
+export const quoted = (word: string): string =>
+  /^[A-Za-z0-9_\-+=./,:@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+
+export const span = (seconds: number): string =>
+  seconds < 90 ? `${Math.max(1, Math.round(seconds))} s` : `${Math.round(seconds / 60)} min`;
