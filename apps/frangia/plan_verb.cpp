@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
+#include "frangia/pattern/narrow_band.h"
 #include "frangia/pattern/order_confusion.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/rig_presets.h"
@@ -29,10 +31,28 @@ struct PlanArguments {
   double max_wrong_order = 1e-6;
   std::optional<int> maps;
   std::optional<double> lowest;
+  bool indirect = false;
 };
+
+/// The finest fringes that projector and camera still show well: ten pixels of the projector.
+double fine_fringes(const Rig& rig) {
+  constexpr double kPeriod_px = 10.0;
+  constexpr double kOfAngular = 64.0;
+  const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
+  return pinhole == nullptr ? kOfAngular : std::floor(pinhole->width_px / kPeriod_px);
+}
 
 /// A hierarchy from one fringe, or beats of a given number of maps.
 SequencePlan plan_of(const PlanArguments& arguments) {
+  if (arguments.indirect) {
+    constexpr int kMaps = 4;
+    require(!arguments.lowest,
+            "with `indirect`, the band is the narrowest one; leave out `lowest`");
+    return plan_narrow_band(arguments.fringes,
+                            arguments.maps.value_or(kMaps),
+                            arguments.sigma_rad,
+                            arguments.max_wrong_order);
+  }
   if (!arguments.maps) {
     require(!arguments.lowest, "`lowest` is for sequences of beats; set the number of `maps`");
     return plan_sequence(arguments.fringes, arguments.sigma_rad, arguments.max_wrong_order);
@@ -44,10 +64,11 @@ SequencePlan plan_of(const PlanArguments& arguments) {
                     arguments.max_wrong_order);
 }
 
-void plan(const PlanArguments& arguments, Terminal& terminal) {
+void plan(PlanArguments arguments, bool fringes_given, Terminal& terminal) {
   const Rig rig = std::filesystem::path(arguments.rig).has_extension()
                       ? read_rig(arguments.rig, terminal.run())
                       : rig_preset(arguments.rig);
+  if (arguments.indirect && !fringes_given) arguments.fringes = fine_fringes(rig);
   const SequencePlan found = plan_of(arguments);
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<double> values;
@@ -89,12 +110,16 @@ void add_plan_verb(CLI::App& program, Terminal& terminal) {
       "examples:\n"
       "  frangia plan --rig digital --fringes 64 --sigma 0.1\n"
       "  frangia plan --rig digital --fringes 64 --sigma 0.05 --maps 3     only fine fringes, "
-      "such as 64, 58 and 53");
+      "such as 64, 58 and 53\n"
+      "  frangia plan --rig digital --indirect                             fine fringes of nearly "
+      "one pitch, for parts that light themselves");
   auto arguments = std::make_shared<PlanArguments>();
   verb->add_option("--rig", arguments->rig, "name of a rig, or a rig.toml")->capture_default_str();
-  verb->add_option("--fringes", arguments->fringes, "fringes of the finest pattern over the field")
-      ->check(above_zero())
-      ->capture_default_str();
+  auto* fringes = verb->add_option("--fringes",
+                                   arguments->fringes,
+                                   "fringes of the finest pattern over the field; with --indirect "
+                                   "by default of 10 px");
+  fringes->check(above_zero())->capture_default_str();
   verb->add_option("--sigma", arguments->sigma_rad, "phase noise of one map, rad")
       ->check(above_zero())
       ->capture_default_str();
@@ -113,7 +138,12 @@ void add_plan_verb(CLI::App& program, Terminal& terminal) {
                    "fewest fringes of a map over the field, with --maps (default: half of "
                    "--fringes)")
       ->check(above_zero());
-  verb->callback([arguments, &terminal] { plan(*arguments, terminal); });
+  verb->add_flag("--indirect",
+                 arguments->indirect,
+                 "plan maps of fine fringes of nearly the same pitch (micro phase shifting), over "
+                 "which indirect light averages out; 4 maps unless --maps is set");
+  verb->callback(
+      [arguments, fringes, &terminal] { plan(*arguments, fringes->count() > 0, terminal); });
 }
 
 }  // namespace frangia

@@ -223,6 +223,21 @@ void add_part_faults(CLI::App& verb, SimulateArguments& arguments) {
       ->check(zero_or_more());
   add_fault(verb, kGroup, "--shininess", options.shininess, "exponent of the highlight")
       ->check(above_zero());
+  add_fault(verb,
+            kGroup,
+            "--bounces",
+            options.bounces,
+            "1: diffuse light that one part of the surface throws on another (indirect light)")
+      ->check(from_to(0, 1));
+  add_fault(
+      verb, kGroup, "--albedo", options.albedo, "diffuse reflectance of white, with --bounces")
+      ->check(from_to(0.0, 1.0));
+  add_fault(verb,
+            kGroup,
+            "--subsurface",
+            options.subsurface_mm,
+            "mean distance that light travels below the surface, as in wax or skin, mm; 0 for none")
+      ->transform(length_zero_or_more());
   add_fault(verb, kGroup, "--speckle", options.speckle, "contrast of laser speckle, 0 to 1")
       ->check(from_to(0.0, 1.0));
   add_fault(verb, kGroup, "--speckle-grain", options.speckle_grain_px, "speckle size, px")
@@ -408,6 +423,7 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
       "Example:\n"
       "  frangia simulate bust --rig carducci -o bust-scan\n"
       "  frangia simulate bracket --setups 90 -o bracket-two-setups\n"
+      "  frangia simulate groove --bounces 1 --albedo 0.8 -o groove-scan\n"
       "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5mm -o bracket-scan\n"
       "  frangia simulate --calibration checkerboard --views 12 -o poses\n"
       "  frangia simulate --calibration plate --rig angular --views 13 -o plate");

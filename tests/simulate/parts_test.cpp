@@ -42,6 +42,10 @@ TEST(Plate, HasTheVolumeOfItsSides) {
   EXPECT_NEAR(volume_mm3(make_plate()), 80.0 * 60.0 * 6.0, 1e-3);
 }
 
+TEST(Groove, HasTheVolumeOfItsBlockWithoutTheGroove) {
+  EXPECT_NEAR(volume_mm3(make_groove()), (35.0 * 64.0 - 25.0 * 25.0) * 50.0, 1e-2);
+}
+
 TEST(BallBar, HasTheVolumeOfItsSolids) {
   // A ball less the cap that the post replaces, a post up to there, the base.
   const double inner = std::sqrt(20.0 * 20.0 - 7.0 * 7.0);

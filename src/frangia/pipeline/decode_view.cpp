@@ -10,6 +10,7 @@
 
 #include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/check_gray_code.h"
+#include "frangia/phase/check_indirect_light.h"
 #include "frangia/phase/decode_gray_alone.h"
 #include "frangia/phase/decode_gray_code.h"
 #include "frangia/phase/decode_sequence.h"
@@ -240,6 +241,10 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
     const auto finer = std::span(out.wrapped).subspan(1);
     out.phase = unwrap_finer_levels(std::move(resolved.phase), finer, options.temporal);
     out.unresolved = std::move(resolved.unresolved);
+  }
+  if (options.keep_maps && out.checks.front().consistent && !out.relative) {
+    const IndirectLightCheck indirect = check_indirect_light(out.wrapped, out.phase);
+    if (indirect.found) run.warn(describe(indirect));
   }
   if (!options.keep_maps) out.wrapped.clear();
   fill_enclosed(out.phase, options.fill);

@@ -21,6 +21,7 @@ namespace frangia {
 /// ball-bar  two spheres of radius 20 at (0, -35, 60) and (0, 35, 60) on posts and a base
 /// plate     80 x 60 x 6, standing upright on the axis
 /// bracket   an angle with a rib, bores and an overhang
+/// groove    a block 35 x 64 x 50 with an upright 90 degree V-groove, 25 deep, in its face x = 15
 ///
 /// @units    mm, object frame; round faces have chord errors below 0.002 mm
 /// @errors   Error(Input) that lists the names for an unknown name
@@ -33,5 +34,6 @@ namespace frangia {
 [[nodiscard]] Mesh make_ball_bar();  ///< the part "ball-bar" of `make_part`
 [[nodiscard]] Mesh make_plate();     ///< the part "plate" of `make_part`
 [[nodiscard]] Mesh make_bracket();   ///< the part "bracket" of `make_part`
+[[nodiscard]] Mesh make_groove();    ///< the part "groove" of `make_part`
 
 }  // namespace frangia

@@ -38,6 +38,9 @@ struct SimulateOptions {
   std::optional<Screen> screen;   ///< the part's plane z = 0 is a monitor that shows the patterns
   double gloss = 0.0;             ///< strength of the highlight, relative to the diffuse white
   double shininess = 40.0;        ///< exponent of the highlight
+  double albedo = 0.8;            ///< diffuse reflectance of white, for bounces
+  int bounces = 0;                ///< 1: diffuse light between parts of the surface, once
+  double subsurface_mm = 0.0;     ///< mean distance that light travels below the surface
   double speckle = 0.0;           ///< speckle contrast, 0 to 1, constant within a view
   double speckle_grain_px = 1.5;  ///< size of a grain
   double speckle_correlation =

@@ -26,12 +26,12 @@ bool is_rendered_in_color(const Pattern& pattern, const SimulateOptions& options
 
 void fill_color_row(const ViewRenderer& renderer,
                     int y,
-                    std::span<const LightSample> samples,
+                    const LitRow& row,
                     const std::vector<Shot>& shots,
                     ColorFrames& frames) {
   for (std::size_t channel = 0; channel < frames.channels.size(); ++channel) {
-    std::vector<LightSample> tinted(samples.begin(), samples.end());
-    for (LightSample& sample : tinted) {
+    LitRow tinted = row;  // light that other points reflect stays grey
+    for (LightSample& sample : tinted.samples) {
       sample.albedo *= sample.tint.at(channel);
       sample.diffuse *= sample.tint.at(channel);
     }

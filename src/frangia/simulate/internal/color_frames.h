@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "frangia/simulate/internal/view_renderer.h"
@@ -16,10 +15,10 @@ struct ColorFrames {
 /// Whether the frames of a pattern are rendered in color.
 [[nodiscard]] bool is_rendered_in_color(const Pattern& pattern, const SimulateOptions& options);
 
-/// Fills row y of the three channels. The samples are those of the grey frames.
+/// Fills row y of the three channels; `row` is the light of the grey frames.
 void fill_color_row(const ViewRenderer& renderer,
                     int y,
-                    std::span<const LightSample> samples,
+                    const LitRow& row,
                     const std::vector<Shot>& shots,
                     ColorFrames& frames);
 

@@ -14,9 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Offset of a shadow ray's origin from the surface, mm: above the rounding of single precision.
-constexpr double kStepOff = 2e-3;
-
 double lattice_value(const Eigen::Vector3i& cell) {
   std::uint64_t stream = 0x7E47;
   for (const int coordinate : cell)
@@ -55,7 +52,9 @@ double albedo_at(const Vector3d& position_mm, const SimulatedScene& scene) {
 }
 
 /// Projects a point of the rig frame into the projector; false outside of its field.
-bool project_to_projector(const Projector& projector, const Vector3d& point, LightSample& sample) {
+bool set_projector_coordinate(const Projector& projector,
+                              const Vector3d& point,
+                              LightSample& sample) {
   const Vector3d p = projector.from_rig(point);
   if (const auto* pinhole = std::get_if<PinholeModel>(&projector.model)) {
     if (p.z() <= 0.0) return false;
@@ -96,55 +95,83 @@ LightSample screen_light(const Screen& screen, const Vector3d& point) {
 
 }  // namespace
 
+std::optional<SurfacePoint> find_surface_point(const SimulatedScene& scene,
+                                               const Vector3d& origin,
+                                               const Vector3d& direction) {
+  const auto hit = scene.surface.first_hit(origin, direction);
+  if (!hit) return std::nullopt;
+  // An open mesh is a thin shell: it shows the side that is looked at.
+  const double side = hit->normal.dot(direction) > 0.0 ? -1.0 : 1.0;
+  SurfacePoint found;
+  found.point_mm = origin + hit->distance * direction;
+  found.face_normal = side * hit->normal;
+  found.normal = side * shading_normal(scene, *hit);
+  found.albedo = static_cast<float>(albedo_at(found.point_mm, scene));
+  found.distance = hit->distance;
+  if (scene.options.color > 0.0) {
+    const Vector3d color =
+        surface_color(scene.part_from_object * found.point_mm, scene.options.color);
+    const double grey = luminance_of_color(color);
+    found.albedo *= static_cast<float>(grey);
+    for (std::size_t channel = 0; channel < found.tint.size(); ++channel)
+      found.tint.at(channel) = static_cast<float>(color[static_cast<Eigen::Index>(channel)] / grey);
+  }
+  return found;
+}
+
+std::optional<Eigen::Vector2d> projector_coordinate(const Projector& projector,
+                                                    const Vector3d& point) {
+  LightSample sample;
+  const Vector3d p = projector.from_rig(point);
+  if (p.z() <= 0.0) return std::nullopt;
+  set_projector_coordinate(projector, point, sample);
+  return Eigen::Vector2d(sample.u, sample.v);
+}
+
+LightSample light_on(const SimulatedScene& scene,
+                     const Eigen::Isometry3d& object_from_rig,
+                     const SurfacePoint& on,
+                     const Vector3d& in_rig) {
+  LightSample sample;
+  sample.albedo = on.albedo;
+  sample.tint = on.tint;
+  if (!set_projector_coordinate(scene.rig.projector, in_rig, sample)) return sample;
+  const Vector3d light = object_from_rig * scene.rig.projector.position_mm;
+  const Vector3d to_light = light - on.point_mm;
+  const double distance = to_light.norm();
+  const double cosine = on.normal.dot(to_light / distance);
+  if (cosine <= 0.0 || on.face_normal.dot(to_light) <= 0.0) return sample;
+  if (scene.surface.occluded(on.off_surface(), light)) return sample;
+
+  const double nearness = scene.working_distance_mm / distance;
+  sample.diffuse = static_cast<float>(nearness * nearness * cosine) * sample.albedo;
+  if (scene.rig.laser_sheet) {
+    const double off =
+        (scene.rig.laser_sheet->normal.dot(in_rig) - scene.rig.laser_sheet->offset_mm) /
+        scene.options.line_sigma_mm;
+    sample.line = static_cast<float>(std::exp(-0.5 * off * off));
+  }
+  return sample;
+}
+
 LightSample sample_light(const SimulatedScene& scene,
                          const Eigen::Isometry3d& rig_from_object,
                          const Eigen::Vector2d& ray) {
-  LightSample sample;
   const Eigen::Isometry3d object_from_rig = rig_from_object.inverse();
-  const Vector3d camera = object_from_rig.translation();
   const Vector3d direction = object_from_rig.linear() * ray.homogeneous();
-  const auto hit = scene.surface.first_hit(camera, direction);
-  if (!hit) return sample;
-  const Vector3d point = camera + hit->distance * direction;
-  const Vector3d seen = hit->distance * ray.homogeneous();  // the same in the rig frame, exactly
+  const auto on = find_surface_point(scene, object_from_rig.translation(), direction);
+  if (!on) return {};
   if (scene.options.screen)
-    return screen_light(*scene.options.screen, scene.part_from_object * point);
-  sample.albedo = static_cast<float>(albedo_at(point, scene));
-  if (scene.options.color > 0.0) {
-    const Vector3d color = surface_color(scene.part_from_object * point, scene.options.color);
-    const double grey = luminance_of_color(color);
-    sample.albedo *= static_cast<float>(grey);
-    for (std::size_t channel = 0; channel < sample.tint.size(); ++channel)
-      sample.tint.at(channel) =
-          static_cast<float>(color[static_cast<Eigen::Index>(channel)] / grey);
-  }
-  if (!project_to_projector(scene.rig.projector, seen, sample)) return sample;
-
-  // An open mesh is a thin shell: it shows the side that is looked at.
-  const double side = hit->normal.dot(direction) > 0.0 ? -1.0 : 1.0;
-  const Vector3d light = object_from_rig * scene.rig.projector.position_mm;
-  const Vector3d to_light = light - point;
-  const double distance = to_light.norm();
-  const Vector3d light_direction = to_light / distance;
-  const Vector3d normal = side * shading_normal(scene, *hit);
-  const double cosine = normal.dot(light_direction);
-  if (cosine <= 0.0 || side * hit->normal.dot(light_direction) <= 0.0) return sample;
-  if (scene.surface.occluded(point + side * kStepOff * hit->normal, light)) return sample;
-
-  const double nearness = scene.working_distance_mm / distance;
-  const double irradiance = nearness * nearness;
-  sample.diffuse = static_cast<float>(irradiance * cosine) * sample.albedo;
-  if (scene.options.gloss > 0.0) {
-    const Vector3d halfway = (light_direction - direction.normalized()).normalized();
-    sample.glossy =
-        static_cast<float>(irradiance * scene.options.gloss *
-                           std::pow(std::max(normal.dot(halfway), 0.0), scene.options.shininess));
-  }
-  if (scene.rig.laser_sheet) {
-    const double off =
-        (scene.rig.laser_sheet->normal.dot(seen) - scene.rig.laser_sheet->offset_mm) /
-        scene.options.line_sigma_mm;
-    sample.line = static_cast<float>(std::exp(-0.5 * off * off));
+    return screen_light(*scene.options.screen, scene.part_from_object * on->point_mm);
+  const Vector3d seen = on->distance * ray.homogeneous();  // in the rig frame, exactly
+  LightSample sample = light_on(scene, object_from_rig, *on, seen);
+  if (sample.diffuse > 0.0F && scene.options.gloss > 0.0) {
+    const Vector3d to_light = object_from_rig * scene.rig.projector.position_mm - on->point_mm;
+    const double nearness = scene.working_distance_mm / to_light.norm();
+    const Vector3d halfway = (to_light.normalized() - direction.normalized()).normalized();
+    sample.glossy = static_cast<float>(
+        nearness * nearness * scene.options.gloss *
+        std::pow(std::max(on->normal.dot(halfway), 0.0), scene.options.shininess));
   }
   return sample;
 }

@@ -105,16 +105,16 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
     parallel_rows(size, [&](int row) {
       if (run.stop.stop_requested()) return;
       const int y = done + row;
-      const std::vector<LightSample> samples = renderer.sample_row(y);
+      const LitRow light = renderer.sample_row(y);
       for (std::size_t i = 0; i < stacks.size(); ++i) {
         if (const auto color = colors.find(i); color != colors.end()) {
-          fill_color_row(renderer, y, samples, shots[i], color->second);
+          fill_color_row(renderer, y, light, shots[i], color->second);
           continue;
         }
         if (scene.options.bits == 8) {
-          renderer.fill_row<std::uint8_t>(y, samples, shots[i], stacks[i]);
+          renderer.fill_row<std::uint8_t>(y, light, shots[i], stacks[i]);
         } else {
-          renderer.fill_row<std::uint16_t>(y, samples, shots[i], stacks[i]);
+          renderer.fill_row<std::uint16_t>(y, light, shots[i], stacks[i]);
         }
       }
     });

@@ -63,7 +63,7 @@ struct BenchCamera::Light {
   double table_rad;
   int view;
   ViewRenderer renderer;
-  std::vector<std::vector<LightSample>> rows;
+  std::vector<LitRow> rows;
 };
 
 Frame BenchCamera::capture(const SimulatedBench& bench,

@@ -11,6 +11,7 @@
 #include "frangia/core/random.h"
 #include "frangia/geometry/corner_normals.h"
 #include "frangia/rig/rig_of_camera.h"
+#include "frangia/simulate/internal/gather_light.h"
 #include "frangia/simulate/internal/light_sample.h"
 #include "frangia/simulate/internal/solid_builder.h"
 
@@ -52,6 +53,9 @@ void check(const SimulateOptions& options, const Rig& rig) {
   check_range("texture", options.texture, 0.0, 1.0);
   check_range("gloss", options.gloss, 0.0, 1000.0);
   check_range("shininess", options.shininess, 1.0, kMany);
+  check_range("albedo", options.albedo, 0.0, 1.0);
+  check_range("bounces", options.bounces, 0, 1);
+  check_range("subsurface length", options.subsurface_mm, 0.0, kMany);
   check_range("speckle", options.speckle, 0.0, 1.0);
   check_range("speckle grain", options.speckle_grain_px, 0.0, 50.0);
   check_range("speckle correlation", options.speckle_correlation, 0.0, 1.0);
@@ -131,7 +135,11 @@ double brightest_of(const SimulatedScene& scene, const SimulatedView& view) {
     for (int x = 0; x < scene.rays.width(); x += kStride) {
       const Eigen::Vector2d ray = scene.rays(x, row * kStride).cast<double>();
       float& brightest = row_brightest[static_cast<std::size_t>(row)];
-      brightest = std::max(brightest, sample_light(scene, pose, ray).diffuse);
+      constexpr double kTurn = 0.5;  // of the cells; any
+      const auto gathered = static_cast<float>(total_light(gather_light(scene, pose, ray, kTurn)));
+      const float direct =
+          scene.options.subsurface_mm > 0.0 ? 0.0F : sample_light(scene, pose, ray).diffuse;
+      brightest = std::max(brightest, direct + gathered);
     }
   });
   return static_cast<double>(*std::max_element(row_brightest.begin(), row_brightest.end()));

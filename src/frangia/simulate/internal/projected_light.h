@@ -1,0 +1,34 @@
+#pragma once
+
+#include <complex>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/pattern/pattern.h"
+#include "frangia/simulate/internal/simulated_scene.h"
+
+namespace frangia {
+
+/// Phase of a fringe pattern at a projector coordinate: psi in degrees, or column and row.
+///
+/// @units    rad
+[[nodiscard]] double phase_at(const Pattern& pattern, const Eigen::Vector2d& at);
+
+/// Light of a fringe whose real part is the cosine of the phase, relative to the mean light. The
+/// display's response is part of it.
+[[nodiscard]] double fringe_light(const std::complex<double>& fringe, const SimulatedScene& scene);
+
+/// The same, blurred along the phase by the projector's Gaussian (Gauss-Hermite quadrature).
+[[nodiscard]] double blurred_light(const std::complex<double>& fringe,
+                                   double period_px,
+                                   const SimulatedScene& scene);
+
+/// Light of a frame that is not a fringe at a projector coordinate: of `picture` unless it is null.
+[[nodiscard]] double frame_light(const Pattern& pattern,
+                                 int frame,
+                                 const Eigen::Vector2d& at,
+                                 const Image<float>* picture,
+                                 const SimulatedScene& scene);
+
+}  // namespace frangia

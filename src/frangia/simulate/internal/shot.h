@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "frangia/core/image.h"
+
+namespace frangia {
+
+/// Parameters of one frame: the projected light, the camera settings and the noise stream.
+struct Shot {
+  double cos_shift = 1.0;
+  double sin_shift = 0.0;
+  std::uint64_t stream = 0;
+  double light = 1.0;         ///< factor on the scene's exposure
+  double projector = 1.0;     ///< share of the projector's light that is on
+  double gain = 1.0;          ///< factor on the scene's counts per electron
+  double black_counts = 0.0;  ///< added to all pixels
+  /// Picture of a digital projector that replaces the pattern, linear, 0 to 1.
+  const Image<float>* picture = nullptr;
+};
+
+}  // namespace frangia
