@@ -128,7 +128,7 @@ TEST(ImportLayoutsOfGrayCode, GiveColumnsAndACloud) {
       make_layout(*find_layout("scan3d-capture"), 42, {model.width_px, model.height_px});
   plan.patterns = layout.patterns;
   plan.views.push_back({0.0, "views/000"});
-  const Scan made = simulate_scan(make_part("plate"), plan, {.samples_per_px = 4, .color = 0.5});
+  const Scan made = simulate_scan(make_part("plate"), plan, {.samples_per_px = 4});
   std::filesystem::create_directory(at("images"));
   int number = 1;
   for (const auto& image : layout.images) {

@@ -114,7 +114,12 @@ Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, c
     for (const WrittenFrame& frame : frames)
       largest = std::max(largest, frame.largest);
     const bool fits = camera.white_level >= largest && (bits == 16) == (camera.white_level > 255);
-    if (plan.options.rig.empty() || !fits) camera.white_level = white_level_of(frames, run);
+    const bool computed = bits == 16 && plan.image.bits == 8;  // grey of 8-bit colours, times 257
+    if (computed) {
+      camera.white_level = 65535;
+    } else if (plan.options.rig.empty() || !fits) {
+      camera.white_level = white_level_of(frames, run);
+    }
   }
   if (plan.jpeg_quality > 0) {
     const double scale = bits == 16 ? 257.0 : 1.0;  // computed grey values have 16 bits

@@ -25,17 +25,16 @@ struct GrayAloneOptions {
 /// image row (or column), the border of two neighbouring stripes lies where the difference crosses
 /// zero, between two pixels. The columns of the pixels between the two borders of a stripe are
 /// interpolated, with the curvature that the next borders show. A stripe with one border continues
-/// the rate of its neighbour; one without borders gives
-/// the column of its centre.
+/// the rate of its neighbour; one without borders gives the column of its centre.
 ///
 /// Stripes that the camera does not resolve are left out: without its last bits, the code is that
 /// of wider stripes.
 ///
 /// The standard deviation counts the camera's noise at the borders, the error of the interpolation
 /// (where pixels are fully bright or dark on both sides of most borders, a uniform distribution
-/// over a pixel), and for a stripe without two borders its width (a uniform distribution over it).
-/// Neighbouring pixels share their borders, so that the mean of many pixels does not remove these
-/// errors: half of their variance counts as systematic.
+/// over a pixel), a fifth of the distance from a single border, and for a stripe without borders
+/// its width (a uniform distribution over it). Neighbouring pixels share their borders, so that the
+/// mean of many pixels does not remove these errors: half of their variance counts as systematic.
 ///
 /// @shape    `gray` has one stack per exposure; `threshold_counts` at the first exposure, empty for
 ///           a code with inverted frames

@@ -219,11 +219,12 @@ class GrayLineDecoder {
   /// Standard deviation of a border's place between two pixels.
   ///
   /// Where pixels integrate over their width, the border's own pixel has partial light, and linear
-  /// interpolation is wrong by up to 0.086 px. Where they do not, both pixels are fully bright or
-  /// dark, and the border lies anywhere between them.
+  /// interpolation is wrong by up to 0.086 px; with the borders' other errors, 0.13 px of a sharp
+  /// one is measured by tests/phase/decode_gray_alone_test.cpp. Where they do not, both pixels are
+  /// fully bright or dark, and the border lies anywhere between them.
   [[nodiscard]] double place_sigma_px(double sharpness) const {
     constexpr double kUniform_px2 = 1.0 / 12.0;
-    const double interpolated_px = 0.1 * sharpness * sharpness;
+    const double interpolated_px = 0.13 * sharpness * sharpness;
     if (sharpness < kSharp) return interpolated_px;
     return std::sqrt(point_like_ * kUniform_px2 +
                      (1.0 - point_like_) * interpolated_px * interpolated_px);
