@@ -33,6 +33,7 @@ struct ReconstructArguments {
   MeshOutputs outputs;
   std::filesystem::path raw;
   bool no_register = false;
+  bool ignore_indirect_light = false;
   ReconstructOptions options;
 };
 
@@ -138,6 +139,11 @@ void print_result(const Reconstruction& result,
       json["directions"] = {{"disagreement_mm", result.disagreement_mm},
                             {"over_noise", result.disagreement_over_noise}};
     }
+    if (result.indirect_light) {
+      json["indirect_light"] = {{"reflectance", result.indirect_light->albedo},
+                                {"affected", result.indirect_light->affected},
+                                {"largest_mm", result.indirect_light->largest_mm}};
+    }
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
     if (result.registration) json["registration"] = json_of(*result.registration);
     if (!std::isnan(result.turntable_top_height_mm))
@@ -215,6 +221,9 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
                 "keep the points of the turntable top, which are removed by default");
   verb.add_flag(
       "--no-register", arguments.no_register, "do not refine the turntable's axis and angles");
+  verb.add_flag("--ignore-indirect-light",
+                arguments.ignore_indirect_light,
+                "do not look for light that parts of the surface throw on each other");
 }
 
 void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
@@ -249,6 +258,7 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
   add_decode_options(*verb, arguments->options.decode);
   verb->callback([arguments, &terminal] {
     arguments->options.register_views = !arguments->no_register;
+    arguments->options.indirect_light = !arguments->ignore_indirect_light;
     reconstruct_verb(*arguments, terminal);
   });
 }

@@ -17,7 +17,7 @@ from study import ROOT, NotMeasured, Study  # noqa: E402
 # In the order in which they stand on their pages.
 SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misaligned_turntable", "large", "views",
             "edits", "decimation", "calibration", "calibration_doctor", "captured_scan", "gige", "step_control",
-            "polished_blade", "capture_overhead", "import_frames", "file_readers", "harmonics", "sequence_faults",
+            "polished_blade", "capture_overhead", "import_frames", "file_readers", "harmonics", "sequence_faults", "indirect_light",
             "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
 
 

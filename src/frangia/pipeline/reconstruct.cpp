@@ -12,6 +12,7 @@
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/internal/calibration_part.h"
+#include "frangia/pipeline/internal/correct_indirect_light.h"
 #include "frangia/pipeline/internal/explain_no_points.h"
 #include "frangia/pipeline/internal/mark_left_out.h"
 #include "frangia/pipeline/internal/measure_views.h"
@@ -37,24 +38,31 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
       static_cast<double>(median(measured.disagreements_over_sigma)) / kMedianOfNormal;
 }
 
-/// Removes what is not the part from the views of one setup, and registers them on the turntable.
+/// Removes what is not the part from the views of one setup, corrects them for indirect light, and
+/// registers them on the turntable.
 void register_setup(MeasuredSetup& setup,
-                    const Rig& rig,
+                    const Scan& scan,
+                    const Image<Eigen::Vector2f>& rays,
                     const ReconstructOptions& options,
                     double& turntable_top_height_mm,
                     const Run& run) {
   MeasuredViews& measured = setup.measured;
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = scan.rig.camera.model;
   if (measured.points == 0) return;
   clip_to_volume(measured.views, camera, options, run);
-  if (!rig.turntable) return;
+  if (!scan.rig.turntable) return;
   if (!options.keep_turntable_top) {
     turntable_top_height_mm =
         remove_turntable_top(measured.views, camera, options.turntable_top, run);
   }
   if (options.register_views) {
-    setup.registration = register_views(
-        measured.views, camera, {*rig.turntable, measured.stations}, options.registration, run);
+    if (options.indirect_light)
+      correct_before_registration(measured, scan, rays, options.decode, options.fusion, run);
+    setup.registration = register_views(measured.views,
+                                        camera,
+                                        {*scan.rig.turntable, measured.stations},
+                                        options.registration,
+                                        run);
   }
 }
 
@@ -94,7 +102,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   for (MeasuredSetup& setup : setups) {
     resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
-    register_setup(setup, scan.rig, options, out.turntable_top_height_mm, run);
+    register_setup(setup, scan, rays, options, out.turntable_top_height_mm, run);
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
@@ -117,8 +125,13 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   const ViewStore& views = joined.measured.views;
   FusionOptions fusion = options.fusion;
   fusion.add_systematic = calibration_part(views, scan.rig, joined.measured.coarsest, rays);
+  Mesh fused = fuse_views(views, camera, fusion, run);
+  if (options.indirect_light) {
+    out.indirect_light =
+        correct_indirect_light(fused, joined.measured, scan, rays, options.decode, fusion, run);
+  }
   if (options.keep_raw) out.raw = collect_points(views, camera, run, fusion.add_systematic);
-  out.mesh = finish_mesh(fuse_views(views, camera, fusion, run), options.finish, run);
+  out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
