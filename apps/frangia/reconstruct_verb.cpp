@@ -35,6 +35,7 @@ struct ReconstructArguments {
   MeshOutputs outputs;
   std::filesystem::path raw;
   bool no_register = false;
+  bool ignore_indirect_light = false;
   ReconstructOptions options;
 };
 
@@ -167,6 +168,11 @@ void print_result(const Reconstruction& result,
                          {"disagreement_mm", result.camera_disagreement_mm},  // NaN becomes null
                          {"over_noise", result.camera_disagreement_over_noise}};
     }
+    if (result.indirect_light) {
+      json["indirect_light"] = {{"reflectance", result.indirect_light->albedo},
+                                {"affected", result.indirect_light->affected},
+                                {"largest_mm", result.indirect_light->largest_mm}};
+    }
     if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
     if (result.refinement) json["refinement"] = json_of(*result.refinement);
     if (result.registration) json["registration"] = json_of(*result.registration);
@@ -249,6 +255,9 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
   add_known_length(verb, arguments.options.refinement.ball_distance_mm)->needs("--refine-rig");
   verb.add_flag(
       "--no-register", arguments.no_register, "do not refine the turntable's axis and angles");
+  verb.add_flag("--ignore-indirect-light",
+                arguments.ignore_indirect_light,
+                "do not look for light that parts of the surface throw on each other");
 }
 
 void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
@@ -292,6 +301,7 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
       ->transform(named(kColors));
   verb->callback([arguments, &terminal] {
     arguments->options.register_views = !arguments->no_register;
+    arguments->options.indirect_light = !arguments->ignore_indirect_light;
     reconstruct_verb(*arguments, terminal);
   });
 }

@@ -23,7 +23,7 @@ using testing::run_shell;
 using testing::TemporaryFolder;
 
 std::string small_rig() {
-  return std::string(FRANGIA_SOURCE_DIR) + "/tests/data/small-interferometer.toml";
+  return FRANGIA_SOURCE_DIR "/tests/data/small-interferometer.toml";
 }
 
 /// Whether a terminal shows the text as it is: no control character but the end of lines, no

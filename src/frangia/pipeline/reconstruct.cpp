@@ -13,6 +13,7 @@
 #include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/internal/calibration_part.h"
+#include "frangia/pipeline/internal/correct_indirect_light.h"
 #include "frangia/pipeline/internal/explain_no_points.h"
 #include "frangia/pipeline/internal/mark_left_out.h"
 #include "frangia/pipeline/internal/measure_views.h"
@@ -53,23 +54,30 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
       static_cast<double>(median(measured.camera_disagreements_over_sigma)) / kMedianOfNormal;
 }
 
-/// Removes what is not the part from the views of one setup, and registers them on the turntable.
+/// Removes what is not the part from the views of one setup, corrects them for indirect light, and
+/// registers them on the turntable.
 void register_setup(MeasuredSetup& setup,
-                    const Rig& rig,
+                    const Scan& scan,
+                    const Image<Eigen::Vector2f>& rays,
                     const ReconstructOptions& options,
                     double& turntable_top_height_mm,
                     const Run& run) {
   MeasuredViews& measured = setup.measured;
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = scan.rig.camera.model;
   if (measured.points == 0) return;
-  clip_to_volume(measured, rig, options, run);
-  if (!rig.turntable) return;
+  clip_to_volume(measured, scan.rig, options, run);
+  if (!scan.rig.turntable) return;
   if (!options.keep_turntable_top) {
-    turntable_top_height_mm = remove_turntable_top(measured, rig, options.turntable_top, run);
+    turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
   }
   if (options.register_views) {
-    setup.registration = register_views(
-        measured.views, camera, {*rig.turntable, measured.stations}, options.registration, run);
+    if (options.indirect_light)
+      correct_before_registration(measured, scan, rays, options.decode, options.fusion, run);
+    setup.registration = register_views(measured.views,
+                                        camera,
+                                        {*scan.rig.turntable, measured.stations},
+                                        options.registration,
+                                        run);
     clear_outliers_of_cameras(setup);
   }
 }
@@ -127,7 +135,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   for (MeasuredSetup& setup : setups) {
     resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
-    register_setup(setup, scan.rig, options, out.turntable_top_height_mm, run);
+    register_setup(setup, scan, rays, options, out.turntable_top_height_mm, run);
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
@@ -152,10 +160,14 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
   fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, rays);
-  if (options.keep_raw)
-    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   Mesh fused = fuse_views(cameras, fusion, run);
+  if (options.indirect_light && cameras.size() == 1) {
+    out.indirect_light =
+        correct_indirect_light(fused, joined.measured, scan, rays, options.decode, fusion, run);
+  }
+  if (options.keep_raw)
+    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
   color_vertices(fused, cameras, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();

@@ -15,6 +15,7 @@
 #include "frangia/geometry/mesh.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/finish_mesh.h"
+#include "frangia/pipeline/indirect_light_report.h"
 #include "frangia/pipeline/view_summary.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/registration/find_turntable_top.h"
@@ -42,9 +43,10 @@ struct ReconstructOptions {
   double clip_radius_mm =
       std::numeric_limits<double>::infinity();  ///< removes points farther from the axis
   FusionOptions fusion;                         ///< fusion of the views
-  FinishOptions finish;                         ///< hole filling and decimation
   FrameColors colors = FrameColors::Linear;     ///< of the vertices
-  bool keep_raw = false;                        ///< returns the registered points, too
+  bool indirect_light = true;  ///< looks for indirect light, corrects it, counts the rest in sigma
+  FinishOptions finish;        ///< hole filling and decimation
+  bool keep_raw = false;       ///< returns the registered points, too
 };
 
 /// The reconstructed surface and what the stages report.
@@ -69,7 +71,8 @@ struct Reconstruction {
   double camera_disagreement_mm = std::numeric_limits<double>::quiet_NaN();
   /// The same over what phase noise explains.
   double camera_disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
-  std::size_t cameras = 1;  ///< of the rig
+  std::size_t cameras = 1;                            ///< of the rig
+  std::optional<IndirectLightReport> indirect_light;  ///< empty: none was found
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };

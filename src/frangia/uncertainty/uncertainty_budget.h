@@ -14,6 +14,7 @@ enum class UncertaintyTerm {
   StepErrors,           ///< phase steps that differ from the nominal ones
   Flicker,              ///< light or exposure that changes between frames
   Quantization,         ///< whole counts of the frames
+  IndirectLight,        ///< light that reaches a point by way of other parts of the surface
   Calibration,          ///< covariance of the parameters of the rig
 };
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+
+#include "frangia/indirect_light/view_light.h"
+#include "frangia/pattern/pattern.h"
+
+namespace frangia {
+
+/// How a sequence obtains the absolute phase of its finest pattern.
+enum class PhaseSource {
+  Finest,  ///< from the finest pattern alone; the coarser ones give its order, one after the other
+  Slope    ///< from the least-squares slope of phase over frequency through all patterns
+};
+
+/// What indirect light does to the absolute phase of the finest pattern.
+struct IndirectPhase {
+  double error_rad = 0.0;  ///< predicted
+  /// Standard uncertainty of the prediction.
+  double sigma_rad = 0.0;
+  bool wrong_order = false;  ///< coarser patterns are off by so much that they give a wrong order
+};
+
+/// Predicts the phase error of a surface with this reflectance: what the sequence makes of the
+/// errors arg(1 + f) of its patterns.
+///
+/// The uncertainty is the error itself and half of the share of indirect fringes: at a crease the
+/// measured surface is distorted by the error that it predicts, and further bounces, shine, and
+/// surface that was not measured are not predicted.
+///
+/// @shape    `patterns` and `share.fringes` coarse to fine
+/// @units    rad
+[[nodiscard]] IndirectPhase indirect_phase(const IndirectShare& share,
+                                           double albedo,
+                                           std::span<const Pattern> patterns,
+                                           PhaseSource source);
+
+}  // namespace frangia

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/fusion/fuse_views.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/pipeline/decode_view.h"
+#include "frangia/pipeline/indirect_light_report.h"
+#include "frangia/pipeline/internal/measure_views.h"
+
+namespace frangia {
+
+/// Corrects views that are not registered yet by the indirect light that a coarse surface predicts.
+/// Otherwise views of a concave part contradict the others.
+///
+/// @errors   as fuse_views and indirect_part
+void correct_before_registration(MeasuredViews& measured,
+                                 const Scan& scan,
+                                 const Image<Eigen::Vector2f>& rays,
+                                 const DecodeOptions& decode,
+                                 FusionOptions coarse,
+                                 const Run& run);
+
+/// Corrects the views by the indirect light that the fused surface predicts, and fuses them again;
+/// twice, because the corrected surface predicts better. `fusion` gets the systematic part of the
+/// prediction. Warns where indirect light matters; returns nothing where there is none.
+///
+/// @errors   as fuse_views and indirect_part
+[[nodiscard]] std::optional<IndirectLightReport> correct_indirect_light(
+    Mesh& fused,
+    MeasuredViews& measured,
+    const Scan& scan,
+    const Image<Eigen::Vector2f>& rays,
+    const DecodeOptions& decode,
+    FusionOptions& fusion,
+    const Run& run);
+
+}  // namespace frangia

@@ -1,0 +1,75 @@
+#include "frangia/pipeline/internal/indirect_correction.h"
+
+#include <cmath>
+#include <vector>
+
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/uncertainty/combined_sigma.h"
+
+namespace frangia {
+
+void IndirectCorrection::correct(View& view) const {
+  if (!moves_points_ || view.range.phase_rad.empty()) return;
+  const ViewLight light(*surface_, view, rays_);
+  parallel_rows(view.range.depth_mm.height(), [&](int y) {
+    for (int x = 0; x < view.range.depth_mm.width(); ++x) {
+      RangePixel at = view.range.pixel(x, y);
+      if (std::isnan(at.depth_mm)) continue;
+      if (move(light, at)) {
+        view.range.depth_mm(x, y) = at.depth_mm;
+      } else {
+        view.range.remove(x, y);
+      }
+    }
+  });
+  std::erase_if(view.edge_pixels, [&](RangePixel& pixel) { return !move(light, pixel); });
+}
+
+void IndirectCorrection::add(View& view) const {
+  const ViewLight light(*surface_, view, rays_);
+  RangeGrid& range = view.range;
+  if (range.systematic_mm.empty())
+    range.systematic_mm = Image<float>(range.depth_mm.width(), range.depth_mm.height(), kMissing);
+  parallel_rows(range.depth_mm.height(), [&](int y) {
+    for (int x = 0; x < range.depth_mm.width(); ++x) {
+      const RangePixel at = range.pixel(x, y);
+      if (std::isnan(at.depth_mm)) continue;
+      const auto added = static_cast<float>(sigma_mm(light, at));
+      float& systematic = range.systematic_mm(x, y);
+      systematic = combined_sigma(std::isnan(systematic) ? 0.0F : systematic, added);
+    }
+  });
+}
+
+double IndirectCorrection::sigma_mm(const ViewLight& light, const RangePixel& at) const {
+  const auto depth = static_cast<double>(at.depth_mm);
+  const IndirectShare share = light.at(at.x, at.y, depth);
+  if (share.mean <= 0.0) return 0.0;
+  const IndirectPhase found = indirect_phase(share, albedo_, surface_->patterns(), source_);
+  const double sigma_rad =
+      moves_points_ ? found.sigma_rad : std::hypot(found.sigma_rad, found.error_rad);
+  const Eigen::Vector2d ray = rays_(at.x, at.y).cast<double>();
+  const Pattern& finest = surface_->patterns().back();
+  const double phase = phase_at(depth * ray.homogeneous(), finest, surface_->projector());
+  const RayDepth slope = intersect_fringe(ray, phase, finest, surface_->projector());
+  const double mm = std::abs(slope.mm_per_rad) * sigma_rad * std::sqrt(1.0 + ray.squaredNorm());
+  return std::isfinite(mm) ? mm : 0.0;
+}
+
+/// Sets the depth that the phase without its predicted error has; false for a wrong order.
+bool IndirectCorrection::move(const ViewLight& light, RangePixel& at) const {
+  const IndirectShare share = light.at(at.x, at.y, static_cast<double>(at.depth_mm));
+  if (share.mean <= 0.0 || std::isnan(at.phase_rad)) return true;
+  const IndirectPhase found = indirect_phase(share, albedo_, surface_->patterns(), source_);
+  if (found.wrong_order) return false;
+  const RayDepth moved = intersect_fringe(rays_(at.x, at.y).cast<double>(),
+                                          static_cast<double>(at.phase_rad) - found.error_rad,
+                                          surface_->patterns().back(),
+                                          surface_->projector());
+  if (!std::isnan(moved.depth_mm)) at.depth_mm = static_cast<float>(moved.depth_mm);
+  return true;
+}
+
+}  // namespace frangia

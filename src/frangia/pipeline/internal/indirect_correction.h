@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/indirect_light/indirect_phase.h"
+#include "frangia/indirect_light/lit_surface.h"
+#include "frangia/indirect_light/view_light.h"
+#include "frangia/range/range_grid.h"
+#include "frangia/views/view.h"
+
+namespace frangia {
+
+/// Applies the prediction of indirect light to the points of views.
+class IndirectCorrection {
+ public:
+  /// `moves_points` is false for points that two directions of fringes determine: they stay where
+  /// they are, and the predicted error is part of their sigma. `rays` must outlive it.
+  IndirectCorrection(std::shared_ptr<const LitSurface> surface,
+                     double albedo,
+                     PhaseSource source,
+                     bool moves_points,
+                     const Image<Eigen::Vector2f>& rays)
+      : surface_(std::move(surface)),
+        albedo_(albedo),
+        source_(source),
+        moves_points_(moves_points),
+        rays_(rays) {}
+
+  /// Moves points to the depths that their phases have without the predicted errors, and removes
+  /// those with a wrong order.
+  void correct(View& view) const;
+  /// Adds the uncertainty of the prediction to the systematic parts of the points.
+  void add(View& view) const;
+  /// Uncertainty along its ray that indirect light adds to a point of the view of `light`.
+  [[nodiscard]] double sigma_mm(const ViewLight& light, const RangePixel& at) const;
+
+ private:
+  [[nodiscard]] bool move(const ViewLight& light, RangePixel& at) const;
+
+  std::shared_ptr<const LitSurface> surface_;
+  double albedo_;
+  PhaseSource source_;
+  bool moves_points_;
+  const Image<Eigen::Vector2f>& rays_;
+};
+
+}  // namespace frangia

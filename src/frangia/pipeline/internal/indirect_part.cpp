@@ -1,0 +1,242 @@
+#include "frangia/pipeline/internal/indirect_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frangia/core/median.h"
+#include "frangia/core/parallel.h"
+#include "frangia/dataset/read_frames.h"
+#include "frangia/indirect_light/estimate_albedo.h"
+#include "frangia/indirect_light/indirect_phase.h"
+#include "frangia/indirect_light/lit_surface.h"
+#include "frangia/indirect_light/view_light.h"
+#include "frangia/phase/unwrap_levels.h"
+#include "frangia/pipeline/internal/indirect_correction.h"
+#include "frangia/rig/phase_range.h"
+
+namespace frangia {
+namespace {
+
+/// The fringe patterns of one direction, coarse to fine.
+std::vector<Pattern> fringes_in(std::span<const Pattern> all, FringeDirection direction) {
+  std::vector<Pattern> out;
+  for (const Pattern& pattern : all) {
+    if (pattern.kind == PatternKind::Fringe && pattern.direction == direction)
+      out.push_back(pattern);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Pattern& a, const Pattern& b) {
+    return a.fringes_per_unit() < b.fringes_per_unit();
+  });
+  return out;
+}
+
+/// Pixels on a regular grid, about `count` of those of a view that have a point.
+std::vector<Eigen::Vector2i> sampled_pixels(const Image<float>& depth_mm, std::size_t count) {
+  std::size_t points = 0;
+  for (const float depth : depth_mm.pixels())
+    points += std::isnan(depth) ? 0U : 1U;
+  const int step = std::max(
+      1, static_cast<int>(std::sqrt(static_cast<double>(points) / static_cast<double>(count))));
+  std::vector<Eigen::Vector2i> out;
+  for (int y = step / 2; y < depth_mm.height(); y += step) {
+    for (int x = step / 2; x < depth_mm.width(); x += step) {
+      if (!std::isnan(depth_mm(x, y))) out.emplace_back(x, y);
+    }
+  }
+  return out;
+}
+
+/// Whether a view sees indirect light, by the surface alone.
+struct ViewExposure {
+  std::size_t view = 0;   ///< in the store
+  double indirect = 0.0;  ///< mean share of indirect light over the points
+  double affected = 0.0;  ///< share of the points with more than 3 % of indirect light
+};
+
+ViewExposure exposure_of(std::size_t index,
+                         const ViewStore& views,
+                         const LitSurface& surface,
+                         const Image<Eigen::Vector2f>& rays) {
+  constexpr std::size_t kSamples = 300;
+  constexpr double kSeesSurface = 0.03;
+  const Image<float> depth_mm = views.load_depth_mm(index);
+  const auto pixels = sampled_pixels(depth_mm, kSamples);
+  const Eigen::Isometry3d pose = views.rig_from_object(index);
+  const Eigen::Isometry3d object_from_rig = pose.inverse();
+  std::vector<double> shares(pixels.size());
+  parallel_chunks(pixels.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d ray = rays(pixels[i].x(), pixels[i].y()).cast<double>().homogeneous();
+      double distance = 0.0;
+      const PointLight light = surface.light_along(
+          pose, object_from_rig.translation(), object_from_rig.linear() * ray, distance);
+      shares[i] = light.direct > 0.0 ? std::min(1.0, light.indirect / light.direct) : 0.0;
+    }
+  });
+  ViewExposure out{index};
+  for (const double share : shares) {
+    out.indirect += share / static_cast<double>(shares.size());
+    out.affected += (share > kSeesSurface ? 1.0 : 0.0) / static_cast<double>(shares.size());
+  }
+  return out;
+}
+
+/// Adds what the frames of a view show at some pixels.
+void add_samples(const DecodedView& decoded,
+                 const View& view,
+                 const LitSurface& surface,
+                 const Image<Eigen::Vector2f>& rays,
+                 std::vector<AlbedoSample>& out) {
+  constexpr std::size_t kSamples = 2500;
+  std::vector<const WrappedPhase*> maps;
+  for (const Pattern& pattern : surface.patterns()) {
+    for (const WrappedPhase& map : decoded.wrapped) {
+      if (map.pattern.name == pattern.name) maps.push_back(&map);
+    }
+  }
+  if (maps.size() != surface.patterns().size()) return;
+  const bool first = decoded.phase.pattern.direction == surface.patterns().back().direction;
+  if (!first && !decoded.second_phase) return;
+  const AbsolutePhase& absolute = first ? decoded.phase : *decoded.second_phase;
+  const ViewLight light(surface, view, rays);
+  for (const Eigen::Vector2i& at : sampled_pixels(view.range.depth_mm, kSamples)) {
+    const int x = at.x();
+    const int y = at.y();
+    if (std::isnan(absolute.phase_rad(x, y))) continue;
+    AlbedoSample sample;
+    for (const WrappedPhase* map : maps) {
+      const float modulation = map->modulation_counts(x, y);
+      if (std::isnan(map->phase_rad(x, y)) || !(modulation > 0.0F)) break;
+      const double ratio = map->pattern.fringes_per_unit() / absolute.pattern.fringes_per_unit();
+      sample.measured.push_back(
+          {map->mean_counts(x, y) / modulation,
+           1.0F / modulation,
+           map->sigma_rad(x, y),
+           static_cast<float>(map->phase_rad(x, y) - ratio * absolute.phase_rad(x, y))});
+    }
+    if (sample.measured.size() != maps.size()) continue;
+    sample.predicted = light.at(x, y, static_cast<double>(view.range.depth_mm(x, y)));
+    constexpr double kMost = 1.0;  // at grazing light the prediction is too sensitive
+    if (sample.predicted.mean < kMost) out.push_back(std::move(sample));
+  }
+}
+
+/// How the decoded sequence obtains its phase; see `decode_view`.
+PhaseSource source_of(const Scan& scan,
+                      std::span<const Pattern> patterns,
+                      const DecodeOptions& decode) {
+  constexpr double kMaxWrongOrder = 1e-6;  // as in decode_view
+  const bool gray =
+      std::any_of(scan.patterns.begin(), scan.patterns.end(), [&](const Pattern& pattern) {
+        return pattern.kind == PatternKind::Gray && pattern.direction == patterns.back().direction;
+      });
+  const auto levels = find_unwrap_levels(patterns, scan.rig.projector);
+  const bool safe = is_safe(levels, decode.wrap.max_sigma_rad, kMaxWrongOrder);
+  const bool hierarchical = is_absolute(patterns.front(), scan.rig.projector) && !safe;
+  return gray || hierarchical || patterns.size() == 1 ? PhaseSource::Finest : PhaseSource::Slope;
+}
+
+/// Summarizes what is added to the points of the view that sees most of it.
+IndirectLightReport report_of(const View& view,
+                              const LitSurface& surface,
+                              const IndirectCorrection& correction,
+                              double albedo,
+                              const Image<Eigen::Vector2f>& rays) {
+  constexpr std::size_t kSamples = 4000;
+  const ViewLight light(surface, view, rays);
+  std::vector<float> added;
+  std::vector<float> noise;
+  double affected = 0.0;
+  for (const Eigen::Vector2i& at : sampled_pixels(view.range.depth_mm, kSamples)) {
+    const RangePixel pixel = view.range.pixel(at.x(), at.y());
+    added.push_back(static_cast<float>(correction.sigma_mm(light, pixel)));
+    noise.push_back(pixel.sigma_mm);
+    affected += added.back() > 0.5F * pixel.sigma_mm ? 1.0 : 0.0;
+  }
+  IndirectLightReport out{.albedo = albedo};
+  if (added.empty()) return out;
+  out.affected = affected / static_cast<double>(added.size());
+  const auto high = added.begin() + static_cast<std::ptrdiff_t>(19 * added.size() / 20);
+  std::nth_element(added.begin(), high, added.end());
+  out.largest_mm = static_cast<double>(*high);
+  out.noise_mm = static_cast<double>(median(std::move(noise)));
+  return out;
+}
+
+std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
+  for (std::size_t i = 0; i < scan.views.size(); ++i) {
+    if (scan.views[i].folder.string() == folder) return i;
+  }
+  return scan.views.size();
+}
+
+}  // namespace
+
+std::optional<IndirectPart> indirect_part(const Scan& scan,
+                                          const MeasuredViews& measured,
+                                          const Mesh& surface,
+                                          const Image<Eigen::Vector2f>& rays,
+                                          const DecodeOptions& decode,
+                                          const Run& run) {
+  constexpr std::size_t kDecoded = 3;  // views
+  constexpr double kMaterial = 0.005;  // share of the points of a view
+  const auto patterns = fringes_in(scan.patterns, measured.coarsest.direction);
+  if (patterns.empty() || surface.empty()) return std::nullopt;
+  Mesh shape;
+  shape.vertices_mm = surface.vertices_mm;
+  shape.triangles = surface.triangles;
+  shape.normals = surface.normals;
+  const auto lit =
+      std::make_shared<const LitSurface>(std::move(shape), scan.rig.projector, patterns);
+  std::vector<ViewExposure> exposures;
+  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+    run.check();
+    exposures.push_back(exposure_of(i, measured.views, *lit, rays));
+  }
+  std::erase_if(exposures, [](const ViewExposure& one) { return one.affected < kMaterial; });
+  if (exposures.empty()) return std::nullopt;
+  std::stable_sort(exposures.begin(), exposures.end(), [](const auto& a, const auto& b) {
+    return a.indirect > b.indirect;
+  });
+
+  DecodeOptions options = decode;
+  options.keep_maps = true;
+  std::vector<AlbedoSample> samples;
+  for (std::size_t k = 0; k < std::min(kDecoded, exposures.size()); ++k) {
+    run.check();
+    const std::size_t view = exposures[k].view;
+    const std::size_t index = index_in_scan(scan, measured.stations[view].name);
+    if (index == scan.views.size()) continue;
+    Run quiet = run;
+    quiet.on_note = nullptr;
+    quiet.on_warning = nullptr;
+    add_samples(decode_view(read_frames(scan, index, run), scan.rig, rays, options, quiet),
+                measured.views.load_points(view),
+                *lit,
+                rays,
+                samples);
+  }
+  const AlbedoEstimate found = estimate_albedo(samples, patterns);
+  if (!found.significant) return std::nullopt;
+  const bool one_direction = decode.directions == DirectionChoice::Vertical ||
+                             decode.directions == DirectionChoice::Horizontal ||
+                             fringes_in(scan.patterns,
+                                        patterns.back().direction == FringeDirection::Vertical
+                                            ? FringeDirection::Horizontal
+                                            : FringeDirection::Vertical)
+                                 .empty();
+  const auto correction = std::make_shared<const IndirectCorrection>(
+      lit, found.albedo, source_of(scan, patterns, decode), one_direction, rays);
+  IndirectPart out;
+  out.report = report_of(
+      measured.views.load_points(exposures.front().view), *lit, *correction, found.albedo, rays);
+  out.correct = [correction](View& view) { correction->correct(view); };
+  out.add = [correction](View& view) { correction->add(view); };
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/pipeline/decode_view.h"
+#include "frangia/pipeline/indirect_light_report.h"
+#include "frangia/pipeline/internal/measure_views.h"
+
+namespace frangia {
+
+/// Indirect light that was found in a scan.
+struct IndirectPart {
+  /// Moves the points of a view to where they are without the predicted error of their phase, and
+  /// removes those whose fringe order indirect light makes wrong. Points that two directions of
+  /// fringes determine stay where they are. Correcting a view again replaces the correction.
+  std::function<void(View&)> correct;
+  /// Adds the uncertainty of the prediction to the systematic parts of a view's points.
+  std::function<void(View&)> add;
+  IndirectLightReport report;
+};
+
+/// Finds out whether a surface lights itself, and by how much.
+///
+/// The measured surface predicts where indirect light arrives, and which fringes it carries. Where
+/// that is material, frames of up to three views are decoded again: contrast and phases give the
+/// reflectance (`estimate_albedo`). Nothing is returned when they show no indirect light.
+///
+/// @shape    `surface` is the fused mesh of these views, object frame
+/// @errors   as read_frames and decode_view; Error(Cancelled)
+[[nodiscard]] std::optional<IndirectPart> indirect_part(const Scan& scan,
+                                                        const MeasuredViews& measured,
+                                                        const Mesh& surface,
+                                                        const Image<Eigen::Vector2f>& rays,
+                                                        const DecodeOptions& decode,
+                                                        const Run& run);
+
+}  // namespace frangia
