@@ -86,7 +86,7 @@ class RigPrior final : public ceres::CostFunction {
     for (std::size_t block = 0; block < sizes.size(); ++block) {
       const Eigen::MatrixXd columns = root_.middleCols(at, sizes[block]);
       for (int i = 0; i < sizes[block]; ++i)
-        change[at + i] = parameters[block][i] - mean_.at(static_cast<std::size_t>(at) + i);
+        change[at + i] = parameters[block][i] - mean_.at(static_cast<std::size_t>(at + i));
       if (jacobians != nullptr && jacobians[block] != nullptr) {
         Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
             jacobians[block], columns.rows(), columns.cols()) = columns;

@@ -248,7 +248,7 @@ ArtifactCapture measure_plate(const Scan& scan,
       rays.push_back(rig.camera.model.ray(site.camera_px));
       const double value = site.light.x();
       light.push_back(rig.projector.is_angular() ? std::tan(value) : value);
-      seen += std::isnan(value) ? 0 : 1;
+      if (!std::isnan(value)) ++seen;
     }
     const std::vector<bool> flags = select_plane(rays, light);
     ArtifactView view{scan.views[i].folder.generic_string(), scan.views[i].angle_rad, {}, {}, {}};
