@@ -221,9 +221,13 @@ void adjust_in_rounds(const ArtifactProblem& problem, ArtifactFit& fit, const Ru
     fit.noise.light =
         noise_of_residuals(after.light_sigmas, median_of_magnitudes(after.light_sigmas));
     fit.inverse = invert(linearize_artifacts(problem, fit.noise, fit.parameters));
-    fit.noise.angle_rad = angle_sigma_of(fit.parameters, fit.inverse, last.angle_rad);
-    const bool settled = std::abs(fit.noise.light / last.light - 1.0) < kSettled &&
-                         std::abs(fit.noise.angle_rad / last.angle_rad - 1.0) < 5.0 * kSettled;
+    // While the noise of the phases is overestimated, the prior alone holds the angles.
+    constexpr double kNear = 0.2;
+    const double change = std::abs(fit.noise.light / last.light - 1.0);
+    if (change < kNear)
+      fit.noise.angle_rad = angle_sigma_of(fit.parameters, fit.inverse, last.angle_rad);
+    const bool settled =
+        change < kSettled && std::abs(fit.noise.angle_rad / last.angle_rad - 1.0) < 5.0 * kSettled;
     if (settled) break;
   }
 }
@@ -313,6 +317,7 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
   problem.captures = some;
   adjust_in_rounds(problem, fit, run);
   problem.captures = captures;
+  fit.noise.angle_rad = options.angle_sigma_rad;
   adjust_in_rounds(problem, fit, run);
   if (!fit.inverse.open.empty()) {
     throw Error(ErrorKind::Input,
