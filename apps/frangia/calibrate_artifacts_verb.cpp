@@ -33,8 +33,8 @@ void print_camera(const CameraSolution& camera, const Rig& rig) {
              camera.residuals.max_px,
              camera.residuals.points);
   print_text(
-      "  {:<10} focal length {:.2f} ± {:.2f} px, principal point ({:.2f} ± {:.2f}, {:.2f} ± "
-      "{:.2f}) px\n",
+      "  {:<10} focal length {:.3f} ± {:.3f} px, principal point ({:.3f} ± {:.3f}, {:.3f} ± "
+      "{:.3f}) px\n",
       "",
       camera.camera.focal_px.x(),
       sigma_in(rig, "camera.focal_px"),

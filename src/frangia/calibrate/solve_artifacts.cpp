@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/calibrate/internal/artifact_model.h"
+#include "frangia/calibrate/internal/fit_sheet.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
@@ -179,7 +180,7 @@ Inverse invert(const ArtifactLinearization& linear) {
 double angle_sigma_of(const ArtifactParameters& parameters,
                       const Inverse& inverse,
                       double before_rad) {
-  constexpr double kLeast_rad = 1e-6;
+  constexpr double kLeast_rad = 1e-5;  // 0.0006 degrees, beyond rotary stages
   double squares = 0.0;
   double effective = 0.0;
   for (std::size_t c = 0; c < parameters.angle_errors.size(); ++c) {
@@ -207,9 +208,8 @@ void adjust_in_rounds(const ArtifactProblem& problem, ArtifactFit& fit, const Ru
   for (int i = 0; i < kRounds; ++i) {
     const ArtifactResiduals before = artifact_residuals(problem, fit.parameters);
     if (i == 0) {
-      // The start is off by far more than the noise, and all of it counts.
+      // The start may be off by far more than the noise, and all of it counts.
       fit.noise.light = 3.0 * median_of_magnitudes(before.light_sigmas);
-      fit.noise.line = 3.0 * median_of_magnitudes(before.line_sigmas);
     }
     if (!adjust_artifacts(problem, fit.noise, fit.parameters, run)) {
       throw Error(ErrorKind::Numeric,
@@ -220,14 +220,34 @@ void adjust_in_rounds(const ArtifactProblem& problem, ArtifactFit& fit, const Ru
     const ArtifactResiduals after = artifact_residuals(problem, fit.parameters);
     fit.noise.light =
         noise_of_residuals(after.light_sigmas, median_of_magnitudes(after.light_sigmas));
-    fit.noise.line = noise_of_residuals(after.line_sigmas, median_of_magnitudes(after.line_sigmas));
     fit.inverse = invert(linearize_artifacts(problem, fit.noise, fit.parameters));
-    fit.noise.angle_rad = angle_sigma_of(fit.parameters, fit.inverse, last.angle_rad);
-    const bool settled = std::abs(fit.noise.light / last.light - 1.0) < kSettled &&
-                         std::abs(fit.noise.line / last.line - 1.0) < kSettled &&
-                         std::abs(fit.noise.angle_rad / last.angle_rad - 1.0) < 5.0 * kSettled;
+    // While the noise of the phases is overestimated, the prior alone holds the angles.
+    constexpr double kNear = 0.2;
+    const double change = std::abs(fit.noise.light / last.light - 1.0);
+    if (change < kNear)
+      fit.noise.angle_rad = angle_sigma_of(fit.parameters, fit.inverse, last.angle_rad);
+    const bool settled =
+        change < kSettled && std::abs(fit.noise.angle_rad / last.angle_rad - 1.0) < 5.0 * kSettled;
     if (settled) break;
   }
+}
+
+/// Every eighth site of each view.
+std::vector<ArtifactCapture> thinned(std::span<const ArtifactCapture> captures) {
+  constexpr std::size_t kEvery = 8;
+  std::vector<ArtifactCapture> some;
+  for (const ArtifactCapture& capture : captures) {
+    some.push_back({capture.artifact, {}, capture.surfaces});
+    for (const ArtifactView& view : capture.views) {
+      ArtifactView few{view.name, view.angle_rad, {}, {}, {}};
+      for (std::size_t i = 0; i < view.sites.size(); i += kEvery) {
+        few.sites.push_back(view.sites[i]);
+        few.surface.push_back(view.surface[i]);
+      }
+      some.back().views.push_back(std::move(few));
+    }
+  }
+  return some;
 }
 
 /// Covariance by the names of the rig; parameters that are held have none.
@@ -266,7 +286,6 @@ std::vector<std::string> held_directions(const ArtifactProblem& problem) {
     held.emplace_back("intrinsics of the projector");
   if (!problem.has_scale && !problem.options.baseline_mm && !problem.free_intrinsics)
     held.emplace_back("scale");
-  if (problem.start.laser_sheet && !problem.has_line) held.emplace_back("laser sheet");
   return held;
 }
 
@@ -282,11 +301,8 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
   problem.start = start;
   problem.options = options;
   set_prior(start, problem);
-  for (const ArtifactCapture& capture : captures) {
+  for (const ArtifactCapture& capture : captures)
     problem.has_scale = problem.has_scale || std::holds_alternative<Balls>(capture.artifact);
-    for (const ArtifactView& view : capture.views)
-      problem.has_line = problem.has_line || (start.laser_sheet && !view.line.empty());
-  }
   ArtifactFit fit{artifact_start(problem), {}, {}};
   std::copy(fit.parameters.camera.begin(), fit.parameters.camera.end(), problem.prior_mean.begin());
   std::copy(fit.parameters.projector.begin(),
@@ -296,6 +312,12 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
       fit.parameters.pose.begin(), fit.parameters.pose.end(), problem.prior_mean.begin() + 18);
   problem.prior_mean[24] = fit.parameters.pitch_scale;
   fit.noise.angle_rad = options.angle_sigma_rad;
+  // A start of some degrees takes many iterations, for which few sites are enough.
+  const std::vector<ArtifactCapture> some = thinned(captures);
+  problem.captures = some;
+  adjust_in_rounds(problem, fit, run);
+  problem.captures = captures;
+  fit.noise.angle_rad = options.angle_sigma_rad;
   adjust_in_rounds(problem, fit, run);
   if (!fit.inverse.open.empty()) {
     throw Error(ErrorKind::Input,
@@ -304,6 +326,7 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
                             fmt::join(fit.inverse.open, ", ")));
   }
   ArtifactSolution out;
+  out.held = held_directions(problem);
   out.rig = artifact_rig(problem, fit.parameters);
   out.angle_errors_rad = fit.parameters.angle_errors;
   for (std::size_t c = 0; c < captures.size(); ++c) {
@@ -319,9 +342,14 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
   const ArtifactResiduals residuals = artifact_residuals(problem, fit.parameters);
   out.light_rms = rms_of(residuals.light);
   out.light_noise = fit.noise.light;
-  out.line_rms_mm = rms_of(residuals.line_mm);
+  if (start.laser_sheet) {
+    const SheetFit sheet =
+        fit_sheet(artifact_line_points(problem, fit.parameters), *start.laser_sheet);
+    out.rig.laser_sheet = sheet.sheet;
+    out.line_rms_mm = sheet.rms_mm;
+    if (sheet.points == 0) out.held.emplace_back("laser sheet");
+  }
   out.angle_sigma_rad = fit.noise.angle_rad;
-  out.held = held_directions(problem);
   set_covariance(fit.inverse, out);
   return out;
 }

@@ -56,32 +56,33 @@ struct ArtifactSolution {
   std::vector<std::vector<double>> angle_errors_rad;  ///< by capture and view; 0 for the first view
   std::vector<std::vector<Eigen::Vector4d>> surfaces;  ///< by capture, as `ArtifactCapture`
   std::vector<std::vector<double>> diameters_mm;       ///< by capture and ball
-  double light_rms = 0.0;               ///< of the residuals, projector px or rad of psi
-  double light_noise = 1.0;             ///< residuals over their standard deviations by phase
-  double line_rms_mm = 0.0;             ///< of the laser line from the sheet; 0 without lines
-  double angle_sigma_rad = 0.0;         ///< standard deviation of the table's angles, estimated
-  std::vector<std::string> held;        ///< directions that the data leaves open, in words
+  double light_rms = 0.0;         ///< of the residuals, projector px or rad of psi
+  double light_noise = 1.0;       ///< residuals over their standard deviations by phase
+  double line_rms_mm = 0.0;       ///< of the laser line from the sheet; 0: no sheet was fitted
+  double angle_sigma_rad = 0.0;   ///< standard deviation of the table's angles, estimated
+  std::vector<std::string> held;  ///< directions that the data leaves open, in words
   std::vector<std::string> parameters;  ///< names of the rows of `covariance`
   Eigen::MatrixXd covariance;           ///< of `rig_parameter_names`; 0 for those that are held
   double axis_sigma_rad = 0.0;          ///< of the direction of the table's axis, the larger of two
   double point_sigma_mm = 0.0;          ///< of its place, the larger of two
 };
 
-/// Estimates projector, turntable and laser sheet from plates and balls on the turntable, in one
+/// Estimates projector and turntable from plates and balls on the turntable, in one
 /// bundle adjustment over all captures: the light at each site is predicted from the intersection
 /// of the camera's ray with the artifact, at the table's angle, and compared with the phase.
 ///
 /// An angular projector is estimated whole, with its pitch. A digital projector's intrinsics, and
 /// those of the camera, are adjusted within the covariance of `start.calibration`, or held where it
-/// has none. The turntable's angles are estimated with a prior.
+/// has none. The turntable's angles are estimated with a prior. The laser sheet is then fitted to
+/// its line on the artifacts.
 ///
 /// @units    mm, rad, px
 /// @missing  a site with one direction enters by it alone
 /// @errors   Error(Input) when the views span less than 20 degrees or are fewer than three, the
 ///           start has no turntable, or the data leaves a parameter open; Error(Numeric) when the
 ///           adjustment fails
-/// @source   least squares by Ceres with Huber's loss; the standard deviations of phases, lines and
-///           angles are scaled to their residuals
+/// @source   least squares by Ceres with Huber's loss; the standard deviations of phases and angles
+///           are scaled to their residuals
 [[nodiscard]] ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
                                                const Rig& start,
                                                const ArtifactSolveOptions& options = {},

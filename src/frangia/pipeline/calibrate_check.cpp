@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -101,6 +102,23 @@ Points points_on(const ArtifactView& view, int surface, const Rig& rig) {
   return out;
 }
 
+/// Center of a ball of known radius, which a cap determines far better than one whose radius is
+/// free.
+Eigen::Vector3d center_of(const Points& points, Eigen::Vector3d center, double radius_mm) {
+  constexpr int kIterations = 10;
+  for (int i = 0; i < kIterations; ++i) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector3d outwards = (point - center).normalized();
+      normal += outwards * outwards.transpose();
+      right += outwards * ((point - center).norm() - radius_mm);
+    }
+    center += normal.ldlt().solve(right);
+  }
+  return center;
+}
+
 void check_balls_of(const Scan& scan,
                     const Rig& rig,
                     const CheckRigOptions& options,
@@ -122,8 +140,9 @@ void check_balls_of(const Scan& scan,
       const Points points = points_on(view, static_cast<int>(b), rig);
       const Sphere sphere = fit_sphere(points);
       diameters[b].push_back(2.0 * sphere.radius_mm);
-      centers[b].push_back(to_zero * sphere.center_mm);
-      here.push_back(sphere.center_mm);
+      const Eigen::Vector3d center = center_of(points, sphere.center_mm, 0.5 * balls.diameter_mm);
+      centers[b].push_back(to_zero * center);
+      here.push_back(center);
       all.insert(all.end(), points.begin(), points.end());
     }
     if (count == 2) spacings.push_back((here[1] - here[0]).norm());

@@ -175,8 +175,6 @@ void add_rig_blocks(const ArtifactProblem& problem,
             parameters.table.data(),
             {"turntable.tilt_1", "turntable.tilt_2", "turntable.shift_1", "turntable.shift_2"},
             blocks);
-  if (problem.has_line)
-    add_block(out, parameters.sheet.data(), {"line.tilt_1", "line.tilt_2", "line.offset"}, blocks);
 }
 
 /// Declares the angles and surfaces of all captures, with what is known of them.
@@ -252,23 +250,6 @@ void add_views(const ArtifactProblem& problem,
             &parameters.angle_errors[c][v],
             parameters.surfaces[c][static_cast<std::size_t>(view.surface[i])].data());
       }
-      if (!problem.has_line) continue;
-      for (const LinePixel& pixel : view.line) {
-        // Millimetres across the line per pixel, at the distance of the table.
-        const double mm_per_px =
-            problem.start.turntable->point_mm.z() / problem.start.camera.model.focal_px.x();
-        out.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<SheetResidual, 1, 9, 4, 1, 4, 3>(
-                new SheetResidual{surface_at(problem, c, view, 0, pixel.camera_px),
-                                  problem.start.laser_sheet->normal,
-                                  1.0 / (noise.line * pixel.sigma_px * mm_per_px)}),
-            new ceres::HuberLoss(kHuberSigmas),
-            parameters.camera.data(),
-            parameters.table.data(),
-            &parameters.angle_errors[c][v],
-            parameters.surfaces[c][0].data(),
-            parameters.sheet.data());
-      }
     }
   }
 }
@@ -332,7 +313,6 @@ ArtifactParameters artifact_start(const ArtifactProblem& problem) {
     out.pose.at(i) = rotation[static_cast<Eigen::Index>(i)];
     out.pose.at(i + 3) = translation[static_cast<Eigen::Index>(i)];
   }
-  if (rig.laser_sheet) out.sheet[2] = rig.laser_sheet->offset_mm;
   for (const ArtifactCapture& capture : problem.captures) {
     out.angle_errors.emplace_back(capture.views.size(), 0.0);
     out.surfaces.emplace_back();
@@ -364,11 +344,6 @@ Rig artifact_rig(const ArtifactProblem& problem, const ArtifactParameters& param
   const Eigen::Vector3d u = axis.unitOrthogonal();
   rig.turntable->axis = tilted(axis, parameters.table[0], parameters.table[1]);
   rig.turntable->point_mm += parameters.table[2] * u + parameters.table[3] * axis.cross(u);
-  if (problem.has_line) {
-    rig.laser_sheet->normal =
-        tilted(problem.start.laser_sheet->normal, parameters.sheet[0], parameters.sheet[1]);
-    rig.laser_sheet->offset_mm = parameters.sheet[2];
-  }
   return rig;
 }
 
@@ -436,27 +411,30 @@ ArtifactResiduals artifact_residuals(const ArtifactProblem& problem,
           out.light.push_back(sigmas[k] / weight[k]);
         }
       }
-      for (const LinePixel& pixel : view.line) {
-        if (!problem.has_line) break;
-        double distance_mm = 0.0;
-        const double mm_per_px =
-            problem.start.turntable->point_mm.z() / problem.start.camera.model.focal_px.x();
-        const SheetResidual residual{surface_at(problem, c, view, 0, pixel.camera_px),
-                                     problem.start.laser_sheet->normal,
-                                     1.0};
-        if (!residual(parameters.camera.data(),
-                      parameters.table.data(),
-                      &parameters.angle_errors[c][v],
-                      parameters.surfaces[c][0].data(),
-                      parameters.sheet.data(),
-                      &distance_mm))
-          continue;
-        out.line_mm.push_back(distance_mm);
-        out.line_sigmas.push_back(distance_mm / (pixel.sigma_px * mm_per_px));
-      }
     }
   }
   return out;
+}
+
+std::vector<Eigen::Vector3d> artifact_line_points(const ArtifactProblem& problem,
+                                                  const ArtifactParameters& parameters) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t c = 0; c < problem.captures.size(); ++c) {
+    for (std::size_t v = 0; v < problem.captures[c].views.size(); ++v) {
+      const ArtifactView& view = problem.captures[c].views[v];
+      for (const LinePixel& pixel : view.line) {
+        Eigen::Vector3d point;
+        const bool hit = surface_at(problem, c, view, 0, pixel.camera_px)
+                             .intersect(parameters.camera.data(),
+                                        parameters.table.data(),
+                                        &parameters.angle_errors[c][v],
+                                        parameters.surfaces[c][0].data(),
+                                        point);
+        if (hit) points.push_back(point);
+      }
+    }
+  }
+  return points;
 }
 
 ArtifactLinearization linearize_artifacts(const ArtifactProblem& problem,

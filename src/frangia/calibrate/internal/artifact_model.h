@@ -22,7 +22,6 @@ struct ArtifactParameters {
   std::array<double, 6> pose{};       ///< projector_from_camera: rotation vector, translation
   double pitch_scale = 1.0;           ///< of an angular projector
   std::array<double, 4> table{};      ///< two tilts and two shifts across the starting axis
-  std::array<double, 3> sheet{};      ///< two tilts of the laser sheet's normal and its offset
   /// By capture and view.
   std::vector<std::vector<double>> angle_errors;
   /// By capture: two tilts and the offset of a plate, or center and relative diameter of each ball.
@@ -32,7 +31,6 @@ struct ArtifactParameters {
 /// Standard deviations by which those of the observations are multiplied, and that of the angles.
 struct ArtifactNoise {
   double light = 1.0;
-  double line = 1.0;
   double angle_rad = 1e-3;
 };
 
@@ -47,8 +45,7 @@ struct ArtifactProblem {
   std::array<double, 25> prior_mean{};
   bool free_camera = false;      ///< the prior determines it
   bool free_intrinsics = false;  ///< of a digital projector, likewise
-  bool has_line = false;
-  bool has_scale = false;  ///< by a ball
+  bool has_scale = false;        ///< by a ball
 };
 
 /// The start as parameters.
@@ -72,15 +69,20 @@ bool adjust_artifacts(const ArtifactProblem& problem,
                       ArtifactParameters& parameters,
                       const Run& run);
 
-/// Residuals of sites and lines in their standard deviations as measured, and in their own units.
+/// Residuals of sites in their standard deviations as measured, and in their own units.
 struct ArtifactResiduals {
   std::vector<double> light_sigmas, light;
-  std::vector<double> line_sigmas, line_mm;
   std::size_t missed = 0;  ///< sites whose ray misses the surface
 };
 
 [[nodiscard]] ArtifactResiduals artifact_residuals(const ArtifactProblem& problem,
                                                    const ArtifactParameters& parameters);
+
+/// Where the pixels of the laser line meet the artifacts.
+///
+/// @units    mm, rig frame
+[[nodiscard]] std::vector<Eigen::Vector3d> artifact_line_points(
+    const ArtifactProblem& problem, const ArtifactParameters& parameters);
 
 /// Jacobian of the weighted residuals at the optimum, by the parameters that are estimated.
 struct ArtifactLinearization {

@@ -124,26 +124,6 @@ struct LightResidual {
   }
 };
 
-/// Weighted distance of a point of the laser line from the sheet.
-struct SheetResidual {
-  TurnedSurface surface;
-  Eigen::Vector3d normal;  ///< of the sheet at the start
-  double weight;
-
-  template <typename T>
-  bool operator()(const T* camera,
-                  const T* table,
-                  const T* angle_error,
-                  const T* shape,
-                  const T* sheet,
-                  T* residual) const {
-    Eigen::Matrix<T, 3, 1> point;
-    if (!surface.intersect(camera, table, angle_error, shape, point)) return false;
-    residual[0] = weight * (tilted(normal, sheet[0], sheet[1]).dot(point) - sheet[2]);
-    return true;
-  }
-};
-
 /// Distance of the centers of two balls.
 struct SpacingResidual {
   double spacing_mm;

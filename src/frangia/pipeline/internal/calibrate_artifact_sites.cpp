@@ -41,7 +41,7 @@ MeasureLightOptions light_options(int step_px) {
   MeasureLightOptions options;
   options.step_px = step_px;
   options.fit.radius_px =
-      std::clamp(static_cast<int>(std::lround(0.5 * (kQuadratic * step_px - 1.0))), 3, kLargest_px);
+      std::clamp(static_cast<int>(std::lround(0.5 * (kQuadratic * step_px - 1.0))), 2, kLargest_px);
   const int side = 2 * options.fit.radius_px + 1;
   options.fit.min_pixels = side * side / 2;
   return options;
@@ -161,7 +161,7 @@ void order_balls(const std::vector<Eigen::Vector3d>& before,
 
 /// Whether a site is seen from the front, where the phase of a ball is well measured.
 bool is_frontal(const Eigen::Vector3d& point, const Eigen::Vector3d& center, const Rig& rig) {
-  constexpr double kLeastCosine = 0.4;
+  constexpr double kLeastCosine = 0.55;
   const Eigen::Vector3d normal = (point - center).normalized();
   return -normal.dot(point.normalized()) > kLeastCosine &&
          normal.dot((rig.projector.position_mm - point).normalized()) > kLeastCosine;
@@ -248,7 +248,7 @@ ArtifactCapture measure_plate(const Scan& scan,
       rays.push_back(rig.camera.model.ray(site.camera_px));
       const double value = site.light.x();
       light.push_back(rig.projector.is_angular() ? std::tan(value) : value);
-      seen += std::isnan(value) ? 0U : 1U;
+      if (!std::isnan(value)) ++seen;
     }
     const std::vector<bool> flags = select_plane(rays, light);
     ArtifactView view{scan.views[i].folder.generic_string(), scan.views[i].angle_rad, {}, {}, {}};
@@ -292,8 +292,15 @@ ArtifactCapture measure_balls(const Scan& scan,
                               const Run& run,
                               std::vector<std::string>& left_out) {
   const auto& balls = std::get<Balls>(*scan.artifact);
+  constexpr double kFarOff = 12.0;  // diameters, where the rig has no turntable
   const std::size_t count = balls.spacing_mm ? 2 : 1;
-  const int step = step_for(rig.camera.model, options.ball_sites);
+  // Within a tenth of the radius the surface of a ball is quadratic to 1e-5 of it.
+  const double apparent_px =
+      0.5 * balls.diameter_mm * rig.camera.model.focal_px.x() /
+      (rig.turntable ? rig.turntable->point_mm.z() : kFarOff * balls.diameter_mm);
+  const int step = std::max(2,
+                            std::min(static_cast<int>(std::lround(0.1 * apparent_px)),
+                                     step_for(rig.camera.model, options.ball_sites)));
   const auto measured = measure_all_sites(scan, rig, light_options(step), run);
   ArtifactCapture capture{balls, {}, {}};
   std::vector<Eigen::Vector3d> before;
