@@ -161,7 +161,15 @@ void calibrate_capture_verb(CapturePosesArguments arguments, Terminal& terminal)
   };
   run.stage("poses");
   try {
-    print_captured(calibrate_capture(plan, rig.devices(), lock, options, run), arguments, terminal);
+    const CalibrateCaptureReport report =
+        calibrate_capture(plan, rig.devices(), lock, options, run);
+    // With the [devices] tables, so that the rig calibrated from the poses has them, too.
+    const std::filesystem::path written = plan.folder / "rig.toml";
+    write_rig(written,
+              read_rig(written, run, RigContent::StartValues),
+              Durability::Synced,
+              arguments.rig);
+    print_captured(report, arguments, terminal);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Cancelled) throw;
     throw Error(ErrorKind::Cancelled,

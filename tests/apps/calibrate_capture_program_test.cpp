@@ -14,6 +14,7 @@
 #include "support/run_program.h"
 #include "support/small_scan.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -65,6 +66,7 @@ TEST_F(CaptureOfPoses, GoesOnWhereAPipeEndedAndCalibratesTheRig) {
   const auto found = folder_.path() / "rig.toml";
   const Answer calibrated = run_program("calibrate rig " + poses() + " -o " + found.string());
   ASSERT_EQ(calibrated.exit_code, 0) << calibrated.output;
+  EXPECT_NE(testing::text_of(found).find("[devices.turntable]"), std::string::npos);
   const Rig truth = read_rig(folder_.path() / "truth.toml");
   const Rig rig = read_rig(found);
   EXPECT_NEAR(rig.camera.model.focal_px.x() / truth.camera.model.focal_px.x(), 1.0, 0.01);

@@ -28,7 +28,7 @@ def draw(study, report):
 
 
 def write_picture(name, svg):
-    svg = svg.replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', 1)
+    svg = svg.replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" style="background:#f6f6f6;border:1px solid #ccc" ', 1)
     (ROOT / "docs" / "images" / f"calibration-{name}.svg").write_text(svg + "\n")
 
 

@@ -76,26 +76,45 @@ def samples_of(mesh, count=200_000):
     return numpy.einsum("ij,ijk->ik", weights, corners[chosen]), normals[chosen] / areas[chosen, None]
 
 
+def oriented_vertices(mesh):
+    """The vertices of a mesh and their unit normals, the mean of the triangles around them."""
+    points, triangles = points_of(read_ply(mesh)), read_triangles(mesh)
+    corners = points[triangles]
+    normals = numpy.zeros_like(points)
+    for corner in range(3):
+        numpy.add.at(normals, triangles[:, corner], numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    length = numpy.linalg.norm(normals, axis=1)
+    return points[length > 0], normals[length > 0] / length[length > 0, None]
+
+
 def shape_error(mesh, truth):
-    """RMS distance of the vertices from the true surface after the similarity that fits best, and its scale."""
+    """RMS distance of the vertices from the true surface after the similarity that fits best, and its scale.
+
+    Points are matched by place and direction, so that the two faces of a thin wall are not confused.
+    """
+    turn_mm = 10.0  # a normal of another direction counts like this distance
     surface, normals = samples_of(truth)
-    tree = cKDTree(surface)
-    points = points_of(read_ply(mesh))
-    points = points[:: max(1, len(points) // 30_000)]
-    center = points.mean(axis=0)
-    size = numpy.sqrt(((points - center) ** 2).sum(axis=1).mean())
-    moved, scale = points.copy(), 1.0
-    for _ in range(25):
-        _, nearest = tree.query(moved)
+    tree = cKDTree(numpy.c_[surface, turn_mm * normals])
+    points, directions = oriented_vertices(mesh)
+    every = max(1, len(points) // 30_000)
+    moved, facing = points[::every], directions[::every]
+    center = moved.mean(axis=0)
+    size = numpy.sqrt(((moved - center) ** 2).sum(axis=1).mean())
+    scale = 1.0
+    for _ in range(40):
+        _, nearest = tree.query(numpy.c_[moved, turn_mm * facing])
         normal = normals[nearest]
         distance = ((moved - surface[nearest]) * normal).sum(axis=1)
+        alike = (facing * normal).sum(axis=1) > 0.9
         arm = (moved - center) / size
         design = numpy.c_[numpy.cross(arm, normal), normal, (arm * normal).sum(axis=1)]
-        weight = numpy.abs(distance) < max(0.1, 3 * numpy.median(numpy.abs(distance)))
-        step = -numpy.linalg.lstsq(design[weight], distance[weight], rcond=None)[0]
-        moved = center + (rotation(step[:3] + 1e-15, numpy.linalg.norm(step[:3]) / size) @ ((1 + step[6] / size) * (moved - center)).T).T + step[3:6]
+        used = alike & (numpy.abs(distance) < max(0.1, 3 * numpy.median(numpy.abs(distance[alike]))))
+        step = -numpy.linalg.lstsq(design[used], distance[used], rcond=None)[0]
+        turn = rotation(step[:3] + 1e-15, numpy.linalg.norm(step[:3]) / size)
+        moved = center + (1 + step[6] / size) * (moved - center) @ turn.T + step[3:6]
+        facing = facing @ turn.T
         scale *= 1 + step[6] / size
-    return numpy.sqrt(numpy.mean(distance[numpy.abs(distance) < 1.0] ** 2)), scale
+    return numpy.sqrt(numpy.mean(distance[alike & (numpy.abs(distance) < 1.0)] ** 2)), scale
 
 
 def measure(study):
