@@ -164,7 +164,8 @@ TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
   static_cast<void>(finish());
   const int number = command("start-scan").at("job").get<int>();
   const auto share = [&] {
-    for (const Json& job : state().at("jobs"))
+    const Json jobs = state().at("jobs");
+    for (const Json& job : jobs)
       if (job.at("number") == number && job.at("stage") == "scan")
         return job.at("progress").get<double>();
     return 0.0;
