@@ -143,6 +143,7 @@ try {
       return [...pen.getImageData(0, 0, 1, 1).data];
     }, shot.toString('base64'));
   };
+  expect((await text('.command code')).includes('--select-outline'), 'the command line of the edit is not shown');
   const isViolet = ([r, g, b]) => b > r + 30 && b > g + 60;
   expect(isViolet(await colorAt(0.5, 0.4)), 'the selection is not drawn where the lasso was');
   expect(!isViolet(await colorAt(0.5, 0.6)), 'the selection is drawn where the lasso was not');
