@@ -24,4 +24,5 @@ function(frangia_web folder output)
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/embed_web.py embed ${tree}/dist ${output}
     DEPENDS ${tree}/installed ${sources} ${PROJECT_SOURCE_DIR}/cmake/embed_web.py
     COMMENT "Building the front end" VERBATIM)
+  add_custom_target(frangia_web DEPENDS ${output})  # beside the compilation of the modules, not after it
 endfunction()

@@ -23,9 +23,9 @@ def ask(path, arguments=None):
         return answer.read()
 
 
-def command(name, **arguments):
+def command(which, /, **arguments):
     """Runs a command and waits for its job."""
-    job = json.loads(ask(f"/api/commands/{name}", arguments)).get("job")
+    job = json.loads(ask(f"/api/commands/{which}", arguments)).get("job")
     while True:
         state = json.loads(ask("/api/state"))
         running = [one for one in state["jobs"] if one["state"] in ("waiting", "running")]
@@ -34,7 +34,7 @@ def command(name, **arguments):
         time.sleep(0.2)
     for one in state["jobs"]:
         if one["number"] == job and one["state"] != "done":
-            raise SystemExit(f"{name}: {one['error'] or one['state']}")
+            raise SystemExit(f"{which}: {one['error'] or one['state']}")
     return state["project"]
 
 

@@ -16,6 +16,7 @@
 #include "option_values.h"
 #include "print_text.h"
 #include "serve/app_routes.h"
+#include "serve/command_lines.h"
 #include "serve/http_server.h"
 #include "serve/runtime_file.h"
 #include "show_file.h"
@@ -83,6 +84,7 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   ServiceOptions options;
   options.projects = arguments.projects;
   options.version = FRANGIA_VERSION;
+  options.command_lines = command_lines;
   options.capture = {
       all_drivers, guardian_program(), [] { return std::make_shared<DeviceScope>(); }};
   Service service(std::move(options), [&server] { server->announce_change(); });

@@ -33,6 +33,9 @@ class ServiceTest : public ::testing::Test {
     options.projects = folder_.path() / "projects";
     options.capture.drivers = testing::all_drivers;
     options.version = "test";
+    options.command_lines = [](const ProjectProgress& project) {
+      return CommandLines{{"edit", {project.folder.name, std::to_string(project.steps.size())}}};
+    };
     service_ = std::make_unique<Service>(std::move(options), [this] { ++changes_; });
   }
   [[nodiscard]] Json state() const { return Json::parse(service_->state()); }
@@ -117,6 +120,7 @@ TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
   static_cast<void>(command("undo"));
   static_cast<void>(finish());
   EXPECT_EQ(state().at("project").at("surface").at("triangles"), 11);
+  EXPECT_EQ(state().at("project").at("commands").at("edit"), Json::array({"box", "2"}));
   static_cast<void>(command("redo"));
   static_cast<void>(finish());
   const std::string mesh = *service_->mesh();
@@ -164,7 +168,8 @@ TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
   static_cast<void>(finish());
   const int number = command("start-scan").at("job").get<int>();
   const auto share = [&] {
-    for (const Json& job : state().at("jobs"))
+    const Json jobs = state().at("jobs");
+    for (const Json& job : jobs)
       if (job.at("number") == number && job.at("stage") == "scan")
         return job.at("progress").get<double>();
     return 0.0;

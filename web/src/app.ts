@@ -11,7 +11,7 @@ import { projectStep } from './steps/project';
 import { scanStep } from './steps/scan';
 import { surfaceStep } from './steps/surface';
 import type { Job, Project, State } from './types';
-import { quoted } from './ui';
+import { plain, quoted } from './ui';
 import { type Coloring, type Measurement, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
 
 const STEPS = ['project', 'scan', 'surface', 'edit', 'export'] as const;
@@ -354,7 +354,7 @@ export class App extends LitElement {
           ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
               <span>${t(`job.${job.kind}`)}${job.stage ? ` · ${job.stage}` : ''}</span>
               <button class="btn small" @click=${() => this.command('stop-job', { job: job.number })}>${t('job.stop')}</button>`
-          : html`<span>${last?.log.at(-1)?.sentence ?? t('job.idle')}</span>`}
+          : html`<span>${plain(last?.log.at(-1)?.sentence ?? t('job.idle'))}</span>`}
       </div>
       ${line
         ? html`<div class="command" title=${t('command.same')}>
@@ -426,7 +426,7 @@ export class App extends LitElement {
         <div class="messages" role="region" aria-label=${t('app.messages')}>
           ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
           ${this.problem && !lost
-            ? html`<div class="notice" role="alert"><span>${this.problem}</span>
+            ? html`<div class="notice" role="alert"><span>${plain(this.problem)}</span>
                 <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => { this.problem = ''; this.requestUpdate(); }}>${icon('close')}</button></div>`
             : ''}
         </div>

@@ -19,6 +19,10 @@ export function choice<T extends string>(
 export const bytes = (count: number, format: (value: number, digits: number) => string): string =>
   count < 1000 ? `${format(count, 0)} B` : count < 1e6 ? `${format(count / 1e3, 0)} kB` : `${format(count / 1e6, 1)} MB`;
 
+/** A sentence of the library, whose option names stand in backticks. */
+export const plain = (sentence: string): string =>
+  sentence.replace(/`([\w-]+)`/g, (_, name: string) => name.replaceAll('_', ' '));
+
 /** A word as a POSIX shell reads it back. */
 export const quoted = (word: string): string =>
   /^[A-Za-z0-9_\-+=./,:@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;

@@ -199,7 +199,8 @@ export class Viewer {
     this.showSurface(this.surfaceShown);
     // After the first picture: rays are needed when someone points at the mesh.
     setTimeout(() => {
-      if (this.mesh?.geometry === geometry) geometry.computeBoundsTree();
+      // Indirect: the triangles keep their order, by which the server numbers them.
+      if (this.mesh?.geometry === geometry) geometry.computeBoundsTree({ indirect: true });
     }, 50);
     this.draw();
   }
@@ -332,7 +333,7 @@ export class Viewer {
     } else if (values) {
       const whole = this.coloring === 'views';
       const low = whole ? 0 : quantile(values, 0.02);
-      const high = whole ? Math.max(1, quantile(values, 1)) : quantile(values, 0.98);
+      const high = whole ? Math.max(1, quantile(values, 1)) : quantile(values, 0.95);
       const counts = new Array<number>(whole ? Math.min(BINS, high + 1) : BINS).fill(0);
       let beyond = 0;
       const unknown: Rgb = [128, 128, 128];

@@ -51,6 +51,21 @@ std::vector<ExportEntry> exports_of(const ProjectFolder& project) {
   return files;
 }
 
+ProjectProgress progress_of(const OpenProject& project) {
+  ProjectProgress progress;
+  progress.folder = project.folder;
+  progress.can_scan = project.can_scan;
+  progress.stations = project.stations.size();
+  progress.scan_complete = project.scan_complete;
+  progress.has_surface = project.surface != nullptr;
+  if (project.surface) {
+    const auto& steps = project.surface->steps;
+    const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
+    progress.steps.assign(steps.begin(), steps.begin() + done);
+  }
+  return progress;
+}
+
 bool names_devices(const ProjectFolder& project) {
   std::error_code ignored;
   if (!std::filesystem::exists(project.rig(), ignored)) return false;
@@ -127,6 +142,8 @@ class Service::Implementation {
       view.projects = projects_;
       view.project = project_;
     }
+    if (view.project && options_.command_lines)
+      view.commands = options_.command_lines(progress_of(*view.project));
     view.jobs = queue_.jobs();
     return state_json(view);
   }

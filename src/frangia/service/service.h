@@ -3,18 +3,37 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "frangia/editor/edit_operation.h"
+#include "frangia/service/project_folder.h"
 #include "frangia/service/project_scan.h"
 
 namespace frangia {
+
+/// How far a project has come, for those who describe it in their own words.
+struct ProjectProgress {
+  ProjectFolder folder;         ///< where its files are
+  bool can_scan = false;        ///< its rig names devices
+  std::size_t stations = 0;     ///< planned or captured
+  bool scan_complete = false;   ///< the scan can be reconstructed
+  bool has_surface = false;     ///< a surface was reconstructed and read
+  std::vector<EditStep> steps;  ///< applied edits
+};
+
+/// Command lines by the name of the step that they stand for, as words.
+using CommandLines = std::map<std::string, std::vector<std::string>>;
 
 /// What a service needs to know of its program.
 struct ServiceOptions {
   std::filesystem::path projects;  ///< folder of the projects
   CaptureSetup capture;            ///< drivers and the guardian
   std::string version;             ///< of the program, for the state
+  /// Words the command lines that do the same as a project's steps; empty: the state has none.
+  std::function<CommandLines(const ProjectProgress&)> command_lines;
 };
 
 /// A file that a client may download.

@@ -76,38 +76,7 @@ Json json_of_surface(const SurfaceSnapshot& surface, const std::string& summary)
   return json;
 }
 
-/// The command lines that do the same as the app, as lists of words.
-Json commands_of(const OpenProject& project) {
-  Json commands = Json::object();
-  const ProjectFolder& folder = project.folder;
-  if (project.can_scan && !project.stations.empty()) {
-    commands["scan"] = {"frangia",
-                        "scan",
-                        folder.rig().string(),
-                        "-o",
-                        folder.scan.string(),
-                        "--views",
-                        std::to_string(project.stations.size())};
-  }
-  if (project.scan_complete) {
-    commands["reconstruct"] = {
-        "frangia", "reconstruct", folder.scan.string(), "-o", folder.surface().string()};
-  }
-  if (project.surface) {
-    Json edit = {"frangia", "edit", folder.surface().string()};
-    for (std::size_t i = 0; i < project.surface->done; ++i) {
-      edit.push_back("--" + project.surface->steps[i].operation);
-      if (const std::string& value = project.surface->steps[i].value; !value.empty())
-        edit.push_back(value);
-    }
-    edit.push_back("-o");
-    edit.push_back((folder.exports() / (folder.name + ".dxf")).string());
-    commands["edit"] = edit;
-  }
-  return commands;
-}
-
-Json json_of_project(const OpenProject& project) {
+Json json_of_project(const OpenProject& project, const CommandLines& commands) {
   Json json{
       {"name", project.folder.name},
       {"can_scan", project.can_scan},
@@ -117,7 +86,9 @@ Json json_of_project(const OpenProject& project) {
   json["exports"] = Json::array();
   for (const ExportEntry& file : project.exports)
     json["exports"].push_back({{"name", file.name}, {"bytes", file.bytes}});
-  json["commands"] = commands_of(project);
+  json["commands"] = Json::object();
+  for (const auto& [step, words] : commands)
+    json["commands"][step] = words;
   return json;
 }
 
@@ -133,7 +104,7 @@ std::string state_json(const ServiceView& view) {
                                 {"scanned", entry.scanned},
                                 {"has_surface", entry.has_surface}});
   }
-  json["project"] = view.project ? json_of_project(*view.project) : Json();
+  json["project"] = view.project ? json_of_project(*view.project, view.commands) : Json();
   json["jobs"] = Json::array();
   for (const Job& job : view.jobs)
     json["jobs"].push_back(json_of_job(job));

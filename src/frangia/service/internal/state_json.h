@@ -10,6 +10,7 @@
 #include "frangia/service/job_queue.h"
 #include "frangia/service/project_folder.h"
 #include "frangia/service/project_scan.h"
+#include "frangia/service/service.h"
 
 namespace frangia {
 
@@ -35,6 +36,7 @@ struct ServiceView {
   std::string version;
   std::vector<ProjectEntry> projects;
   std::optional<OpenProject> project;
+  CommandLines commands;  ///< of the project
   std::vector<Job> jobs;
 };
 
