@@ -129,8 +129,8 @@ TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfADigitalR
 
 TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfAnAngularRig) {
   Rig rig = make_paper_rig({});
-  Eigen::VectorXd sigma(15);
-  sigma << 0.5, 1e-4, 0.8, 0.8, 2e-3, 1e-2, 1e-4, 1e-4, 1e-2, 3e-4, 4e-4, 3e-4, 0.1, 0.1, 0.2;
+  Eigen::VectorXd sigma(16);
+  sigma << 0.5, 1e-4, 0.8, 0.8, 2e-3, 1e-2, 1e-4, 1e-4, 1e-2, 3e-4, 4e-4, 3e-4, 0.1, 0.1, 0.2, 5e-4;
   rig.calibration = Calibration{.covariance = correlated(rig_parameter_names(rig), sigma)};
   expect_scatter(rig, kFringe);
 }
