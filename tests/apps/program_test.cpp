@@ -108,9 +108,10 @@ TEST_F(Program, UsageErrorsExitWithTwoAndOneSentence) {
   expect_usage_error(
       "recnstruct x",
       "the program has no verb recnstruct, perhaps reconstruct was meant; see frangia --help");
-  expect_usage_error("calibrate",
-                     "calibrate needs a verb: board, rig, turntable, import, export, piezo; see "
-                     "frangia calibrate --help");
+  expect_usage_error(
+      "calibrate",
+      "calibrate needs a verb: board, capture, rig, turntable, check, import, export, "
+      "refine, piezo; see frangia calibrate --help");
   expect_usage_error(
       "calibrate peizo x",
       "calibrate has no verb peizo, perhaps piezo was meant; see frangia calibrate --help");

@@ -13,10 +13,10 @@
 #include "frangia/dataset/write_scan.h"
 #include "frangia/pipeline/calibrate_report.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/simulate/rig_presets.h"
 #include "frangia/simulate/simulate_calibration.h"
 
 #include "support/error_of.h"
-#include "support/small_scan.h"
 #include "support/temporary_folder.h"
 #include "support/text_of.h"
 
@@ -30,7 +30,7 @@ class CalibrateRig : public ::testing::Test {
     folder_ = new testing::TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
     CalibrationPlan plan;
     plan.folder = folder_->path() / "poses";
-    plan.rig = testing::small_rig("digital");
+    plan.rig = rig_preset("digital");
     plan.poses = 6;
     static_cast<void>(simulate_calibration(plan, {.samples_per_px = 4}));
   }

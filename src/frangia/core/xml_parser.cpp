@@ -19,9 +19,11 @@ struct XmlParser::Parser {
   std::exception_ptr thrown;
   std::int64_t fed = 0;  ///< bytes
 
-  /// Keeps exceptions from unwinding through the C library.
+  /// Keeps exceptions from unwinding through the C library, which may still call a handler after
+  /// one: the end of an empty element.
   template <typename Work>
   void guard(const Work& work) {
+    if (thrown) return;
     try {
       work();
     } catch (...) {

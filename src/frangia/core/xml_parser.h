@@ -12,6 +12,7 @@ namespace frangia {
 /// The attributes of an XML element.
 class XmlAttributes {
  public:
+  /// `pairs` are names and values in turn, ended by a null, as Expat passes them.
   explicit XmlAttributes(const char** pairs) : pairs_(pairs) {}
   /// The value of an attribute; empty when the element does not have it.
   [[nodiscard]] std::string_view value(std::string_view name) const;

@@ -25,7 +25,7 @@ struct FusionOptions {
 
 /// The views of one camera.
 struct CameraViews {
-  const ViewStore& views;
+  const ViewStore& views;     ///< its points
   const CameraModel& camera;  ///< in whose frame the points of the views are
 };
 

@@ -19,7 +19,7 @@ struct MeasuredFringe {
 
 /// A pixel: what was predicted and what was measured.
 struct AlbedoSample {
-  IndirectShare predicted;
+  IndirectShare predicted;               ///< by the mesh, if all light were reflected
   std::vector<MeasuredFringe> measured;  ///< coarse to fine, as `predicted.fringes`
 };
 

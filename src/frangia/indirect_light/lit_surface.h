@@ -27,6 +27,7 @@ struct PointLight {
 class LitSurface {
  public:
   /// @param mesh      with outward triangles, object frame; it may be open
+  /// @param projector which lights it, rig frame
   /// @param patterns  fringes of one direction, coarse to fine; not empty
   LitSurface(Mesh mesh, Projector projector, std::vector<Pattern> patterns);
 

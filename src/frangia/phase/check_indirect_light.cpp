@@ -133,7 +133,7 @@ std::string describe(const IndirectLightCheck& check) {
       "beyond "
       "their noise: indirect light (a concave part that lights itself, or scattering below the "
       "surface; the finest fringes have {:.0f} % of the modulation of the coarsest); it is counted "
-      "in sigma; project only fine fringes, as `frangia plan --indirect` proposes",
+      "in sigma; project only fine fringes, as a plan for indirect light proposes",
       check.pattern,
       check.disagreement_rad,
       100.0 * check.affected,

@@ -20,7 +20,7 @@ struct FindBallsOptions {
 
 /// A ball and the points that lie on it.
 struct FoundBall {
-  Sphere sphere;
+  Sphere sphere;                    ///< fitted to them; mm
   std::vector<std::size_t> points;  ///< indices of the given ones
 };
 

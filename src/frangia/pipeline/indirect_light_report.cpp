@@ -14,7 +14,7 @@ std::string IndirectLightReport::text() const {
       largest_mm,
       100.0 * affected);
   if (!is_large()) return found;
-  return found + "; project only fine fringes, as `frangia plan --indirect` proposes";
+  return found + "; project only fine fringes, as a plan for indirect light proposes";
 }
 
 }  // namespace frangia

@@ -31,7 +31,8 @@ void correct_before_registration(MeasuredViews& measured,
                                  const Run& run) {
   constexpr double kVoxel_px = 3.0;
   std::vector<float> depths_mm;
-  for (const float depth : measured.views.load_depth_mm(0).pixels())
+  const Image<float> first_mm = measured.views.load_depth_mm(0);
+  for (const float depth : first_mm.pixels())
     if (!std::isnan(depth)) depths_mm.push_back(depth);
   if (depths_mm.empty()) return;
   const auto px = static_cast<double>((rays(1, 0) - rays(0, 0)).norm());
