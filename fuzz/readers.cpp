@@ -21,6 +21,7 @@
 #include "frangia/frames/png.h"
 #include "frangia/phase/correct_response.h"
 #include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/read_algorithm.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig_covariance.h"
@@ -152,6 +153,9 @@ constexpr std::array<FuzzReader, 26> kReaders{{
     {"png", "input.png", [](const Path& path) { static_cast<void>(read_png(path)); }},
     {"range", "input.ply", read_range_file},
     {"response", "response.toml", read_response},
+    {"algorithm",
+     "algorithm.toml",
+     [](const Path& path) { static_cast<void>(read_algorithm(path)); }},
     {"rig", "input.toml", [](const Path& path) { static_cast<void>(read_rig(path)); }},
     {"scan", "scan.toml", read_scan_file},
     {"script", "input.json", [](const Path& path) { static_cast<void>(read_edit_script(path)); }},

@@ -1,9 +1,15 @@
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/angles.h"
 #include "frangia/phase/algorithm_errors.h"
 #include "frangia/phase/published_algorithms.h"
+#include "frangia/phase/read_algorithm.h"
 
 #include "print_text.h"
 #include "verbs.h"
@@ -23,7 +29,17 @@ std::vector<double> ripples(const PublishedAlgorithm& published, bool step_known
   return values;
 }
 
-void print_algorithms(const Terminal& terminal) {
+/// The frames of an algorithm of the user, in words.
+std::string frames_of(const LinearAlgorithm& own) {
+  const double step = common_step(own.shifts_rad);
+  if (std::isnan(step)) return fmt::format("{} frames, unequal steps", own.shifts_rad.size());
+  return fmt::format(
+      "{} frames {:g} degrees apart", own.shifts_rad.size(), std::abs(deg_from_rad(step)));
+}
+
+void print_algorithms(const std::string& own_path, Terminal& terminal) {
+  std::optional<LinearAlgorithm> own;
+  if (!own_path.empty()) own = read_algorithm(own_path, terminal.run());
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   if (!terminal.json) {
     print_text("{:<14}{:<36}{:>11}{:>8}{:>7}{:>7}  {}\n",
@@ -61,6 +77,27 @@ void print_algorithms(const Terminal& terminal) {
                errors.third_harmonic,
                published.source);
   }
+  if (own) {
+    const AlgorithmErrors errors = algorithm_errors(own->algorithm, own->shifts_rad);
+    if (terminal.json) {
+      json.push_back({{"name", own->algorithm.name},
+                      {"frames", frames_of(*own)},
+                      {"ripple_rad", errors.ripple_rad},
+                      {"noise_gain", errors.noise_gain},
+                      {"second_harmonic", errors.second_harmonic},
+                      {"third_harmonic", errors.third_harmonic},
+                      {"source", own_path}});
+    } else {
+      print_text("{:<14}{:<36}{:>11.6f}{:>8.3f}{:>7.2f}{:>7.2f}  {}\n",
+                 own->algorithm.name,
+                 frames_of(*own),
+                 errors.ripple_rad,
+                 errors.noise_gain,
+                 errors.second_harmonic,
+                 errors.third_harmonic,
+                 own_path);
+    }
+  }
   if (terminal.json) {
     print_json(json);
     return;
@@ -78,8 +115,10 @@ void print_algorithms(const Terminal& terminal) {
 void add_algorithms_verb(CLI::App& program, Terminal& terminal) {
   CLI::App* verb =
       program.add_subcommand("algorithms", "list the phase-shift algorithms and their errors");
-  verb->footer("example:\n  frangia algorithms");
-  verb->callback([&terminal] { print_algorithms(terminal); });
+  verb->footer("example:\n  frangia algorithms\n  frangia algorithms my-algorithm.toml");
+  auto own = std::make_shared<std::string>();
+  verb->add_option("FILE", *own, "an algorithm of yours, which becomes the last row");
+  verb->callback([own, &terminal] { print_algorithms(*own, terminal); });
 }
 
 }  // namespace frangia

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "frangia/core/error.h"
+#include "frangia/phase/read_algorithm.h"
 #include "frangia/pipeline/reconstruct.h"
 #include "frangia/rig/read_rig.h"
 
@@ -16,10 +17,14 @@ namespace frangia {
 
 /// The options that `reconstruct` and `decode` share.
 inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
-  verb.add_option("--algorithm",
-                  options.algorithm,
-                  "phase-shift algorithm: auto, or one of `frangia algorithms`")
-      ->capture_default_str();
+  verb.add_option_function<std::string>(
+          "--algorithm",
+          [&options](const std::string& name) {
+            options.algorithm = name;
+            if (name.ends_with(".toml")) options.own_algorithm = read_algorithm(name);
+          },
+          "phase-shift algorithm: auto, one of `frangia algorithms`, or a .toml file with yours")
+      ->default_str(options.algorithm);
   static const std::map<std::string, SpatialMethod> kMethods = {
       {"default", SpatialMethod::RunMerging},
       {"takeda-abe", SpatialMethod::QualityGuided},

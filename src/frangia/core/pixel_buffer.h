@@ -32,6 +32,10 @@ class PixelBuffer {
         size_(count) {
     std::uninitialized_fill_n(data_, count, fill);
   }
+  /// Refers to `count` elements of foreign memory, which `owner` keeps alive. Copies have memory of
+  /// their own.
+  PixelBuffer(T* data, std::size_t count, std::shared_ptr<const void> owner)
+      : data_(data), size_(count), owner_(std::move(owner)) {}
   /// Copies the elements.
   PixelBuffer(const PixelBuffer& other)
       : data_(other.empty() ? nullptr : static_cast<T*>(allocate_pixels(other.size_ * sizeof(T)))),
@@ -40,11 +44,13 @@ class PixelBuffer {
   }
   /// Takes over the memory.
   PixelBuffer(PixelBuffer&& other) noexcept
-      : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
-  /// Copies the elements; keeps the memory if the size is the same.
+      : data_(std::exchange(other.data_, nullptr)),
+        size_(std::exchange(other.size_, 0)),
+        owner_(std::move(other.owner_)) {}
+  /// Copies the elements; keeps memory of its own if the size is the same.
   PixelBuffer& operator=(const PixelBuffer& other) {
     if (this == &other) return *this;
-    if (size_ == other.size_) {
+    if (size_ == other.size_ && !owner_) {
       std::copy_n(other.data_, size_, data_);
     } else {
       *this = PixelBuffer(other);
@@ -56,9 +62,12 @@ class PixelBuffer {
     PixelBuffer taken(std::move(other));
     std::swap(data_, taken.data_);
     std::swap(size_, taken.size_);
+    std::swap(owner_, taken.owner_);
     return *this;
   }
-  ~PixelBuffer() { free_pixels(data_, size_ * sizeof(T)); }
+  ~PixelBuffer() {
+    if (!owner_) free_pixels(data_, size_ * sizeof(T));
+  }
 
   [[nodiscard]] std::size_t size() const { return size_; }         ///< number of elements
   [[nodiscard]] bool empty() const { return size_ == 0; }          ///< whether it has no elements
@@ -70,6 +79,7 @@ class PixelBuffer {
  private:
   T* data_ = nullptr;
   std::size_t size_ = 0;
+  std::shared_ptr<const void> owner_;  ///< of foreign memory; empty: the memory is our own
 };
 
 }  // namespace frangia

@@ -5,7 +5,10 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/phase/estimate_shifts.h"
 #include "frangia/phase/pooled_gain_error.h"
 #include "frangia/phase/published_algorithms.h"
@@ -81,6 +84,27 @@ FittedAlgorithm fit_algorithm(const std::string& name,
   subtract_phase_offset(constant, out.algorithm);
   for (const double shift : pattern.shifts_rad)
     out.shifts_rad.push_back(shift * (1.0 + own) + constant);
+  fit_waveform_of(stack, noise, out);
+  return out;
+}
+
+FittedAlgorithm fit_algorithm(const LinearAlgorithm& own,
+                              const FrameStack& stack,
+                              const NoiseModel& noise) {
+  if (!fits(own, stack.pattern.shifts_rad)) {
+    std::vector<double> shifts_deg;
+    for (const double shift : own.shifts_rad)
+      shifts_deg.push_back(deg_from_rad(shift));
+    throw Error(ErrorKind::Input,
+                fmt::format("algorithm \"{}\" is made for frames at {:g} degrees, and pattern "
+                            "\"{}\" has others; change shifts_deg and the coefficients, or choose "
+                            "another algorithm",
+                            own.algorithm.name,
+                            fmt::join(shifts_deg, ", "),
+                            stack.pattern.name));
+  }
+  FittedAlgorithm out{
+      .algorithm = own.algorithm, .step = {}, .shifts_rad = stack.pattern.shifts_rad};
   fit_waveform_of(stack, noise, out);
   return out;
 }

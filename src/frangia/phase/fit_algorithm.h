@@ -9,6 +9,7 @@
 #include "frangia/frames/noise_model.h"
 #include "frangia/phase/estimate_step.h"
 #include "frangia/phase/fit_waveform.h"
+#include "frangia/phase/linear_algorithm.h"
 #include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
@@ -40,5 +41,13 @@ struct FittedAlgorithm {
                                             const NoiseModel& noise,
                                             const Run& run = {},
                                             std::optional<double> gain_error = {});
+
+/// Returns an algorithm of the user with what the frames show: harmonics, and flicker, which its
+/// weights compensate. Its shifts are taken as exact.
+///
+/// @errors   Error(Input) when the frames have other shifts than the algorithm
+[[nodiscard]] FittedAlgorithm fit_algorithm(const LinearAlgorithm& own,
+                                            const FrameStack& stack,
+                                            const NoiseModel& noise);
 
 }  // namespace frangia

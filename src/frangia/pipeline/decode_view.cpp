@@ -105,8 +105,8 @@ bool are_unprocessed_frames(std::span<const FrameStack* const> fringes,
   const bool has_harmonics = std::any_of(fits.begin(), fits.end(), [](const FittedAlgorithm& fit) {
     return fit.waveform.largest_harmonic() > 0;
   });
-  return !options.recover_saturated && !options.response && options.waveforms.empty() &&
-         !(options.undo_own_response && has_harmonics) &&
+  return !options.own.any() && !options.recover_saturated && !options.response &&
+         options.waveforms.empty() && !(options.undo_own_response && has_harmonics) &&
          std::all_of(fringes.begin(), fringes.end(), [](const FrameStack* stack) {
            return stack->pattern.exposure_count() == 1;
          });
@@ -186,6 +186,33 @@ DecodedView decode_code_alone(std::span<const FrameStack> stacks,
   return out;
 }
 
+/// The absolute phase that the caller's function finds.
+AbsolutePhase own_unwrapped(std::span<const WrappedPhase> maps, const DecodeOptions& options) {
+  AbsolutePhase phase = options.own.unwrap(maps);
+  const Image<float>& size = maps.back().phase_rad;
+  require(
+      same_size(phase.phase_rad, size) && same_size(phase.sigma_rad, size) &&
+          same_size(phase.status, size),
+      "the phase of your own `unwrap` has another size than its maps; return images of the size "
+      "of the frames");
+  phase.pattern = maps.back().pattern;
+  if (phase.systematic_rad.empty()) phase.systematic_rad = maps.back().systematic_rad;
+  return phase;
+}
+
+/// The relative phase that the caller's function finds.
+RelativePhase own_unwrapped_spatially(const WrappedPhase& map, const DecodeOptions& options) {
+  RelativePhase phase = options.own.unwrap_spatially(map);
+  require(
+      same_size(phase.phase_rad, map.phase_rad) && same_size(phase.sigma_rad, map.phase_rad) &&
+          same_size(phase.region, map.phase_rad) && same_size(phase.status, map.phase_rad),
+      "the phase of your own `unwrap_spatially` has another size than its map; return images of "
+      "the size of the frames");
+  phase.pattern = map.pattern;
+  if (phase.systematic_rad.empty()) phase.systematic_rad = map.systematic_rad;
+  return phase;
+}
+
 /// Decodes the fringes of one direction.
 DecodedView decode_direction(std::span<const FrameStack> stacks,
                              FringeDirection direction,
@@ -214,14 +241,16 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
     run.check();
     wrap_pattern(*fringes[m], fits[m], options, run, out);
     maps.push_back({fringes[m], fits[m].algorithm});
-    if (options.keep_maps || !unwraps_temporally) continue;
+    if (options.keep_maps || !unwraps_temporally || options.own.any()) continue;
     // Only the assessment needs them; the next pattern uses their memory.
     out.wrapped.back().modulation_counts = {};
     out.wrapped.back().mean_counts = {};
   }
   out.checks = {
       check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
-  if (!gray.empty()) {
+  if (options.own.unwrap) {
+    out.phase = own_unwrapped(out.wrapped, options);
+  } else if (!gray.empty()) {
     SequenceCheck code = check_gray_code(gray.front(), out.wrapped.front());
     decide_by_orientation(out.wrapped.front(), rig, rays, code);
     if (out.checks.front().consistent) out.checks = {code};
@@ -236,7 +265,9 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
   } else if (patterns.size() > 1 && determine_absolute_phase(patterns, rig.projector)) {
     out.phase = unwrap_sequence(out.wrapped, rig.projector, options.temporal);
   } else {
-    out.relative = unwrap_spatially(out.wrapped.front(), options.spatial);
+    out.relative = options.own.unwrap_spatially
+                       ? own_unwrapped_spatially(out.wrapped.front(), options)
+                       : unwrap_spatially(out.wrapped.front(), options.spatial);
     ResolvedPhase resolved = resolve_orders(stacks, rig, rays, options, run, out);
     const auto finer = std::span(out.wrapped).subspan(1);
     out.phase = unwrap_finer_levels(std::move(resolved.phase), finer, options.temporal);

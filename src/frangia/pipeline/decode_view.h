@@ -15,10 +15,12 @@
 #include "frangia/phase/assess_frames.h"
 #include "frangia/phase/check_sequence.h"
 #include "frangia/phase/fill_enclosed.h"
+#include "frangia/phase/linear_algorithm.h"
 #include "frangia/phase/phase_map.h"
 #include "frangia/phase/unwrap_spatially.h"
 #include "frangia/phase/unwrap_temporally.h"
 #include "frangia/phase/wrap_phase.h"
+#include "frangia/pipeline/own_stages.h"
 #include "frangia/pipeline/survey_scan.h"
 #include "frangia/range/laser_profile.h"
 #include "frangia/rig/fringe_waveform.h"
@@ -44,6 +46,8 @@ enum class FrameColors {
 /// Options of the stages from frames to absolute phase.
 struct DecodeOptions {
   std::string algorithm = "auto";  ///< name, see `fit_algorithm`
+  /// An algorithm of the user, instead of the named one.
+  std::optional<LinearAlgorithm> own_algorithm;
   /// Recovers the one saturated frame of four instead of discarding the pixel as the 1997 paper
   /// does.
   bool recover_saturated = false;
@@ -70,6 +74,7 @@ struct DecodeOptions {
   FringeOrderOptions fringe_order;         ///< fringe orders from the laser line
   FillOptions fill;                        ///< interpolation of enclosed pixels
   FrameColors colors = FrameColors::None;  ///< colors of the pixels that are kept
+  OwnStages own;                           ///< functions of the caller instead of ours
 };
 
 /// The phase of one view and the intermediate results.
@@ -110,7 +115,8 @@ struct DecodedView {
 /// A scan of Gray code alone is decoded to the columns of its stripes, see `decode_gray_alone`.
 ///
 /// @errors   Error(Input) when no pattern holds fringes or a Gray code, or none in the chosen
-/// direction
+/// direction,
+///           or when a function of `options.own` returns images of another size
 [[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
                                       const Rig& rig,
                                       const Image<Eigen::Vector2f>& rays,

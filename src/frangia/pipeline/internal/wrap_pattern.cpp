@@ -19,6 +19,7 @@ FittedAlgorithm fit(const FrameStack& taken,
                     const NoiseModel& noise,
                     const DecodeOptions& options,
                     const Run& run) {
+  if (options.own_algorithm) return fit_algorithm(*options.own_algorithm, taken, noise);
   Run warnings = run;  // no notes: the frame assessment names the algorithm
   warnings.on_note = nullptr;
   std::optional<double> gain_error;
@@ -47,6 +48,7 @@ std::optional<ResponseTable> correction_of(const Pattern& pattern,
 /// for it, and sets its systematic uncertainty.
 void finish_wrapped(const FittedAlgorithm& fitted, const DecodeOptions& options, DecodedView& out) {
   WrappedPhase& map = out.wrapped.back();
+  if (options.own.wrap && !map.systematic_rad.empty()) return;
   const auto table = correction_of(map.pattern, fitted, options);
   if (table) correct_response(*table, map);
   const ResponseTable* applied = table ? &*table : nullptr;
@@ -54,6 +56,32 @@ void finish_wrapped(const FittedAlgorithm& fitted, const DecodeOptions& options,
   FrameAssessment& assessment = out.assessments.back();
   assessment.harmonics_corrected = table.has_value();
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
+}
+
+/// The wrapped phase that the caller's function finds.
+WrappedPhase own_wrapped(const FrameStack& stack,
+                         const FittedAlgorithm& fitted,
+                         const NoiseModel& noise,
+                         const DecodeOptions& options) {
+  WrappedPhase map = options.own.wrap(stack, fitted, noise);
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  const auto fits = [&](const auto& image) {
+    return image.width() == width && image.height() == height;
+  };
+  if (!fits(map.phase_rad) || !fits(map.sigma_rad) || !fits(map.modulation_counts) ||
+      !fits(map.mean_counts) || !fits(map.status)) {
+    throw Error(ErrorKind::Input,
+                fmt::format("your own `wrap` returned images of {} x {} pixels for pattern \"{}\"; "
+                            "return them in the size of the frames, {} x {}",
+                            map.phase_rad.width(),
+                            map.phase_rad.height(),
+                            stack.pattern.name,
+                            width,
+                            height));
+  }
+  map.pattern = stack.pattern;
+  return map;
 }
 
 }  // namespace
@@ -76,7 +104,7 @@ void wrap_pattern(const FrameStack& taken,
                   const DecodeOptions& options,
                   const Run& run,
                   DecodedView& out) {
-  if (taken.pattern.exposure_count() > 1) {
+  if (taken.pattern.exposure_count() > 1 && !options.own.wrap) {
     out.wrapped.push_back(
         merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
     out.assessments.push_back(assess_frames(taken, fitted, out.wrapped.back(), out.noise));
@@ -91,7 +119,9 @@ void wrap_pattern(const FrameStack& taken,
         "pattern \"{}\": one saturated frame of {} pixels recovered", taken.pattern.name, pixels));
   }
   const FrameStack& stack = options.recover_saturated ? recovered : taken;
-  out.wrapped.push_back(wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
+  out.wrapped.push_back(options.own.wrap
+                            ? own_wrapped(stack, fitted, out.noise, options)
+                            : wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
   out.assessments.push_back(assess_frames(stack, fitted, out.wrapped.back(), out.noise));
   finish_wrapped(fitted, options, out);
 }

@@ -1,0 +1,261 @@
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/dataset/read_frames.h"
+#include "frangia/files/range_scan.h"
+#include "frangia/pipeline/check_view.h"
+#include "frangia/pipeline/decode_view.h"
+#include "frangia/pipeline/merge_scans.h"
+#include "frangia/pipeline/reconstruct.h"
+#include "frangia/pipeline/survey_scan.h"
+#include "frangia/rig/has_geometry.h"
+
+#include "arrays.h"
+#include "bindings.h"
+#include "own_stages.h"
+#include "run_work.h"
+
+namespace frangia::python {
+namespace {
+
+DirectionChoice directions_of(const std::string& name) {
+  if (name == "fused") return DirectionChoice::Fused;
+  if (name == "best") return DirectionChoice::Best;
+  if (name == "vertical") return DirectionChoice::Vertical;
+  if (name == "horizontal") return DirectionChoice::Horizontal;
+  throw Error(ErrorKind::Input,
+              fmt::format("directions = \"{}\" is not known; use fused, best, vertical or "
+                          "horizontal",
+                          name));
+}
+
+DecodeOptions decode_options(const py::object& algorithm,
+                             const std::string& directions,
+                             float max_sigma_rad,
+                             bool undo_response,
+                             bool accept_inconsistent,
+                             const py::object& wrap,
+                             const py::object& unwrap_spatially,
+                             const py::object& unwrap) {
+  DecodeOptions options;
+  if (py::isinstance<LinearAlgorithm>(algorithm)) {
+    options.own_algorithm = algorithm.cast<LinearAlgorithm>();
+  } else {
+    options.algorithm = algorithm.cast<std::string>();
+  }
+  options.directions = directions_of(directions);
+  options.wrap.max_sigma_rad = max_sigma_rad;
+  options.undo_own_response = undo_response;
+  options.accept_inconsistent = accept_inconsistent;
+  options.own = own_stages(wrap, unwrap_spatially, unwrap);
+  return options;
+}
+
+/// Fringe order of the finest fringes: whole turns between absolute and wrapped phase; -1 where not
+/// measured.
+py::array order_of(const DecodedView& view) {
+  if (view.wrapped.empty()) throw Error(ErrorKind::Input, "the view holds no wrapped phase");
+  const Image<float>& wrapped = view.wrapped.back().phase_rad;
+  const Image<float>& absolute = view.phase.phase_rad;
+  Image<std::int32_t> order(absolute.width(), absolute.height(), -1);
+  for (std::size_t i = 0; i < order.pixels().size(); ++i) {
+    const float turns = (absolute.pixels()[i] - wrapped.pixels()[i]) / static_cast<float>(kTwoPi);
+    if (!std::isnan(turns)) order.pixels()[i] = static_cast<std::int32_t>(std::lround(turns));
+  }
+  return array_of<std::int32_t>(std::move(order));
+}
+
+DecodedView decode_stacks(const std::vector<FrameStack>& stacks,
+                          const Rig& rig,
+                          const DecodeOptions& options,
+                          const Run& run) {
+  const auto rays = has_geometry(rig) ? rays_of(rig.camera.model) : Image<Eigen::Vector2f>();
+  return decode_view(stacks, rig, rays, options, run);
+}
+
+DecodedView decode(const Scan& scan, std::size_t view, DecodeOptions options, const Run& run) {
+  if (view >= scan.views.size()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{} has no view {}; its views are 0 to {}",
+                            scan.folder.string(),
+                            view,
+                            scan.views.size() - 1));
+  }
+  options.survey = survey_scan(scan, run);
+  return decode_stacks(read_frames(scan, view, run), scan.rig, options, run);
+}
+
+std::vector<std::string> findings_of(const DecodedView& view) {
+  std::vector<std::string> out;
+  for (const FrameAssessment& assessment : view.assessments)
+    out.push_back(describe(assessment));
+  const std::string misfit = describe(view.checks);
+  if (!misfit.empty()) out.push_back(misfit);
+  return out;
+}
+
+void bind_results(py::module_& module) {
+  py::class_<DecodedView>(module, "DecodedView", "The phase of one view and intermediate results.")
+      .def_readonly("phase", &DecodedView::phase, "Absolute phase of the finest fringes.")
+      .def_readonly("second_phase",
+                    &DecodedView::second_phase,
+                    "That of horizontal fringes, where both directions were decoded; else None.")
+      .def_readonly("wrapped", &DecodedView::wrapped, "Wrapped maps, coarse to fine.")
+      .def_readonly("relative", &DecodedView::relative, "Spatially unwrapped phase, or None.")
+      .def_readonly("noise", &DecodedView::noise, "Noise of the camera.")
+      .def_property_readonly("order", &order_of, "Fringe order; -1: not measured.")
+      .def_property_readonly("findings", &findings_of, "What the frames show, in sentences.");
+  py::class_<ViewSummary>(module, "ViewSummary", "A view after reconstruction.");
+  py::class_<Reconstruction>(module, "Reconstruction", "A surface and what the stages report.")
+      .def_readonly("mesh", &Reconstruction::mesh, "Fused surface, object frame.")
+      .def_readonly("points", &Reconstruction::points, "Points of all views.")
+      .def_readonly("views", &Reconstruction::views, "Views that hold points.")
+      .def_property_readonly(
+          "trustworthy",
+          [](const Reconstruction& self) { return self.untrusted_reason.empty(); },
+          "False: `reason` says why the mesh must not be trusted.")
+      .def_readonly("reason", &Reconstruction::untrusted_reason, "Empty: it can be trusted.");
+}
+
+}  // namespace
+
+void bind_pipeline(py::module_& module) {
+  bind_results(module);
+  module.def(
+      "decode",
+      [](const Scan& scan,
+         std::size_t view,
+         const py::object& algorithm,
+         const std::string& directions,
+         float max_sigma_rad,
+         bool undo_response,
+         bool accept_inconsistent,
+         const py::object& wrap,
+         const py::object& unwrap_spatially,
+         const py::object& unwrap,
+         const py::object& progress) {
+        const DecodeOptions options = decode_options(algorithm,
+                                                     directions,
+                                                     max_sigma_rad,
+                                                     undo_response,
+                                                     accept_inconsistent,
+                                                     wrap,
+                                                     unwrap_spatially,
+                                                     unwrap);
+        return result_of(progress,
+                         [&](const Run& run) { return decode(scan, view, options, run); });
+      },
+      py::arg("scan"),
+      py::arg("view") = 0,
+      py::kw_only(),
+      py::arg("algorithm") = "auto",
+      py::arg("directions") = "fused",
+      py::arg("max_sigma_rad") = 0.1F,
+      py::arg("undo_response") = false,
+      py::arg("accept_inconsistent") = false,
+      py::arg("wrap") = py::none(),
+      py::arg("unwrap_spatially") = py::none(),
+      py::arg("unwrap") = py::none(),
+      py::arg("progress") = py::none(),
+      "Decodes a view of a scan. wrap, unwrap_spatially and unwrap are functions of yours in place "
+      "of a stage, see the package's help.");
+  module.def(
+      "decode_frames",
+      [](const std::vector<FrameStack>& stacks, const Rig& rig, const std::string& algorithm) {
+        DecodeOptions options;
+        options.algorithm = algorithm;
+        return result_of(py::none(),
+                         [&](const Run& run) { return decode_stacks(stacks, rig, options, run); });
+      },
+      py::arg("stacks"),
+      py::arg("rig"),
+      py::kw_only(),
+      py::arg("algorithm") = "auto",
+      "Decodes the frames of one view that are in memory.");
+  module.def(
+      "reconstruct",
+      [](const Scan& scan,
+         const py::object& algorithm,
+         const std::string& directions,
+         float max_sigma_rad,
+         bool undo_response,
+         bool accept_inconsistent,
+         const py::object& wrap,
+         const py::object& unwrap_spatially,
+         const py::object& unwrap,
+         double voxel_mm,
+         bool register_views,
+         bool indirect_light,
+         bool watertight,
+         double clip_below_mm,
+         const py::object& progress) {
+        ReconstructOptions options;
+        options.decode = decode_options(algorithm,
+                                        directions,
+                                        max_sigma_rad,
+                                        undo_response,
+                                        accept_inconsistent,
+                                        wrap,
+                                        unwrap_spatially,
+                                        unwrap);
+        options.fusion.voxel_mm = voxel_mm;
+        options.register_views = register_views;
+        options.indirect_light = indirect_light;
+        options.finish.watertight = watertight;
+        options.clip_below_mm = clip_below_mm;
+        return result_of(progress, [&](const Run& run) { return reconstruct(scan, options, run); });
+      },
+      py::arg("scan"),
+      py::kw_only(),
+      py::arg("algorithm") = "auto",
+      py::arg("directions") = "fused",
+      py::arg("max_sigma_rad") = 0.1F,
+      py::arg("undo_response") = false,
+      py::arg("accept_inconsistent") = false,
+      py::arg("wrap") = py::none(),
+      py::arg("unwrap_spatially") = py::none(),
+      py::arg("unwrap") = py::none(),
+      py::arg("voxel_mm") = 0.0,
+      py::arg("register_views") = true,
+      py::arg("indirect_light") = true,
+      py::arg("watertight") = false,
+      py::arg("clip_below_mm") = -std::numeric_limits<double>::infinity(),
+      py::arg("progress") = py::none(),
+      "Frames to one surface, as `frangia reconstruct`. A voxel of 0 mm is derived from the scan.");
+  module.def(
+      "merge",
+      [](const std::vector<std::filesystem::path>& paths,
+         double voxel_mm,
+         const py::object& progress) {
+        MergeScansOptions options;
+        options.fusion.voxel_mm = voxel_mm;
+        MergedScans merged = result_of(progress, [&](const Run& run) {
+          std::vector<RangeScan> scans;
+          for (const std::filesystem::path& path : paths)
+            scans.push_back(read_range_scan(path));
+          return merge_scans(scans, options, run);
+        });
+        std::vector<Eigen::Matrix4d> poses;
+        for (const MergedScan& scan : merged.scans)
+          poses.emplace_back(scan.world_from_scan.matrix());
+        return py::make_tuple(std::move(merged.mesh), poses, merged.untrusted_reason);
+      },
+      py::arg("paths"),
+      py::kw_only(),
+      py::arg("voxel_mm") = 0.0,
+      py::arg("progress") = py::none(),
+      "Registers range scans of other scanners and fuses them: the mesh, the pose of each scan "
+      "(4 x 4), and why the mesh must not be trusted (empty: it can be).");
+}
+
+}  // namespace frangia::python

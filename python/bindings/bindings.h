@@ -1,0 +1,16 @@
+// The parts of the Python module.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace frangia::python {
+
+void bind_errors(pybind11::module_& module);
+void bind_patterns(pybind11::module_& module);
+void bind_phase(pybind11::module_& module);
+void bind_rig(pybind11::module_& module);
+void bind_scan(pybind11::module_& module);
+void bind_mesh(pybind11::module_& module);
+void bind_pipeline(pybind11::module_& module);
+
+}  // namespace frangia::python

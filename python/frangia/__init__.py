@@ -1,0 +1,36 @@
+"""Fringe-projection scanning: from frames to phase, points and one measured surface.
+
+    import frangia
+
+    scan = frangia.read_scan("bust-scan")
+    view = frangia.decode(scan, 0)              # view.phase.phase, view.phase.sigma, view.order, ...
+    mesh = frangia.reconstruct(scan).mesh       # mesh.vertices, mesh.triangles, mesh.sigma_mm, ...
+
+Lengths are in millimetres, phases in radians, images height x width. Missing values are NaN. Arrays
+are views of the library's memory where that is possible; copy an array before you change it.
+
+Each stage works on plain arrays, without a scan folder:
+
+    pattern = frangia.Pattern.fringes([0, pi / 2, pi, 3 * pi / 2], period_px=20)
+    stack = frangia.FrameStack(frames, pattern)             # frames: four arrays of uint8 or uint16
+    wrapped = frangia.wrap_phase(stack)                     # wrapped.phase, .sigma, .modulation
+    relative = frangia.unwrap_spatial(wrapped, "reliability-sorted")
+
+A stage of `decode` and `reconstruct` can be a function of yours:
+
+    wrap(stack, algorithm, noise) -> phase, sigma, modulation, mean      or a WrappedPhase
+    unwrap_spatially(map)         -> phase, region                       or a RelativePhase
+    unwrap(maps)                  -> phase, sigma                        or an AbsolutePhase
+
+Notes and warnings go to the logger "frangia". Long work stops at Ctrl-C. `progress` is a function
+of the share that is done and the name of the stage, for example `frangia.progress_bar()`.
+
+Errors are `frangia.Error`: InputError (also a ValueError), FileError (OSError), DeviceError
+(RuntimeError) and NumericError (ArithmeticError). Their text says what to do.
+"""
+
+from ._frangia import *  # noqa: F401,F403
+from ._frangia import __version__  # noqa: F401
+from ._convert import from_trimesh, to_meshio, to_open3d, to_trimesh  # noqa: F401
+from ._progress import progress_bar  # noqa: F401
+from . import _notebook  # noqa: F401  adds Mesh.show

@@ -1,0 +1,48 @@
+"""Pictures of meshes in notebooks."""
+
+import struct
+import zlib
+
+from ._frangia import Mesh
+
+
+def png_bytes(picture):
+    """A PNG of an array, height x width x 3 of uint8."""
+    height, width, _ = picture.shape
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = b"".join(b"\0" + picture[y].tobytes() for y in range(height))
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(rows))
+        + chunk(b"IEND", b"")
+    )
+
+
+class Picture:
+    """A picture that a notebook shows; `save` writes it as PNG."""
+
+    def __init__(self, pixels):
+        self.pixels = pixels
+
+    def _repr_png_(self):
+        return png_bytes(self.pixels)
+
+    def save(self, path):
+        with open(path, "wb") as file:
+            file.write(png_bytes(self.pixels))
+
+
+def show(self, **options):
+    """A picture of the mesh for a notebook; options as `render`. values="sigma_mm" colours by it."""
+    values = options.get("values")
+    if isinstance(values, str):
+        options["label"] = options.get("label", values.replace("_mm", ", mm"))
+        options["values"] = getattr(self, values)
+    return Picture(self.render(**options))
+
+
+Mesh.show = show
