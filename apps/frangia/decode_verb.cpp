@@ -124,6 +124,7 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
                             arguments.view,
                             scan.views.size() - 1));
   }
+  if (arguments.options.phase_files) check_phase_files(*arguments.options.phase_files, scan);
   make_folder(arguments.folder);
   check_can_write(arguments.folder / "index.html");
   const bool geometry = has_geometry(scan.rig);
@@ -133,7 +134,8 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   options.survey = survey_scan(scan, run);
   run.stage("phase");
   const auto frames = read_frames(scan, arguments.view, run);
-  DecodedView decoded = decode_view(frames, scan.rig, rays, options, run);
+  DecodedView decoded =
+      decode_view(frames, scan.rig, rays, options_of_view(options, arguments.view), run);
   std::string reason;
   RangeGrid range;
   if (geometry) {

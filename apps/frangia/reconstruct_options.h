@@ -54,6 +54,26 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
       "a rig.toml with the [projector.response] of a projector that showed the patterns without a "
       "look-up table; the response is corrected in the phase; auto: the harmonics that the frames "
       "of the scan show are corrected");
+  CLI::Option* phase = verb.add_option_function<std::string>(
+      "--phase",
+      [&options](const std::string& folder) {
+        if (!options.phase_files) options.phase_files.emplace();
+        options.phase_files->folder = folder;
+      },
+      "phase maps of another program: FOLDER/000/PATTERN-phase.tiff and PATTERN-sigma.tiff, rad, "
+      "32-bit floating point, NaN where nothing was measured");
+  static const std::map<std::string, PhaseKind> kPhaseKinds = {{"wrapped", PhaseKind::Wrapped},
+                                                               {"absolute", PhaseKind::Absolute}};
+  verb.add_option_function<PhaseKind>(
+          "--phase-kind",
+          [&options](const PhaseKind& kind) {
+            if (!options.phase_files) options.phase_files.emplace();
+            options.phase_files->kind = kind;
+          },
+          "what the maps hold: absolute (default; of the finest fringes) or wrapped (one for each "
+          "pattern)")
+      ->transform(named(kPhaseKinds))
+      ->needs(phase);
   static const std::map<std::string, DirectionChoice> kDirections = {
       {"fused", DirectionChoice::Fused},
       {"best", DirectionChoice::Best},

@@ -228,6 +228,8 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   }
   const Run run = terminal.run();
   const Scan scan = read_scan(arguments.scan, run);
+  if (arguments.options.decode.phase_files)
+    check_phase_files(*arguments.options.decode.phase_files, scan);
   terminal.hold();
   const Reconstruction result = reconstruct(scan, arguments.options, run);
   run.stage("files");

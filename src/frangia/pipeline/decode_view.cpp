@@ -292,6 +292,12 @@ bool has_absolute_phase(std::span<const Pattern> patterns, const Projector& proj
          is_absolute_direction(patterns, FringeDirection::Horizontal, projector);
 }
 
+DecodeOptions options_of_view(const DecodeOptions& options, std::size_t view) {
+  DecodeOptions out = options;
+  if (out.phase_files) out.own = stages_from_files(*out.phase_files, view);
+  return out;
+}
+
 DecodedView decode_view(std::span<const FrameStack> stacks,
                         const Rig& rig,
                         const Image<Eigen::Vector2f>& rays,

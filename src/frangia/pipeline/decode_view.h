@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,7 @@
 #include "frangia/phase/unwrap_temporally.h"
 #include "frangia/phase/wrap_phase.h"
 #include "frangia/pipeline/own_stages.h"
+#include "frangia/pipeline/phase_files.h"
 #include "frangia/pipeline/survey_scan.h"
 #include "frangia/range/laser_profile.h"
 #include "frangia/rig/fringe_waveform.h"
@@ -75,6 +77,7 @@ struct DecodeOptions {
   FillOptions fill;                        ///< interpolation of enclosed pixels
   FrameColors colors = FrameColors::None;  ///< colors of the pixels that are kept
   OwnStages own;                           ///< functions of the caller instead of ours
+  std::optional<PhaseFiles> phase_files;   ///< maps of another program instead of ours
 };
 
 /// The phase of one view and the intermediate results.
@@ -122,6 +125,9 @@ struct DecodedView {
                                       const Image<Eigen::Vector2f>& rays,
                                       const DecodeOptions& options = {},
                                       const Run& run = {});
+
+/// The options of one view: its functions take the maps of `phase_files`, where these are given.
+[[nodiscard]] DecodeOptions options_of_view(const DecodeOptions& options, std::size_t view);
 
 /// Whether the patterns determine fringe orders: one of them is absolute, a Gray code or the laser
 /// sheet, or their beats have one fringe over the field. Otherwise a reconstruction is relative to

@@ -214,11 +214,13 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
     Run quiet = run;
     quiet.on_note = nullptr;
     quiet.on_warning = nullptr;
-    add_samples(decode_view(read_frames(scan, index, run), scan.rig, rays, options, quiet),
-                measured.views.load_points(view),
-                *lit,
-                rays,
-                samples);
+    add_samples(
+        decode_view(
+            read_frames(scan, index, run), scan.rig, rays, options_of_view(options, index), quiet),
+        measured.views.load_points(view),
+        *lit,
+        rays,
+        samples);
   }
   const AlbedoEstimate found = estimate_albedo(samples, patterns);
   if (!found.significant) return std::nullopt;

@@ -45,7 +45,7 @@ ViewDecoder::Outcome ViewDecoder::decode(std::size_t view) const {
   run.on_note = [&](const std::string& sentence) { out.messages.push_back({false, sentence}); };
   try {
     const std::vector<FrameStack> stacks = read_frames(scan_, view, run);
-    out.view = decode_view(stacks, scan_.rig, rays_, options_, run);
+    out.view = decode_view(stacks, scan_.rig, rays_, options_of_view(options_, view), run);
     out.view.color = view_color(stacks, options_.colors);
   } catch (...) {
     out.error = std::current_exception();
