@@ -96,6 +96,7 @@ int run_program(int argc, char** argv) {
   add_devices_verb(program, terminal);
   add_calibrate_verb(program, terminal);
   add_merge_verb(program, terminal);
+  add_batch_verb(program, terminal);
 #ifdef FRANGIA_WITH_APP
   add_serve_verb(program, terminal);
 #endif

@@ -14,6 +14,7 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal);
 void add_decode_verb(CLI::App& program, Terminal& terminal);
 void add_inspect_verb(CLI::App& program, Terminal& terminal);
 void add_algorithms_verb(CLI::App& program, Terminal& terminal);
+void add_batch_verb(CLI::App& program, Terminal& terminal);
 void add_plan_verb(CLI::App& program, Terminal& terminal);
 void add_response_verb(CLI::App& program, Terminal& terminal);
 void add_picture_verb(CLI::App& program, Terminal& terminal);

@@ -70,6 +70,18 @@ class TomlReader {
     if (!value) fail(key, "must be a string in quotes");
     return *value;
   }
+  /// Returns a list of strings, which may be empty; the key is required.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key) {
+    const toml::array* list = node(key).as_array();
+    if (list == nullptr) fail(key, "must be a list of strings");
+    std::vector<std::string> values;
+    for (const auto& item : *list) {
+      const auto value = item.value_exact<std::string>();
+      if (!value) fail(key, "must be a list of strings in quotes");
+      values.push_back(*value);
+    }
+    return values;
+  }
   /// Returns a list of numbers, of exactly `count` numbers unless `count` is 0.
   [[nodiscard]] std::vector<double> numbers(std::string_view key, std::size_t count = 0) {
     const toml::array* list = node(key).as_array();
