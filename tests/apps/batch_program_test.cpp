@@ -15,9 +15,12 @@ namespace frangia {
 namespace {
 
 using testing::Answer;
-using testing::quoted;
 using testing::run_program;
 namespace fs = std::filesystem;
+
+std::string word_of(const fs::path& path) {
+  return "'" + path.string() + "'";
+}
 
 class BatchProgram : public ::testing::Test {
  protected:
@@ -38,7 +41,7 @@ class BatchProgram : public ::testing::Test {
   [[nodiscard]] static Answer batch(const fs::path& plan,
                                     const fs::path& to,
                                     const char* more = "") {
-    return run_program("--json batch " + quoted(plan) + " -o " + quoted(to) + " " + more);
+    return run_program("--json batch " + word_of(plan) + " -o " + word_of(to) + " " + more);
   }
 
  private:
