@@ -16,7 +16,13 @@ namespace frangia {
 
 /// What `frangia inspect` was asked for.
 struct InspectArguments {
-  std::filesystem::path mesh;
+  std::vector<std::filesystem::path> meshes;  ///< more than one for a batch
+  std::filesystem::path mesh;                 ///< the one that is inspected
+  std::filesystem::path plan;
+  std::filesystem::path report;
+  std::filesystem::path batch;
+  std::vector<std::string> sections;
+  bool blade = false;
   std::filesystem::path reference;
   std::filesystem::path scan;
   std::filesystem::path picture;

@@ -8,17 +8,23 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/lowercase_extension.h"
 #include "frangia/features/find_features.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/transform_mesh.h"
+#include "frangia/report/batch.h"
 
 #include "allow_memory.h"
+#include "check_can_write.h"
 #include "exit_codes.h"
 #include "inspect_alignment.h"
 #include "inspect_arguments.h"
 #include "inspect_comparison.h"
 #include "inspect_features.h"
 #include "inspect_picture.h"
+#include "inspect_plan.h"
+#include "inspect_report.h"
+#include "json_number.h"
 #include "option_values.h"
 #include "picture_file.h"
 #include "print_text.h"
@@ -53,41 +59,123 @@ Mesh read_reference(const InspectArguments& arguments, const Run& run) {
   return reference;
 }
 
-void inspect(const InspectArguments& arguments, Terminal& terminal) {
-  const Run run = terminal.run();
+/// Checks before the work what can be checked.
+void check_arguments(const InspectArguments& arguments, const InspectionPlan& plan) {
   const bool drawn = !arguments.picture.empty();
-  require(!arguments.reference.empty() || drawn || arguments.features,
-          "nothing to do: give a --reference to measure against, --features, or a --picture to "
-          "draw");
+  const bool planned = !plan.features.empty() || !plan.sections.empty();
+  require(!arguments.reference.empty() || drawn || arguments.features || planned,
+          "nothing to do: give a --reference to measure against, --features, --plan, --section, or "
+          "a --picture to draw");
   if (drawn) check_picture_output(arguments.picture);
+  for (const auto& path : {arguments.report, arguments.batch})
+    if (!path.empty()) check_can_write(path);
+  if (!arguments.report.empty() && lowercase_extension(arguments.report) != ".html") {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: reports are pages of HTML; use a name that ends in .html",
+                            arguments.report.string()));
+  }
   check_alignment(arguments);
-  Mesh mesh = read_surface(arguments.mesh, run, arguments.read);
-  if (drawn) check_shown(arguments, mesh);
+}
+
+/// Inspects one mesh.
+InspectedPart inspect_mesh(const InspectArguments& arguments,
+                           const InspectionPlan& plan,
+                           InspectAnswer& answer,
+                           const Run& run) {
+  InspectedPart part;
+  part.mesh = read_surface(arguments.mesh, run, arguments.read);
+  if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
   std::optional<RayScene> reference;
   if (!arguments.reference.empty()) reference.emplace(read_reference(arguments, run), run);
-  InspectAnswer answer;
-  std::optional<Alignment> alignment;
   if (!arguments.alignment.align.empty()) {
-    alignment = align(mesh, *reference, arguments.alignment, run);
-    add_alignment(answer.json, *alignment);
-    answer.text += alignment_text(*alignment);
-    mesh = transform_mesh(std::move(mesh), alignment->pose.reference_from_mesh);
+    part.alignment = align(part.mesh, *reference, arguments.alignment, run);
+    add_alignment(answer.json, *part.alignment);
+    answer.text += alignment_text(*part.alignment);
+    part.mesh = transform_mesh(std::move(part.mesh), part.alignment->pose.reference_from_mesh);
   }
-  if (arguments.features) {
-    const std::vector<Feature> features = find_features(mesh, {}, run);
-    add_features(answer.json, features);
-    answer.text += feature_table(features);
+  if (arguments.features || !plan.features.empty()) {
+    run.stage("features");
+    part.features = find_features(part.mesh, {}, run);
+    add_features(answer.json, part.features);
+    if (arguments.features) answer.text += feature_table(part.features);
+    if (!plan.features.empty()) {
+      part.characteristics =
+          measure_characteristics(plan, with_points(part.mesh, part.features, run), run);
+    }
   }
-  std::optional<Comparison> comparison;
   if (reference) {
-    comparison = compare_with(arguments, mesh, *reference, alignment, run);
-    add_statistics(answer, arguments, mesh, *reference, run);
-    add_deviations(answer, *comparison);
+    part.comparison = compare_with(arguments, part.mesh, *reference, part.alignment, run);
+    add_statistics(answer, arguments, part.mesh, *reference, run);
+    add_deviations(answer, *part.comparison);
   }
-  if (drawn) draw_picture(arguments, mesh, comparison, run);
+  part.sections =
+      cut_sections(plan, part.mesh, reference ? &*reference : nullptr, part.comparison, run);
+  add_results(answer, part);
+  return part;
+}
+
+/// Inspects each mesh by the plan and writes the table.
+void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Terminal& terminal) {
+  const Run run = terminal.run();
+  require(!plan.features.empty(),
+          "--batch compares the characteristics of a --plan; give one with [[features]]");
+  std::vector<BatchPart> parts;
+  bool out = false;
+  for (const auto& mesh : arguments.meshes) {
+    arguments.mesh = mesh;
+    InspectAnswer answer;
+    const InspectedPart part = inspect_mesh(arguments, plan, answer, run);
+    out = out || answer.verdict == Conformity::Out;
+    parts.push_back({mesh.filename().string(), part.characteristics});
+  }
+  const auto characteristics = batch_characteristics(parts);
+  const std::string csv = batch_csv(parts, characteristics);
+  const bool page = lowercase_extension(arguments.batch) == ".html";
+  const std::string title = plan.part.empty() ? "Batch" : "Batch: " + plan.part;
+  write_report_text(arguments.batch, page ? batch_html(title, parts, characteristics) : csv);
+  terminal.finish();
+  if (arguments.fail_out_of_tolerance && out) terminal.exit_code = OutOfTolerance;
+  if (terminal.json) {
+    nlohmann::ordered_json json;
+    json["parts"] = parts.size();
+    for (const BatchCharacteristic& one : characteristics) {
+      json["characteristics"].push_back({{"name", one.name},
+                                         {"mean", number_or_null(one.mean)},
+                                         {"standard_deviation", number_or_null(one.deviation)},
+                                         {"cp", number_or_null(one.cp)},
+                                         {"cpk", number_or_null(one.cpk)}});
+    }
+    json["batch"] = arguments.batch.string();
+    print_json(json);
+  } else {
+    write_output(csv);
+  }
+  terminal.print_written(arguments.batch.string());
+}
+
+void inspect(InspectArguments arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  const InspectionPlan plan = plan_of(arguments, run);
+  apply_plan(plan, arguments);
+  arguments.mesh = arguments.meshes.front();
+  check_arguments(arguments, plan);
+  if (!arguments.batch.empty()) {
+    inspect_batch(std::move(arguments), plan, terminal);
+    return;
+  }
+  require(arguments.meshes.size() == 1,
+          "several meshes are inspected by --plan and --batch; name one mesh, or add these");
+  InspectAnswer answer;
+  const InspectedPart part = inspect_mesh(arguments, plan, answer, run);
+  const bool drawn = !arguments.picture.empty();
+  if (drawn) draw_picture(arguments, part.mesh, part.comparison, run);
   for (const auto& path : arguments.outputs)
-    write_deviations(path, arguments, mesh, *comparison, run);
+    write_deviations(path, arguments, part.mesh, part.comparison.value(), run);
+  std::vector<std::string> written;
+  if (!arguments.report.empty())
+    written = write_report(arguments, plan, part, answer, terminal.warnings(), run);
   if (drawn) answer.json["picture"] = arguments.picture.string();
+  if (!arguments.report.empty()) answer.json["report"] = arguments.report.string();
   terminal.finish();
   for (const auto& [stage, seconds] : terminal.stage_seconds())
     answer.json["seconds"][stage] = seconds;
@@ -101,6 +189,8 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
   if (drawn) terminal.print_written(arguments.picture.string());
   for (const auto& path : arguments.outputs)
     terminal.print_written(path.string());
+  for (const std::string& path : written)
+    terminal.print_written(path);
 }
 
 }  // namespace
@@ -112,8 +202,29 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia inspect bust.ply --reference bust-scan/truth.ply --scan bust-scan "
       "--picture bust.png\n"
       "  frangia inspect blade.ply --reference nominal.stl --align best-fit -o aligned.ply\n"
-      "  frangia inspect shaft.ply --features");
-  verb->add_option("MESH", arguments->mesh, "the measured mesh")->required();
+      "  frangia inspect shaft.ply --features\n"
+      "  frangia inspect shaft.ply --plan inspection.toml --report report.html\n"
+      "  frangia inspect a.ply b.ply --plan inspection.toml --batch batch.html");
+  verb->add_option("MESH", arguments->meshes, "the measured mesh; several for --batch")->required();
+  verb->add_option("--plan",
+                   arguments->plan,
+                   "inspection.toml: reference, alignment, tolerances, features and sections of a "
+                   "part");
+  verb->add_option("--report",
+                   arguments->report,
+                   "write a report as one page, .html, and JSON and CSV beside it");
+  verb->add_option("--batch",
+                   arguments->batch,
+                   "inspect several meshes by the plan and write a table with mean, Cp and Cpk: "
+                   ".csv, or .html with trends");
+  verb->add_option("--section",
+                   arguments->sections,
+                   "cut by a plane such as z=60; --report writes it as DXF and SVG; may repeat")
+      ->check(a_section())
+      ->allow_extra_args(false);
+  verb->add_flag("--blade",
+                 arguments->blade,
+                 "the sections are profiles of a blade: chord, thickness, edge radii, stagger");
   verb->add_option("--reference",
                    arguments->reference,
                    "the reference mesh, in the frame of the mesh unless --align finds its pose");
