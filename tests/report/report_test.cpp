@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kHead = "format = \"frangia-inspection\"\nversion = 1\n";
 
-InspectionPlan plan_from(const std::string& text, const Run& run = {}) {
+InspectionPlan plan_from(const std::string& text, const frangia::Run& run = {}) {
   const testing::TemporaryFolder folder;
   std::ofstream(folder.path() / "inspection.toml") << kHead << text;
   return read_inspection_plan(folder.path() / "inspection.toml", run);
@@ -83,7 +83,7 @@ TEST(InspectionPlan, MeasuresItsFeaturesAndDecides) {
 
 TEST(InspectionPlan, ReportsAFeatureThatIsNotFound) {
   std::vector<std::string> warnings;
-  Run run;
+  frangia::Run run;
   run.on_warning = [&](const std::string& text) { warnings.push_back(text); };
   const auto rows = measure_characteristics(plan_from(kTwoBalls), {ball({0, -35, 60}, 40.0)}, run);
   ASSERT_EQ(rows.size(), 3U);

@@ -146,7 +146,7 @@ std::string profile_plot(const SectionResult& section,
   constexpr double kWide = 540.0;
   constexpr double kHigh = 200.0;
   constexpr double kLeft = 62.0;
-  constexpr double kBottom = 30.0;
+  constexpr double kBottom = 36.0;
   const auto x = [&](double s) { return kLeft + s / length * (kWide - kLeft - 10.0); };
   const auto y = [&](double value) {
     return (kHigh - kBottom) * 0.5 * (1.0 - value / extent) + 4.0;
@@ -184,7 +184,7 @@ std::string profile_plot(const SectionResult& section,
     const double at = length * tick / 4.0;
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{:.0f}</text>\n",
                        x(at),
-                       kHigh - 16.0,
+                       kHigh - 20.0,
                        tick == 4 ? "end" : "middle",
                        at);
   }

@@ -17,7 +17,10 @@ struct SurfaceValue {
 struct FilteredRange {
   double low = 0.0;
   double high = 0.0;
-  double u95 = 0.0;  ///< of `high - low`, from the noise that the filter removed
+  /// Of `high - low`: of both ends, and of how far the noise that remains draws the extremes of
+  /// many blocks apart. Errors that are alike in neighbouring points are seen in parts of the
+  /// blocks.
+  double u95 = 0.0;
 };
 
 /// Replaces the values in compact blocks of at least 48 points by linear functions of the position
