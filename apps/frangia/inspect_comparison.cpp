@@ -73,12 +73,6 @@ Comparison compare_with(const InspectArguments& arguments,
   Comparison comparison;
   comparison.deviations = deviations_of(mesh, reference, options, run);
   comparison.summary = summarize(mesh, comparison.deviations, arguments.alignment.band());
-  if (comparison.deviations.u_mm.empty()) {
-    run.warn(
-        fmt::format("{}: it has no sigma, so the uncertainty of the deviations is not known "
-                    "and the limits alone decide; a PLY of this program holds sigma",
-                    arguments.mesh.string()));
-  }
   return comparison;
 }
 
@@ -114,6 +108,10 @@ void add_deviations(InspectAnswer& answer, const Comparison& comparison) {
       summary.verdict == Conformity::Undecided ? "undecided"
       : summary.verdict == Conformity::In      ? "in tolerance"
                                                : "out of tolerance");
+  if (comparison.deviations.u_mm.empty()) {
+    answer.text +=
+        "the mesh has no sigma: its uncertainty is not known, and the limits alone decide\n";
+  }
   answer.text += fmt::format("vertices left out: {}\n", left_out_text(summary));
 }
 

@@ -69,7 +69,6 @@ TEST(Deviation, HasTheSameBytesForAnyNumberOfThreads) {
 
 TEST(Deviation, LeavesOutAndCountsWhatIsNotComparable) {
   Mesh mesh = testing::relief();
-  const std::size_t boundary = 4 * 49;
   mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
   for (std::size_t t = 2000; t < 2500; ++t)
     mesh.triangle_marks[t] = Mark::Synthesized;
@@ -77,7 +76,12 @@ TEST(Deviation, LeavesOutAndCountsWhatIsNotComparable) {
   Mesh larger = testing::relief();
   const Deviations found = deviations_of(mesh, RayScene(larger));
   EXPECT_EQ(count_of(found, DeviationStatus::Unused), 1U);
-  EXPECT_EQ(count_of(found, DeviationStatus::MeshEdge), boundary);
+  EXPECT_GT(count_of(found, DeviationStatus::MeshEdge), 150U);  // of 196 on the boundary
+  for (std::size_t i = 0; i + 1 < found.status.size(); ++i) {
+    const bool outer = i % 50 == 0 || i % 50 == 49 || i < 50 || i >= 49 * 50;
+    EXPECT_FALSE(outer && found.status[i] == DeviationStatus::Compared) << i;
+    EXPECT_FALSE(!outer && found.status[i] == DeviationStatus::MeshEdge) << i;
+  }
   EXPECT_GT(count_of(found, DeviationStatus::Synthesized), 0U);
   EXPECT_TRUE(std::isnan(found.deviation_mm.back()));
 

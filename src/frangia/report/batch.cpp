@@ -78,22 +78,23 @@ std::string trend_svg(const BatchCharacteristic& one) {
       "font-size=\"12\">\n",
       kWide,
       kHigh);
-  const auto level = [&](double value, const char* color) {
+  // The mean stands at the right end, where it cannot hide the number of a limit.
+  const auto level = [&](double value, const char* color, bool right) {
     if (!std::isfinite(value)) return;
     svg += fmt::format(
         "<path d=\"M{0} {1:.1f}H{2}\" stroke=\"{3}\"/><text x=\"{4}\" y=\"{5:.1f}\" "
-        "text-anchor=\"end\">{6:.4f}</text>\n",
+        "fill=\"{3}\" text-anchor=\"end\">{6:.4f}</text>\n",
         kLeft,
         y(value),
         kWide - 8.0,
         color,
-        kLeft - 5.0,
-        y(value) + 4.0,
+        right ? kWide - 10.0 : kLeft - 5.0,
+        y(value) + (right ? -4.0 : 4.0),
         value);
   };
-  if (one.limits) level(one.limits->lower, "#b01818");
-  if (one.limits) level(one.limits->upper, "#b01818");
-  level(one.mean, "#888");
+  if (one.limits) level(one.limits->lower, "#b01818", false);
+  if (one.limits) level(one.limits->upper, "#b01818", false);
+  level(one.mean, "#666", true);
   std::string line;
   for (std::size_t i = 0; i < one.values.size(); ++i) {
     if (!std::isfinite(one.values[i])) continue;

@@ -139,10 +139,10 @@ FilteredRange filtered_range(std::vector<SurfaceValue> values) {
   RangeSums sums;
   split(values, sums);
   constexpr double k95 = 1.959964;
-  constexpr double kCorner = 1.7;  // of a fitted value near a corner over that of the mean
-  const double u = kCorner * sums.largest_mean_u * std::sqrt(inflation_of(sums));
+  const double corner = std::sqrt(7.0);  // of a fitted value at a corner over that of the mean
+  const double u = corner * sums.largest_mean_u * std::sqrt(inflation_of(sums));
   // The extremes of many blocks lie apart by chance, too.
-  const double apart = 2.0 * u * std::sqrt(2.0 * std::log(static_cast<double>(sums.blocks)));
+  const double apart = 2.0 * u * std::sqrt(2.0 * std::log(4.0 * static_cast<double>(sums.blocks)));
   return {sums.low, sums.high, std::hypot(k95 * std::sqrt(2.0) * u, apart)};
 }
 
