@@ -15,6 +15,7 @@ namespace frangia {
 /// A page of HTML without references to other files. Texts are escaped.
 class HtmlPage {
  public:
+  /// A page with a title and nothing else.
   explicit HtmlPage(std::string_view title);
 
   void heading(std::string_view text);    ///< of a section
