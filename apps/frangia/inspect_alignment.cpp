@@ -1,5 +1,8 @@
 #include "inspect_alignment.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -42,9 +45,26 @@ void add_alignment_options(CLI::App& verb, AlignmentArguments& arguments) {
       ->check(from_to(1, 1000));
   verb.add_option("--tolerance",
                   arguments.tolerance_mm,
-                  "deviation within which the mesh overlaps the reference, mm; 0.2 % of the size "
-                  "of the reference by default")
-      ->transform(length_above_zero());
+                  "tolerance of the deviations, mm: T for plus and minus T, or LOWER,UPPER; 0.1 "
+                  "by default")
+      ->transform(a_length())
+      ->delimiter(',')
+      ->expected(1, 2);
+}
+
+ToleranceLimits AlignmentArguments::band() const {
+  constexpr double kUsual = 0.1;
+  ToleranceLimits limits{-kUsual, kUsual};
+  if (tolerance_mm.size() == 1) limits = {-tolerance_mm[0], tolerance_mm[0]};
+  if (tolerance_mm.size() == 2) limits = {tolerance_mm[0], tolerance_mm[1]};
+  limits.check();
+  return limits;
+}
+
+double AlignmentArguments::overlap_tolerance_mm() const {
+  if (tolerance_mm.empty()) return 0.0;
+  const ToleranceLimits limits = band();
+  return std::max(std::abs(limits.lower), std::abs(limits.upper));
 }
 
 Alignment align(const Mesh& mesh,
@@ -52,7 +72,7 @@ Alignment align(const Mesh& mesh,
                 const AlignmentArguments& arguments,
                 const Run& run) {
   BestFitOptions options;
-  options.tolerance_mm = arguments.tolerance_mm;
+  options.tolerance_mm = arguments.overlap_tolerance_mm();
   if (arguments.start > 0) options.start = arguments.start - 1;
   if (arguments.align == "best-fit") return align_best_fit(mesh, reference, options, run);
   Alignment as_it_stands;

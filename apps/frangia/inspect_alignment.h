@@ -2,19 +2,26 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "frangia/align/align_best_fit.h"
+#include "frangia/uncertainty/conformity.h"
 
 namespace frangia {
 
 /// Options of the alignment of a mesh to its reference.
 struct AlignmentArguments {
-  std::string align;          ///< empty: as it stands, and nothing is said of it
-  std::size_t start = 0;      ///< of poses that fit alike, counted from 1; 0: none chosen
-  double tolerance_mm = 0.0;  ///< of the overlap
+  std::string align;                 ///< empty: as it stands, and nothing is said of it
+  std::size_t start = 0;             ///< of poses that fit alike, counted from 1; 0: none chosen
+  std::vector<double> tolerance_mm;  ///< one: plus and minus; two: lower and upper; none: chosen
+
+  /// The tolerance band; plus and minus 0.1 mm where none is stated.
+  [[nodiscard]] ToleranceLimits band() const;
+  /// The deviation that still counts as overlap; 0: chosen by the size of the reference.
+  [[nodiscard]] double overlap_tolerance_mm() const;
 };
 
 /// Adds the options.

@@ -9,17 +9,13 @@
 #include "frangia/core/angles.h"
 
 #include "fixed_text.h"
+#include "json_number.h"
 #include "text_table.h"
 
 namespace frangia {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Null for a value that is missing.
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
 
 Json json_of_vector(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,22 +8,23 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/angles.h"
-#include "frangia/dataset/scan_folder.h"
+#include "frangia/core/lowercase_extension.h"
 #include "frangia/features/find_features.h"
 #include "frangia/files/write_mesh.h"
-#include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
-#include "frangia/inspect/render_mesh.h"
-#include "frangia/inspect/surface_completeness.h"
-#include "frangia/inspect/surface_error.h"
-#include "frangia/inspect/surface_validity.h"
+#include "frangia/report/batch.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"
-#include "fixed_text.h"
+#include "exit_codes.h"
 #include "inspect_alignment.h"
+#include "inspect_arguments.h"
+#include "inspect_comparison.h"
 #include "inspect_features.h"
+#include "inspect_picture.h"
+#include "inspect_plan.h"
+#include "inspect_report.h"
+#include "json_number.h"
 #include "option_values.h"
 #include "picture_file.h"
 #include "print_text.h"
@@ -36,159 +34,20 @@
 namespace frangia {
 namespace {
 
-struct InspectArguments {
-  std::filesystem::path mesh;
-  std::filesystem::path reference;
-  std::filesystem::path scan;
-  std::filesystem::path picture;
-  std::string show = "deviation";
-  std::vector<double> from_deg{35.0, 20.0};
-  double scale_mm = 0.1;
-  double within_mm = 0.2;
-  double max_angle_deg = 75.0;
-  bool legend = true;
-  bool features = false;
-  AlignmentArguments alignment;
-  std::vector<std::filesystem::path> outputs;
-  double unit_mm = 1.0;
-  int width_px = RenderOptions{}.width_px;
-  int height_px = RenderOptions{}.height_px;
-  ReadOptions read;
-};
-
-SurfaceCompleteness completeness_of(const InspectArguments& arguments,
-                                    const RayScene& reference,
-                                    const RayScene& mesh,
-                                    const Run& run) {
-  const CompletenessOptions options{.within_mm = arguments.within_mm,
-                                    .max_angle_rad = rad_from_deg(arguments.max_angle_deg)};
-  if (arguments.scan.empty()) return surface_completeness(reference, mesh, options, run);
-  const Scan scan = read_scan(arguments.scan, run);
-  std::vector<Eigen::Isometry3d> poses;
-  for (const ScanView& view : scan.views)
-    poses.push_back(scan.rig.rig_from_object(view.angle_rad));
-  return surface_completeness(reference, mesh, MeasurementViews{scan.rig, poses}, options, run);
-}
-
-/// The values of the vertices that --show names.
-std::vector<float> values_of(const InspectArguments& arguments, const Mesh& mesh) {
-  std::vector<float> values;
-  if (arguments.show == "sigma") values = mesh.sigma_mm;
-  if (arguments.show == "views") values.assign(mesh.views.begin(), mesh.views.end());
-  return values;
-}
-
-/// Checks before the work that the mesh has what --show names.
-void check_shown(const InspectArguments& arguments, const Mesh& mesh) {
-  const std::string& show = arguments.show;
-  if (show == "deviation") {
-    require(!arguments.reference.empty(),
-            "--show deviation needs a --reference; give one, or choose another --show");
-  }
-  const bool missing =
-      (show == "sigma" && mesh.sigma_mm.empty()) || (show == "views" && mesh.views.empty()) ||
-      (show == "marks" && mesh.vertex_marks.empty() && mesh.triangle_marks.empty());
-  if (!missing) return;
-  throw Error(ErrorKind::Input,
-              fmt::format("{}: the file has no {}; choose another --show, such as shape",
-                          arguments.mesh.string(),
-                          show));
-}
-
-void draw(const InspectArguments& arguments,
-          const Mesh& mesh,
-          const std::optional<RayScene>& reference,
-          const Run& run) {
-  RenderOptions options;
-  options.azimuth_rad = rad_from_deg(arguments.from_deg[0]);
-  options.elevation_rad = rad_from_deg(arguments.from_deg[1]);
-  options.legend = arguments.legend;
-  options.width_px = arguments.width_px;
-  options.height_px = arguments.height_px;
-  options.value_max = static_cast<float>(arguments.scale_mm);
-  if (arguments.show == "deviation") {
-    options.values = vertex_errors_mm(mesh, *reference, run);
-    options.value_min = -options.value_max;
-    options.color_map = ColorMap::Diverging;
-    options.value_label = "deviation, mm";
-  } else if (arguments.show == "marks") {
-    options.show_marks = true;
-  } else {
-    options.values = values_of(arguments, mesh);
-    options.value_label = arguments.show == "sigma" ? "sigma, mm" : "views";
-  }
-  if (arguments.show == "views") {
-    options.value_max = *std::max_element(options.values.begin(), options.values.end());
-    options.whole_values = true;
-  }
-  write_png(arguments.picture, render_mesh(mesh, options, run));
-}
-
-/// What the verb found, for machines and for people.
-struct InspectAnswer {
-  nlohmann::ordered_json json;
-  std::string text;
-};
-
-void add_comparison(InspectAnswer& answer,
-                    const SurfaceError& error,
-                    const SurfaceCompleteness& completeness,
-                    const SurfaceValidity& validity,
-                    const InspectArguments& arguments) {
-  answer.json.update(nlohmann::ordered_json{
-      {"vertices", error.count},
-      {"rms_mm", error.rms_mm},
-      {"mean_mm", error.mean_mm},
-      {"bias_mm", error.bias_mm},
-      {"p95_mm", error.p95_mm},
-      {"p99_mm", error.p99_mm},
-      {"max_mm", error.max_mm},
-      {"sigma_ratio",
-       std::isnan(validity.sigma_ratio) ? nlohmann::ordered_json()
-                                        : nlohmann::ordered_json(validity.sigma_ratio)},
-      {"non_manifold_edges", validity.non_manifold_edges},
-      {"inward_triangles", validity.inward_triangles},
-      {"completeness", completeness.share},
-      {"completeness_within_mm", arguments.within_mm}});
-  answer.text += fmt::format(
-      "{} vertices: RMS {:.4f} mm, bias {}, 95 % within {:.4f}, 99 % within {:.4f}, all "
-      "within {:.4f}\n",
-      error.count,
-      error.rms_mm,
-      signed_text(error.bias_mm, 4),
-      error.p95_mm,
-      error.p99_mm,
-      error.max_mm);
-  answer.text += fmt::format(
-      "{:.1f} % of the {} has mesh within {} mm\n",
-      100.0 * completeness.share,
-      arguments.scan.empty() ? "reference" : "reference that the scan's views could measure",
-      arguments.within_mm);
-}
-
-void compare(InspectAnswer& answer,
-             const InspectArguments& arguments,
-             const Mesh& mesh,
-             const RayScene& reference,
-             const Run& run) {
-  const RayScene mesh_scene(mesh, run);
-  const SurfaceError error = surface_error(mesh, reference, {}, run);
-  const SurfaceCompleteness completeness = completeness_of(arguments, reference, mesh_scene, run);
-  add_comparison(answer, error, completeness, surface_validity(mesh, reference, run), arguments);
-}
-
 /// Checks before the work that the options of the alignment go together.
 void check_alignment(const InspectArguments& arguments) {
   const AlignmentArguments& alignment = arguments.alignment;
   require(alignment.align.empty() || !arguments.reference.empty(),
           "--align needs a --reference to align the mesh to; give one");
-  require(arguments.outputs.empty() || !alignment.align.empty(),
-          "-o writes the aligned mesh; choose how by --align");
+  require(arguments.outputs.empty() || !arguments.reference.empty(),
+          "-o writes the mesh with its deviations; give a --reference to measure them against");
+  require(!arguments.fail_out_of_tolerance || !arguments.reference.empty(),
+          "--fail-out-of-tolerance needs a --reference to measure against; give one");
+  static_cast<void>(alignment.band());
   require(alignment.start == 0 || alignment.align == "best-fit",
           "--start chooses a pose of --align best-fit; add it");
   for (const auto& path : arguments.outputs) {
-    check_mesh_extension(path);
-    check_can_write(path);
+    check_deviation_output(path);
   }
 }
 
@@ -200,36 +59,128 @@ Mesh read_reference(const InspectArguments& arguments, const Run& run) {
   return reference;
 }
 
-void inspect(const InspectArguments& arguments, Terminal& terminal) {
-  const Run run = terminal.run();
+/// Checks before the work what can be checked.
+void check_arguments(const InspectArguments& arguments, const InspectionPlan& plan) {
   const bool drawn = !arguments.picture.empty();
-  require(!arguments.reference.empty() || drawn || arguments.features,
-          "nothing to do: give a --reference to measure against, --features, or a --picture to "
-          "draw");
+  const bool planned = !plan.features.empty() || !plan.sections.empty();
+  require(!arguments.reference.empty() || drawn || arguments.features || planned,
+          "nothing to do: give a --reference to measure against, --features, --plan, --section, or "
+          "a --picture to draw");
   if (drawn) check_picture_output(arguments.picture);
+  for (const auto& path : {arguments.report, arguments.batch})
+    if (!path.empty()) check_can_write(path);
+  if (!arguments.report.empty() && lowercase_extension(arguments.report) != ".html") {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: reports are pages of HTML; use a name that ends in .html",
+                            arguments.report.string()));
+  }
   check_alignment(arguments);
-  Mesh mesh = read_surface(arguments.mesh, run, arguments.read);
-  if (drawn) check_shown(arguments, mesh);
+}
+
+/// Inspects one mesh.
+InspectedPart inspect_mesh(const InspectArguments& arguments,
+                           const InspectionPlan& plan,
+                           InspectAnswer& answer,
+                           const Run& run) {
+  InspectedPart part;
+  part.mesh = read_surface(arguments.mesh, run, arguments.read);
+  if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
   std::optional<RayScene> reference;
   if (!arguments.reference.empty()) reference.emplace(read_reference(arguments, run), run);
-  InspectAnswer answer;
   if (!arguments.alignment.align.empty()) {
-    const Alignment alignment = align(mesh, *reference, arguments.alignment, run);
-    add_alignment(answer.json, alignment);
-    answer.text += alignment_text(alignment);
-    mesh = transform_mesh(std::move(mesh), alignment.pose.reference_from_mesh);
+    part.alignment = align(part.mesh, *reference, arguments.alignment, run);
+    add_alignment(answer.json, *part.alignment);
+    answer.text += alignment_text(*part.alignment);
+    part.mesh = transform_mesh(std::move(part.mesh), part.alignment->pose.reference_from_mesh);
   }
-  if (arguments.features) {
-    const std::vector<Feature> features = find_features(mesh, {}, run);
-    add_features(answer.json, features);
-    answer.text += feature_table(features);
+  if (arguments.features || !plan.features.empty()) {
+    run.stage("features");
+    part.features = find_features(part.mesh, {}, run);
+    add_features(answer.json, part.features);
+    if (arguments.features) answer.text += feature_table(part.features);
+    if (!plan.features.empty()) {
+      part.characteristics =
+          measure_characteristics(plan, with_points(part.mesh, part.features, run), run);
+    }
   }
-  if (drawn) draw(arguments, mesh, reference, run);
-  if (reference) compare(answer, arguments, mesh, *reference, run);
-  for (const auto& path : arguments.outputs)
-    write_mesh(path, mesh, {}, run);
-  if (drawn) answer.json["picture"] = arguments.picture.string();
+  if (reference) {
+    part.comparison = compare_with(arguments, part.mesh, *reference, part.alignment, run);
+    add_statistics(answer, arguments, part.mesh, *reference, run);
+    add_deviations(answer, *part.comparison);
+  }
+  part.sections =
+      cut_sections(plan, part.mesh, reference ? &*reference : nullptr, part.comparison, run);
+  add_results(answer, part);
+  return part;
+}
+
+/// Inspects each mesh by the plan and writes the table.
+void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Terminal& terminal) {
+  const Run run = terminal.run();
+  require(!plan.features.empty(),
+          "--batch compares the characteristics of a --plan; give one with [[features]]");
+  std::vector<BatchPart> parts;
+  bool out = false;
+  for (const auto& mesh : arguments.meshes) {
+    arguments.mesh = mesh;
+    InspectAnswer answer;
+    const InspectedPart part = inspect_mesh(arguments, plan, answer, run);
+    out = out || answer.verdict == Conformity::Out;
+    parts.push_back({mesh.filename().string(), part.characteristics});
+  }
+  const auto characteristics = batch_characteristics(parts);
+  const std::string csv = batch_csv(parts, characteristics);
+  const bool page = lowercase_extension(arguments.batch) == ".html";
+  const std::string title = plan.part.empty() ? "Batch" : "Batch: " + plan.part;
+  write_report_text(arguments.batch, page ? batch_html(title, parts, characteristics) : csv);
   terminal.finish();
+  if (arguments.fail_out_of_tolerance && out) terminal.exit_code = OutOfTolerance;
+  if (terminal.json) {
+    nlohmann::ordered_json json;
+    json["parts"] = parts.size();
+    for (const BatchCharacteristic& one : characteristics) {
+      json["characteristics"].push_back({{"name", one.name},
+                                         {"mean", number_or_null(one.mean)},
+                                         {"standard_deviation", number_or_null(one.deviation)},
+                                         {"cp", number_or_null(one.cp)},
+                                         {"cpk", number_or_null(one.cpk)}});
+    }
+    json["batch"] = arguments.batch.string();
+    print_json(json);
+  } else {
+    write_output(csv);
+  }
+  terminal.print_written(arguments.batch.string());
+}
+
+void inspect(InspectArguments arguments, Terminal& terminal) {
+  const Run run = terminal.run();
+  const InspectionPlan plan = plan_of(arguments, run);
+  apply_plan(plan, arguments);
+  arguments.mesh = arguments.meshes.front();
+  check_arguments(arguments, plan);
+  if (!arguments.batch.empty()) {
+    inspect_batch(std::move(arguments), plan, terminal);
+    return;
+  }
+  require(arguments.meshes.size() == 1,
+          "several meshes are inspected by --plan and --batch; name one mesh, or add these");
+  InspectAnswer answer;
+  const InspectedPart part = inspect_mesh(arguments, plan, answer, run);
+  const bool drawn = !arguments.picture.empty();
+  if (drawn) draw_picture(arguments, part.mesh, part.comparison, run);
+  for (const auto& path : arguments.outputs)
+    write_deviations(path, arguments, part.mesh, part.comparison.value(), run);
+  std::vector<std::string> written;
+  if (!arguments.report.empty())
+    written = write_report(arguments, plan, part, answer, terminal.warnings(), run);
+  if (drawn) answer.json["picture"] = arguments.picture.string();
+  if (!arguments.report.empty()) answer.json["report"] = arguments.report.string();
+  terminal.finish();
+  for (const auto& [stage, seconds] : terminal.stage_seconds())
+    answer.json["seconds"][stage] = seconds;
+  if (arguments.fail_out_of_tolerance && answer.verdict == Conformity::Out)
+    terminal.exit_code = OutOfTolerance;
   if (terminal.json) {
     print_json(answer.json);
   } else {
@@ -238,6 +189,8 @@ void inspect(const InspectArguments& arguments, Terminal& terminal) {
   if (drawn) terminal.print_written(arguments.picture.string());
   for (const auto& path : arguments.outputs)
     terminal.print_written(path.string());
+  for (const std::string& path : written)
+    terminal.print_written(path);
 }
 
 }  // namespace
@@ -249,8 +202,29 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia inspect bust.ply --reference bust-scan/truth.ply --scan bust-scan "
       "--picture bust.png\n"
       "  frangia inspect blade.ply --reference nominal.stl --align best-fit -o aligned.ply\n"
-      "  frangia inspect shaft.ply --features");
-  verb->add_option("MESH", arguments->mesh, "the measured mesh")->required();
+      "  frangia inspect shaft.ply --features\n"
+      "  frangia inspect shaft.ply --plan inspection.toml --report report.html\n"
+      "  frangia inspect a.ply b.ply --plan inspection.toml --batch batch.html");
+  verb->add_option("MESH", arguments->meshes, "the measured mesh; several for --batch")->required();
+  verb->add_option("--plan",
+                   arguments->plan,
+                   "inspection.toml: reference, alignment, tolerances, features and sections of a "
+                   "part");
+  verb->add_option("--report",
+                   arguments->report,
+                   "write a report as one page, .html, and JSON and CSV beside it");
+  verb->add_option("--batch",
+                   arguments->batch,
+                   "inspect several meshes by the plan and write a table with mean, Cp and Cpk: "
+                   ".csv, or .html with trends");
+  verb->add_option("--section",
+                   arguments->sections,
+                   "cut by a plane such as z=60; --report writes it as DXF and SVG; may repeat")
+      ->check(a_section())
+      ->allow_extra_args(false);
+  verb->add_flag("--blade",
+                 arguments->blade,
+                 "the sections are profiles of a blade: chord, thickness, edge radii, stagger");
   verb->add_option("--reference",
                    arguments->reference,
                    "the reference mesh, in the frame of the mesh unless --align finds its pose");
@@ -261,8 +235,20 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   add_alignment_options(*verb, arguments->alignment);
   verb->add_option("-o,--output",
                    arguments->outputs,
-                   "write the aligned mesh; may repeat, the ending chooses the format")
+                   "write the aligned mesh with its deviations: .ply with deviation_mm, .csv, "
+                   "other formats with colors; may repeat")
       ->allow_extra_args(false);
+  verb->add_flag("--fail-out-of-tolerance",
+                 arguments->fail_out_of_tolerance,
+                 "end with exit code 1 when the part is out of tolerance");
+  verb->add_option("--expansion",
+                   arguments->expansion_ppm_per_k,
+                   "coefficient of thermal expansion of the part, 1e-6/K")
+      ->check(zero_or_more());
+  verb->add_option("--temperature-u",
+                   arguments->temperature_u_k,
+                   "standard uncertainty of the difference of its temperature from 20 degrees, K")
+      ->check(zero_or_more());
   verb->add_flag("--features",
                  arguments->features,
                  "find planes, cylinders, spheres, cones and tori, and the lines and circles where "
@@ -302,10 +288,11 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       ->delimiter(',')
       ->expected(2)
       ->capture_default_str();
-  verb->add_option(
-          "--scale", arguments->scale_mm, "deviation or sigma at the end of the color scale, mm")
-      ->transform(length_above_zero())
-      ->capture_default_str();
+  verb->add_option("--scale",
+                   arguments->scale_mm,
+                   "deviation or sigma at the end of the color scale, mm; by default 1.5 times the "
+                   "tolerance, or 0.1 for sigma")
+      ->transform(length_above_zero());
   verb->add_flag("!--no-legend", arguments->legend, "leave out the color scale");
   add_allow_memory(*verb, arguments->read);
   verb->callback([arguments, &terminal] { inspect(*arguments, terminal); });

@@ -1,5 +1,7 @@
 // Features and alignment by `frangia inspect`.
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -75,6 +77,67 @@ TEST_F(InspectProgram, WritesTheAlignedMeshAndStatesItsPose) {
   const Mesh reference = make_bracket();
   ASSERT_EQ(written.vertices_mm.size(), reference.vertices_mm.size());
   EXPECT_LT((written.vertices_mm[7] - reference.vertices_mm[7]).norm(), 0.01F);
+}
+
+TEST_F(InspectProgram, WritesDeviationsReportAndSections) {
+  Mesh mesh = testing::sphere({0, 0, 0}, 20.2);
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.01F);
+  write_mesh(at("mesh.ply"), mesh);
+  write_mesh(at("ball.stl"), testing::sphere({0, 0, 0}, 20.0, 150));
+  std::ofstream(at("inspection.toml")) << R"(format = "frangia-inspection"
+version = 1
+part = "ball"
+reference = "ball.stl"
+tolerance_mm = [-0.1, 0.1]
+[[features]]
+name = "ball"
+kind = "sphere"
+near_mm = [0, 0, 0]
+diameter_mm = 40
+tolerance_mm = [-0.1, 0.1]
+[[sections]]
+name = "equator"
+point_mm = [0, 0, 1]
+normal = [0, 0, 1]
+)";
+  const Answer answer = run_program(
+      "--json inspect " + at("mesh.ply") + " --plan " + at("inspection.toml") + " --report " +
+      at("report.html") + " -o " + at("out.ply") + " -o " + at("out.csv") + " -o " + at("out.glb"));
+  ASSERT_EQ(answer.exit_code, 0) << answer.output;
+  const auto json = nlohmann::json::parse(answer.output);
+  EXPECT_EQ(json.at("deviation").at("verdict"), "out");
+  EXPECT_NEAR(json.at("deviation").at("mean_mm").get<double>(), 0.2, 0.005);
+  EXPECT_NEAR(json.at("deviation").at("median_u_mm").get<double>(), 0.01, 1e-6);
+  EXPECT_NEAR(json.at("deviation").at("out_share").get<double>(), 1.0, 1e-9);
+  EXPECT_EQ(json.at("characteristics")[0].at("conformity"), "out");
+  EXPECT_EQ(json.at("sections")[0].at("curves"), 1);
+  const auto text_of = [&](const std::string& name) {
+    std::ifstream file(at(name), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_NE(text_of("out.ply").find("property float deviation_mm\nproperty float u_mm\n"),
+            std::string::npos);
+  EXPECT_TRUE(text_of("out.csv").starts_with(
+      "vertex,x_mm,y_mm,z_mm,deviation_mm,u_mm,conformity\n0,0,0,20.2,0.2"));
+  EXPECT_EQ(read_mesh(at("out.glb")).colors.size(), mesh.vertices_mm.size());
+  EXPECT_NE(text_of("report.html").find("Out of tolerance"), std::string::npos);
+  EXPECT_NE(text_of("report.html").find("SHA-256 of the mesh"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(text_of("report.json")).at("verdict"), "out");
+  EXPECT_NE(text_of("report.csv").find("ball diameter"), std::string::npos);
+  EXPECT_NE(text_of("report-equator.dxf").find("MEASURED"), std::string::npos);
+  EXPECT_NE(text_of("report-equator.svg").find("<svg"), std::string::npos);
+
+  const std::string asked = "inspect " + at("mesh.ply") + " --plan " + at("inspection.toml");
+  EXPECT_EQ(run_program(asked + " --fail-out-of-tolerance").exit_code, 1);
+  EXPECT_EQ(run_program(asked + " --tolerance 1 --fail-out-of-tolerance").exit_code, 1)
+      << "the diameter stays out";
+  const Answer batch = run_program("inspect " + at("mesh.ply") + " " + at("mesh.ply") + " --plan " +
+                                   at("inspection.toml") + " --batch " + at("batch.html"));
+  ASSERT_EQ(batch.exit_code, 0) << batch.output;
+  EXPECT_NE(text_of("batch.html").find("Cpk"), std::string::npos);
+  const Answer two =
+      run_program("inspect " + at("mesh.ply") + " " + at("mesh.ply") + " --features");
+  EXPECT_EQ(two.exit_code, 3) << two.output;
 }
 
 TEST_F(InspectProgram, EndsWithItsExitCodesWithoutAFile) {

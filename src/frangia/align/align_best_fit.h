@@ -10,6 +10,7 @@
 #include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/uncertainty/pose_uncertainty.h"
 
 namespace frangia {
 
@@ -33,6 +34,8 @@ struct AlignmentPose {
   double overlap = 0.0;  ///< share of the measured area within 3 sigma and the tolerance
   double rms_mm = 0.0;   ///< of the distances of that area
   int iterations = 0;    ///< of the last fit
+  /// Of the pose, from the residuals of the last fit; zero for a pose that was not fitted.
+  PoseUncertainty uncertainty;
 };
 
 /// The result of an alignment.

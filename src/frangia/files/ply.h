@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "frangia/geometry/mesh.h"
 
@@ -23,12 +26,23 @@ namespace frangia {
 /// @source   Greg Turk, The PLY Polygon File Format, 1994
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
 
+/// A number for each vertex, beside those of a mesh.
+struct VertexProperty {
+  std::string name;           ///< of the property: "deviation_mm"
+  std::vector<float> values;  ///< one for each vertex
+};
+
 /// Writes a binary little-endian PLY: x y z, then nx ny nz, sigma_mm, sigma_noise_mm and
 /// sigma_systematic_mm where the mesh has them (all float), views (ushort), mark (uchar), red green
-/// blue (uchar); faces, with their mark where the mesh has it.
+/// blue (uchar), the other properties (float); faces, with their mark where the mesh has it.
 ///
 /// @units    mm
-/// @errors   Error(Input) when check_mesh fails; Error(File) when the file cannot be written
+/// @errors   Error(Input) when check_mesh fails or a property has not one value for each vertex;
+///           Error(File) when the file cannot be written
+void write_ply(const std::filesystem::path& path,
+               const Mesh& mesh,
+               std::span<const VertexProperty> more);
+/// The same without other properties.
 void write_ply(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace frangia

@@ -12,10 +12,13 @@ namespace {
 
 constexpr Rgb kPaper{244, 245, 247};
 constexpr Rgb kInk{42, 47, 56};
+constexpr Rgb kHistogramColor{126, 134, 148};
+constexpr Rgb kLimitColor{176, 24, 24};
 constexpr double kBarWidth = 1.7;  ///< lengths of the layout are in heights of capitals
 constexpr double kTickLength = 0.45;
 constexpr double kGap = 0.7;
 constexpr double kPadding = 1.6;
+constexpr double kHistogramWidth = 5.0;
 constexpr double kLine = 2.1;  ///< from one entry to the next
 
 double step_for(double width, bool whole_numbers) {
@@ -52,15 +55,69 @@ double widest_tick(const ColorScale& scale, double em) {
   return widest;
 }
 
+/// A limit with enough digits to tell it from its neighbours.
+std::string limit_text(double value) {
+  return fmt::format("{:+.4g}", value);
+}
+
+/// Width of the histogram and of the numbers of the limits, with the gaps before them.
+double extra_width(const ColorScale& scale, double em) {
+  double widest = 0.0;
+  for (const double limit : scale.limits)
+    widest = std::max(widest, text_width(limit_text(limit), em) + kGap * em);
+  return (scale.histogram.empty() ? 0.0 : em * (kHistogramWidth + kGap)) + widest;
+}
+
 double legend_width(const PictureLegend& legend, double em) {
   double width = 0.0;
   for (const ColorScale& scale : legend.scales) {
-    const double beside = em * (kBarWidth + kTickLength + kGap) + widest_tick(scale, em);
+    const double beside =
+        em * (kBarWidth + kTickLength + kGap) + widest_tick(scale, em) + extra_width(scale, em);
     width = std::max({width, text_width(scale.label, em), beside});
   }
   for (const LegendEntry& entry : legend.entries)
     width = std::max(width, em * (kBarWidth + kGap) + text_width(entry.meaning, em));
   return width + 2.0 * kPadding * em;
+}
+
+/// Where the bar of a scale stands.
+struct ScaleBar {
+  double left, right, top, bottom;
+
+  /// The row of a share of the range, 0 to 1.
+  [[nodiscard]] double row(double share) const { return bottom - share * (bottom - top); }
+};
+
+/// Draws the histogram, whose longest bar has its full width, and the limits over all of it.
+void draw_distribution(
+    Image<Rgb>& picture, const ColorScale& scale, const ScaleBar& bar, double left, double em) {
+  const auto& shares = scale.histogram;
+  const double line = std::max(1.0, 0.1 * em);
+  float most = 0.0F;
+  for (const float share : shares)
+    most = std::max(most, share);
+  for (std::size_t i = 0; i < shares.size() && most > 0.0F; ++i) {
+    const auto count = static_cast<double>(shares.size());
+    const double length = kHistogramWidth * em * static_cast<double>(shares[i] / most);
+    const double at = static_cast<double>(i);
+    fill(picture,
+         left,
+         bar.row((at + 1.0) / count),
+         left + length,
+         bar.row(at / count),
+         kHistogramColor);
+  }
+  if (!shares.empty()) fill(picture, left - line, bar.top, left, bar.bottom, kInk);
+  const double right = left + (shares.empty() ? 0.0 : kHistogramWidth * em);
+  for (const double limit : scale.limits) {
+    const auto low = static_cast<double>(scale.range.low);
+    const double share = (limit - low) / (static_cast<double>(scale.range.high) - low);
+    if (!(share >= 0.0 && share <= 1.0)) continue;
+    const double y = bar.row(share);
+    fill(picture, bar.left, y - 0.5 * line, bar.right, y + 0.5 * line, kLimitColor);
+    fill(picture, left, y - 0.5 * line, right, y + 0.5 * line, kLimitColor);
+    draw_text(picture, limit_text(limit), {right + kGap * em, y + 0.5 * em, em}, kLimitColor);
+  }
 }
 
 /// Draws a scale between two rows.
@@ -90,6 +147,9 @@ void draw_scale(Image<Rgb>& picture,
     draw_text(
         picture, tick.text, {numbers_right - text_width(tick.text, em), y + 0.5 * em, em}, kInk);
   }
+  if (scale.histogram.empty() && scale.limits.empty()) return;
+  const ScaleBar bar{left, right, bar_top, bar_bottom};
+  draw_distribution(picture, scale, bar, numbers_right + kGap * em, em);
 }
 
 }  // namespace

@@ -14,6 +14,10 @@ struct ColorScale {
   ValueRange range;                  ///< values at the two ends
   std::string label;                 ///< the quantity and its unit: "deviation, mm"
   bool whole_numbers = false;        ///< no fractions at the ticks, as for counts
+  /// Share of the values in equal intervals of the range, ascending, drawn beside the bar; empty:
+  /// no histogram.
+  std::vector<float> histogram{};
+  std::vector<double> limits{};  ///< values that are marked by a line with their number
 };
 
 /// A color with a fixed meaning.

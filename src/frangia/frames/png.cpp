@@ -12,6 +12,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/read_regular_file.h"
+#include "frangia/frames/encode_picture.h"
 
 namespace frangia {
 namespace {
@@ -159,11 +160,14 @@ void write_png(const std::filesystem::path& path, const Frame& frame) {
   write_atomically(path, encode_png(frame));
 }
 
+std::vector<char> encode_picture(const Image<Rgb>& picture) {
+  return encode(header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
+                picture.pixels().data(),
+                picture.pixels().size_bytes());
+}
+
 void write_png(const std::filesystem::path& path, const Image<Rgb>& picture) {
-  write_atomically(path,
-                   encode(header_of(picture, 8, SPNG_COLOR_TYPE_TRUECOLOR),
-                          picture.pixels().data(),
-                          picture.pixels().size_bytes()));
+  write_atomically(path, encode_picture(picture));
 }
 
 void write_png(const std::filesystem::path& path, const RasterImage& image) {

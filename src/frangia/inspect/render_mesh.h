@@ -38,9 +38,11 @@ struct RenderOptions {
   float value_min = 0.0F;                  ///< values at the ends of the color map
   float value_max = 1.0F;                  ///< values above it have the last color
   ColorMap color_map = ColorMap::Viridis;  ///< colors of `values`
-  std::string value_label;    ///< quantity and unit of the values for the scale: "deviation, mm"
-  bool whole_values = false;  ///< the values are counts
-  bool legend = true;         ///< add the color scale and the meaning of other colors at the right
+  std::string value_label;       ///< quantity and unit of the values for the scale: "deviation, mm"
+  bool whole_values = false;     ///< the values are counts
+  std::vector<float> histogram;  ///< of the values, in the legend; see `ColorScale::histogram`
+  std::vector<double> value_limits;  ///< marked in the legend, such as a tolerance band
+  bool legend = true;  ///< add the color scale and the meaning of other colors at the right
 };
 
 /// Renders a mesh, fitted to the picture, with soft shadows and, where it shows values, marks or

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/write_vertices.h"
@@ -8,7 +9,7 @@
 namespace frangia {
 namespace {
 
-void write_ply_header(FileWriter& file, const Mesh& mesh) {
+void write_ply_header(FileWriter& file, const Mesh& mesh, std::span<const VertexProperty> more) {
   file.text("ply\nformat binary_little_endian 1.0\ncomment Frangia; lengths in mm\n");
   file.text(fmt::format("element vertex {}\n", mesh.vertices_mm.size()));
   file.text("property float x\nproperty float y\nproperty float z\n");
@@ -22,6 +23,8 @@ void write_ply_header(FileWriter& file, const Mesh& mesh) {
   if (!mesh.vertex_marks.empty()) file.text("property uchar mark\n");
   if (!mesh.colors.empty())
     file.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");
+  for (const VertexProperty& property : more)
+    file.text(fmt::format("property float {}\n", property.name));
   file.text(fmt::format("element face {}\n", mesh.triangles.size()));
   file.text("property list uchar int vertex_indices\n");
   if (!mesh.triangle_marks.empty()) file.text("property uchar mark\n");
@@ -30,11 +33,17 @@ void write_ply_header(FileWriter& file, const Mesh& mesh) {
 
 }  // namespace
 
-void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+void write_ply(const std::filesystem::path& path,
+               const Mesh& mesh,
+               std::span<const VertexProperty> more) {
   check_mesh(mesh, path);
+  for (const VertexProperty& property : more) {
+    require(property.values.size() == mesh.vertices_mm.size(),
+            "write_ply: a property needs one value for each vertex");
+  }
   FileWriter file(path);
-  write_ply_header(file, mesh);
-  write_vertices(file, mesh, ColorLayout::Bytes);
+  write_ply_header(file, mesh, more);
+  write_vertices(file, mesh, ColorLayout::Bytes, more);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     file.binary(std::uint8_t{3});
     for (const std::uint32_t corner : mesh.triangles[i])
@@ -44,6 +53,10 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
     }
   }
   file.commit();
+}
+
+void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+  write_ply(path, mesh, {});
 }
 
 }  // namespace frangia

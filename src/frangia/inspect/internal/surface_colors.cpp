@@ -91,7 +91,9 @@ PictureLegend surface_legend(const Mesh& mesh, const RenderOptions& options) {
     legend.scales.push_back({options.color_map,
                              {options.value_min, options.value_max},
                              options.value_label,
-                             options.whole_values});
+                             options.whole_values,
+                             options.histogram,
+                             options.value_limits});
     if (std::any_of(values.begin(), values.end(), [](float value) { return std::isnan(value); }))
       legend.entries.push_back(
           {screen_color(mapped_color(options.color_map, kMissing)), "no value"});

@@ -1,0 +1,204 @@
+#include "inspect_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/lowercase_extension.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/files/deviation_csv.h"
+#include "frangia/files/ply.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/frames/map_picture.h"
+#include "frangia/inspect/surface_completeness.h"
+#include "frangia/inspect/surface_error.h"
+#include "frangia/inspect/surface_validity.h"
+
+#include "check_can_write.h"
+#include "fixed_text.h"
+#include "json_number.h"
+
+namespace frangia {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+SurfaceCompleteness completeness_of(const InspectArguments& arguments,
+                                    const RayScene& reference,
+                                    const RayScene& mesh,
+                                    const Run& run) {
+  const CompletenessOptions options{.within_mm = arguments.within_mm,
+                                    .max_angle_rad = rad_from_deg(arguments.max_angle_deg)};
+  if (arguments.scan.empty()) return surface_completeness(reference, mesh, options, run);
+  const Scan scan = read_scan(arguments.scan, run);
+  std::vector<Eigen::Isometry3d> poses;
+  for (const ScanView& view : scan.views)
+    poses.push_back(scan.rig.rig_from_object(view.angle_rad));
+  return surface_completeness(reference, mesh, MeasurementViews{scan.rig, poses}, options, run);
+}
+
+Json json_of_counts(const DeviationSummary& summary) {
+  Json counts;
+  for (std::size_t i = 0; i < kDeviationStatuses; ++i)
+    counts[std::string(name_of(static_cast<DeviationStatus>(i)))] = summary.count.at(i);
+  return counts;
+}
+
+std::string left_out_text(const DeviationSummary& summary) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 1; i < kDeviationStatuses; ++i) {
+    std::string name(name_of(static_cast<DeviationStatus>(i)));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    if (summary.count.at(i) > 0) parts.push_back(fmt::format("{} {}", summary.count.at(i), name));
+  }
+  return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+Comparison compare_with(const InspectArguments& arguments,
+                        const Mesh& mesh,
+                        const RayScene& reference,
+                        const std::optional<Alignment>& alignment,
+                        const Run& run) {
+  constexpr double kPerMillion = 1e-6;
+  DeviationOptions options;
+  if (alignment) options.pose = alignment->pose.uncertainty;
+  options.expansion_per_k = kPerMillion * arguments.expansion_ppm_per_k;
+  options.temperature_u_k = arguments.temperature_u_k;
+  Comparison comparison;
+  comparison.deviations = deviations_of(mesh, reference, options, run);
+  comparison.summary = summarize(mesh, comparison.deviations, arguments.alignment.band());
+  return comparison;
+}
+
+void add_deviations(InspectAnswer& answer, const Comparison& comparison) {
+  const DeviationSummary& summary = comparison.summary;
+  answer.verdict = summary.verdict;
+  answer.json["deviation"] = {
+      {"tolerance_mm", {summary.limits.lower, summary.limits.upper}},
+      {"verdict", name_of(summary.verdict)},
+      {"in_share", summary.in_share},
+      {"out_share", summary.out_share},
+      {"undecided_share", summary.undecided_share},
+      {"rms_mm", number_or_null(summary.rms_mm)},
+      {"mean_mm", number_or_null(summary.mean_mm)},
+      {"min_mm", number_or_null(summary.min_mm)},
+      {"max_mm", number_or_null(summary.max_mm)},
+      {"area_mm2", summary.area_mm2},
+      {"median_u_mm", number_or_null(summary.median_u_mm)},
+      {"largest_alignment_u_mm", comparison.deviations.largest_pose_u_mm},
+      {"largest_temperature_u_mm", comparison.deviations.largest_temperature_u_mm},
+      {"vertices", json_of_counts(summary)}};
+  answer.text += fmt::format(
+      "deviation: {} to {} mm; of {:.0f} mm2 compared, {:.2f} % are in {} to {} mm, {:.2f} % out, "
+      "{:.2f} % undecided; the part is {}\n",
+      signed_text(summary.min_mm, 4),
+      signed_text(summary.max_mm, 4),
+      summary.area_mm2,
+      100.0 * summary.in_share,
+      signed_text(summary.limits.lower, 4),
+      signed_text(summary.limits.upper, 4),
+      100.0 * summary.out_share,
+      100.0 * summary.undecided_share,
+      summary.verdict == Conformity::Undecided ? "undecided"
+      : summary.verdict == Conformity::In      ? "in tolerance"
+                                               : "out of tolerance");
+  if (comparison.deviations.u_mm.empty()) {
+    answer.text +=
+        "the mesh has no sigma: its uncertainty is not known, and the limits alone decide\n";
+  }
+  answer.text += fmt::format("vertices left out: {}\n", left_out_text(summary));
+}
+
+void add_statistics(InspectAnswer& answer,
+                    const InspectArguments& arguments,
+                    const Mesh& mesh,
+                    const RayScene& reference,
+                    const Run& run) {
+  run.stage("statistics");
+  const RayScene mesh_scene(mesh, run);
+  const SurfaceError error = surface_error(mesh, reference, {}, run);
+  const SurfaceCompleteness completeness = completeness_of(arguments, reference, mesh_scene, run);
+  const SurfaceValidity validity = surface_validity(mesh, reference, run);
+  answer.json.update(Json{{"vertices", error.count},
+                          {"rms_mm", error.rms_mm},
+                          {"mean_mm", error.mean_mm},
+                          {"bias_mm", error.bias_mm},
+                          {"p95_mm", error.p95_mm},
+                          {"p99_mm", error.p99_mm},
+                          {"max_mm", error.max_mm},
+                          {"sigma_ratio", number_or_null(validity.sigma_ratio)},
+                          {"non_manifold_edges", validity.non_manifold_edges},
+                          {"inward_triangles", validity.inward_triangles},
+                          {"completeness", completeness.share},
+                          {"completeness_within_mm", arguments.within_mm}});
+  answer.text += fmt::format(
+      "{} vertices: RMS {:.4f} mm, bias {}, 95 % within {:.4f}, 99 % within {:.4f}, all "
+      "within {:.4f}\n",
+      error.count,
+      error.rms_mm,
+      signed_text(error.bias_mm, 4),
+      error.p95_mm,
+      error.p99_mm,
+      error.max_mm);
+  answer.text += fmt::format(
+      "{:.1f} % of the {} has mesh within {} mm\n",
+      100.0 * completeness.share,
+      arguments.scan.empty() ? "reference" : "reference that the scan's views could measure",
+      arguments.within_mm);
+}
+
+double scale_mm(const InspectArguments& arguments, const ToleranceLimits& limits) {
+  constexpr double kBeyond = 1.5;
+  if (arguments.scale_mm > 0.0) return arguments.scale_mm;
+  return kBeyond * std::max(std::abs(limits.lower), std::abs(limits.upper));
+}
+
+void check_deviation_output(const std::filesystem::path& path) {
+  if (lowercase_extension(path) != ".csv") check_mesh_extension(path);
+  check_can_write(path);
+}
+
+void write_deviations(const std::filesystem::path& path,
+                      const InspectArguments& arguments,
+                      const Mesh& mesh,
+                      const Comparison& comparison,
+                      const Run& run) {
+  const Deviations& found = comparison.deviations;
+  const std::string extension = lowercase_extension(path);
+  if (extension == ".ply") {
+    std::vector<VertexProperty> more{{"deviation_mm", found.deviation_mm}};
+    if (!found.u_mm.empty()) more.push_back({"u_mm", found.u_mm});
+    write_ply(path, mesh, more);
+    return;
+  }
+  if (extension == ".csv") {
+    const auto decided = conformities(found, comparison.summary.limits);
+    std::vector<DeviationRow> rows;
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+      if (found.status[i] != DeviationStatus::Compared) continue;
+      rows.push_back({static_cast<std::uint32_t>(i),
+                      mesh.vertices_mm[i],
+                      found.deviation_mm[i],
+                      found.u_mm.empty() ? kMissing : found.u_mm[i],
+                      name_of(decided[i])});
+    }
+    write_deviation_csv(path, rows);
+    return;
+  }
+  Mesh colored = mesh;
+  colored.colors.clear();
+  const double scale = scale_mm(arguments, comparison.summary.limits);
+  for (const float deviation : found.deviation_mm) {
+    const float share = 0.5F + 0.5F * deviation / static_cast<float>(scale);
+    colored.colors.push_back(pixel_of(ColorMap::Diverging, share));
+  }
+  write_mesh(path, colored, {}, run);
+}
+
+}  // namespace frangia

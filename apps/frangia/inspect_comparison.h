@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include "frangia/inspect/deviation.h"
+#include "frangia/inspect/deviation_summary.h"
+
+#include "inspect_arguments.h"
+
+namespace frangia {
+
+/// The deviations of the mesh as the reports and the outputs need them.
+struct Comparison {
+  Deviations deviations;
+  DeviationSummary summary;
+};
+
+/// Measures the deviations of the aligned mesh from its reference.
+[[nodiscard]] Comparison compare_with(const InspectArguments& arguments,
+                                      const Mesh& mesh,
+                                      const RayScene& reference,
+                                      const std::optional<Alignment>& alignment,
+                                      const Run& run);
+
+/// Adds `deviation`.
+void add_deviations(InspectAnswer& answer, const Comparison& comparison);
+
+/// Adds the statistics of all vertices, the completeness and the validity.
+void add_statistics(InspectAnswer& answer,
+                    const InspectArguments& arguments,
+                    const Mesh& mesh,
+                    const RayScene& reference,
+                    const Run& run);
+
+/// The largest deviation on a color scale: that of the arguments, or 1.5 times the tolerance.
+[[nodiscard]] double scale_mm(const InspectArguments& arguments, const ToleranceLimits& limits);
+
+/// Writes the aligned mesh: as PLY with `deviation_mm` and `u_mm`, as CSV one line for each
+/// compared vertex, in formats with colors with those of the deviation.
+void write_deviations(const std::filesystem::path& path,
+                      const InspectArguments& arguments,
+                      const Mesh& mesh,
+                      const Comparison& comparison,
+                      const Run& run);
+
+/// Checks before the work that a path can be written by `write_deviations`.
+void check_deviation_output(const std::filesystem::path& path);
+
+}  // namespace frangia

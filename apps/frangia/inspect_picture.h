@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "inspect_arguments.h"
+#include "inspect_comparison.h"
+
+namespace frangia {
+
+/// Checks before the work that the mesh has what --show names.
+void check_shown(const InspectArguments& arguments, const Mesh& mesh);
+
+/// Options of a picture of the deviations, with the tolerance band and the histogram.
+[[nodiscard]] RenderOptions deviation_picture(const InspectArguments& arguments,
+                                              const Mesh& mesh,
+                                              const Comparison& comparison);
+
+/// Draws the picture that the arguments ask for.
+void draw_picture(const InspectArguments& arguments,
+                  const Mesh& mesh,
+                  const std::optional<Comparison>& comparison,
+                  const Run& run);
+
+}  // namespace frangia

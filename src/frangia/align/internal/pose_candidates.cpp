@@ -1,0 +1,110 @@
+#include "frangia/align/internal/pose_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "frangia/align/internal/search_poses.h"
+#include "frangia/core/interruptible_chunks.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kCandidateSamples = 2500;  ///< that the compared poses are fitted to
+constexpr std::size_t kRefined = 12;             ///< poses of the search that are compared
+constexpr double kAlike = 0.004;  ///< difference of the shares of two poses that fit alike
+
+}  // namespace
+
+double size_of(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      box.extend(mesh.vertices_mm[v].cast<double>());
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+double tolerance_of(const BestFitOptions& options, const RayScene& reference) {
+  constexpr double kTolerance = 0.002;  // of the size
+  return options.tolerance_mm > 0.0 ? options.tolerance_mm : kTolerance * size_of(reference.mesh());
+}
+
+AlignmentPose rate_pose(const std::vector<MeasuredSample>& samples,
+                        const RayScene& reference,
+                        const Eigen::Isometry3d& pose,
+                        double tolerance_mm,
+                        const Run& run) {
+  std::vector<double> distances(samples.size(), -1.0);
+  interruptible_chunks(samples.size(), 512, run, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double reach = tolerance_mm + 3.0 * samples[i].sigma_mm;
+      const auto near = reference.nearest(pose * samples[i].point_mm, reach);
+      if (near) distances[i] = near->distance_mm;
+    }
+  });
+  AlignmentPose rated;
+  rated.reference_from_mesh = pose;
+  std::size_t within = 0;
+  double squares = 0.0;
+  for (const double distance : distances) {
+    if (distance < 0.0) continue;
+    ++within;
+    squares += distance * distance;
+  }
+  rated.overlap = static_cast<double>(within) / static_cast<double>(samples.size());
+  rated.rms_mm = within > 0 ? std::sqrt(squares / static_cast<double>(within)) : 0.0;
+  return rated;
+}
+
+std::vector<Candidate> candidates_of(const FitProblem& problem,
+                                     const BestFitOptions& options,
+                                     const Run& run) {
+  std::vector<RatedPose> found = search_poses(problem.samples,
+                                              problem.reference_samples,
+                                              problem.reference,
+                                              options.rotations,
+                                              options.seed,
+                                              run);
+  found.resize(std::min(found.size(), kRefined));
+  const FindFoot exact = exact_feet(problem.reference);
+  const std::span<const MeasuredSample> some(problem.samples.data(),
+                                             std::min(problem.samples.size(), kComparedSamples));
+  const auto few = some.first(std::min(some.size(), kCandidateSamples));
+  std::vector<Candidate> candidates;
+  for (const RatedPose& pose : found) {
+    const PoseFitOptions fit{.gate_mm = 0.01 * problem.size_mm,
+                             .least_gate_mm = 1e-5 * problem.size_mm,
+                             .least_cosine = 0.5,
+                             .max_iterations = 25};
+    candidates.push_back({fit_pose(few, exact, pose.pose, fit, run)});
+  }
+  // All are compared by the gate of the best fit, and no finer than the tolerance asks for.
+  double gate = problem.tolerance_mm;
+  for (const Candidate& candidate : candidates)
+    gate = std::min(gate, 2.0 * std::max(candidate.fit.gate_mm, 2e-5 * problem.size_mm));
+  gate = std::max(gate, 0.1 * problem.tolerance_mm);
+  for (Candidate& candidate : candidates)
+    candidate.share = share_within(some, exact, candidate.fit.pose, gate);
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return a.share > b.share;
+  });
+  return candidates;
+}
+
+std::vector<Candidate> rivals_of(const std::vector<Candidate>& candidates,
+                                 const FitProblem& problem,
+                                 const std::vector<FreeMotion>& motions) {
+  std::vector<Candidate> alike{candidates.front()};
+  const double near = 0.01 * problem.size_mm;
+  for (const Candidate& other : candidates) {
+    if (other.share < candidates.front().share - kAlike) continue;
+    const bool known = std::any_of(alike.begin(), alike.end(), [&](const Candidate& kept) {
+      return pose_distance_mm(problem.samples, kept.fit.pose, other.fit.pose) < near ||
+             is_reached(problem.samples, motions, kept.fit.pose, other.fit.pose, near);
+    });
+    if (!known) alike.push_back(other);
+  }
+  return alike;
+}
+
+}  // namespace frangia

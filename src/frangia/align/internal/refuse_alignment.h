@@ -1,0 +1,18 @@
+#pragma once
+
+#include "frangia/align/align_best_fit.h"
+
+namespace frangia {
+
+/// Refuses an alignment with less than the least overlap, or with clearly less than the mirror
+/// image of the mesh would have, and says why the mesh does not lie on the reference.
+///
+/// @errors   Error(Input) when it is refused
+void refuse_alignment(const Mesh& mesh,
+                      const RayScene& reference,
+                      const BestFitOptions& options,
+                      double overlap,
+                      double tolerance_mm,
+                      const Run& run);
+
+}  // namespace frangia

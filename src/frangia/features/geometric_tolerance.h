@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "frangia/features/find_features.h"
+
+namespace frangia {
+
+/// Geometrical characteristics of a feature, some of them relative to a datum.
+enum class Characteristic {
+  Flatness,          ///< of a plane
+  Roundness,         ///< of a cylinder, cone or sphere: the largest of sections normal to its axis
+  Cylindricity,      ///< of a cylinder
+  Parallelism,       ///< of a plane or an axis to a datum
+  Perpendicularity,  ///< of a plane or an axis to a datum
+  Position,          ///< twice the distance from the nominal position
+  RunOut,            ///< circular, the largest of the sections normal to the datum axis
+  TotalRunOut,       ///< of the whole surface about the datum axis
+  Distance,          ///< from a datum, between centers, axes or planes
+  Angle              ///< between the axes or normals of feature and datum, 0 to 90 degrees
+};
+
+/// The name in files: flatness, roundness, cylindricity, parallelism, perpendicularity, position,
+/// run-out, total-run-out, distance, angle.
+[[nodiscard]] std::string_view name_of(Characteristic characteristic);
+
+/// All characteristics, in the order of the enum.
+[[nodiscard]] const std::vector<Characteristic>& all_characteristics();
+
+/// Whether a characteristic is relative to a datum.
+[[nodiscard]] bool needs_datum(Characteristic characteristic);
+
+/// A feature, and the points that it was fitted to.
+struct MeasuredFeature {
+  Feature feature;                         ///< shape and uncertainty
+  std::vector<Eigen::Vector3d> points_mm;  ///< of a surface; empty for lines and circles
+  /// Ends of the points along the axis, from the center, mm; 0 without points.
+  double low_mm = 0.0;
+  double high_mm = 0.0;  ///< see `low_mm`
+};
+
+/// Adds the points of the mesh to its features.
+///
+/// @errors   Error(Input) as feature_points_of
+[[nodiscard]] std::vector<MeasuredFeature> with_points(const Mesh& mesh,
+                                                       const std::vector<Feature>& features,
+                                                       const Run& run = {});
+
+/// A measured characteristic.
+struct MeasuredValue {
+  double value = 0.0;  ///< mm; degrees for an angle
+  double u95 = 0.0;    ///< half the width of its 95 % interval
+};
+
+/// Measures a characteristic. Forms are ranges of the distances from the least-squares shape; noise
+/// is removed by linear functions in blocks of about 64 points. An axis counts over the length of
+/// its points.
+///
+/// `nominal_mm` is the true position, for `Position` alone.
+/// @units    mm, degrees
+/// @errors   Error(Input) when the kind of the feature or of the datum has no such characteristic,
+///           or the datum is missing
+/// @source   ISO 1101:2017; ISO 12181-1, ISO 12180-1, ISO 12781-1 (least-squares references)
+[[nodiscard]] MeasuredValue measure(Characteristic characteristic,
+                                    const MeasuredFeature& feature,
+                                    const MeasuredFeature* datum = nullptr,
+                                    const Eigen::Vector3d& nominal_mm = Eigen::Vector3d::Zero());
+
+}  // namespace frangia

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace frangia {
+
+/// A value at a point of a surface.
+struct SurfaceValue {
+  Eigen::Vector3d point_mm;
+  double value = 0.0;
+};
+
+/// The range of values without their noise.
+struct FilteredRange {
+  double low = 0.0;
+  double high = 0.0;
+  /// Of `high - low`: of both ends, and of how far the noise that remains draws the extremes of
+  /// many blocks apart. Errors that are alike in neighbouring points are seen in parts of the
+  /// blocks.
+  double u95 = 0.0;
+};
+
+/// Replaces the values in compact blocks of at least 48 points by linear functions of the position
+/// and returns the range of what remains. Fewer points are one block.
+///
+/// @errors   Error(Input) without values
+[[nodiscard]] FilteredRange filtered_range(std::vector<SurfaceValue> values);
+
+}  // namespace frangia

@@ -1,0 +1,235 @@
+#include "frangia/inspect/deviation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/missing.h"
+#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/vertex_data.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Flags of the vertices that an edge with a single triangle uses.
+std::vector<std::uint8_t> boundary_flags(const Mesh& mesh) {
+  std::vector<std::uint8_t> flags(mesh.vertices_mm.size(), 0);
+  const HalfEdges edges(mesh);
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
+    if (!edges.is_boundary(edge)) continue;
+    const auto& triangle = mesh.triangles[edge / 3];
+    flags[triangle.at(edge % 3)] = 1;
+    flags[triangle.at((edge + 1) % 3)] = 1;
+  }
+  return flags;
+}
+
+/// Why a vertex is left out before it is compared.
+std::vector<DeviationStatus> initial_status(const Mesh& mesh) {
+  std::vector<DeviationStatus> status(mesh.vertices_mm.size(), DeviationStatus::Unused);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool synthesized = mark_of(mesh, t) == Mark::Synthesized;
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (!synthesized) status[v] = DeviationStatus::Compared;
+      if (synthesized && status[v] == DeviationStatus::Unused)
+        status[v] = DeviationStatus::Synthesized;
+    }
+  }
+  const auto boundary = boundary_flags(mesh);
+  for (std::size_t i = 0; i < status.size(); ++i) {
+    if (status[i] == DeviationStatus::Unused) continue;
+    if (!mesh.vertex_marks.empty() && mesh.vertex_marks[i] == Mark::Synthesized)
+      status[i] = DeviationStatus::Synthesized;
+    if (status[i] == DeviationStatus::Compared && boundary[i] != 0)
+      status[i] = DeviationStatus::MeshEdge;
+    if (!mesh.vertices_mm[i].allFinite()) status[i] = DeviationStatus::Unused;
+  }
+  return status;
+}
+
+/// Finds deviations of points of one mesh, and keeps what all of them need.
+class DeviationFinder {
+ public:
+  DeviationFinder(const Mesh& mesh, const RayScene& reference, const DeviationOptions& options)
+      : mesh_(mesh),
+        reference_(reference),
+        options_(options),
+        normals_(vertex_normals(mesh)),
+        reference_boundary_(boundary_flags(reference.mesh())) {
+    reference_is_open_ = std::find(reference_boundary_.begin(), reference_boundary_.end(), 1) !=
+                         reference_boundary_.end();
+    Eigen::AlignedBox3d box;
+    for (const auto& vertex : mesh.vertices_mm)
+      if (vertex.allFinite()) box.extend(vertex.cast<double>());
+    center_ = box.center();
+    Eigen::AlignedBox3d all = box;
+    for (const auto& vertex : reference.mesh().vertices_mm)
+      if (vertex.allFinite()) all.extend(vertex.cast<double>());
+    size_mm_ = all.diagonal().norm();
+  }
+
+  /// Compares the vertices from `begin` to `end`. The foot of one bounds the search for the next.
+  void compare(std::size_t begin, std::size_t end, Deviations& out) const {
+    std::optional<NearestPoint> last;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (out.status[i] != DeviationStatus::Compared) continue;
+      const Vector3d point = mesh_.vertices_mm[i].cast<double>();
+      const std::optional<NearestPoint> near = foot_of(point, last);
+      if (!near) {
+        out.status[i] = DeviationStatus::TooFar;
+        continue;
+      }
+      last = near;
+      out.status[i] = status_of(i, point, *near);
+      if (out.status[i] != DeviationStatus::Compared) continue;
+      out.deviation_mm[i] = static_cast<float>(near->signed_distance_mm);
+      if (!out.u_mm.empty()) out.u_mm[i] = static_cast<float>(uncertainty(i, point, *near));
+    }
+  }
+
+  [[nodiscard]] Vector3d normal(std::size_t vertex) const {
+    return normals_[vertex].cast<double>();
+  }
+
+  [[nodiscard]] double temperature_u_mm(const Vector3d& point, const Vector3d& normal) const {
+    return std::abs((point - center_).dot(normal)) * options_.expansion_per_k *
+           options_.temperature_u_k;
+  }
+
+ private:
+  [[nodiscard]] std::optional<NearestPoint> foot_of(const Vector3d& point,
+                                                    const std::optional<NearestPoint>& last) const {
+    double reach = options_.max_distance_mm;
+    if (last) {
+      const double bound = (point - last->point_mm).norm() * (1.0 + 1e-6) + 1e-6 * size_mm_;
+      reach = std::min(reach, bound);
+    }
+    return reference_.nearest(point, reach);
+  }
+
+  [[nodiscard]] Vector3d reference_normal(std::uint32_t triangle) const {
+    const auto& [a, b, c] = reference_.mesh().triangles[triangle];
+    const auto& at = reference_.mesh().vertices_mm;
+    const Vector3d p = at[a].cast<double>();
+    return (at[b].cast<double>() - p).cross(at[c].cast<double>() - p).normalized();
+  }
+
+  /// Whether a point of a triangle is on the boundary of the reference.
+  [[nodiscard]] bool is_on_boundary(const NearestPoint& near) const {
+    const auto& triangle = reference_.mesh().triangles[near.triangle];
+    const double on = 1e-7 * size_mm_;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = triangle.at(i);
+      const std::uint32_t to = triangle.at((i + 1) % 3);
+      if (reference_boundary_[from] == 0) continue;
+      const Vector3d a = reference_.mesh().vertices_mm[from].cast<double>();
+      if ((near.point_mm - a).norm() < on) return true;
+      if (reference_boundary_[to] == 0) continue;
+      const Vector3d way = reference_.mesh().vertices_mm[to].cast<double>() - a;
+      const double along = (near.point_mm - a).dot(way) / way.squaredNorm();
+      if ((near.point_mm - a - along * way).norm() < on) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] DeviationStatus status_of(std::size_t vertex,
+                                          const Vector3d& point,
+                                          const NearestPoint& near) const {
+    const Vector3d normal = reference_normal(near.triangle);
+    constexpr double kSquare = 0.999;  // a foot on the boundary may still be below its point
+    if (reference_is_open_ &&
+        std::abs((point - near.point_mm).dot(normal)) < kSquare * near.distance_mm &&
+        is_on_boundary(near))
+      return DeviationStatus::ReferenceEdge;
+    // At an edge of the reference any normal between those of its faces is right.
+    const bool inside_of_face =
+        near.distance_mm < 1e-9 * size_mm_ ||
+        std::abs((point - near.point_mm).dot(normal)) > kSquare * near.distance_mm;
+    const Vector3d own = normals_[vertex].cast<double>();
+    if (inside_of_face && own.dot(normal) < kLeastCosine) return DeviationStatus::OtherSide;
+    return DeviationStatus::Compared;
+  }
+
+  [[nodiscard]] double uncertainty(std::size_t vertex,
+                                   const Vector3d& point,
+                                   const NearestPoint& near) const {
+    const Vector3d way = point - near.point_mm;
+    const bool apart = near.distance_mm > 1e-6 * size_mm_;
+    const Vector3d direction =
+        apart ? Vector3d(way / near.distance_mm) : reference_normal(near.triangle);
+    const double own = static_cast<double>(mesh_.sigma_mm[vertex]);
+    const double pose = options_.pose ? options_.pose->along(point, direction) : 0.0;
+    const double temperature = temperature_u_mm(point, direction);
+    return std::sqrt(own * own + pose * pose + temperature * temperature);
+  }
+
+  static constexpr double kLeastCosine = -0.2;
+  const Mesh& mesh_;
+  const RayScene& reference_;
+  const DeviationOptions& options_;
+  std::vector<Eigen::Vector3f> normals_;
+  std::vector<std::uint8_t> reference_boundary_;
+  bool reference_is_open_ = false;
+  Vector3d center_ = Vector3d::Zero();
+  double size_mm_ = 0.0;
+};
+
+}  // namespace
+
+std::string_view name_of(DeviationStatus status) {
+  constexpr std::array<std::string_view, kDeviationStatuses> kNames{
+      "compared", "synthesized", "mesh_edge", "reference_edge", "other_side", "too_far", "unused"};
+  return kNames.at(static_cast<std::size_t>(status));
+}
+
+void DeviationOptions::check() const {
+  require(max_distance_mm > 0.0, "DeviationOptions: max_distance_mm must be above 0");
+  require(std::isfinite(expansion_per_k) && expansion_per_k >= 0.0,
+          "DeviationOptions: expansion_per_k must be 0 or more");
+  require(std::isfinite(temperature_u_k) && temperature_u_k >= 0.0,
+          "DeviationOptions: temperature_u_k must be 0 or more");
+}
+
+Deviations deviations_of(const Mesh& mesh,
+                         const RayScene& reference,
+                         const DeviationOptions& options,
+                         const Run& run) {
+  options.check();
+  require(!mesh.empty(), "the mesh has no triangles, only points; give a mesh with triangles");
+  require(!reference.mesh().empty(),
+          "the reference has no triangles, only points; give a mesh with triangles");
+  run.stage("deviation");
+  const std::size_t count = mesh.vertices_mm.size();
+  Deviations found;
+  found.deviation_mm.assign(count, kMissing);
+  if (!mesh.sigma_mm.empty()) found.u_mm.assign(count, kMissing);
+  found.status = initial_status(mesh);
+  const DeviationFinder finder(mesh, reference, options);
+  constexpr std::size_t kChunk = 4096;
+  constexpr std::size_t kBlock = 64 * kChunk;  // between reports of progress
+  for (std::size_t done = 0; done < count; done += kBlock) {
+    const std::size_t size = std::min(kBlock, count - done);
+    interruptible_chunks(size, kChunk, run, [&](std::size_t begin, std::size_t end) {
+      finder.compare(done + begin, done + end, found);
+    });
+    run.report(static_cast<double>(done + size) / static_cast<double>(count));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (found.status[i] != DeviationStatus::Compared) continue;
+    const Vector3d point = mesh.vertices_mm[i].cast<double>();
+    const Vector3d normal = finder.normal(i);
+    if (options.pose)
+      found.largest_pose_u_mm =
+          std::max(found.largest_pose_u_mm, options.pose->along(point, normal));
+    found.largest_temperature_u_mm =
+        std::max(found.largest_temperature_u_mm, finder.temperature_u_mm(point, normal));
+  }
+  return found;
+}
+
+}  // namespace frangia

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/geometry/ray_scene.h"
+#include "frangia/uncertainty/pose_uncertainty.h"
+
+namespace frangia {
+
+/// Whether a vertex has a deviation, and otherwise why not.
+enum class DeviationStatus : std::uint8_t {
+  Compared,       ///< it has a deviation
+  Synthesized,    ///< it, or all of its triangles, were not measured
+  MeshEdge,       ///< on the boundary of the mesh, where the measurement ends
+  ReferenceEdge,  ///< its nearest point is on the boundary of an open reference
+  OtherSide,      ///< the nearest surface faces the other way
+  TooFar,         ///< farther from the reference than the limit
+  Unused          ///< no triangle uses it
+};
+inline constexpr std::size_t kDeviationStatuses = 7;  ///< number of values of `DeviationStatus`
+
+/// The name in files: compared, synthesized, mesh_edge, reference_edge, other_side, too_far,
+/// unused.
+[[nodiscard]] std::string_view name_of(DeviationStatus status);
+
+/// What is compared, and the uncertainty beside that of the vertices.
+struct DeviationOptions {
+  double max_distance_mm = std::numeric_limits<double>::infinity();  ///< farther: `TooFar`
+  std::optional<PoseUncertainty> pose;  ///< of the mesh on the reference; none: known exactly
+  double expansion_per_k = 0.0;         ///< coefficient of thermal expansion of the part, 1/K
+  double temperature_u_k = 0.0;         ///< standard uncertainty of its temperature, K
+
+  /// @errors   Error(Input) that names the value which is out of its range
+  void check() const;
+};
+
+/// The deviation of each vertex from a reference.
+struct Deviations {
+  std::vector<float> deviation_mm;      ///< positive outside; NaN where it was not compared
+  std::vector<float> u_mm;              ///< standard uncertainty; empty when no sigma is known
+  std::vector<DeviationStatus> status;  ///< of each vertex
+  /// Largest contribution of the pose and of the temperature to `u_mm`.
+  double largest_pose_u_mm = 0.0;
+  double largest_temperature_u_mm = 0.0;  ///< see `largest_pose_u_mm`
+};
+
+/// Computes the signed distance of each vertex from the nearest point of a reference and its
+/// standard uncertainty: that of the vertex, of the pose, and of the thermal expansion from the
+/// center of the mesh, along the direction of the deviation, combined as independent.
+///
+/// The result has the same bytes for any number of threads.
+/// @units    mm
+/// @missing  NaN for the vertices that `DeviationStatus` leaves out
+/// @errors   Error(Input) when either mesh has no triangles; Error(Cancelled)
+/// @source   point to triangle: Ericson 2004; GUM (JCGM 100:2008), 5.1.2
+[[nodiscard]] Deviations deviations_of(const Mesh& mesh,
+                                       const RayScene& reference,
+                                       const DeviationOptions& options = {},
+                                       const Run& run = {});
+
+}  // namespace frangia

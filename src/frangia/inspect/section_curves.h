@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/geometry/mesh.h"
+
+namespace frangia {
+
+/// A plane and two directions in it.
+struct SectionPlane {
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< origin of the coordinates in the plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< unit
+  Eigen::Vector3d u = Eigen::Vector3d::UnitX();        ///< unit, in the plane
+  Eigen::Vector3d v = Eigen::Vector3d::UnitY();        ///< normal x u
+};
+
+/// A plane through a point. `u` is the x axis projected into the plane, or the y axis where x is
+/// nearly normal to it.
+///
+/// @errors   Error(Input) when the normal is zero
+[[nodiscard]] SectionPlane section_plane(const Eigen::Vector3d& point_mm,
+                                         const Eigen::Vector3d& normal);
+
+/// A curve in which a plane cuts a mesh.
+struct SectionCurve {
+  std::vector<Eigen::Vector2d> points_mm;  ///< coordinates along `u` and `v`
+  std::vector<double> values;              ///< of the vertices, interpolated; or empty
+  bool closed = false;                     ///< the last point is followed by the first
+};
+
+/// Cuts a mesh by a plane. The material is at the left of each curve, seen against the normal.
+/// Synthesized triangles are left out, so that curves are open at filled holes.
+///
+/// @shape    the longest curve first
+/// @missing  a value is NaN where that of a vertex beside it is
+/// @errors   Error(Input) when `values` is neither empty nor one for each vertex
+[[nodiscard]] std::vector<SectionCurve> section_curves(const Mesh& mesh,
+                                                       const SectionPlane& plane,
+                                                       const std::vector<float>& values = {});
+
+/// Length of a curve.
+///
+/// @units    mm
+[[nodiscard]] double length_mm(const SectionCurve& curve);
+
+}  // namespace frangia

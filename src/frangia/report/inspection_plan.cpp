@@ -1,0 +1,168 @@
+#include "frangia/report/inspection_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "frangia/rig/toml_reader.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::array kPlanKinds{ShapeKind::Plane,
+                                ShapeKind::Line,
+                                ShapeKind::Circle,
+                                ShapeKind::Cylinder,
+                                ShapeKind::Sphere,
+                                ShapeKind::Cone,
+                                ShapeKind::Torus};
+
+Eigen::Vector3d vector_of(TomlReader& reader, std::string_view key) {
+  const std::vector<double> values = reader.numbers(key, 3);
+  return {values[0], values[1], values[2]};
+}
+
+std::optional<ToleranceLimits> limits_of(TomlReader& reader, std::string_view key) {
+  if (!reader.has(key)) return std::nullopt;
+  const std::vector<double> values = reader.numbers(key, 2);
+  if (!(values[0] < values[1])) reader.fail(key, "must be [LOWER, UPPER], the lower one first");
+  return ToleranceLimits{values[0], values[1]};
+}
+
+ShapeKind shape_kind_of(TomlReader& reader) {
+  const std::string text = reader.text("kind");
+  for (const ShapeKind kind : kPlanKinds)
+    if (name_of(kind) == text) return kind;
+  reader.fail("kind",
+              fmt::format("is \"{}\"; it must be plane, line, circle, cylinder, sphere, cone or "
+                          "torus",
+                          text));
+}
+
+Characteristic characteristic_of(TomlReader& reader) {
+  const std::string text = reader.text("kind");
+  std::string names;
+  for (const Characteristic kind : all_characteristics()) {
+    if (name_of(kind) == text) return kind;
+    names += (names.empty() ? "" : ", ") + std::string(name_of(kind));
+  }
+  reader.fail("kind", fmt::format("is \"{}\"; it must be one of {}", text, names));
+}
+
+PlannedFeature feature_of(TomlReader& reader) {
+  PlannedFeature feature;
+  feature.name = reader.text("name");
+  feature.kind = shape_kind_of(reader);
+  feature.near_mm = vector_of(reader, "near_mm");
+  if (reader.has("diameter_mm")) feature.diameter_mm = reader.positive("diameter_mm");
+  feature.tolerance_mm = limits_of(reader, "tolerance_mm");
+  if (feature.tolerance_mm && !feature.diameter_mm)
+    reader.fail("tolerance_mm", "is of the diameter; state diameter_mm, the nominal size");
+  for (const Characteristic form :
+       {Characteristic::Flatness, Characteristic::Roundness, Characteristic::Cylindricity}) {
+    const std::string key = std::string(name_of(form)) + "_mm";
+    if (reader.has(key)) feature.forms_mm[form] = reader.positive(key);
+  }
+  return feature;
+}
+
+PlannedCharacteristic characteristic_from(TomlReader& reader) {
+  PlannedCharacteristic planned;
+  planned.name = reader.text("name");
+  planned.kind = characteristic_of(reader);
+  planned.feature = reader.text("feature");
+  if (needs_datum(planned.kind)) planned.datum = reader.text("datum");
+  if (planned.kind == Characteristic::Position)
+    planned.position_mm = vector_of(reader, "position_mm");
+  const bool two_sided =
+      planned.kind == Characteristic::Distance || planned.kind == Characteristic::Angle;
+  if (two_sided) {
+    if (reader.has("nominal")) planned.nominal = reader.number("nominal");
+    planned.tolerance = limits_of(reader, "tolerance");
+    if (planned.tolerance && !planned.nominal)
+      reader.fail("tolerance", "is of the difference from the nominal value; state nominal");
+  } else if (reader.has("limit")) {
+    planned.limit = reader.positive("limit");
+  }
+  return planned;
+}
+
+PlannedSection section_of(TomlReader& reader) {
+  PlannedSection section;
+  section.name = reader.text("name");
+  section.point_mm = vector_of(reader, "point_mm");
+  section.normal = vector_of(reader, "normal");
+  if (!(section.normal.norm() > 1e-9)) reader.fail("normal", "must not be zero");
+  section.normal.normalize();
+  if (reader.has("blade")) section.blade = reader.boolean("blade");
+  return section;
+}
+
+/// Reads the tables of a key and checks that no two have the same name.
+template <typename Item, typename Read>
+std::vector<Item> items_of(TomlReader& top,
+                           std::string_view key,
+                           const Read& read,
+                           const Run& run) {
+  std::vector<Item> items;
+  std::set<std::string> names;
+  for (TomlReader& reader : top.tables(key)) {
+    items.push_back(read(reader));
+    if (!names.insert(items.back().name).second)
+      reader.fail("name", fmt::format("\"{}\" is not unique", items.back().name));
+    reader.warn_of_unused_keys(run);
+  }
+  return items;
+}
+
+void read_surface_keys(TomlReader& top, InspectionPlan& plan) {
+  if (top.has("part")) plan.part = top.text("part");
+  if (top.has("reference")) plan.reference = top.text("reference");
+  if (top.has("units")) plan.units = top.text("units");
+  if (top.has("align")) plan.align = top.text("align");
+  if (!plan.align.empty() && plan.align != "best-fit" && plan.align != "none")
+    top.fail("align", fmt::format("is \"{}\"; it must be best-fit or none", plan.align));
+  if (top.has("start")) plan.start = static_cast<std::size_t>(top.integer("start", 1, 1000));
+  plan.tolerance_mm = limits_of(top, "tolerance_mm");
+  plan.expansion_ppm_per_k = top.number_or("expansion_ppm_per_k", 0.0);
+  plan.temperature_u_k = top.number_or("temperature_u_k", 0.0);
+  if (plan.expansion_ppm_per_k < 0.0) top.fail("expansion_ppm_per_k", "must be 0 or more");
+  if (plan.temperature_u_k < 0.0) top.fail("temperature_u_k", "must be 0 or more");
+}
+
+}  // namespace
+
+InspectionPlan read_inspection_plan(const std::filesystem::path& path, const Run& run) {
+  const toml::table table = parse_toml(path, "frangia-inspection");
+  TomlReader top(path, "", table);
+  top.ignore("format");
+  top.ignore("version");
+  InspectionPlan plan;
+  read_surface_keys(top, plan);
+  if (!plan.reference.empty() && plan.reference.is_relative())
+    plan.reference = path.parent_path() / plan.reference;
+  plan.features = items_of<PlannedFeature>(top, "features", feature_of, run);
+  plan.characteristics =
+      items_of<PlannedCharacteristic>(top, "characteristics", characteristic_from, run);
+  plan.sections = items_of<PlannedSection>(top, "sections", section_of, run);
+  const auto is_named = [&](const std::string& name) {
+    return std::any_of(plan.features.begin(), plan.features.end(), [&](const auto& feature) {
+      return feature.name == name;
+    });
+  };
+  for (const PlannedCharacteristic& planned : plan.characteristics) {
+    for (const std::string& name : {planned.feature, planned.datum}) {
+      if (name.empty() || is_named(name)) continue;
+      top.fail(
+          "characteristics",
+          fmt::format(
+              "\"{}\" refers to \"{}\", which is no name of [[features]]", planned.name, name));
+    }
+  }
+  top.warn_of_unused_keys(run);
+  return plan;
+}
+
+}  // namespace frangia

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/core/run.h"
+#include "frangia/features/geometric_tolerance.h"
+#include "frangia/features/shape.h"
+#include "frangia/uncertainty/conformity.h"
+
+namespace frangia {
+
+/// A feature that a plan names, and how it is recognized among those that were found.
+struct PlannedFeature {
+  std::string name;                                   ///< unique in the plan
+  ShapeKind kind = ShapeKind::Plane;                  ///< of the feature
+  Eigen::Vector3d near_mm = Eigen::Vector3d::Zero();  ///< near its center, frame of the reference
+  std::optional<double> diameter_mm;                  ///< nominal
+  std::optional<ToleranceLimits> tolerance_mm;        ///< of the difference from the nominal
+  std::map<Characteristic, double> forms_mm;          ///< upper limits of its own form
+};
+
+/// A characteristic that a plan asks for, such as a distance or a run-out.
+struct PlannedCharacteristic {
+  std::string name;                                       ///< unique in the plan
+  Characteristic kind = Characteristic::Distance;         ///< what is measured
+  std::string feature;                                    ///< name of the feature
+  std::string datum;                                      ///< name of the datum; may be empty
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< true position, of `Position`
+  std::optional<double> nominal;                          ///< of a distance or an angle
+  std::optional<ToleranceLimits> tolerance;               ///< of the difference from the nominal
+  std::optional<double> limit;                            ///< upper limit of the other kinds
+};
+
+/// A section that a plan asks for.
+struct PlannedSection {
+  std::string name;                                    ///< unique in the plan
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< of the plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< of the plane, unit
+  bool blade = false;                                  ///< measure it as the profile of a blade
+};
+
+/// How the parts of one kind are inspected: inspection.toml.
+struct InspectionPlan {
+  std::string part;                             ///< name of the part
+  std::filesystem::path reference;              ///< relative to the file of the plan; may be empty
+  std::string units;                            ///< of the reference; empty: mm
+  std::string align;                            ///< best-fit, none, or empty
+  std::size_t start = 0;                        ///< of poses that fit alike; 0: none
+  std::optional<ToleranceLimits> tolerance_mm;  ///< of the deviations from the reference
+  double expansion_ppm_per_k = 0.0;             ///< coefficient of thermal expansion, 1e-6/K
+  double temperature_u_k = 0.0;                 ///< standard uncertainty of the temperature
+  std::vector<PlannedFeature> features;         ///< `[[features]]`
+  std::vector<PlannedCharacteristic> characteristics;  ///< `[[characteristics]]`
+  std::vector<PlannedSection> sections;                ///< `[[sections]]`
+};
+
+/// Reads inspection.toml, format "frangia-inspection". Warns of unknown keys.
+///
+/// @units    mm and degrees, as the keys state
+/// @errors   Error(Input) that names the file and the key
+[[nodiscard]] InspectionPlan read_inspection_plan(const std::filesystem::path& path,
+                                                  const Run& run = {});
+
+}  // namespace frangia

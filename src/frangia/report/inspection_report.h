@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frangia/core/image.h"
+#include "frangia/features/find_features.h"
+#include "frangia/frames/png.h"
+#include "frangia/inspect/deviation_summary.h"
+#include "frangia/report/measured_characteristics.h"
+#include "frangia/report/section_result.h"
+
+namespace frangia {
+
+/// A picture and what it shows.
+struct ReportPicture {
+  std::string caption;  ///< below the picture
+  Image<Rgb> picture;   ///< with its legend
+};
+
+/// Everything that the report of one inspection shows. Parts that are empty are left out.
+struct InspectionReport {
+  std::string part;     ///< name of the part; may be empty
+  std::string mesh;     ///< name of the file of the mesh
+  std::string created;  ///< date and time
+  std::string version;  ///< of the software
+  /// Further facts, each with its name: files, checksums, rig, date of the calibration.
+  std::vector<std::pair<std::string, std::string>> conditions;
+  std::vector<std::pair<std::string, std::string>> alignment;  ///< as `conditions`
+  std::optional<DeviationSummary> deviation;                   ///< from the reference
+  std::vector<ReportPicture> pictures;                         ///< of the deviations
+  std::vector<MeasuredCharacteristic> characteristics;         ///< that a plan asked for
+  std::vector<Feature> features;                               ///< all that were found
+  std::vector<SectionResult> sections;                         ///< that a plan asked for
+  /// Largest or typical standard uncertainty of each known source, mm.
+  std::vector<std::pair<std::string, double>> uncertainty_mm;
+  bool correlation_known = false;     ///< the systematic part of sigma holds the calibration
+  std::vector<std::string> warnings;  ///< of the inspection
+};
+
+/// The decision about the part: out when the deviations or a characteristic are out, in when all
+/// are in.
+[[nodiscard]] Conformity verdict_of(const InspectionReport& report);
+
+/// Returns the report as one page of HTML without references to other files.
+[[nodiscard]] std::string html_of(const InspectionReport& report);
+
+/// Returns the characteristics as CSV with the header
+/// `name,unit,nominal,lower,upper,value,u95,conformity`.
+[[nodiscard]] std::string csv_of(const std::vector<MeasuredCharacteristic>& rows);
+
+/// Writes a text as a file, which appears when it is complete.
+///
+/// @errors   Error(File) when it cannot be written
+void write_report_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace frangia

@@ -1,0 +1,148 @@
+#include "frangia/report/measured_characteristics.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace frangia {
+namespace {
+
+constexpr double k95 = 1.959964;
+using FeatureByName = std::map<std::string, const MeasuredFeature*>;
+
+/// How far a feature is from a planned one: of its place and of its size.
+double mismatch_mm(const PlannedFeature& planned, const Shape& shape) {
+  const Eigen::Vector3d offset = planned.near_mm - shape.center_mm;
+  const bool flat = shape.kind == ShapeKind::Plane;
+  // Along a plane or an axis the place is less certain than across it.
+  const double along = offset.dot(shape.axis);
+  const double across = (offset - along * shape.axis).norm();
+  constexpr double kLoose = 0.2;
+  const bool point = shape.kind == ShapeKind::Sphere || shape.kind == ShapeKind::Circle ||
+                     shape.kind == ShapeKind::Torus;
+  double place = offset.norm();
+  if (!point) {
+    place = flat ? std::abs(along) + kLoose * across : across + kLoose * std::abs(along);
+  }
+  const double size =
+      planned.diameter_mm ? std::abs(2.0 * shape.radius_mm - *planned.diameter_mm) : 0.0;
+  return place + size;
+}
+
+const MeasuredFeature* match(const PlannedFeature& planned,
+                             const std::vector<MeasuredFeature>& features) {
+  const MeasuredFeature* best = nullptr;
+  constexpr double kFarthest = 10.0;  // mm
+  double least = kFarthest;
+  for (const MeasuredFeature& feature : features) {
+    const Shape& shape = feature.feature.fit.shape;
+    if (shape.kind != planned.kind) continue;
+    const double mismatch = mismatch_mm(planned, shape);
+    if (mismatch >= least) continue;
+    least = mismatch;
+    best = &feature;
+  }
+  return best;
+}
+
+void decide_row(MeasuredCharacteristic& row) {
+  if (row.limits) row.conformity = conformity_of(row.value, row.u95 / k95, *row.limits);
+}
+
+ToleranceLimits at_most(double limit) {
+  return {-std::numeric_limits<double>::infinity(), limit};
+}
+
+void add_feature_rows(const PlannedFeature& planned,
+                      const MeasuredFeature* feature,
+                      std::vector<MeasuredCharacteristic>& rows) {
+  if (planned.diameter_mm) {
+    MeasuredCharacteristic row;
+    row.name = planned.name + " diameter";
+    row.nominal = planned.diameter_mm;
+    if (planned.tolerance_mm) {
+      row.limits = ToleranceLimits{*planned.diameter_mm + planned.tolerance_mm->lower,
+                                   *planned.diameter_mm + planned.tolerance_mm->upper};
+    }
+    if (feature != nullptr) {
+      row.value = 2.0 * feature->feature.fit.shape.radius_mm;
+      row.u95 = feature->feature.uncertainty.u95_mm;
+    }
+    decide_row(row);
+    rows.push_back(row);
+  }
+  for (const auto& [form, limit] : planned.forms_mm) {
+    MeasuredCharacteristic row;
+    row.name = fmt::format("{} {}", planned.name, name_of(form));
+    row.limits = at_most(limit);
+    if (feature != nullptr) {
+      const MeasuredValue value = measure(form, *feature);
+      row.value = value.value;
+      row.u95 = value.u95;
+    }
+    decide_row(row);
+    rows.push_back(row);
+  }
+}
+
+MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const FeatureByName& found) {
+  MeasuredCharacteristic row;
+  row.name = planned.name;
+  row.unit = planned.kind == Characteristic::Angle ? "degrees" : "mm";
+  row.nominal = planned.nominal;
+  if (planned.nominal && planned.tolerance) {
+    row.limits = ToleranceLimits{*planned.nominal + planned.tolerance->lower,
+                                 *planned.nominal + planned.tolerance->upper};
+  }
+  if (planned.limit) row.limits = at_most(*planned.limit);
+  const MeasuredFeature* feature = found.at(planned.feature);
+  const MeasuredFeature* datum = planned.datum.empty() ? nullptr : found.at(planned.datum);
+  const bool is_measured = feature != nullptr && (planned.datum.empty() || datum != nullptr);
+  if (is_measured) {
+    const MeasuredValue value = measure(planned.kind, *feature, datum, planned.position_mm);
+    row.value = value.value;
+    row.u95 = value.u95;
+  }
+  decide_row(row);
+  return row;
+}
+
+}  // namespace
+
+std::vector<MeasuredCharacteristic> measure_characteristics(
+    const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run) {
+  std::vector<MeasuredCharacteristic> rows;
+  FeatureByName found;
+  for (const PlannedFeature& planned : plan.features) {
+    const MeasuredFeature* feature = match(planned, features);
+    found[planned.name] = feature;
+    if (feature == nullptr) {
+      run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",
+                           planned.name,
+                           name_of(planned.kind),
+                           planned.near_mm.x(),
+                           planned.near_mm.y(),
+                           planned.near_mm.z()));
+    }
+    add_feature_rows(planned, feature, rows);
+  }
+  for (const PlannedCharacteristic& planned : plan.characteristics)
+    rows.push_back(row_of(planned, found));
+  return rows;
+}
+
+Conformity overall(const std::vector<MeasuredCharacteristic>& rows) {
+  bool all_in = false;
+  bool undecided = false;
+  for (const MeasuredCharacteristic& row : rows) {
+    if (!row.limits) continue;
+    if (row.conformity == Conformity::Out) return Conformity::Out;
+    undecided = undecided || row.conformity == Conformity::Undecided;
+    all_in = true;
+  }
+  return all_in && !undecided ? Conformity::In : Conformity::Undecided;
+}
+
+}  // namespace frangia

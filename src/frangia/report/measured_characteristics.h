@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frangia/core/missing.h"
+#include "frangia/core/run.h"
+#include "frangia/report/inspection_plan.h"
+
+namespace frangia {
+
+/// A row of the table of results.
+struct MeasuredCharacteristic {
+  std::string name;                       ///< of the plan, with the quantity
+  std::string unit = "mm";                ///< mm or degrees
+  std::optional<double> nominal;          ///< none: not stated
+  double value = kMissing;                ///< NaN: the feature was not found
+  double u95 = kMissing;                  ///< half the width of the 95 % interval
+  std::optional<ToleranceLimits> limits;  ///< of the value; an absent limit is infinite
+  /// By ISO 14253-1; undecided where the value or its uncertainty is not known or no limit is
+  /// stated.
+  Conformity conformity = Conformity::Undecided;
+};
+
+/// Measures what a plan asks for on a mesh in the frame of its reference. A planned feature is the
+/// one of its kind whose center, or axis, and diameter come nearest.
+///
+/// `run` is warned of planned features that are not found.
+/// @units    mm, degrees
+/// @missing  values of features that are not found are NaN
+/// @errors   Error(Input) for a characteristic that the kind of its feature does not have
+[[nodiscard]] std::vector<MeasuredCharacteristic> measure_characteristics(
+    const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run = {});
+
+/// The decision about all rows: out when one is out, in when all that have limits are in.
+[[nodiscard]] Conformity overall(const std::vector<MeasuredCharacteristic>& rows);
+
+}  // namespace frangia

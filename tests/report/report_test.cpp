@@ -1,0 +1,190 @@
+// Plans, characteristics, batches and pages of reports.
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/error.h"
+#include "frangia/report/batch.h"
+#include "frangia/report/inspection_plan.h"
+#include "frangia/report/inspection_report.h"
+
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+constexpr const char* kHead = "format = \"frangia-inspection\"\nversion = 1\n";
+
+InspectionPlan plan_from(const std::string& text, const frangia::Run& run = {}) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder.path() / "inspection.toml") << kHead << text;
+  return read_inspection_plan(folder.path() / "inspection.toml", run);
+}
+
+constexpr const char* kTwoBalls = R"(
+part = "ball bar"
+tolerance_mm = [-0.05, 0.08]
+[[features]]
+name = "A"
+kind = "sphere"
+near_mm = [0, -35, 60]
+diameter_mm = 40
+tolerance_mm = [-0.01, 0.01]
+roundness_mm = 0.02
+[[features]]
+name = "B"
+kind = "sphere"
+near_mm = [0, 35, 60]
+[[characteristics]]
+name = "spacing"
+kind = "distance"
+feature = "A"
+datum = "B"
+nominal = 70
+tolerance = [-0.01, 0.01]
+)";
+
+MeasuredFeature ball(const Eigen::Vector3d& center, double diameter) {
+  MeasuredFeature measured;
+  measured.feature.fit.shape = {
+      .kind = ShapeKind::Sphere, .center_mm = center, .radius_mm = 0.5 * diameter};
+  measured.feature.uncertainty.u95_mm = 0.004;
+  measured.feature.uncertainty.center_u95_mm = 0.003;
+  for (int i = 0; i < 400; ++i) {
+    const double z = -1.0 + 2.0 * i / 399.0;
+    const double r = std::sqrt(1.0 - z * z);
+    measured.points_mm.emplace_back(
+        center + 0.5 * diameter * Eigen::Vector3d(r * std::cos(2.4 * i), r * std::sin(2.4 * i), z));
+  }
+  return measured;
+}
+
+TEST(InspectionPlan, MeasuresItsFeaturesAndDecides) {
+  const InspectionPlan plan = plan_from(kTwoBalls);
+  EXPECT_EQ(plan.part, "ball bar");
+  ASSERT_TRUE(plan.tolerance_mm);
+  EXPECT_EQ(plan.tolerance_mm->upper, 0.08);
+  const std::vector<MeasuredFeature> found{ball({0.1, 35, 60}, 39.9),
+                                           ball({0, -35.02, 60}, 40.002)};
+  const auto rows = measure_characteristics(plan, found);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].name, "A diameter");
+  EXPECT_NEAR(rows[0].value, 40.002, 1e-9);
+  EXPECT_EQ(rows[0].conformity, Conformity::In);
+  EXPECT_NEAR(rows[1].value, 0.0, 1e-9);  // round
+  EXPECT_EQ(rows[1].conformity, Conformity::In);
+  EXPECT_NEAR(rows[2].value, std::hypot(0.1, 70.02), 1e-9);
+  EXPECT_NEAR(rows[2].u95, std::hypot(0.003, 0.003), 1e-9);
+  EXPECT_EQ(rows[2].conformity, Conformity::Out);
+  EXPECT_EQ(overall(rows), Conformity::Out);
+}
+
+TEST(InspectionPlan, ReportsAFeatureThatIsNotFound) {
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+  const auto rows = measure_characteristics(plan_from(kTwoBalls), {ball({0, -35, 60}, 40.0)}, run);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_TRUE(std::isnan(rows[2].value));
+  EXPECT_EQ(rows[2].conformity, Conformity::Undecided);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("B: no sphere was found"), std::string::npos) << warnings[0];
+}
+
+TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
+  const auto message = [](const std::string& text) {
+    try {
+      static_cast<void>(plan_from(text));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const auto expect = [&](const std::string& text, const std::string& part) {
+    EXPECT_NE(message(text).find(part), std::string::npos) << message(text);
+  };
+  expect("align = \"datum\"\n", "align is \"datum\"");
+  expect("tolerance_mm = [0.1, -0.1]\n", "tolerance_mm must be [LOWER, UPPER]");
+  expect("[[features]]\nname = \"A\"\nkind = \"ball\"\nnear_mm = [0, 0, 0]\n",
+         "features[0].kind is \"ball\"");
+  expect("[[features]]\nname = \"A\"\nkind = \"sphere\"\nnear_mm = [0, 0]\n",
+         "features[0].near_mm must be a list of 3 numbers");
+  expect("[[characteristics]]\nname = \"d\"\nkind = \"distance\"\nfeature = \"A\"\ndatum = \"B\"\n",
+         "refers to \"A\"");
+  expect("[[sections]]\nname = \"s\"\npoint_mm = [0, 0, 1]\nnormal = [0, 0, 0]\n",
+         "sections[0].normal must not be zero");
+}
+
+MeasuredCharacteristic row_of(double value) {
+  MeasuredCharacteristic row;
+  row.name = "d";
+  row.limits = ToleranceLimits{9.9, 10.1};
+  row.value = value;
+  row.u95 = 0.002;
+  row.conformity = conformity_of(value, 0.001, *row.limits);
+  return row;
+}
+
+TEST(Batch, StatesTheCapabilityOfTheProcess) {
+  std::vector<BatchPart> parts;
+  for (const double value : {10.00, 10.02, 10.04})
+    parts.push_back({"part", {row_of(value)}});
+  parts.push_back({"lost", {row_of(std::nan(""))}});
+  const auto all = batch_characteristics(parts);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NEAR(all[0].mean, 10.02, 1e-12);
+  EXPECT_NEAR(all[0].deviation, 0.02, 1e-12);
+  EXPECT_NEAR(all[0].cp, 0.2 / 0.12, 1e-9);
+  EXPECT_NEAR(all[0].cpk, 0.08 / 0.06, 1e-9);
+  const std::string csv = batch_csv(parts, all);
+  EXPECT_NE(csv.find("Cpk,1.33"), std::string::npos) << csv;
+  EXPECT_NE(batch_html("<batch>", parts, all).find("&lt;batch&gt;"), std::string::npos);
+  // A limit on one side has a Cpk and no Cp.
+  for (BatchPart& part : parts)
+    part.rows[0].limits->lower = -std::numeric_limits<double>::infinity();
+  const auto one_sided = batch_characteristics(parts);
+  EXPECT_TRUE(std::isnan(one_sided[0].cp));
+  EXPECT_NEAR(one_sided[0].cpk, 0.08 / 0.06, 1e-9);
+  parts.back().rows.clear();
+  EXPECT_THROW(static_cast<void>(batch_characteristics(parts)), Error);
+}
+
+TEST(InspectionReport, IsOnePageWithEscapedTexts) {
+  InspectionReport report;
+  report.part = "<script>alert(1)</script>";
+  report.mesh = "a&b.ply";
+  report.characteristics = {row_of(10.0), row_of(10.2)};
+  report.pictures.push_back({"picture", Image<Rgb>(4, 3, Rgb{255, 0, 0})});
+  const std::string page = html_of(report);
+  EXPECT_EQ(page.find("<script>"), std::string::npos);
+  EXPECT_NE(page.find("a&amp;b.ply"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
+  EXPECT_NE(page.find("Out of tolerance"), std::string::npos);
+  for (const char* reference : {"src=\"http", "href=", "url(", "@import"})
+    EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+  EXPECT_EQ(verdict_of(report), Conformity::Out);
+  EXPECT_EQ(csv_of(report.characteristics),
+            "name,unit,nominal,lower,upper,value,u95,conformity\n"
+            "\"d\",mm,,9.9,10.1,10,0.002,in\n"
+            "\"d\",mm,,9.9,10.1,10.2,0.002,out\n");
+}
+
+TEST(SectionResult, IsWrittenAsDxfAndSvg) {
+  SectionResult section;
+  section.name = "z=1";
+  section.measured.push_back({{{0, 0}, {10, 0}, {10, 5}}, {0.0, 0.1, -0.05}, true});
+  section.reference.push_back({{{0, 0}, {10, 0}, {10, 5}}, {}, true});
+  const std::string dxf = dxf_of(section);
+  EXPECT_NE(dxf.find("POLYLINE\n  8\nMEASURED\n 66\n1\n"), std::string::npos);
+  EXPECT_NE(dxf.find("VERTEX\n  8\nREFERENCE\n 10\n10.00000\n 20\n5.00000\n"), std::string::npos);
+  EXPECT_TRUE(dxf.ends_with("ENDSEC\n  0\nEOF\n"));
+  const std::string svg = svg_of(section);
+  EXPECT_NE(svg.find("M0.0000 -0.0000L10.0000 -0.0000L10.0000 -5.0000Z"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("deviations enlarged 10 times"), std::string::npos) << svg;
+  EXPECT_NE(profile_plot(section, {-0.1, 0.1}).find("+0.1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia
