@@ -32,6 +32,7 @@ class ServiceTest : public ::testing::Test {
     ServiceOptions options;
     options.projects = folder_.path() / "projects";
     options.capture.drivers = testing::all_drivers;
+    options.capture.board_drivers = testing::board_drivers;
     options.version = "test";
     options.command_lines = [](const ProjectProgress& project) {
       return CommandLines{{"edit", {project.folder.name, std::to_string(project.steps.size())}}};
@@ -149,6 +150,23 @@ TEST_F(ServiceTest, ReplaysItsStepsByTheCommandLineToTheSameMesh) {
   EXPECT_EQ(exported.vertices_mm, state.mesh.vertices_mm);
   for (const char* name : {"../surface.ply", "surface.ply", "", "..", "/etc/passwd"})
     EXPECT_NE(error_of([&] { static_cast<void>(service_->exported(name)); }), "") << name;
+}
+
+TEST_F(ServiceTest, FitsShapesToTheSelection) {
+  open_box();
+  EXPECT_NE(refusal("fit", R"({"kind": "egg"})"), "");
+  static_cast<void>(command("fit", {{"kind", "sphere"}}));
+  EXPECT_EQ(finish().at("state"), "failed") << "nothing is selected";
+  static_cast<void>(command("select-component-of", {{"triangle", 0}}));
+  static_cast<void>(command("fit", {{"kind", "sphere"}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json fits = state().at("project").at("surface").at("fits");
+  ASSERT_EQ(fits.size(), 1U);
+  EXPECT_NEAR(fits[0].at("diameter_mm").get<double>(), 6.0, 1e-4);
+  EXPECT_NEAR(fits[0].at("center_mm")[0].get<double>(), 20.0, 1e-4);
+  static_cast<void>(command("edit", {{"operation", "delete"}}));
+  static_cast<void>(finish());
+  EXPECT_TRUE(state().at("project").at("surface").at("fits").empty()) << "of another mesh";
 }
 
 TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
