@@ -11,7 +11,7 @@ using testing::LiveServiceTest;
 
 TEST_F(LiveServiceTest, CalibratesTheRigFromPosesThatItAsksFor) {
   EXPECT_NE(error_of([&] { command("capture-pose"); }), "") << "no calibration runs";
-  command("start-calibration", {{"square_mm", 22.0}, {"poses", 4}});
+  command("start-calibration", {{"square_mm", 14.0}, {"poses", 4}});
   const auto calibration = [&] { return project().at("calibration"); };
   for (std::size_t pose = 0; pose < 4; ++pose) {
     ASSERT_TRUE(wait([&] {

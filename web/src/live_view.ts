@@ -44,7 +44,7 @@ function table(color: (value: number) => Rgb): Uint32Array {
 const NOTHING: Rgb = [20, 25, 27];
 const scaled = (color: (share: number) => Rgb) => table((value) => (value === 0 ? NOTHING : color((value - 1) / 254)));
 const TABLES: Record<Exclude<Layer, 'none' | 'points'>, Uint32Array> = {
-  camera: table((value) => (value === WHITE ? [255, 66, 58] : value < DARK ? [24, 56, 150] : [value, value, value])),
+  camera: table((value) => (value === WHITE ? [255, 66, 58] : value < DARK ? [13, 25, 62] : [value, value, value])),
   phase: scaled(cyclic),
   modulation: scaled(viridis),
   depth: scaled((share) => viridis(1 - share)),

@@ -63,3 +63,16 @@ export function colorMesh(mesh: ColoredMesh, arrays: MeshArrays, coloring: Color
   mesh.material.needsUpdate = true;
   return legend;
 }
+
+/** Colours points by their height above the turntable. */
+export function colorByHeight(geometry: THREE.BufferGeometry, positions: Float32Array): void {
+  const heights = positions.filter((_, i) => i % 3 === 2);
+  const [low, high] = [quantile(heights, 0), quantile(heights, 1)];
+  const colors = new Float32Array(positions.length);
+  const linear = new THREE.Color();
+  heights.forEach((height, i) => {
+    const [r, g, b] = viridis(0.25 + (0.7 * (height - low)) / (high - low || 1));
+    linear.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace).toArray(colors, 3 * i);
+  });
+  geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
+}

@@ -4,7 +4,7 @@ import { acceleratedRaycast, computeBoundsTree, disposeBoundsTree } from 'three-
 
 import type { MeshArrays } from './arrays';
 import { viridis } from './colors';
-import type { Coloring, Legend } from './mesh_colors';
+import { colorByHeight, type Coloring, type Legend } from './mesh_colors';
 import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
@@ -102,8 +102,14 @@ export class Viewer {
     }
     if (positions) {
       const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
-      const [r, g, b] = viridis(0.35 + 0.6 * ((station * 0.381966) % 1));
-      const material = new THREE.PointsMaterial({ size: 1.6, sizeAttenuation: false, color: new THREE.Color(r / 255, g / 255, b / 255).convertSRGBToLinear() });
+      const material = new THREE.PointsMaterial({ size: station < 0 ? 2 : 1.6, sizeAttenuation: false });
+      if (station < 0) {
+        colorByHeight(geometry, positions);
+        material.vertexColors = true;
+      } else {
+        const [r, g, b] = viridis(0.35 + 0.6 * ((station * 0.381966) % 1));
+        material.color.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace);
+      }
       const points = new THREE.Points(geometry, material);
       points.name = String(station);
       this.clouds.add(points);
@@ -187,7 +193,7 @@ export class Viewer {
       ? new THREE.Vector3(...direction)
       : this.camera.position.clone().sub(this.controls.target);
     const narrow = Math.min(1, this.camera.aspect);
-    const distance = (1.12 * radius) / Math.sin(((this.camera.fov / 2) * Math.PI) / 180) / narrow;
+    const distance = ((rigBox ? 0.78 : 1.12) * radius) / Math.sin(((this.camera.fov / 2) * Math.PI) / 180) / narrow;
     this.controls.target.copy(center);
     this.camera.position.copy(center).addScaledVector(away.normalize(), distance);
     this.camera.near = distance / 50;

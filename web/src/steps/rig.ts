@@ -109,7 +109,7 @@ function calibration(app: App): TemplateResult {
           ${coverage(state)}`
       : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`}
           <form class="form-plain" @submit=${start}>
-            <div class="four">${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 22, 0.01)}${field('poses', t('rig.poses'), 12)}</div>
+            <div class="four">${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 14, 0.01)}${field('poses', t('rig.poses'), 12)}</div>
             <button class="btn wide" id="calibrate" ?disabled=${app.occupied || !project.can_scan || project.scan_begun}>${t(state?.verdict ? 'rig.again' : 'rig.start')}</button>
           </form>`}
     ${state?.findings.map((sentence) => html`<p><span class="dot poor"></span>${plain(sentence)}</p>`) ?? ''}
