@@ -46,7 +46,7 @@ try {
   await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 30_000 });
   await idle();
   await look('rig');
-  const poses = 4;
+  const poses = 3;
   await page.fill('input[name=poses]', String(poses));
   await page.click('#calibrate');
   for (let pose = 0; pose < poses; pose++) {

@@ -22,13 +22,14 @@ TEST(ArrangeRig, KeepsTheProjectorAimedAtTheTurntable) {
   const Rig before = rig_preset("digital");
   const Rig after = arrange_rig(before, {.baseline_mm = 150.0, .distance_mm = 420.0});
   EXPECT_NEAR(after.projector.position_mm.norm(), 150.0, 1e-9);
-  EXPECT_NEAR(after.turntable->point_mm.z(), 420.0, 1e-9);
+  EXPECT_NEAR(after.turntable->point_mm.norm(), 420.0, 1e-9);
   EXPECT_NEAR((aim_of(after) - aim_of(before)).norm(), 0.0, 1e-6);
-  EXPECT_NEAR((after.projector.rotation * after.projector.rotation.transpose() -
-               Eigen::Matrix3d::Identity())
-                  .norm(),
-              0.0,
-              1e-12);
+  const auto error_of_rotation = [](const Eigen::Matrix3d& rotation) {
+    return (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
+  };
+  EXPECT_NEAR(error_of_rotation(after.projector.rotation),
+              error_of_rotation(before.projector.rotation),
+              1e-13);
 }
 
 TEST(ArrangeRig, ScalesFocalLengthsAndDropsTheCalibration) {

@@ -21,7 +21,7 @@ TEST(CaptureSettings, AreReadAsTheyWereWritten) {
   CaptureSettings settings;
   settings.camera = {.exposure_ms = 3.5, .gain_db = 6.0, .black_level_counts = 2.0};
   settings.shifts = 8;
-  settings.algorithm = "n-step";
+  settings.algorithm = "least-squares";
   write_capture_settings(file, settings);
   EXPECT_TRUE(read_capture_settings(file) == settings);
   for (const Pattern& pattern : patterns_of(settings, rig_preset("digital")))

@@ -50,7 +50,7 @@ TEST_F(LiveServiceTest, MovesTheRigUntilTheScanBegins) {
   const double distance = project().at("rig").at("turntable").at("distance_mm").get<double>();
   command("set-rig", {{"distance_mm", distance + 20.0}});
   EXPECT_NEAR(
-      project().at("rig").at("turntable").at("distance_mm").get<double>(), distance + 20.0, 2.0);
+      project().at("rig").at("turntable").at("distance_mm").get<double>(), distance + 20.0, 1e-6);
   const Rig known = read_rig(folder_.path() / "live" / "rig.toml");
   const Rig truth = read_rig(folder_.path() / "live" / "true-rig.toml");
   EXPECT_NEAR((known.projector.rotation - truth.projector.rotation).norm(), 0.0, 1e-9);

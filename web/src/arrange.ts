@@ -21,7 +21,7 @@ export function arranged(rig: RigGeometry, draft: RigDraft): RigGeometry {
   const rigFromObject = new THREE.Matrix4().set(...(rig.turntable.object_from_rig as Sixteen)).invert();
   const before = new THREE.Vector3().setFromMatrixPosition(rigFromObject);
   const target = before.clone();
-  if (draft.distance_mm) target.z = draft.distance_mm;
+  if (draft.distance_mm) target.setLength(draft.distance_mm);
   const pose = new THREE.Matrix4().set(...(rig.rig_from_projector as Sixteen));
   const place = new THREE.Vector3().setFromMatrixPosition(pose);
   const moved = place.clone().setLength(draft.baseline_mm ?? rig.baseline_mm);

@@ -44,7 +44,7 @@ Rig arrange_rig(Rig rig, const RigArrangement& wanted) {
   if (wanted.distance_mm) {
     const double distance = positive(wanted.distance_mm, "`distance_mm` must be above 0");
     require(rig.turntable.has_value(), "`distance_mm` is to the turntable; this rig has none");
-    rig.turntable->point_mm.z() = distance;
+    rig.turntable->point_mm = distance * before.turntable->point_mm.normalized();
   }
   if (wanted.baseline_mm) {
     const double baseline = positive(wanted.baseline_mm, "`baseline_mm` must be above 0");

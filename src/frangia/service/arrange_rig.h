@@ -8,9 +8,9 @@ namespace frangia {
 
 /// The figures of a rig's geometry that a person sets by hand.
 struct RigArrangement {
-  std::optional<double> baseline_mm;  ///< camera to projector, along the present direction
-  std::optional<double> distance_mm;  ///< camera to the turntable's axis, along the camera's axis
-  std::optional<double> camera_focal_px;     ///< along x; y keeps its ratio
+  std::optional<double> baseline_mm;      ///< camera to projector, along the present direction
+  std::optional<double> distance_mm;      ///< camera to the turntable's axis, along its direction
+  std::optional<double> camera_focal_px;  ///< along x; y keeps its ratio
   std::optional<double> projector_focal_px;  ///< of a digital projector, likewise
 };
 
