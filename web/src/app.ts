@@ -89,6 +89,16 @@ export class App extends LitElement {
   get occupied(): boolean {
     return this.state.jobs.some((job) => job.kind !== 'live' && (job.state === 'running' || job.state === 'waiting'));
   }
+  /** What the panel shows; it begins at its top when this changes. */
+  private panelKey = '';
+  protected override updated(): void {
+    const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
+    if (key === this.panelKey) return;
+    this.panelKey = key;
+    const panel = this.querySelector('.panel');
+    if (panel) panel.scrollTop = 0;
+  }
+
   /** Whether the stage shows the camera instead of the scene. */
   get showsCamera(): boolean {
     if (this.step === 'rig') return Boolean(this.project.calibration?.active);

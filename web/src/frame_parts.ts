@@ -74,7 +74,7 @@ export function footer(app: App): TemplateResult {
 /** The scene or the camera, and what floats on it. */
 export function picture(app: App): TemplateResult {
   const { viewer, measurement } = app;
-  return html`<div class="stage" role="region" aria-label=${t('app.view')}>
+  return html`<div class="stage ${app.showsCamera ? 'with-camera' : ''}" role="region" aria-label=${t('app.view')}>
     ${viewer.supported ? app.host : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
     ${app.showsCamera ? html`<div class="camera">${app.live.canvas}</div>` : ''} ${app.step === 'live' ? liveOverlay(app) : ''}
     <div class="floating">
