@@ -17,7 +17,7 @@ namespace frangia {
 /// to call from several threads.
 class PasswordGuard {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;           ///< measures the pause
   static constexpr int kFreeTries = 5;               ///< wrong ones before it pauses
   static constexpr std::chrono::seconds kPause{60};  ///< after them
   static constexpr std::size_t kLeastBytes = 10;     ///< of a password
@@ -26,6 +26,7 @@ class PasswordGuard {
   /// `hash` as hash_password returns it; empty: no password opens.
   explicit PasswordGuard(std::string hash) : hash_(std::move(hash)) {}
 
+  /// Whether a password was set.
   [[nodiscard]] bool has_password() const { return !hash_.empty(); }
   /// Whether the password is right.
   ///

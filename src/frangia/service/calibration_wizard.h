@@ -25,28 +25,28 @@ struct WizardPose {
 
 /// What a calibration found, in the figures that matter to a user.
 struct WizardVerdict {
-  std::string grade;            ///< as calibration_grade; empty without a result
-  double point_sigma_mm = 0.0;  ///< what the calibration adds to the uncertainty of a point
-  double spread_mm = 0.0;       ///< how far points move when one pose is left out
-  double distance_mm = 0.0;     ///< of the board from the camera, mean
-  double baseline_mm = 0.0;     ///< camera to projector
-  double camera_rms_px = 0.0;
-  double projector_rms_px = 0.0;
-  std::size_t poses = 0;  ///< that were used
+  std::string grade;              ///< as calibration_grade; empty without a result
+  double point_sigma_mm = 0.0;    ///< what the calibration adds to the uncertainty of a point
+  double spread_mm = 0.0;         ///< how far points move when one pose is left out
+  double distance_mm = 0.0;       ///< of the board from the camera, mean
+  double baseline_mm = 0.0;       ///< camera to projector
+  double camera_rms_px = 0.0;     ///< reprojection error of the camera
+  double projector_rms_px = 0.0;  ///< reprojection error of the projector
+  std::size_t poses = 0;          ///< that were used
 };
 
 /// How far a calibration has come.
 struct WizardState {
-  bool active = false;    ///< it captures, waits or computes
-  bool waiting = false;   ///< for the board to stand in its next pose
-  std::size_t found = 0;  ///< points of the board in the live picture
-  std::size_t wanted = 0;
-  std::vector<WizardPose> poses;
-  PoseCoverage coverage;
+  bool active = false;                ///< it captures, waits or computes
+  bool waiting = false;               ///< for the board to stand in its next pose
+  std::size_t found = 0;              ///< points of the board in the live picture
+  std::size_t wanted = 0;             ///< poses
+  std::vector<WizardPose> poses;      ///< that were captured
+  PoseCoverage coverage;              ///< of all poses
   double field = 0.0;                 ///< share of the field that the poses cover
   bool sufficient = false;            ///< the poses determine a rig well
   std::vector<std::string> findings;  ///< of the checks before the adjustment
-  WizardVerdict verdict;
+  WizardVerdict verdict;              ///< of the last calibration
 };
 
 /// Captures poses of a board at a person's word and calibrates the rig of a project from them. One
