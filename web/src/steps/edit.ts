@@ -1,13 +1,17 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
-import { icon } from '../icons';
-import { number, t } from '../messages';
+import { icon, type IconName } from '../icons';
+import { type MessageKey, number, t } from '../messages';
 import { choice } from '../ui';
 import type { Tool } from '../viewer';
 import { fitting, selectingByValue, shaping } from './edit_more';
 
 export type Combine = 'replace' | 'add' | 'within';
 const SHOWN_HOLES = 6;
+
+/** An icon whose name shows when it is pointed at. */
+const tip = (name: IconName, key: MessageKey): TemplateResult =>
+  html`<span class="tip" title=${t(key)}>${icon(name)}<span class="sr">${t(key)}</span></span>`;
 
 function selecting(app: App): TemplateResult {
   const surface = app.project.surface;
@@ -19,12 +23,12 @@ function selecting(app: App): TemplateResult {
       t('edit.select'),
       app.viewer.tool,
       [
-        ['orbit', html`${icon('orbit')}<span class="sr">${t('edit.orbit')}</span>`],
-        ['brush', html`${icon('brush')}<span class="sr">${t('edit.brush')}</span>`],
-        ['lasso', html`${icon('lasso')}<span class="sr">${t('edit.lasso')}</span>`],
-        ['rectangle', html`${icon('rectangle')}<span class="sr">${t('edit.rectangle')}</span>`],
-        ['part', html`${icon('part')}<span class="sr">${t('edit.part')}</span>`],
-        ['loop', html`${icon('loop')}<span class="sr">${t('edit.loop')}</span>`],
+        ['orbit', tip('orbit', 'edit.orbit')],
+        ['brush', tip('brush', 'edit.brush')],
+        ['lasso', tip('lasso', 'edit.lasso')],
+        ['rectangle', tip('rectangle', 'edit.rectangle')],
+        ['part', tip('part', 'edit.part')],
+        ['loop', tip('loop', 'edit.loop')],
       ],
       (tool) => app.setTool(tool),
     )}
