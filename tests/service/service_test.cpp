@@ -211,6 +211,14 @@ TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
     EXPECT_EQ(station.at("state"), "done");
   EXPECT_TRUE(project.at("stations")[1].at("good").get<bool>());
   EXPECT_GT(project.at("stations")[1].at("points").get<int>(), 5000);
+  EXPECT_NE(refusal("rescan-station", R"({"station": 2})"), "");
+  static_cast<void>(command("rescan-station", {{"station", 1}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("stations")[1], project.at("stations")[1])
+      << "the simulated rig captures the same frames again";
+  static_cast<void>(command("export", {{"format", "zip"}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_GT(std::filesystem::file_size(service_->exported("try scan.zip").path), 50'000U);
   EXPECT_FALSE(service_->cloud(1).empty());
   EXPECT_TRUE(service_->cloud(9).empty());
   EXPECT_GT(changes_, 10);
