@@ -22,6 +22,10 @@ std::vector<Driver> all_drivers() {
   return with_hardware(simulated_drivers());
 }
 
+std::vector<Driver> all_drivers(const SimulatedBoard& board) {
+  return with_hardware(simulated_drivers(board));
+}
+
 GuardianProgram guardian_program() {
   return {"/proc/self/exe", {"frangia", "guardian"}};
 }
@@ -36,7 +40,7 @@ OpenRig::OpenRig(const std::filesystem::path& rig_file,
                  const Run& run)
     : devices_(open_devices(rig_file,
                             rig,
-                            with_hardware(simulated_drivers(board)),
+                            all_drivers(board),
                             Deadline::in(30.0, run.stop),
                             run,
                             &session_.guardian)) {}

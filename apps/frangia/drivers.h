@@ -14,6 +14,8 @@ namespace frangia {
 
 /// The drivers of real and of simulated devices.
 [[nodiscard]] std::vector<Driver> all_drivers();
+/// The same; before a simulated camera stands a board.
+[[nodiscard]] std::vector<Driver> all_drivers(const SimulatedBoard& board);
 
 /// The guardian process of this program: `frangia guardian`, which the help does not list.
 [[nodiscard]] GuardianProgram guardian_program();

@@ -7,14 +7,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/service/access_guard.h"
 #include "frangia/service/service.h"
 #include "frangia/service/session_keys.h"
 
+#include "ask.h"
 #include "drivers.h"
 #include "interrupt.h"
 #include "option_values.h"
 #include "print_text.h"
+#include "serve/app_address.h"
 #include "serve/app_routes.h"
 #include "serve/command_lines.h"
 #include "serve/http_server.h"
@@ -34,6 +39,8 @@ struct ServeArguments {
   std::optional<std::uint16_t> port;
   bool open = false;
   bool new_link = false;
+  bool set_password = false;
+  NetworkAccess access;
 };
 
 /// $XDG_DATA_HOME/frangia/projects, by default in ~/.local/share.
@@ -49,12 +56,50 @@ std::filesystem::path usual_projects() {
   return std::filesystem::absolute("frangia-projects");
 }
 
+/// The hash of the password for other machines: $XDG_CONFIG_HOME/frangia/serve-password.
+std::filesystem::path password_file() {
+  const auto variable = [](const char* name) -> std::filesystem::path {
+    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): before any thread
+    return value != nullptr && *value == '/' ? value : "";
+  };
+  const auto config = variable("XDG_CONFIG_HOME");
+  return (config.empty() ? variable("HOME") / ".config" : config) / "frangia" / "serve-password";
+}
+
+std::string read_password_hash() {
+  std::error_code ignored;
+  const auto file = password_file();
+  if (!std::filesystem::exists(file, ignored)) return {};
+  std::string text = read_text_file(file);
+  while (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  return text;
+}
+
+/// Reads the password from standard input, so that no history of commands holds it.
+void set_password(Terminal& terminal) {
+  const Run run = terminal.run();
+  const auto password = read_answer("password, 10 bytes or more:", run);
+  require(password.has_value(), "no password was given on standard input");
+  const auto file = password_file();
+  std::filesystem::create_directories(file.parent_path());
+  AtomicFile out(file);
+  out.stream() << hash_password(*password) << '\n';
+  out.commit();
+  using std::filesystem::perms;
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
+  print_text("wrote {}\n", file.string());
+}
+
 std::unique_ptr<HttpServer> listen(const ServeArguments& arguments) {
-  if (arguments.port) return std::make_unique<HttpServer>(*arguments.port, HttpLimits{});
+  const std::string address =
+      arguments.access.listen.empty() ? "127.0.0.1" : arguments.access.listen;
+  if (arguments.port) return std::make_unique<HttpServer>(address, *arguments.port, HttpLimits{});
   try {
-    return std::make_unique<HttpServer>(kUsualPort, HttpLimits{});
-  } catch (const Error&) {  // in use; any other one serves as well
-    return std::make_unique<HttpServer>(std::uint16_t{0}, HttpLimits{});
+    return std::make_unique<HttpServer>(address, kUsualPort, HttpLimits{});
+  } catch (const Error& error) {  // in use; any other one serves as well
+    if (error.kind() != ErrorKind::Device) throw;
+    return std::make_unique<HttpServer>(address, std::uint16_t{0}, HttpLimits{});
   }
 }
 
@@ -77,6 +122,9 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
     print_text("{}\n", ask_for_link());
     return;
   }
+  if (arguments.set_password) return set_password(terminal);
+  PasswordGuard password(read_password_hash());
+  arguments.access.check(password.has_password());
   if (arguments.projects.empty()) arguments.projects = usual_projects();
   arguments.projects = std::filesystem::absolute(arguments.projects).lexically_normal();
   const Run run = terminal.run();
@@ -85,12 +133,19 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   options.projects = arguments.projects;
   options.version = FRANGIA_VERSION;
   options.command_lines = command_lines;
+  options.on_picture = [&server] { server->announce_picture(); };
   options.capture = {
-      all_drivers, guardian_program(), [] { return std::make_shared<DeviceScope>(); }};
+      .drivers = [] { return all_drivers(); },
+      .board_drivers = [](const SimulatedBoard& board) { return all_drivers(board); },
+      .guardian = guardian_program(),
+      .hold_devices = [] { return std::make_shared<DeviceScope>(); }};
   Service service(std::move(options), [&server] { server->announce_change(); });
   if (!arguments.project.empty()) service.open_folder(arguments.project);
   SessionKeys keys;
-  const AppRoutes routes(service, keys, server->port());
+  const AppRoutes routes(
+      service, keys, password, app_address(arguments.access, server->port()), [&server] {
+        server->announce_change();
+      });
   const RuntimeFile file(server->port(), keys.issue_key());
   const std::string link = routes.new_link();
   print_link(link, arguments.projects, terminal);
@@ -107,7 +162,9 @@ void add_serve_verb(CLI::App& program, Terminal& terminal) {
       "serve", "the operator's app: scan, view, edit and export in a browser");
   verb->footer(
       "example:\n  frangia serve --open\n  frangia serve out/demo/bust-scan --open\n"
-      "The server answers on 127.0.0.1 only, and only browsers that were given a link.");
+      "The server answers on 127.0.0.1 only, unless --listen says otherwise, and only browsers "
+      "that "
+      "were given a link or the password.");
   verb->add_option("PROJECT", arguments->project, "project or scan folder to open first");
   verb->add_option("--projects",
                    arguments->projects,
@@ -120,6 +177,21 @@ void add_serve_verb(CLI::App& program, Terminal& terminal) {
   verb->add_flag("--new-link",
                  arguments->new_link,
                  "print a link for one more browser to the server that runs");
+  verb->add_option("--listen",
+                   arguments->access.listen,
+                   "IP address of this machine for browsers on others; default: 127.0.0.1");
+  verb->add_flag("--behind-proxy",
+                 arguments->access.behind_proxy,
+                 "browsers come through a reverse proxy that adds TLS");
+  verb->add_flag("--plain-lan",
+                 arguments->access.plain_lan,
+                 "answer other machines without encryption; whoever listens sees all");
+  verb->add_option("--allowed-host",
+                   arguments->access.allowed_hosts,
+                   "name, and port if not the usual one, by which browsers reach the server");
+  verb->add_flag("--set-password",
+                 arguments->set_password,
+                 "read the password for other machines from standard input");
   verb->callback([arguments, &terminal] { serve(*arguments, terminal); });
 }
 

@@ -23,11 +23,11 @@ PATIENCE = 15
 class Server:
     """A server with a folder of its own."""
 
-    def __init__(self, folder, *arguments):
+    def __init__(self, folder, *arguments, **environment):
         self.runtime = pathlib.Path(folder) / "run"
         self.runtime.mkdir(exist_ok=True)
         self.projects = pathlib.Path(folder) / "projects"
-        self.environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.runtime)}
+        self.environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.runtime), **environment}
         self.process = subprocess.Popen(
             [PROGRAM, "--json", "serve", "--port", "0", "--projects", str(self.projects), *arguments],
             stdout=subprocess.PIPE, env=self.environment)
@@ -38,7 +38,7 @@ class Server:
                 raise RuntimeError("the server did not start")
             printed += line
         self.url = json.loads(printed)["url"]
-        self.port = int(self.url.split(":")[2].split("/")[0])
+        self.port = json.loads((self.runtime / "frangia-serve.json").read_text())["port"]
         self.token = self.url.split("#token=")[1]
         self.host = f"127.0.0.1:{self.port}"
         self.key = None
@@ -206,7 +206,7 @@ class Serve(unittest.TestCase):
         token = link.split("#token=")[1]
         self.assertEqual(self.server.ask("POST", "/api/session", {"token": token}, key=None)[0], 200)
         self.assertEqual(self.server.ask("POST", "/api/session", {"token": token}, key=None)[0], 403)
-        for body in (b"", b"{", b"[]", b'{"token": 3}', b'{"token": ""}', b"\xff\xfe"):
+        for body in (b"", b"{", b"[]", b'{"token": 3}', b'{"token": ""}', b'{"password": "x"}', b"\xff\xfe"):
             self.assertEqual(self.server.ask("POST", "/api/session", body, key=None)[0], 403, body)
 
     def test_key_of_another_server_is_refused(self):
@@ -317,6 +317,79 @@ class Serve(unittest.TestCase):
         link = subprocess.run([PROGRAM, "serve", "--new-link"], env=self.server.environment, capture_output=True, text=True,
                               check=True).stdout.strip()
         self.assertEqual(self.server.ask("POST", "/api/session", {"token": link.split("#token=")[1]}, key=None)[0], 200)
+
+    def test_one_browser_operates_and_others_take_over(self):
+        link = json.loads(self.server.ask("POST", "/api/links", {})[2])["url"]
+        session = json.loads(self.server.ask("POST", "/api/session", {"token": link.split("#token=")[1]}, key=None)[2])
+        other = session["key"]
+        self.assertEqual(self.server.ask("GET", "/api/state", key=other)[0], 200)
+        for path in ("/api/commands/close-project", "/api/links"):
+            self.assertEqual(self.server.ask("POST", path, {}, key=other)[0], 409, path)
+        self.assertEqual(self.server.ask("POST", "/api/operator", {}, key="x")[0], 401)
+        self.assertEqual(self.server.ask("POST", "/api/operator", {}, key=other)[0], 200)
+        self.assertEqual(self.server.ask("POST", "/api/links", {}, key=other)[0], 200)
+        self.assertEqual(self.server.ask("POST", "/api/links", {})[0], 409)
+        self.assertEqual(self.server.ask("POST", "/api/operator", {})[0], 200)
+
+    def test_live_layers_are_chosen_by_known_names_only(self):
+        hello = json.dumps({"type": "hello", "key": self.server.key}).encode()
+        for message in (b"{}", b"x", b'{"type": "show"}', b'{"type": "show", "layer": "../x"}', b'{"type": "show", "layer": 3}'):
+            line = self.server.upgrade()
+            line.sendall(frame(hello))
+            read_frame(line)
+            line.sendall(frame(message))
+            opcode = 1
+            while opcode == 1:
+                opcode, body = read_frame(line)
+            self.assertEqual((opcode, struct.unpack(">H", body[:2])[0]), (8, 1008), message)
+            line.close()
+        self.assert_serves()
+
+    def test_access_from_other_machines_needs_an_explicit_choice_and_a_password(self):
+        with tempfile.TemporaryDirectory() as folder:
+            config = {"XDG_CONFIG_HOME": folder, "XDG_RUNTIME_DIR": folder}
+
+            def refusal(*arguments):
+                done = subprocess.run([PROGRAM, "serve", "--port", "0", *arguments], env={**os.environ, **config},
+                                      capture_output=True, text=True, timeout=PATIENCE)
+                self.assertNotEqual(done.returncode, 0, arguments)
+                return done.stderr
+
+            self.assertIn("--plain-lan", refusal("--listen", "0.0.0.0"))
+            self.assertIn("--allowed-host", refusal("--behind-proxy"))
+            self.assertIn("--allowed-host", refusal("--listen", "0.0.0.0", "--plain-lan"))
+            self.assertIn("--set-password", refusal("--listen", "127.0.0.2", "--plain-lan"))
+            self.assertIn("exclude", refusal("--listen", "127.0.0.2", "--plain-lan", "--behind-proxy", "--allowed-host", "x"))
+            for password, code in (("short\n", 3), ("a long password\n", 0)):
+                done = subprocess.run([PROGRAM, "serve", "--set-password"], env={**os.environ, **config}, input=password, text=True,
+                                      capture_output=True, timeout=PATIENCE)
+                self.assertEqual(done.returncode, code, done.stderr)
+            stored = pathlib.Path(folder) / "frangia" / "serve-password"
+            self.assertEqual(stored.stat().st_mode & 0o777, 0o600)
+            self.assertTrue(stored.read_text().startswith("$argon2id$"))
+
+            proxied = Server(folder, "--behind-proxy", "--allowed-host", "scanner.test", XDG_CONFIG_HOME=folder)
+            try:
+                self.assertTrue(proxied.url.startswith("https://scanner.test/#token="))
+                proxied.host = "scanner.test"
+                self.assertIn("wss://scanner.test", proxied.ask("GET", "/", key=None)[1])
+                self.assertEqual(proxied.ask("GET", "/", key=None, Host="evil.example")[0], 403)
+                origin = {"Origin": "https://scanner.test"}
+                self.assertEqual(proxied.ask("POST", "/api/session", {"password": "a wrong password"}, key=None, **origin)[0], 403)
+                self.assertEqual(
+                    proxied.ask("POST", "/api/session", {"password": "a long password"}, key=None, Origin="http://scanner.test")[0], 403)
+                answer = proxied.ask("POST", "/api/session", {"password": "a long password"}, key=None, **origin)
+                self.assertEqual(answer[0], 200)
+                proxied.key = json.loads(answer[2])["key"]
+                self.assertEqual(proxied.ask("GET", "/api/state", **origin)[0], 200)
+                for _ in range(5):
+                    proxied.ask("POST", "/api/session", {"password": "a wrong password"}, key=None)
+                status, _, body = proxied.ask("POST", "/api/session", {"password": "a long password"}, key=None)
+                self.assertEqual(status, 400)
+                self.assertIn("too many", json.loads(body)["error"])
+                self.assertEqual(proxied.ask("GET", "/api/state")[0], 200)
+            finally:
+                self.assertEqual(proxied.stop(), 0)
 
     def test_state_and_refusals_follow_the_schema(self):
         try:

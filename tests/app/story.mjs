@@ -4,102 +4,84 @@
 //
 // FRANGIA_WEB names the folder whose node_modules holds playwright-core, ajv and axe-core. Every message of the page and of
 // the server is checked against docs/service-schema.json, and every page by axe. Ends with 77 where Chromium is missing.
-import { spawn, spawnSync } from 'node:child_process';
+import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
-import { createRequire } from 'node:module';
-import os from 'node:os';
 import path from 'node:path';
+import { check, expect, fail, launch, look as lookAt, newHome, openPage, passed, problems, requireChromium, startServer, stateOf } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
-const require = createRequire(path.join(process.env.FRANGIA_WEB ?? 'web', 'package.json'));
-const chromiumPath = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((name) => fs.existsSync(name));
-if (!chromiumPath) {
-  console.log('skipped: chromium is not installed (apt-get install chromium)');
-  process.exit(77);
-}
-const { chromium } = require('playwright-core');
-const Ajv = require('ajv').default;
-const axe = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-const schemaFile = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), '../../docs/service-schema.json');
-const ajv = new Ajv({ strict: false, allErrors: true });
-ajv.addSchema(JSON.parse(fs.readFileSync(schemaFile, 'utf8')), 'schema');
-
-const problems = [];
-const fail = (sentence) => problems.push(sentence);
-const expect = (condition, sentence) => {
-  if (!condition) throw new Error(sentence);
-};
-function check(name, value) {
-  const valid = ajv.getSchema(`schema#/definitions/${name}`);
-  if (!valid) return fail(`the schema does not define ${name}`);
-  if (!valid(value)) fail(`${name}: ${ajv.errorsText(valid.errors).slice(0, 400)}`);
-}
-
-const home = fs.mkdtempSync(path.join(os.tmpdir(), 'frangia-story-'));
+requireChromium();
+const home = newHome();
 fs.mkdirSync(shots, { recursive: true });
-const begin = Date.now();
-const passed = (what) => console.log(`${((Date.now() - begin) / 1000).toFixed(1).padStart(6)} s  ${what}`);
-const server = spawn(program, ['--json', 'serve', '--port', '0', '--projects', path.join(home, 'projects')], {
-  env: { ...process.env, XDG_RUNTIME_DIR: home },
-});
+const server = await startServer(program, home);
+const { url } = server;
 let code = 1;
 let browser;
 try {
-  const url = await new Promise((resolve, reject) => {
-    let text = '';
-    server.stdout.on('data', (block) => {
-      text += block;
-      try {
-        resolve(JSON.parse(text).url);
-      } catch {
-        // not complete yet
-      }
-    });
-    server.on('exit', () => reject(new Error('the server ended')));
-  });
-  browser = await chromium.launch({
-    executablePath: chromiumPath,
-    args: ['--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage'],
-  });
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: 'dark', locale: 'en-GB' });
-  const page = await context.newPage();
-  await page.addInitScript(axe); // not by the page's own policy, which forbids it
-  page.on('pageerror', (error) => fail(`the page: ${error.message}`));
-  page.on('console', (message) => {
-    const text = message.text();
-    if (message.type() === 'error' && !/GL Driver|404/.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
-  });
-  page.on('request', (request) => {
-    const { pathname, origin } = new URL(request.url());
-    if (origin !== new URL(url).origin && !request.url().startsWith('blob:')) fail(`the page asked for ${request.url()}`);
-    const command = pathname.match(/^\/api\/commands\/(.+)$/);
-    if (command) check(`commands/${command[1]}`, request.postDataJSON());
-    if (pathname === '/api/session') check('session', request.postDataJSON());
-  });
-  page.on('websocket', (socket) => {
-    socket.on('framesent', ({ payload }) => check('hello', JSON.parse(payload)));
-    socket.on('framereceived', ({ payload }) => check('live', JSON.parse(payload)));
-  });
-  const look = async (name) => {
-    await page.waitForTimeout(250);
-    await page.screenshot({ path: path.join(shots, `${name}.png`) });
-    const found = await page.evaluate(async () =>
-      (await window.axe.run(document)).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).slice(0, 3)}`),
-    ).catch((error) => [`axe: ${error.message}`]);
-    for (const violation of found) fail(`${name}: ${violation}`);
-    passed(name);
+  browser = await launch();
+  const page = await openPage(browser, url);
+  const context = page.context();
+  const look = (name) => lookAt(page, shots, name);
+  const waitForState = async (which, wanted, timeout = 30_000) => {
+    const end = Date.now() + timeout;
+    while (!wanted(await stateOf(which))) {
+      expect(Date.now() < end, `the state does not come: ${wanted}`);
+      await which.waitForTimeout(100);
+    }
   };
   const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 90_000 });
   const text = (selector) => page.locator(selector).first().innerText();
 
-  await page.goto(url);
   await page.waitForSelector('#try');
   expect(!page.url().includes('token'), 'the token stays in the address');
   await look('project');
 
   await page.click('#try');
   await page.waitForSelector('#scan');
+
+  // The rig: its devices, its geometry, and a calibration by a board that the simulated rig shows.
+  await page.keyboard.press('2');
+  await page.waitForSelector('#test-devices');
+  await page.click('#test-devices');
+  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 30_000 });
+  await idle();
+  await look('rig');
+  const poses = 3;
+  await page.fill('input[name=poses]', String(poses));
+  await page.click('#calibrate');
+  for (let pose = 0; pose < poses; pose++) {
+    await page.waitForSelector('#pose:not([disabled])', { timeout: 60_000 });
+    await waitForState(page, (state) => state.project.calibration.found === 70);
+    if (pose === poses - 1) await look('calibrate');
+    await page.keyboard.press('Enter');
+    await waitForState(page, (state) => state.project.calibration.poses.length === pose + 1, 60_000);
+  }
+  await page.waitForSelector('.verdict', { timeout: 60_000 });
+  await idle();
+  await look('calibrated');
+
+  // Live: the camera, and what is decoded from its frames as they come.
+  await page.keyboard.press('3');
+  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000, null, { timeout: 60_000 });
+  await look('live');
+  const layer = async (name) => {
+    await page.locator('.layers').getByText(name, { exact: true }).click();
+    await page.waitForTimeout(700);
+  };
+  for (const name of ['Phase', 'Status', 'Depth']) await layer(name);
+  await layer('Phase');
+  await look('live-phase');
+  await layer('Points');
+  await look('live-points');
+  const figures = await page.locator('.live-foot .num').last().innerText();
+  passed(`the preview shows ${figures}`);
+  await page.setViewportSize({ width: 1024, height: 700 });
+  await layer('Depth');
+  await look('live-tablet');
+  await page.setViewportSize({ width: 1440, height: 900 });
+
+  await page.keyboard.press('4');
+  await page.waitForSelector('#scan:not([disabled])', { timeout: 30_000 });
   await page.click('#scan');
   await page.waitForFunction(() => document.querySelectorAll('.dial-station.done, .dial-station.poor').length >= 5, null, { timeout: 90_000 });
   await look('scan');
@@ -123,7 +105,7 @@ try {
   await look('section');
   await page.getByText('Off', { exact: true }).click();
 
-  await page.keyboard.press('4');
+  await page.keyboard.press('6');
   await page.waitForSelector('#undo');
   await page.keyboard.press('l');
   const loop = Array.from({ length: 40 }, (_, i) => at(0.5 + 0.035 * Math.cos((i * Math.PI) / 20), 0.4 + 0.055 * Math.sin((i * Math.PI) / 20)));
@@ -147,8 +129,7 @@ try {
   const isViolet = ([r, g, b]) => b > r + 30 && b > g + 60;
   expect(isViolet(await colorAt(0.5, 0.4)), 'the selection is not drawn where the lasso was');
   expect(!isViolet(await colorAt(0.5, 0.6)), 'the selection is drawn where the lasso was not');
-  const state = async () =>
-    page.evaluate(async () => (await fetch('/api/state', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json());
+  const state = () => stateOf(page);
   const whole = (await state()).project.surface;
   check('state', await state());
   await page.keyboard.press('Delete');
@@ -166,12 +147,33 @@ try {
   await idle();
   const filled = (await state()).project.surface;
   expect(filled.hole_count < holed.hole_count, 'no hole was filled');
-  await page.getByText('Turn', { exact: true }).click();
-  await page.keyboard.press('3');
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('5');
   await page.getByText('Marks', { exact: true }).click();
   await look('filled');
 
-  await page.keyboard.press('5');
+  // A brush stroke on the chest, a plane through it with its uncertainty, and an angle.
+  await page.keyboard.press('6');
+  await page.keyboard.press('b');
+  await page.mouse.move(...at(0.44, 0.6));
+  await page.mouse.down();
+  for (let i = 0; i <= 12; i++) await page.mouse.move(...at(0.44 + 0.005 * i, 0.6 + 0.004 * i));
+  await page.mouse.up();
+  await page.waitForSelector('[data-fit=plane]:not([disabled])');
+  await page.click('[data-fit=plane]');
+  await page.waitForSelector('.fit');
+  await idle();
+  const [fit] = (await state()).project.surface.fits;
+  expect(fit.kind === 'plane' && fit.points > 20 && fit.u95_mm > 0, 'no plane was fitted to the brushed triangles');
+  await page.locator('.fit').first().scrollIntoViewIfNeeded();
+  await look('fit');
+  await page.keyboard.press('a');
+  for (const [x, y] of [[0.48, 0.35], [0.5, 0.45], [0.45, 0.62]]) await page.mouse.click(...at(x, y));
+  await page.waitForSelector('.chip .big');
+  expect(/\d°/.test(await text('.chip .big')), 'no angle was measured');
+  await page.keyboard.press('Escape');
+
+  await page.keyboard.press('7');
   await page.waitForSelector('#export');
   await page.getByText('50,000', { exact: true }).click();
   await page.click('#export');
@@ -201,14 +203,21 @@ print(sum(1 for one in document.modelspace() if one.dxftype() == "3DFACE"))`, dx
 
   await page.emulateMedia({ colorScheme: 'light' });
   await page.keyboard.press('d');
-  await page.keyboard.press('4');
+  await page.keyboard.press('6');
   await page.getByText('Deutsch').click();
   await look('edit-light');
   await page.keyboard.press('?');
   await page.waitForSelector('dialog[open]');
   await look('keys');
 
+  await page.keyboard.press('Escape');
+  await page.locator('.tools button').nth(2).click();
+  await page.waitForSelector('#link[open] .qr');
+  await look('link');
+  await page.keyboard.press('Escape');
+
   // Another page of the same browser has neither the key nor the right to ask.
+  const stepsBefore = (await state()).project.surface.steps_done;
   const other = await context.newPage();
   await other.goto(new URL(url).origin);
   await other.waitForSelector('.blank code');
@@ -219,15 +228,14 @@ print(sum(1 for one in document.modelspace() if one.dxftype() == "3DFACE"))`, dx
   }, new URL(url).origin);
   expect(stolen[0] === 'refused', 'a page of another origin reads the state');
   const after = (await state()).project.surface;
-  expect(after.steps_done === filled.steps_done, 'a page of another origin acted');
+  expect(after.steps_done === stepsBefore, 'a page of another origin acted');
   code = problems.length === 0 ? 0 : 1;
 } catch (error) {
   console.log(error.stack ?? error);
 } finally {
   for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
   await browser?.close();
-  server.kill('SIGTERM');
-  await new Promise((resolve) => server.on('exit', resolve));
+  await server.end('SIGTERM');
   fs.rmSync(home, { recursive: true, force: true });
 }
 passed(code === 0 ? 'the story is told' : 'the story broke off');

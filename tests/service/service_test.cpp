@@ -32,6 +32,7 @@ class ServiceTest : public ::testing::Test {
     ServiceOptions options;
     options.projects = folder_.path() / "projects";
     options.capture.drivers = testing::all_drivers;
+    options.capture.board_drivers = testing::board_drivers;
     options.version = "test";
     options.command_lines = [](const ProjectProgress& project) {
       return CommandLines{{"edit", {project.folder.name, std::to_string(project.steps.size())}}};
@@ -59,11 +60,11 @@ class ServiceTest : public ::testing::Test {
     return {};
   }
   /// A project with a surface that no scan made: an open box and a separate ball.
-  void open_box() {
+  void open_box(int rings = 12) {
     const auto folder = folder_.path() / "projects" / "box";
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "project.json") << "{}";
-    Mesh mesh = testing::sphere({20, 0, 0}, 3.0, 12);
+    Mesh mesh = testing::sphere({20, 0, 0}, 3.0, rings);
     append_mesh(mesh, testing::box({-5, -5, -5}, {5, 5, 5}));
     mesh.triangles.pop_back();
     write_mesh(folder / "surface.ply", mesh);
@@ -151,6 +152,23 @@ TEST_F(ServiceTest, ReplaysItsStepsByTheCommandLineToTheSameMesh) {
     EXPECT_NE(error_of([&] { static_cast<void>(service_->exported(name)); }), "") << name;
 }
 
+TEST_F(ServiceTest, FitsShapesToTheSelection) {
+  open_box(96);
+  EXPECT_NE(refusal("fit", R"({"kind": "egg"})"), "");
+  static_cast<void>(command("fit", {{"kind", "sphere"}}));
+  EXPECT_EQ(finish().at("state"), "failed") << "nothing is selected";
+  static_cast<void>(command("select-component-of", {{"triangle", 0}}));
+  static_cast<void>(command("fit", {{"kind", "sphere"}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json fits = state().at("project").at("surface").at("fits");
+  ASSERT_EQ(fits.size(), 1U);
+  EXPECT_NEAR(fits[0].at("diameter_mm").get<double>(), 6.0, 0.002);
+  EXPECT_NEAR(fits[0].at("center_mm")[0].get<double>(), 20.0, 0.001);
+  static_cast<void>(command("edit", {{"operation", "delete"}}));
+  static_cast<void>(finish());
+  EXPECT_TRUE(state().at("project").at("surface").at("fits").empty()) << "of another mesh";
+}
+
 TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
   open_box();
   const std::string mesh = *service_->mesh();
@@ -193,6 +211,14 @@ TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
     EXPECT_EQ(station.at("state"), "done");
   EXPECT_TRUE(project.at("stations")[1].at("good").get<bool>());
   EXPECT_GT(project.at("stations")[1].at("points").get<int>(), 5000);
+  EXPECT_NE(refusal("rescan-station", R"({"station": 2})"), "");
+  static_cast<void>(command("rescan-station", {{"station", 1}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("stations")[1], project.at("stations")[1])
+      << "the simulated rig captures the same frames again";
+  static_cast<void>(command("export", {{"format", "zip"}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_GT(std::filesystem::file_size(service_->exported("try scan.zip").path), 50'000U);
   EXPECT_FALSE(service_->cloud(1).empty());
   EXPECT_TRUE(service_->cloud(9).empty());
   EXPECT_GT(changes_, 10);

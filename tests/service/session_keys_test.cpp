@@ -30,7 +30,7 @@ TEST(SessionKeys, ExchangesATokenOnce) {
   EXPECT_FALSE(keys.redeem("another"));
   const auto key = keys.redeem(token);
   ASSERT_TRUE(key);
-  EXPECT_TRUE(keys.is_valid(*key));
+  EXPECT_TRUE(keys.is_valid(key->key));
   EXPECT_FALSE(keys.is_valid(token));
   EXPECT_FALSE(keys.is_valid(""));
   EXPECT_FALSE(keys.redeem(token));
@@ -53,6 +53,24 @@ TEST(SessionKeys, KeepsABoundedNumberOfKeys) {
   EXPECT_TRUE(keys.is_valid(first));
   static_cast<void>(keys.issue_key());
   EXPECT_FALSE(keys.is_valid(first));
+}
+
+TEST(SessionKeys, LetOneSessionActUntilAnotherTakesOver) {
+  SessionKeys keys;
+  const std::string script = keys.issue_key();
+  const SessionKey first = keys.admit();
+  const SessionKey second = keys.admit();
+  EXPECT_EQ(keys.operator_id(), first.id);
+  EXPECT_TRUE(keys.may_act(first.key));
+  EXPECT_FALSE(keys.may_act(second.key));
+  EXPECT_TRUE(keys.may_act(script)) << "scripts of the same user always act";
+  keys.take_over("no key");
+  EXPECT_TRUE(keys.may_act(first.key));
+  keys.take_over(second.key);
+  EXPECT_FALSE(keys.may_act(first.key));
+  EXPECT_TRUE(keys.may_act(second.key));
+  EXPECT_EQ(keys.operator_id(), second.id);
+  EXPECT_FALSE(keys.may_act(second.id)) << "the public name is no key";
 }
 
 TEST(SessionKeys, KnowsNoKeyOfAnotherServer) {

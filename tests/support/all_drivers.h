@@ -14,4 +14,8 @@ namespace frangia::testing {
   return all;
 }
 
+[[nodiscard]] inline std::vector<Driver> board_drivers(const SimulatedBoard& board) {
+  return simulated_drivers(board);
+}
+
 }  // namespace frangia::testing

@@ -1,38 +1,29 @@
-import { html, LitElement, nothing, type TemplateResult } from 'lit';
+import { html, LitElement, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 
 import { meshOf, unpack } from './arrays';
-import { icon, type IconName, logo } from './icons';
-import { currentLanguage, type MessageKey, number, setLanguage, t } from './messages';
+import type { StepName } from './app_steps';
+import { arranged, type RigDraft } from './arrange';
+import { dialogs, footer, header, picture } from './frame_parts';
+import { icon, logo } from './icons';
+import { onKey } from './keyboard';
+import { currentLanguage, setLanguage, t } from './messages';
 import { Refusal, Session } from './session';
 import { editStep, type Combine } from './steps/edit';
 import { exportStep, type Format, type Limit, type Variant } from './steps/export';
+import { liveStep, type LiveLayer } from './steps/live';
 import { projectStep } from './steps/project';
+import { rigStep } from './steps/rig';
 import { scanStep } from './steps/scan';
 import { surfaceStep } from './steps/surface';
-import type { Job, Project, State } from './types';
-import { plain, quoted } from './ui';
-import { type Coloring, type Measurement, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
+import type { Coloring } from './mesh_colors';
+import type { Measurement } from './ruler';
+import type { Job, Project, RigGeometry, State } from './types';
+import { plain } from './ui';
+import { type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
+import { LiveView } from './live_view';
 
-const STEPS = ['project', 'scan', 'surface', 'edit', 'export'] as const;
-type StepName = (typeof STEPS)[number];
 interface Look { shading: Shading; coloring: Coloring; axis: SectionAxis; share: number; flipped: boolean }
-
-const KEYS: readonly (readonly [MessageKey | IconName, string])[] = [
-  ['keys.steps', '1 – 5'],
-  ['app.frame', 'F'],
-  ['edit.lasso', 'L'],
-  ['edit.rectangle', 'R'],
-  ['edit.part', 'P'],
-  ['surface.measure', 'M'],
-  ['edit.delete', 'Del'],
-  ['edit.invert', 'I'],
-  ['edit.undo', 'Ctrl Z'],
-  ['edit.redo', 'Ctrl Shift Z'],
-  ['keys.deselect', 'Esc'],
-  ['app.theme', 'D'],
-  ['app.keys', '?'],
-];
 
 /** The window: steps, picture, panel, and the line at the bottom. */
 @customElement('frangia-app')
@@ -41,10 +32,13 @@ export class App extends LitElement {
   look: Look = { shading: 'smooth', coloring: 'plain', axis: 'off', share: 0.5, flipped: false };
   combine: Combine = 'replace';
   exporting: { format: Format; variant: Variant; limit: Limit } = { format: 'dxf', variant: 'faces', limit: '200000' };
+  layer: LiveLayer = 'camera';
+  private rigDraft: RigDraft = {};
   viewer!: Viewer;
-  private readonly session = new Session(() => this.onState());
-  private readonly host = document.createElement('div');
-  private measurement: Measurement | null = null;
+  readonly live = new LiveView();
+  readonly session = new Session(() => this.onState(), (picture) => this.onPicture(picture));
+  readonly host = document.createElement('div');
+  measurement: Measurement | null = null;
   private problem = '';
   private seenFailure = 0;
   private meshShown = -1;
@@ -52,8 +46,8 @@ export class App extends LitElement {
   private cloudsShown = new Map<number, number>();
   private projectShown = '';
   private wantSurface = false;
-  private copied = false;
-  private link = '';
+  copied = false;
+  link = '';
 
   protected override createRenderRoot(): HTMLElement {
     return this;
@@ -72,8 +66,9 @@ export class App extends LitElement {
       },
       outlined: (outline, through) => void this.selectBy(through ? 'select-outline-through' : 'select-outline', outline),
       partPicked: (triangle) => void this.selectPart(triangle),
+      picked: (tool, points) => void this.onPicked(tool, points),
     });
-    addEventListener('keydown', (event) => this.onKey(event));
+    addEventListener('keydown', (event) => onKey(this, event));
     void this.session.begin();
   }
 
@@ -89,6 +84,61 @@ export class App extends LitElement {
   }
   get busy(): boolean {
     return this.state.jobs.some((job) => job.state === 'running' || job.state === 'waiting');
+  }
+  /** Whether a job runs other than the live preview, which gives way. */
+  get occupied(): boolean {
+    return this.state.jobs.some((job) => job.kind !== 'live' && (job.state === 'running' || job.state === 'waiting'));
+  }
+  /** What the panel shows; it begins at its top when this changes. */
+  private panelKey = '';
+  protected override updated(): void {
+    const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
+    if (key === this.panelKey) return;
+    this.panelKey = key;
+    const panel = this.querySelector('.panel');
+    if (panel) panel.scrollTop = 0;
+  }
+
+  /** Whether the stage shows the camera instead of the scene. */
+  get showsCamera(): boolean {
+    if (this.step === 'rig') return Boolean(this.project.calibration?.active);
+    return this.step === 'live' && this.layer !== 'points';
+  }
+
+  private onPicture(picture: ArrayBuffer): void {
+    if (this.live.draw(picture) && this.live.positions) this.viewer.setCloud(-1, this.live.positions.slice());
+    this.requestUpdate();
+  }
+  setLayer(layer: LiveLayer): void {
+    this.layer = layer;
+    this.chooseLayer();
+    this.requestUpdate();
+  }
+  /** What the server sends: nothing unless it is looked at. */
+  private chooseLayer(): void {
+    const project = this.session.state?.project;
+    if (this.step === 'live' && project?.live) this.session.show(this.layer);
+    else if (this.step === 'rig' && project?.calibration?.active) this.session.show('camera');
+    else this.session.show('none');
+  }
+  private async onPicked(tool: Tool, points: [number, number, number][]): Promise<void> {
+    const text = points.flat().map((value) => String(Math.round(value * 1000) / 1000)).join(',');
+    if (tool === 'align') return this.edit('align', text);
+    const [at] = points;
+    const holes = this.project.surface?.holes ?? [];
+    if (!at || holes.length === 0) return;
+    const far = ([x, y, z]: readonly number[]) => Math.hypot((x as number) - at[0], (y as number) - at[1], (z as number) - at[2]);
+    const nearest = holes.reduce((best, hole) => (far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best));
+    await this.selectBy('select-loop', String(nearest.number));
+  }
+  async pictureFile(): Promise<void> {
+    const blob = await this.viewer.snapshot();
+    if (!blob) return;
+    const anchor = document.createElement('a');
+    anchor.href = URL.createObjectURL(blob);
+    anchor.download = `${this.project.name}.png`;
+    anchor.click();
+    setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
   }
 
   private onState(): void {
@@ -106,9 +156,27 @@ export class App extends LitElement {
         this.wantSurface = false;
         this.go('surface');
       }
+      this.chooseLayer();
+      if (this.step === 'rig') this.viewer.setRig(this.drawnRig);
       void this.showSurface();
       void this.showClouds();
     }
+    this.requestUpdate();
+  }
+
+  /** The rig as the sliders stand. */
+  get drawnRig(): RigGeometry | null {
+    const rig = this.state.project?.rig ?? null;
+    return rig && arranged(rig, this.rigDraft);
+  }
+  draftRig(draft: RigDraft): void {
+    this.rigDraft = draft;
+    this.viewer.setRig(this.drawnRig);
+    this.requestUpdate();
+  }
+  async moveRig(draft: RigDraft): Promise<void> {
+    if (!(await this.command('set-rig', draft))) this.viewer.setRig(this.project.rig);
+    this.rigDraft = {};
     this.requestUpdate();
   }
 
@@ -152,7 +220,7 @@ export class App extends LitElement {
   }
 
   private async showClouds(): Promise<void> {
-    this.viewer.showClouds(this.step === 'scan');
+    this.viewer.showClouds(this.step === 'scan' || this.step === 'live', this.step === 'live');
     const stations = this.state.project?.stations ?? [];
     for (const [i, station] of stations.entries()) {
       if (!station.has_cloud || this.cloudsShown.get(i) === station.points) continue;
@@ -167,10 +235,22 @@ export class App extends LitElement {
   }
 
   go(step: StepName): void {
+    const before = this.step;
     this.step = step;
     this.setTool('orbit');
-    this.viewer.showClouds(step === 'scan');
-    this.viewer.showSurface(step !== 'scan');
+    this.viewer.showClouds(step === 'scan' || step === 'live', step === 'live');
+    this.viewer.showSurface(step === 'surface' || step === 'edit' || step === 'export');
+    const project = this.session.state?.project ?? null;
+    this.viewer.setRig(step === 'rig' ? (project?.rig ?? null) : null);
+    if (step === 'rig') this.viewer.frame([0.55, -0.9, 0.5]);
+    else if (before === 'rig') this.viewer.frame([0.9, -1.1, 0.6]);
+    if (step === 'live' && project?.can_scan && !project.live && !this.busy && !this.session.watches) void this.command('start-live');
+    const live = this.session.state ? this.job('live') : undefined;
+    if (before === 'live' && step !== 'live' && live && !this.session.watches) {
+      void this.command('stop-job', { job: live.number });
+      this.live.clear();
+    }
+    this.chooseLayer();
     this.requestUpdate();
   }
 
@@ -241,48 +321,28 @@ export class App extends LitElement {
     this.requestUpdate();
   }
 
-  private onKey(event: KeyboardEvent): void {
-    const target = event.target as HTMLElement;
-    if (target.matches('input:not([type=radio]):not([type=checkbox]):not([type=range]), select, textarea')) return;
-    if (!this.session.state || document.querySelector('dialog[open]')) return;
-    const surface = this.state.project?.surface;
-    const key = event.key.toLowerCase();
-    if (event.ctrlKey || event.metaKey) {
-      if (key !== 'z' || !surface) return;
-      event.preventDefault();
-      return void this.command(event.shiftKey ? 'redo' : 'undo');
-    }
-    if (event.altKey) return;
-    if (/^[1-5]$/.test(key)) {
-      const step = STEPS[Number(key) - 1] as StepName;
-      if (this.reachable(step)) this.go(step);
-    } else if (key === '?') this.dialog('keys').showModal();
-    else if (key === 'd') this.toggleTheme();
-    else if (key === 'f') this.viewer.frame();
-    else if (key === 'escape') this.setTool('orbit');
-    else if (!surface) return;
-    else if (key === 'm') this.setTool('measure');
-    else if (this.step !== 'edit') return;
-    else if (key === 'l') this.setTool('lasso');
-    else if (key === 'r') this.setTool('rectangle');
-    else if (key === 'p') this.setTool('part');
-    else if (key === 'i') this.edit('invert');
-    else if ((key === 'delete' || key === 'backspace') && surface.selected) this.edit('delete');
-  }
-
-  private dialog(id: string): HTMLDialogElement {
+  dialog(id: string): HTMLDialogElement {
     return this.querySelector(`#${id}`) as HTMLDialogElement;
   }
-  private toggleTheme(): void {
+  toggleTheme(): void {
     const theme = document.documentElement.dataset.theme === 'light' ? 'dark' : 'light';
     document.documentElement.dataset.theme = theme;
     localStorage.setItem('frangia-theme', theme);
   }
-  private toggleLanguage(): void {
+  toggleLanguage(): void {
     setLanguage(currentLanguage() === 'en' ? 'de' : 'en');
     this.requestUpdate();
   }
-  private async share(): Promise<void> {
+  private async enter(event: SubmitEvent): Promise<void> {
+    event.preventDefault();
+    this.problem = '';
+    try {
+      await this.session.enter(String(new FormData(event.target as HTMLFormElement).get('password')));
+    } catch (error) {
+      this.say(error);
+    }
+  }
+  async share(): Promise<void> {
     try {
       this.link = await this.session.newLink();
       this.requestUpdate();
@@ -292,138 +352,51 @@ export class App extends LitElement {
     }
   }
 
-  private reachable(step: StepName): boolean {
+  reachable(step: StepName): boolean {
     const project = this.state.project;
     if (step === 'project') return true;
-    if (step === 'scan') return project !== null;
+    if (step === 'scan' || step === 'live' || step === 'rig') return project !== null;
     return Boolean(project?.surface);
   }
-  private finished(step: StepName): boolean {
+  finished(step: StepName): boolean {
     const project = this.state.project;
     if (step === 'project') return project !== null;
+    if (step === 'rig') return Boolean(project?.rig);
+    if (step === 'live') return Boolean(project?.scan_begun);
     if (step === 'scan') return Boolean(project?.scan_complete);
     if (step === 'surface') return Boolean(project?.surface);
     if (step === 'edit') return (project?.surface?.steps_done ?? 0) > 0;
     return (project?.exports.length ?? 0) > 0;
   }
 
-  private header(): TemplateResult {
-    const tool = (name: IconName, key: MessageKey, act: () => void) =>
-      html`<button class="icon-btn" title=${t(key)} aria-label=${t(key)} @click=${act}>${icon(name)}</button>`;
-    return html`<header class="top">
-      <div class="brand">${logo}<b>Frangia</b>${this.state.project ? html`<span class="project">${this.project.name}</span>` : ''}</div>
-      <nav class="steps" aria-label=${t('steps')}>
-        ${STEPS.map(
-          (step, i) => html`<button
-            class=${this.finished(step) ? 'done' : ''}
-            ?disabled=${!this.reachable(step)}
-            aria-current=${step === this.step ? 'step' : nothing}
-            data-step=${step}
-            @click=${() => this.go(step)}
-          >
-            <i>${i + 1}</i>${t(`step.${step}`)}
-          </button>`,
-        )}
-      </nav>
-      <div class="tools">
-        <button class="icon-btn text" lang=${currentLanguage() === 'en' ? 'de' : 'en'} @click=${() => this.toggleLanguage()}>${t('app.language')}</button>
-        ${tool('theme', 'app.theme', () => this.toggleTheme())} ${tool('link', 'app.link', () => void this.share())}
-        ${tool('keys', 'app.keys', () => this.dialog('keys').showModal())}
-      </div>
-    </header>`;
-  }
-
-  private footer(): TemplateResult {
-    const job = this.state.jobs.find((one) => one.state === 'running');
-    const commands = this.state.project?.commands ?? {};
-    const words = this.step === 'scan' ? commands.scan : this.step === 'surface' ? commands.reconstruct : this.step === 'project' ? undefined : commands.edit;
-    const line = words?.map(quoted).join(' ') ?? '';
-    const last = this.state.jobs.at(-1);
-    const copy = async () => {
-      await navigator.clipboard.writeText(line);
-      this.copied = true;
-      this.requestUpdate();
-      setTimeout(() => {
-        this.copied = false;
-        this.requestUpdate();
-      }, 1500);
-    };
-    return html`<footer class="foot">
-      <div class="job" role="status">
-        ${job
-          ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
-              <span>${t(`job.${job.kind}`)}${job.stage ? ` · ${job.stage}` : ''}</span>
-              <button class="btn small" @click=${() => this.command('stop-job', { job: job.number })}>${t('job.stop')}</button>`
-          : html`<span>${plain(last?.log.at(-1)?.sentence ?? t('job.idle'))}</span>`}
-      </div>
-      ${line
-        ? html`<div class="command" title=${t('command.same')}>
-            <code><b>$</b> ${line}</code>
-            <button class="icon-btn" aria-label="${t('command.copy')}: ${t('command.same')}" title=${this.copied ? t('command.copied') : t('command.copy')} @click=${copy}>
-              ${icon(this.copied ? 'check' : 'copy')}
-            </button>
-          </div>`
-        : ''}
-    </footer>`;
-  }
-
-  private picture(): TemplateResult {
-    const { viewer, measurement } = this;
-    return html`<div class="stage" role="region" aria-label=${t('app.view')}>
-      ${viewer.supported ? this.host : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
-      <div class="floating">
-        ${viewer.tool === 'measure' && !measurement ? html`<div class="chip">${t('surface.measureHint')}</div>` : ''}
-        ${measurement
-          ? html`<div class="chip"><div class="big">${number(measurement.distance_mm, 3)} mm</div>
-              ${measurement.sigma_mm === null ? '' : html`<div class="num quiet">± ${number(1000 * measurement.sigma_mm, 1)} µm (k = 1)</div>`}</div>`
-          : ''}
-      </div>
-      ${viewer.supported
-        ? html`<div class="view-tools">
-            <button class="icon-btn text" @click=${() => viewer.frame([0, -1, 0.18])}>${t('app.front')}</button>
-            <button class="icon-btn text" @click=${() => viewer.frame([0, -0.02, 1])}>${t('app.top')}</button>
-            <button class="icon-btn" title=${t('app.frame')} aria-label=${t('app.frame')} @click=${() => viewer.frame()}>${icon('fit')}</button>
-          </div>`
-        : ''}
-    </div>`;
-  }
-
   private panel(): TemplateResult {
+    if (this.step === 'rig') return rigStep(this);
+    if (this.step === 'live') return liveStep(this);
     if (this.step === 'scan') return scanStep(this);
     if (this.step === 'surface') return surfaceStep(this);
     if (this.step === 'edit') return editStep(this);
     return exportStep(this);
   }
 
-  private dialogs(): TemplateResult {
-    const close = (id: string) =>
-      html`<button class="icon-btn close" aria-label=${t('app.close')} @click=${() => this.dialog(id).close()}>${icon('close')}</button>`;
-    return html`<dialog id="keys" aria-label=${t('app.keys')}>
-        <h2>${t('app.keys')}</h2>
-        <div class="keys">
-          ${KEYS.map(([key, keys]) => html`<span>${t(key as MessageKey)}</span><span>${keys.split(' ').map((one) => (one === '–' ? ' – ' : html`<kbd>${one}</kbd>`))}</span>`)}
-        </div>
-        ${close('keys')}
-      </dialog>
-      <dialog id="link" aria-label=${t('app.link')}>
-        <h2>${t('app.link')}</h2>
-        <p class="quiet">${t('app.linkHint')}</p>
-        <div class="linkbox">${this.link}</div>
-        ${close('link')}
-      </dialog>`;
-  }
-
   protected override render(): TemplateResult {
     if (this.session.link === 'refused')
-      return html`<main class="blank">${logo}<h1>${t('app.refused')}</h1><p class="quiet">${t('app.refusedHint')}</p><code>frangia serve --new-link</code></main>`;
+      return html`<main class="blank">${logo}<h1>${t('app.refused')}</h1><p class="quiet">${t('app.refusedHint')}</p><code>frangia serve --new-link</code>
+        <form class="row" @submit=${(event: SubmitEvent) => void this.enter(event)}>
+          <label class="field grow"><span>${t('app.password')}</span><input name="password" type="password" autocomplete="current-password" required /></label>
+          <button class="btn">${t('app.enter')}</button>
+        </form>
+        ${this.problem ? html`<p class="bad" role="alert">${this.problem}</p>` : ''}</main>`;
     if (!this.session.state) return html`<main class="blank">${logo}<p class="quiet">${t('app.connecting')}</p></main>`;
     const lost = this.session.link === 'lost';
-    return html`${this.header()}
+    return html`${header(this)}
       <div class="work">
         ${this.step === 'project' || !this.state.project
           ? projectStep(this)
-          : html`${this.picture()}<main class="panel" tabindex="-1"><h1 class="sr">${t(`step.${this.step}`)}</h1>${this.panel()}</main>`}
+          : html`${picture(this)}<main class="panel" tabindex="-1"><h1 class="sr">${t(`step.${this.step}`)}</h1>${this.panel()}</main>`}
         <div class="messages" role="region" aria-label=${t('app.messages')}>
+          ${this.session.watches && !lost
+            ? html`<div class="notice warn" role="status"><span>${t('app.watching')}</span><button class="btn small" id="take-over" @click=${() => void this.session.takeOver()}>${t('app.takeOver')}</button></div>`
+            : ''}
           ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
           ${this.problem && !lost
             ? html`<div class="notice" role="alert"><span>${plain(this.problem)}</span>
@@ -431,6 +404,6 @@ export class App extends LitElement {
             : ''}
         </div>
       </div>
-      ${this.footer()}${this.dialogs()}`;
+      ${footer(this)}${dialogs(this)}`;
   }
 }

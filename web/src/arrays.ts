@@ -16,6 +16,12 @@ export function unpack(buffer: ArrayBuffer): Map<string, Numbers> {
   return arrays;
 }
 
+/** What stands beside the arrays, such as the figures of a live picture. */
+export function valuesOf<T>(buffer: ArrayBuffer): T {
+  const length = new DataView(buffer).getUint32(0, true);
+  return (JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as { values: T }).values;
+}
+
 export interface MeshArrays {
   positions: Float32Array;
   triangles: Uint32Array;

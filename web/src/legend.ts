@@ -1,7 +1,7 @@
 import { html, svg, type TemplateResult } from 'lit';
 import { css, viridis } from './colors';
 import { number, t } from './messages';
-import type { Legend } from './viewer';
+import type { Legend } from './mesh_colors';
 
 /** A colour scale whose histogram stands on it. */
 export function legend(title: string, scale: Legend, factor: number, digits: number): TemplateResult {

@@ -1,6 +1,9 @@
 import type { State } from './types';
 
 const KEY = 'frangia-key';
+const ID = 'frangia-id';
+
+export type Layer = 'none' | 'camera' | 'phase' | 'modulation' | 'status' | 'depth' | 'points';
 
 /** A refusal of the server, in its words. */
 export class Refusal extends Error {
@@ -30,24 +33,60 @@ export class Session {
   state: State | null = null;
   link: Link = 'connecting';
   private key: string | null = sessionStorage.getItem(KEY);
+  /** Public name of the session that may act; the others watch. */
+  operator = '';
+  private id = sessionStorage.getItem(ID) ?? '';
   private patience = 500;
+  private socket: WebSocket | null = null;
+  private layer: Layer = 'none';
 
-  constructor(private readonly changed: () => void) {}
+  constructor(
+    private readonly changed: () => void,
+    private readonly pictured: (picture: ArrayBuffer) => void,
+  ) {}
+
+  /** Whether another browser operates. */
+  get watches(): boolean {
+    return this.operator !== '' && this.operator !== this.id;
+  }
+
+  async takeOver(): Promise<void> {
+    await this.post('/api/operator', {});
+  }
+
+  /** Chooses the live pictures that the server sends. */
+  show(layer: Layer): void {
+    if (layer === this.layer) return;
+    this.layer = layer;
+    if (this.socket?.readyState === WebSocket.OPEN && this.link === 'open') this.socket.send(JSON.stringify({ type: 'show', layer }));
+  }
+
+  async enter(password: string): Promise<void> {
+    await this.exchange({ password });
+    this.listen();
+  }
+
+  private async exchange(proof: { token: string } | { password: string }): Promise<void> {
+    const response = await answerOf(
+      await fetch('/api/session', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(proof) }),
+    );
+    const { key, id } = (await response.json()) as { key: string; id: string };
+    this.key = key;
+    this.id = id;
+    sessionStorage.setItem(KEY, key);
+    sessionStorage.setItem(ID, id);
+  }
+
+  private async post(path: string, body: object): Promise<Response> {
+    return this.request(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
+  }
 
   async begin(): Promise<void> {
     const token = new URLSearchParams(location.hash.slice(1)).get('token');
     if (token) {
       history.replaceState(null, '', location.pathname);
       try {
-        const response = await answerOf(
-          await fetch('/api/session', {
-            method: 'POST',
-            headers: { 'Content-Type': 'application/json' },
-            body: JSON.stringify({ token }),
-          }),
-        );
-        this.key = ((await response.json()) as { key: string }).key;
-        sessionStorage.setItem(KEY, this.key);
+        await this.exchange({ token });
       } catch {
         // A used link in a tab that has a key already: the key decides.
       }
@@ -57,20 +96,12 @@ export class Session {
   }
 
   async command<T = Record<string, unknown>>(name: string, argument: object = {}): Promise<T> {
-    const response = await this.request(`/api/commands/${name}`, {
-      method: 'POST',
-      headers: { 'Content-Type': 'application/json' },
-      body: JSON.stringify(argument),
-    });
+    const response = await this.post(`/api/commands/${name}`, argument);
     return (await response.json()) as T;
   }
 
   async newLink(): Promise<string> {
-    const response = await this.request('/api/links', {
-      method: 'POST',
-      headers: { 'Content-Type': 'application/json' },
-      body: '{}',
-    });
+    const response = await this.post('/api/links', {});
     return ((await response.json()) as { url: string }).url;
   }
 
@@ -98,14 +129,19 @@ export class Session {
   }
 
   private listen(): void {
-    const socket = new WebSocket(`ws://${location.host}/api/live`);
+    const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/api/live`);
+    socket.binaryType = 'arraybuffer';
+    this.socket = socket;
     let refused = false;
     socket.onopen = () => socket.send(JSON.stringify({ type: 'hello', key: this.key }));
     socket.onmessage = (event) => {
-      const message = JSON.parse(event.data as string) as { type: string; state: State };
+      if (event.data instanceof ArrayBuffer) return this.pictured(event.data);
+      const message = JSON.parse(event.data as string) as { type: string; operator: string; state: State };
       if (message.type !== 'state') return;
       this.patience = 500;
       this.state = message.state;
+      this.operator = message.operator;
+      if (this.link !== 'open' && this.layer !== 'none') socket.send(JSON.stringify({ type: 'show', layer: this.layer }));
       this.set('open');
     };
     socket.onclose = (event) => {

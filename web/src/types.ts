@@ -3,7 +3,7 @@ export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
 export interface LogLine { warning: boolean; sentence: string }
 export interface Job {
   number: number;
-  kind: 'open' | 'scan' | 'reconstruct' | 'edit' | 'export';
+  kind: 'open' | 'live' | 'devices' | 'calibrate' | 'scan' | 'reconstruct' | 'edit' | 'export';
   state: JobState;
   progress: number;
   stage: string;
@@ -37,6 +37,77 @@ export interface Summary {
   rms_after_mm?: number;
   untrusted_reason: string;
 }
+/** A shape that was fitted to selected triangles. */
+export interface Fit {
+  kind: 'plane' | 'cylinder' | 'sphere';
+  center_mm: Triple;
+  axis: Triple;
+  diameter_mm: number | null;
+  u95_mm: number | null;
+  rms_mm: number;
+  form_mm: number;
+  points: number;
+}
+export type Triple = [number, number, number];
+export interface Optics {
+  width_px: number;
+  height_px: number;
+  focal_px: [number, number];
+  principal_point_px: [number, number];
+}
+/** Poses are 4 x 4, row by row; all in mm in the frame of the camera. */
+export interface RigGeometry {
+  camera: Optics;
+  projector: Optics | null;
+  field_deg: [number, number] | null;
+  rig_from_projector: number[];
+  baseline_mm: number;
+  laser_sheet: { normal: Triple; offset_mm: number } | null;
+  turntable: { object_from_rig: number[]; distance_mm: number } | null;
+  calibration: { date: string; poses: number; point_sigma_mm: number; distance_mm: number } | null;
+}
+export interface Device {
+  table: string;
+  driver: string;
+  name: string;
+  answer: string;
+  fault: string;
+}
+export interface CaptureSettings {
+  exposure_ms: number;
+  gain_db: number;
+  black_level_counts: number;
+  shifts: number;
+  algorithm: string;
+}
+export type LivePattern = 'fringes' | 'white' | 'dark';
+export interface Verdict {
+  grade: string;
+  point_sigma_mm: number;
+  spread_mm: number;
+  distance_mm: number;
+  baseline_mm: number;
+  camera_rms_px: number;
+  projector_rms_px: number;
+  poses: number;
+}
+export interface Calibration {
+  active: boolean;
+  waiting: boolean;
+  found: number;
+  wanted: number;
+  with_board: number;
+  field: number;
+  cells: boolean[];
+  columns: number;
+  distance_ratio: number;
+  tilts_deg: [number, number, number, number];
+  sufficient: boolean;
+  next: string;
+  findings: string[];
+  poses: { points: number; expected: number }[];
+  verdict: Verdict | null;
+}
 export interface Surface {
   mesh_revision: number;
   selection_revision: number;
@@ -49,16 +120,24 @@ export interface Surface {
   holes: Hole[];
   steps: Step[];
   steps_done: number;
+  fits: Fit[];
   summary: Summary | null;
 }
 export interface Project {
   name: string;
   can_scan: boolean;
+  scan_begun: boolean;
   scan_complete: boolean;
+  capture: CaptureSettings;
+  rig: RigGeometry | null;
+  rig_fault: string;
+  devices: Device[];
+  live: { pattern: LivePattern; table_deg: number } | null;
+  calibration: Calibration | null;
   stations: Station[];
   surface: Surface | null;
   exports: { name: string; bytes: number }[];
-  commands: { scan?: string[]; reconstruct?: string[]; edit?: string[] };
+  commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[] };
 }
 export interface ProjectEntry {
   name: string;
@@ -69,6 +148,7 @@ export interface ProjectEntry {
 export interface State {
   version: string;
   parts: string[];
+  algorithms: { name: string; frames: string }[];
   projects: ProjectEntry[];
   project: Project | null;
   jobs: Job[];

@@ -19,6 +19,16 @@ export function choice<T extends string>(
 export const bytes = (count: number, format: (value: number, digits: number) => string): string =>
   count < 1000 ? `${format(count, 0)} B` : count < 1e6 ? `${format(count / 1e3, 0)} kB` : `${format(count / 1e6, 1)} MB`;
 
+/** A field with a number and the button that uses it. */
+export const numberForm = (id: string, label: string, value: number, button: string, disabled: boolean, use: (value: number) => void): TemplateResult =>
+  html`<form class="row" @submit=${(event: SubmitEvent) => {
+    event.preventDefault();
+    use(Number(new FormData(event.target as HTMLFormElement).get('value')));
+  }}>
+    <label class="field grow"><span>${label}</span><input id=${id} class="num" name="value" type="number" step="any" required .defaultValue=${String(value)} /></label>
+    <button class="btn" ?disabled=${disabled}>${button}</button>
+  </form>`;
+
 /** A sentence of the library, whose option names stand in backticks. */
 export const plain = (sentence: string): string =>
   sentence.replace(/`([\w-]+)`/g, (_, name: string) => name.replaceAll('_', ' '));

@@ -3,27 +3,23 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { acceleratedRaycast, computeBoundsTree, disposeBoundsTree } from 'three-mesh-bvh';
 
 import type { MeshArrays } from './arrays';
-import { css, MARK_COLORS, quantile, type Rgb, viridis } from './colors';
+import { viridis } from './colors';
+import { colorByHeight, type Coloring, type Legend } from './mesh_colors';
+import { type Measurement, type MeasureKind, Ruler } from './ruler';
+import { RigModel } from './rig_model';
+import { addLights, addTable } from './stage_props';
+import { brushOutline, type Point } from './strokes';
+import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
+import type { RigGeometry } from './types';
+
+export type { SectionAxis, Shading } from './surface_view';
 
 THREE.Mesh.prototype.raycast = acceleratedRaycast;
 THREE.BufferGeometry.prototype.computeBoundsTree = computeBoundsTree;
 THREE.BufferGeometry.prototype.disposeBoundsTree = disposeBoundsTree;
 
-export type Shading = 'smooth' | 'flat' | 'wire';
-export type Coloring = 'plain' | 'sigma' | 'views' | 'marks';
-export type Tool = 'orbit' | 'measure' | 'lasso' | 'rectangle' | 'part';
-export type SectionAxis = 'off' | 'x' | 'y' | 'z';
+export type Tool = 'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align';
 
-export interface Legend {
-  low: number;
-  high: number;
-  counts: number[];
-  beyond: number;
-}
-export interface Measurement {
-  distance_mm: number;
-  sigma_mm: number | null;
-}
 /** A lasso in space: the eye, then the corners, as `frangia edit --select-outline` takes them. */
 export type Outline = string;
 
@@ -31,9 +27,12 @@ interface Events {
   measured(result: Measurement | null): void;
   outlined(outline: Outline, through: boolean): void;
   partPicked(triangle: number): void;
+  /** A point of the surface, or three of them for an alignment. */
+  picked(tool: Tool, points: [number, number, number][]): void;
 }
 
-const BINS = 48;
+const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
+const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align']);
 
 /** The 3D picture. It draws when something changes, not all the time. */
 export class Viewer {
@@ -41,7 +40,8 @@ export class Viewer {
   readonly overlay: SVGSVGElement;
   tool: Tool = 'orbit';
   through = false;
-  legend: Legend | null = null;
+  /** Radius of the brush, pixels of the screen. */
+  brush = 18;
   readonly supported: boolean;
 
   private renderer!: THREE.WebGLRenderer;
@@ -51,23 +51,14 @@ export class Viewer {
   private readonly lights = new THREE.Group();
   private readonly clouds = new THREE.Group();
   private readonly table = new THREE.Group();
-  private readonly plane = new THREE.Plane(new THREE.Vector3(1, 0, 0), 0);
-  private arrays: MeshArrays | null = null;
-  private mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial> | null = null;
-  private inside: THREE.Mesh | null = null;
-  private wire: THREE.LineSegments | null = null;
-  private picked: THREE.Mesh | null = null;
-  private readonly rule = new THREE.Group();
-  private ends: THREE.Vector3[] = [];
-  private endSigmas: number[] = [];
-  private shading: Shading = 'smooth';
-  private coloring: Coloring = 'plain';
-  private section: { axis: SectionAxis; share: number; flipped: boolean } = { axis: 'off', share: 0.5, flipped: false };
-  private readonly box = new THREE.Box3();
-  private surfaceShown = true;
+  private readonly surface = new SurfaceView();
+  private readonly ruler = new Ruler();
+  private readonly rig = new RigModel();
+  private rigShown = 'null';
+  private picks: THREE.Vector3[] = [];
   private due = false;
-  private stroke: [number, number][] = [];
-  private down: [number, number] | null = null;
+  private stroke: Point[] = [];
+  private down: Point | null = null;
 
   constructor(
     private readonly host: HTMLElement,
@@ -94,44 +85,12 @@ export class Viewer {
     this.controls.enableDamping = false;
     this.controls.target.set(0, 0, 40);
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.lights, this.clouds, this.table, this.rule);
-    this.buildLights();
-    this.buildTable();
+    this.scene.add(this.lights, this.clouds, this.table, this.surface.group, this.ruler.group, this.rig.group);
+    addLights(this.lights);
+    addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
     this.listen();
     this.resize();
-  }
-
-  private buildLights(): void {
-    const add = (color: number, strength: number, x: number, y: number, z: number) => {
-      const light = new THREE.DirectionalLight(color, strength);
-      light.position.set(x, y, z);
-      this.lights.add(light);
-    };
-    this.lights.add(new THREE.HemisphereLight(0xeaf1ff, 0x4a4540, 0.95));
-    add(0xfff6ea, 2.7, -0.75, 0.9, 1.0); // key light, upper left of the viewer; lights follow the camera
-    add(0xcfe4ff, 0.75, 1.0, -0.1, 0.25);
-    add(0xffffff, 0.9, 0.3, 0.6, -1.0);
-  }
-
-  /** The turntable: a disc with a ring of degrees. */
-  private buildTable(): void {
-    const disc = new THREE.Mesh(
-      new THREE.CircleGeometry(110, 128),
-      new THREE.MeshBasicMaterial({ color: 0x808c88, transparent: true, opacity: 0.07, depthWrite: false, side: THREE.DoubleSide }),
-    );
-    const points: number[] = [];
-    for (let degree = 0; degree < 360; degree += 3) {
-      const angle = (degree * Math.PI) / 180;
-      const inner = degree % 45 === 0 ? 96 : degree % 15 === 0 ? 102 : 106;
-      points.push(Math.cos(angle) * inner, Math.sin(angle) * inner, 0, Math.cos(angle) * 110, Math.sin(angle) * 110, 0);
-    }
-    const ticks = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
-    this.table.add(disc, new THREE.LineSegments(ticks, new THREE.LineBasicMaterial({ color: 0x808c88, transparent: true, opacity: 0.55 })));
-    const ring = new THREE.BufferGeometry().setFromPoints(
-      Array.from({ length: 129 }, (_, i) => new THREE.Vector3(Math.cos((i * Math.PI) / 64) * 110, Math.sin((i * Math.PI) / 64) * 110, 0)),
-    );
-    this.table.add(new THREE.Line(ring, new THREE.LineBasicMaterial({ color: 0x808c88, transparent: true, opacity: 0.55 })));
   }
 
   /** Points of a station while a scan grows. */
@@ -143,8 +102,14 @@ export class Viewer {
     }
     if (positions) {
       const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
-      const [r, g, b] = viridis(0.35 + 0.6 * ((station * 0.381966) % 1));
-      const material = new THREE.PointsMaterial({ size: 1.6, sizeAttenuation: false, color: new THREE.Color(r / 255, g / 255, b / 255).convertSRGBToLinear() });
+      const material = new THREE.PointsMaterial({ size: station < 0 ? 2 : 1.6, sizeAttenuation: false });
+      if (station < 0) {
+        colorByHeight(geometry, positions);
+        material.vertexColors = true;
+      } else {
+        const [r, g, b] = viridis(0.35 + 0.6 * ((station * 0.381966) % 1));
+        material.color.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace);
+      }
       const points = new THREE.Points(geometry, material);
       points.name = String(station);
       this.clouds.add(points);
@@ -156,216 +121,79 @@ export class Viewer {
     for (const child of [...this.clouds.children]) this.setCloud(Number(child.name), null);
   }
 
-  showClouds(shown: boolean): void {
+  /** Shows the clouds of the stations, or that of the live preview alone. */
+  showClouds(shown: boolean, live = false): void {
     this.clouds.visible = shown;
+    for (const cloud of this.clouds.children) cloud.visible = (cloud.name === '-1') === live;
     this.draw();
   }
 
-  /** Hides the surface while a scan is looked at. */
+  /** The rig around the turntable; null hides it. */
+  setRig(rig: RigGeometry | null): void {
+    const text = JSON.stringify(rig);
+    if (text === this.rigShown) return;
+    this.rigShown = text;
+    this.rig.set(rig);
+    this.draw();
+  }
+
+  /** A picture of the present view, as the screen shows it. */
+  async snapshot(): Promise<Blob | null> {
+    this.renderer.render(this.scene, this.camera);
+    return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+  }
+
   showSurface(shown: boolean): void {
-    this.surfaceShown = shown;
-    for (const part of [this.mesh, this.inside, this.picked]) if (part) part.visible = shown;
-    if (this.wire) this.wire.visible = shown && this.shading === 'wire';
+    this.surface.show(shown);
     this.draw();
   }
-
   setMesh(arrays: MeshArrays | null): void {
-    for (const part of [this.mesh, this.inside, this.wire, this.picked]) if (part) this.scene.remove(part);
-    this.mesh?.geometry.disposeBoundsTree();
-    this.mesh?.geometry.dispose();
-    this.wire?.geometry.dispose();
-    const first = this.arrays === null;
-    this.mesh = this.inside = this.wire = this.picked = null;
-    this.arrays = arrays;
+    const first = this.surface.arrays === null;
     this.clearMeasurement();
-    if (!arrays || arrays.triangles.length === 0) return this.draw();
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(arrays.positions, 3));
-    geometry.setAttribute('normal', new THREE.BufferAttribute(arrays.normals, 3));
-    geometry.setIndex(new THREE.BufferAttribute(arrays.triangles, 1));
-    geometry.computeBoundingBox();
-    this.box.copy(geometry.boundingBox as THREE.Box3);
-    const material = new THREE.MeshStandardMaterial({ color: 0xd6d2c9, roughness: 0.62, metalness: 0.0 });
-    this.mesh = new THREE.Mesh(geometry, material);
-    this.inside = new THREE.Mesh(
-      geometry,
-      new THREE.MeshStandardMaterial({ color: 0x7a4a3f, roughness: 0.9, side: THREE.BackSide }),
-    );
-    this.scene.add(this.mesh, this.inside);
-    this.color();
-    this.shade();
-    this.cut();
-    if (first) this.frame();
-    this.showSurface(this.surfaceShown);
-    // After the first picture: rays are needed when someone points at the mesh.
-    setTimeout(() => {
-      // Indirect: the triangles keep their order, by which the server numbers them.
-      if (this.mesh?.geometry === geometry) geometry.computeBoundsTree({ indirect: true });
-    }, 50);
+    this.surface.setMesh(arrays);
+    if (first && arrays) this.frame();
     this.draw();
   }
-
   setSelection(flags: Uint8Array | null): void {
-    if (this.picked) {
-      this.picked.geometry.dispose();
-      this.scene.remove(this.picked);
-      this.picked = null;
-    }
-    if (flags && this.mesh && this.arrays && flags.length * 3 === this.arrays.triangles.length) {
-      let count = 0;
-      for (const flag of flags) count += flag;
-      if (count > 0) {
-        const index = new Uint32Array(count * 3);
-        let at = 0;
-        for (let i = 0; i < flags.length; i++) {
-          if (!flags[i]) continue;
-          index.set(this.arrays.triangles.subarray(3 * i, 3 * i + 3), at);
-          at += 3;
-        }
-        const geometry = new THREE.BufferGeometry();
-        geometry.setAttribute('position', this.mesh.geometry.getAttribute('position'));
-        geometry.setAttribute('normal', this.mesh.geometry.getAttribute('normal'));
-        geometry.setIndex(new THREE.BufferAttribute(index, 1));
-        this.picked = new THREE.Mesh(
-          geometry,
-          new THREE.MeshStandardMaterial({
-            color: 0x9a6bff, emissive: 0x43208f, roughness: 0.7, side: THREE.DoubleSide,
-            polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -2,
-            clippingPlanes: this.section.axis === 'off' ? [] : [this.plane],
-          }),
-        );
-        this.scene.add(this.picked);
-      }
-    }
+    this.surface.setSelection(flags);
     this.draw();
   }
-
   setShading(shading: Shading): void {
-    this.shading = shading;
-    this.shade();
+    this.surface.setShading(shading);
     this.draw();
   }
-
   setColoring(coloring: Coloring): void {
-    this.coloring = coloring;
-    this.color();
+    this.surface.setColoring(coloring);
     this.draw();
   }
-
   setSection(axis: SectionAxis, share: number, flipped: boolean): void {
-    this.section = { axis, share, flipped };
-    this.cut();
+    this.surface.section = { axis, share, flipped };
+    this.surface.cut();
     this.draw();
   }
-
+  get legend(): Legend | null {
+    return this.surface.legend;
+  }
   /** Position of the section plane, mm. */
   get sectionAt(): number {
-    const { axis, share } = this.section;
-    if (axis === 'off' || this.box.isEmpty()) return 0;
-    return this.box.min[axis] + share * (this.box.max[axis] - this.box.min[axis]);
+    return this.surface.sectionAt;
   }
-
   get size(): THREE.Vector3 {
-    return this.box.isEmpty() ? new THREE.Vector3() : this.box.getSize(new THREE.Vector3());
-  }
-
-  private shade(): void {
-    if (!this.mesh) return;
-    const material = this.mesh.material;
-    material.flatShading = this.shading === 'flat';
-    material.needsUpdate = true;
-    if (this.shading === 'wire' && !this.wire) {
-      this.wire = new THREE.LineSegments(
-        new THREE.WireframeGeometry(this.mesh.geometry),
-        new THREE.LineBasicMaterial({ color: 0x0c2a20, transparent: true, opacity: 0.42 }),
-      );
-      material.polygonOffset = true;
-      material.polygonOffsetFactor = 1;
-      material.polygonOffsetUnits = 1;
-      this.scene.add(this.wire);
-      this.cut();
-    }
-    if (this.wire) this.wire.visible = this.shading === 'wire';
-  }
-
-  private cut(): void {
-    const { axis, flipped } = this.section;
-    const sign = flipped ? 1 : -1;
-    if (axis !== 'off') {
-      this.plane.normal.set(axis === 'x' ? sign : 0, axis === 'y' ? sign : 0, axis === 'z' ? sign : 0);
-      this.plane.constant = -sign * this.sectionAt;
-    }
-    for (const part of [this.mesh, this.inside, this.wire, this.picked]) {
-      if (!part) continue;
-      const material = part.material as THREE.Material;
-      material.clippingPlanes = axis === 'off' ? [] : [this.plane];
-      material.needsUpdate = true;
-    }
-  }
-
-  /** Colours by a value of each vertex, with the legend and its histogram. */
-  private color(): void {
-    this.legend = null;
-    const { mesh, arrays } = this;
-    if (!mesh || !arrays) return;
-    const vertices = arrays.positions.length / 3;
-    const values = this.coloring === 'sigma' ? arrays.sigma : this.coloring === 'views' ? arrays.views : null;
-    const marks = this.coloring === 'marks' ? arrays.marks : null;
-    if (!values && !marks) {
-      mesh.geometry.deleteAttribute('color');
-      mesh.material.vertexColors = false;
-      mesh.material.color.set(0xd6d2c9);
-      mesh.material.needsUpdate = true;
-      return;
-    }
-    const colors = new Float32Array(3 * vertices);
-    const linear = new THREE.Color();
-    const put = (vertex: number, [r, g, b]: Rgb) => {
-      linear.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace).toArray(colors, 3 * vertex);
-    };
-    if (marks) {
-      for (let v = 0; v < vertices; v++) put(v, MARK_COLORS[0] as Rgb);
-      for (let t = 0; t < marks.length; t++) {
-        const mark = marks[t] as number;
-        if (mark === 0) continue;
-        for (let c = 0; c < 3; c++) put(arrays.triangles[3 * t + c] as number, MARK_COLORS[mark] as Rgb);
-      }
-    } else if (values) {
-      const whole = this.coloring === 'views';
-      const low = whole ? 0 : quantile(values, 0.02);
-      const high = whole ? Math.max(1, quantile(values, 1)) : quantile(values, 0.95);
-      const counts = new Array<number>(whole ? Math.min(BINS, high + 1) : BINS).fill(0);
-      let beyond = 0;
-      const unknown: Rgb = [128, 128, 128];
-      for (let v = 0; v < vertices; v++) {
-        const value = values[v] as number;
-        const share = (value - low) / (high - low || 1);
-        put(v, Number.isFinite(value) ? viridis(share) : unknown);
-        if (share > 1 || !Number.isFinite(value)) beyond++;
-        else if (share >= 0) {
-          const bin = Math.min(counts.length - 1, Math.floor(share * (whole ? high : counts.length)));
-          counts[bin] = (counts[bin] as number) + 1;
-        }
-      }
-      this.legend = { low, high, counts, beyond: beyond / vertices };
-    }
-    mesh.geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
-    mesh.material.vertexColors = true;
-    mesh.material.color.set(0xffffff);
-    mesh.material.needsUpdate = true;
+    return this.surface.size;
   }
 
   /** Puts the object in the middle of the picture. */
   frame(direction?: [number, number, number]): void {
     if (!this.supported) return;
-    const box = this.box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-70, -70, 0), new THREE.Vector3(70, 70, 110)) : this.box;
+    const rigBox = this.rig.box();
+    const box = rigBox ? rigBox : this.surface.box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-70, -70, 0), new THREE.Vector3(70, 70, 110)) : this.surface.box;
     const center = box.getCenter(new THREE.Vector3());
     const radius = box.getSize(new THREE.Vector3()).length() / 2;
     const away = direction
       ? new THREE.Vector3(...direction)
       : this.camera.position.clone().sub(this.controls.target);
     const narrow = Math.min(1, this.camera.aspect);
-    const distance = (1.12 * radius) / Math.sin(((this.camera.fov / 2) * Math.PI) / 180) / narrow;
+    const distance = ((rigBox ? 0.78 : 1.12) * radius) / Math.sin(((this.camera.fov / 2) * Math.PI) / 180) / narrow;
     this.controls.target.copy(center);
     this.camera.position.copy(center).addScaledVector(away.normalize(), distance);
     this.camera.near = distance / 50;
@@ -378,16 +206,14 @@ export class Viewer {
   setTool(tool: Tool): void {
     this.tool = tool;
     if (!this.supported) return;
-    const free = tool === 'orbit' || tool === 'measure' || tool === 'part';
-    this.controls.enabled = free;
+    this.controls.enabled = !DRAWING.has(tool);
     this.canvas.dataset.tool = tool;
-    if (tool !== 'measure') this.clearMeasurement();
+    this.clearMeasurement();
   }
 
   clearMeasurement(): void {
-    this.ends = [];
-    this.endSigmas = [];
-    this.rule.clear();
+    this.ruler.clear();
+    this.picks = [];
     this.events.measured(null);
     this.draw();
   }
@@ -400,7 +226,7 @@ export class Viewer {
     this.canvas.addEventListener('pointerdown', (event) => {
       if (event.button !== 0) return;
       this.down = at(event);
-      if (this.tool !== 'lasso' && this.tool !== 'rectangle') return;
+      if (!DRAWING.has(this.tool)) return;
       this.canvas.setPointerCapture(event.pointerId);
       this.stroke = [this.down];
     });
@@ -419,12 +245,11 @@ export class Viewer {
       const stroke = this.stroke;
       this.stroke = [];
       this.sketch();
-      if (stroke.length >= 3) return this.events.outlined(this.outlineOf(stroke), this.through);
-      if (!still || (this.tool !== 'measure' && this.tool !== 'part')) return;
+      const outline = this.tool === 'brush' ? brushOutline(stroke, this.brush) : stroke;
+      if (DRAWING.has(this.tool) && outline.length >= 3) return this.events.outlined(this.outlineOf(outline), this.through);
+      if (!still || !CLICKING.has(this.tool)) return;
       const hit = this.hit(point);
-      if (!hit) return;
-      if (this.tool === 'part') this.events.partPicked(hit.faceIndex as number);
-      else this.measure(hit);
+      if (hit) this.onHit(hit);
     });
     this.canvas.addEventListener('pointercancel', () => {
       this.stroke = [];
@@ -433,12 +258,33 @@ export class Viewer {
     });
   }
 
+  private onHit(hit: THREE.Intersection): void {
+    if (this.tool === 'part') return this.events.partPicked(hit.faceIndex as number);
+    if (this.tool === 'loop') return this.events.picked('loop', [hit.point.toArray()]);
+    const sigma = this.surface.arrays?.sigma;
+    const corners = [hit.face?.a, hit.face?.b, hit.face?.c].filter((i): i is number => i !== undefined);
+    const hitSigma = sigma ? Math.max(...corners.map((i) => sigma[i] as number)) : NaN;
+    const kind: MeasureKind = this.tool === 'measure' ? 'distance' : this.tool === 'angle' ? 'angle' : 'points';
+    this.events.measured(this.ruler.add(hit.point, hitSigma, kind, this.size.length() / 260));
+    if (this.tool === 'align') {
+      this.picks.push(hit.point.clone());
+      if (this.picks.length === 3) {
+        this.events.picked('align', this.picks.map((one) => one.toArray()));
+        this.clearMeasurement();
+      }
+    }
+    this.draw();
+  }
+
   private sketch(): void {
     const points = this.stroke.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
-    let line = this.overlay.querySelector('polygon');
-    if (!points) return line?.remove();
+    const brush = this.tool === 'brush';
+    const name = brush ? 'polyline' : 'polygon';
+    let line = this.overlay.querySelector(name);
+    if (!points) return this.overlay.replaceChildren();
     if (!line) {
-      line = document.createElementNS('http://www.w3.org/2000/svg', 'polygon');
+      line = document.createElementNS('http://www.w3.org/2000/svg', name);
+      if (brush) line.setAttribute('stroke-width', String(2 * this.brush));
       this.overlay.append(line);
     }
     line.setAttribute('points', points);
@@ -449,44 +295,20 @@ export class Viewer {
     const width = this.canvas.clientWidth;
     const height = this.canvas.clientHeight;
     ray.setFromCamera(new THREE.Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
-    ray.firstHitOnly = this.section.axis === 'off';
+    ray.firstHitOnly = this.surface.section.axis === 'off';
     return ray;
   }
 
   private hit(point: [number, number]): THREE.Intersection | null {
-    if (!this.mesh) return null;
-    const material = this.mesh.material;
+    const { mesh } = this.surface;
+    if (!mesh) return null;
+    const material = mesh.material;
     const side = material.side;
     material.side = THREE.DoubleSide;
-    const hits = this.rayAt(point).intersectObject(this.mesh, false);
+    const hits = this.rayAt(point).intersectObject(mesh, false);
     material.side = side;
-    const seen = hits.find((one) => this.section.axis === 'off' || this.plane.distanceToPoint(one.point) >= 0);
+    const seen = hits.find((one) => this.surface.section.axis === 'off' || this.surface.plane.distanceToPoint(one.point) >= 0);
     return seen ?? null;
-  }
-
-  private measure(hit: THREE.Intersection): void {
-    if (this.ends.length === 2) this.clearMeasurement();
-    this.ends.push(hit.point.clone());
-    const corners = [hit.face?.a, hit.face?.b, hit.face?.c].filter((i): i is number => i !== undefined);
-    const sigma = this.arrays?.sigma;
-    this.endSigmas.push(sigma ? Math.max(...corners.map((i) => sigma[i] as number)) : NaN);
-    const size = this.size.length() / 260;
-    const ball = new THREE.Mesh(new THREE.SphereGeometry(size, 20, 14), new THREE.MeshBasicMaterial({ color: 0xff8a4c, depthTest: false }));
-    ball.position.copy(hit.point);
-    ball.renderOrder = 3;
-    this.rule.add(ball);
-    if (this.ends.length === 2) {
-      const line = new THREE.Line(
-        new THREE.BufferGeometry().setFromPoints(this.ends),
-        new THREE.LineBasicMaterial({ color: 0xff8a4c, depthTest: false }),
-      );
-      line.renderOrder = 3;
-      this.rule.add(line);
-      const [a, b] = this.ends as [THREE.Vector3, THREE.Vector3];
-      const combined = Math.hypot(...this.endSigmas);
-      this.events.measured({ distance_mm: a.distanceTo(b), sigma_mm: Number.isFinite(combined) ? combined : null });
-    }
-    this.draw();
   }
 
   /** The stroke in space, at most 72 corners with a tenth of a micrometre at arm's length. */
@@ -521,5 +343,3 @@ export class Viewer {
     });
   }
 }
-
-export const viridisStops = (): string[] => Array.from({ length: 11 }, (_, i) => css(viridis(i / 10)));

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/error.h"
@@ -23,6 +24,7 @@ constexpr unsigned kUnauthorized = 401;
 constexpr unsigned kForbidden = 403;
 constexpr unsigned kNotFound = 404;
 constexpr unsigned kWrongMethod = 405;
+constexpr unsigned kConflict = 409;
 constexpr unsigned kWrongType = 415;
 constexpr unsigned kFailed = 500;
 
@@ -76,11 +78,16 @@ HttpResponse asset_at(const std::string& path) {
 
 }  // namespace
 
-AppRoutes::AppRoutes(Service& service, SessionKeys& keys, std::uint16_t port)
+AppRoutes::AppRoutes(Service& service,
+                     SessionKeys& keys,
+                     PasswordGuard& password,
+                     AppAddress address,
+                     std::function<void()> on_operator)
     : service_(service),
       keys_(keys),
-      address_(fmt::format("127.0.0.1:{}", port)),
-      localhost_(fmt::format("localhost:{}", port)) {}
+      password_(password),
+      address_(std::move(address)),
+      on_operator_(std::move(on_operator)) {}
 
 HttpApp AppRoutes::app() const {
   HttpApp app;
@@ -94,26 +101,46 @@ HttpApp AppRoutes::app() const {
     const auto key = json.find("key");
     return key != json.end() && key->is_string() && keys_.is_valid(key->get<std::string>());
   };
-  app.live_message = [this] { return R"({"type":"state","state":)" + service_.state() + "}"; };
+  app.live_message = [this] {
+    return fmt::format(
+        R"({{"type":"state","operator":"{}","state":{}}})", keys_.operator_id(), service_.state());
+  };
+  app.channel_of = [](std::string_view message) -> std::optional<int> {
+    const auto json = nlohmann::json::parse(message, nullptr, false);
+    if (!json.is_object() || json.value("type", nlohmann::json()) != "show") return std::nullopt;
+    const auto layer = json.find("layer");
+    if (layer == json.end() || !layer->is_string()) return std::nullopt;
+    const auto known = live_layer_of(layer->get<std::string>());
+    return known ? std::optional<int>(static_cast<int>(*known)) : std::nullopt;
+  };
+  app.picture = [this](int channel, std::uint64_t after) -> HttpPicture {
+    try {
+      LivePicture picture = service_.live_picture(static_cast<LiveLayer>(channel), after);
+      return {picture.revision, std::move(picture.bytes)};
+    } catch (const std::exception&) {
+      return {};  // the next one may have its memory
+    }
+  };
   app.content_security_policy = fmt::format(
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-      "font-src 'self'; connect-src 'self' ws://{} ws://{}; base-uri 'none'; form-action 'none'; "
+      "font-src 'self'; connect-src 'self' {}; base-uri 'none'; form-action 'none'; "
       "frame-ancestors 'none'",
-      address_,
-      localhost_);
+      fmt::join(address_.sockets, " "));
   return app;
 }
 
 std::string AppRoutes::new_link() const {
-  return fmt::format("http://{}/#token={}", address_, keys_.issue_token());
+  return fmt::format("{}/#token={}", address_.link_base, keys_.issue_token());
 }
 
 /// Refuses other names of this machine (DNS rebinding) and pages of other origins.
 bool AppRoutes::is_from_here(const HttpRequest& request) const {
-  if (request.host != address_ && request.host != localhost_) return false;
+  const auto is_in = [](const std::vector<std::string>& list, const std::string& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+  };
+  if (!is_in(address_.hosts, request.host)) return false;
   if (request.fetch_site == "cross-site" || request.fetch_site == "same-site") return false;
-  return request.origin.empty() || request.origin == "http://" + address_ ||
-         request.origin == "http://" + localhost_;
+  return request.origin.empty() || is_in(address_.origins, request.origin);
 }
 
 HttpResponse AppRoutes::answer(const HttpRequest& request) const {
@@ -142,14 +169,15 @@ HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string
     return failure(kWrongType, "the body is JSON; send Content-Type: application/json");
   if (path == "/api/session") {
     if (request.method != "POST") return failure(kWrongMethod, "a token is exchanged with POST");
-    return exchange_token(request.body);
+    return begin_session(request.body);
   }
   const std::string& given = request.authorization;
   if (!given.starts_with(kBearer) || !keys_.is_valid(given.substr(kBearer.size())))
     return failure(kUnauthorized,
                    "no valid key was sent; open the app with a new link from `frangia serve "
                    "--new-link`");
-  return request.method == "GET" ? get(path) : post(path, request.body);
+  return request.method == "GET" ? get(path)
+                                 : post(path, request.body, given.substr(kBearer.size()));
 }
 
 HttpResponse AppRoutes::get(const std::string& path) const {
@@ -178,27 +206,45 @@ HttpResponse AppRoutes::get(const std::string& path) const {
   return failure(kNotFound, "there is no such resource");
 }
 
-HttpResponse AppRoutes::post(const std::string& path, const std::string& body) const {
+HttpResponse AppRoutes::post(const std::string& path,
+                             const std::string& body,
+                             const std::string& key) const {
+  if (path == "/api/operator") {
+    keys_.take_over(key);
+    on_operator_();
+    return {.body = "{}"};
+  }
+  const auto command = rest_of(path, "/api/commands/");
+  if (!command && path != "/api/links") return failure(kNotFound, "there is no such resource");
+  if (!keys_.may_act(key))
+    return failure(kConflict, "another browser operates the scanner; take over to act here");
   if (path == "/api/links") {
     const nlohmann::json json{{"url", new_link()}};
     return {.body = json.dump()};
   }
-  const auto command = rest_of(path, "/api/commands/");
-  if (!command) return failure(kNotFound, "there is no such resource");
   return {.status = kOk, .body = service_.command(*command, body)};
 }
 
-HttpResponse AppRoutes::exchange_token(const std::string& body) const {
+HttpResponse AppRoutes::begin_session(const std::string& body) const {
   const auto json = nlohmann::json::parse(body, nullptr, false);
-  const bool has_token = json.is_object() && json.contains("token") && json["token"].is_string();
-  const auto key =
-      has_token ? keys_.redeem(json["token"].get<std::string>()) : std::optional<std::string>();
-  if (!key) {
+  const auto text = [&](const char* key) -> std::string {
+    const bool has = json.is_object() && json.contains(key) && json[key].is_string();
+    return has ? json[key].get<std::string>() : std::string();
+  };
+  std::optional<SessionKey> session;
+  const std::string password = text("password");
+  if (!password.empty() && password_.has_password()) {
+    if (password_.admits(password)) session = keys_.admit();
+    if (!session) return failure(kForbidden, "the password is wrong");
+  } else {
+    session = keys_.redeem(text("token"));
+  }
+  if (!session) {
     return failure(kForbidden,
                    "this link was used already, or is too old; get a new one with `frangia serve "
                    "--new-link`");
   }
-  const nlohmann::json answer{{"key", *key}};
+  const nlohmann::json answer{{"key", session->key}, {"id", session->id}};
   return {.body = answer.dump()};
 }
 

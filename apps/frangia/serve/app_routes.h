@@ -1,11 +1,13 @@
 #pragma once
 
-#include <cstdint>
+#include <functional>
 #include <string>
 
+#include "frangia/service/access_guard.h"
 #include "frangia/service/service.h"
 #include "frangia/service/session_keys.h"
 
+#include "app_address.h"
 #include "http_server.h"
 
 namespace frangia {
@@ -14,8 +16,12 @@ namespace frangia {
 /// service and no sockets.
 class AppRoutes {
  public:
-  /// The references must outlive this object. `port` is the server's.
-  AppRoutes(Service& service, SessionKeys& keys, std::uint16_t port);
+  /// The references must outlive this object.
+  AppRoutes(Service& service,
+            SessionKeys& keys,
+            PasswordGuard& password,
+            AppAddress address,
+            std::function<void()> on_operator);
 
   /// What the server needs.
   [[nodiscard]] HttpApp app() const;
@@ -27,13 +33,16 @@ class AppRoutes {
   [[nodiscard]] HttpResponse answer(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_api(const HttpRequest& request, const std::string& path) const;
   [[nodiscard]] HttpResponse get(const std::string& path) const;
-  [[nodiscard]] HttpResponse post(const std::string& path, const std::string& body) const;
-  [[nodiscard]] HttpResponse exchange_token(const std::string& body) const;
+  [[nodiscard]] HttpResponse post(const std::string& path,
+                                  const std::string& body,
+                                  const std::string& key) const;
+  [[nodiscard]] HttpResponse begin_session(const std::string& body) const;
 
   Service& service_;
   SessionKeys& keys_;
-  std::string address_;    ///< "127.0.0.1:PORT"
-  std::string localhost_;  ///< "localhost:PORT"
+  PasswordGuard& password_;
+  AppAddress address_;
+  std::function<void()> on_operator_;  ///< another session operates
 };
 
 }  // namespace frangia

@@ -3,7 +3,25 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace frangia {
+namespace {
+
+/// Appends the settings that differ from the defaults of `frangia scan`.
+void append_capture(const CaptureSettings& settings, std::vector<std::string>& words) {
+  const CaptureSettings usual;
+  const auto append = [&](const char* option, double value, double otherwise) {
+    if (value == otherwise) return;
+    words.insert(words.end(), {option, fmt::format("{:g}", value)});
+  };
+  append("--shifts", settings.shifts, usual.shifts);
+  append("--exposure", settings.camera.exposure_ms, usual.camera.exposure_ms);
+  append("--gain", settings.camera.gain_db, usual.camera.gain_db);
+  append("--black-level", settings.camera.black_level_counts, usual.camera.black_level_counts);
+}
+
+}  // namespace
 
 CommandLines command_lines(const ProjectProgress& project) {
   CommandLines lines;
@@ -16,10 +34,15 @@ CommandLines command_lines(const ProjectProgress& project) {
                      folder.scan.string(),
                      "--views",
                      std::to_string(project.stations)};
+    append_capture(project.capture, lines["scan"]);
+    lines["rig"] = {"frangia", "devices", folder.rig().string()};
   }
   if (project.scan_complete) {
     lines["reconstruct"] = {
         "frangia", "reconstruct", folder.scan.string(), "-o", folder.surface().string()};
+    if (project.capture.algorithm != "auto")
+      lines["reconstruct"].insert(lines["reconstruct"].end(),
+                                  {"--algorithm", project.capture.algorithm});
   }
   if (project.has_surface) {
     std::vector<std::string> edit = {"frangia", "edit", folder.surface().string()};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -33,6 +34,12 @@ struct HttpResponse {
   std::string download = {};       ///< name of a file to save; empty: to show
 };
 
+/// A picture that a WebSocket may receive.
+struct HttpPicture {
+  std::uint64_t revision = 0;
+  std::shared_ptr<const std::string> bytes;  ///< null: there is no newer one
+};
+
 /// What the server asks of the app. All functions are called on the server's thread.
 struct HttpApp {
   /// Answers a request. It does not throw.
@@ -43,6 +50,11 @@ struct HttpApp {
   std::function<bool(std::string_view)> authorizes;
   /// The message that every WebSocket receives at its beginning and after each change.
   std::function<std::string()> live_message;
+  /// The channel of pictures that a later message of a WebSocket chooses, 0 for none; empty for a
+  /// message that is not understood, which ends the connection.
+  std::function<std::optional<int>(std::string_view)> channel_of;
+  /// The newest picture of a channel, unless it has the revision `after`.
+  std::function<HttpPicture(int channel, std::uint64_t after)> picture;
   /// Content-Security-Policy of all answers, for the port of the server.
   std::string content_security_policy;
 };
@@ -58,13 +70,15 @@ struct HttpLimits {
   std::chrono::milliseconds live_interval{50};  ///< at least, between two live messages
 };
 
-/// An HTTP and WebSocket server on 127.0.0.1, with one thread.
+/// An HTTP and WebSocket server with one thread.
 class HttpServer {
  public:
-  /// Listens on a port; 0: one that the system chooses.
+  /// Listens on a port of an IP address; 0: one that the system chooses.
   ///
-  /// @errors   Error(Device) that names the port when it cannot be used
-  HttpServer(std::uint16_t port, const HttpLimits& limits);
+  /// @errors   Error(Input) for what is no address; Error(Device) that names the port when it
+  /// cannot
+  ///          be used
+  HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits);
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
   HttpServer(HttpServer&&) = delete;
@@ -77,8 +91,12 @@ class HttpServer {
   /// Sends the live message to all WebSockets soon. May be called from any thread, also when
   /// `serve` has not begun or has ended.
   void announce_change();
+  /// Sends a new picture to the WebSockets that look at one. As above.
+  void announce_picture();
 
  private:
+  void announce(bool state);
+
   struct Implementation;
   std::shared_ptr<Implementation> implementation_;
 };

@@ -1,54 +1,12 @@
 #include "frangia/service/encode_arrays.h"
 
-#include <bit>
-#include <cstring>
-#include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/service/internal/array_packer.h"
 
 namespace frangia {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "arrays are packed as they are stored");
-
-constexpr std::size_t kAlignment = 4;
-
-/// Collects arrays and packs them behind a header.
-class ArrayPacker {
- public:
-  template <typename T>
-  void add(const char* name, const char* type, const T* data, std::size_t length) {
-    header_["arrays"].push_back(
-        {{"name", name}, {"type", type}, {"length", length}, {"offset", body_.size()}});
-    const std::size_t begin = body_.size();
-    const std::size_t bytes = length * sizeof(T);
-    body_.resize((begin + bytes + kAlignment - 1) / kAlignment * kAlignment);
-    if (bytes > 0) std::memcpy(body_.data() + begin, data, bytes);
-  }
-
-  [[nodiscard]] std::string pack() {
-    constexpr std::size_t kOffsetDigits = 12;  // more than any offset has
-    nlohmann::ordered_json header = header_;
-    const std::size_t space = header.dump().size() + header_["arrays"].size() * kOffsetDigits;
-    const std::size_t head =
-        (sizeof(std::uint32_t) + space + kAlignment - 1) / kAlignment * kAlignment;
-    for (auto& array : header["arrays"])
-      array["offset"] = array["offset"].get<std::size_t>() + head;
-    std::string text = header.dump();
-    text.resize(head - sizeof(std::uint32_t), ' ');
-    const auto length = static_cast<std::uint32_t>(text.size());
-    std::string all(sizeof length, '\0');
-    std::memcpy(all.data(), &length, sizeof length);
-    return all + text + body_;
-  }
-
- private:
-  nlohmann::ordered_json header_ = {{"arrays", nlohmann::ordered_json::array()}};
-  std::string body_;
-};
 
 constexpr std::size_t kPerPoint = 3;
 

@@ -18,6 +18,8 @@ struct ProjectFolder {
 
   /// Rig with its devices that a scan is captured with.
   [[nodiscard]] std::filesystem::path rig() const { return folder / "rig.toml"; }
+  /// Settings of the capture, see read_capture_settings.
+  [[nodiscard]] std::filesystem::path capture() const { return derived / "capture.json"; }
   /// Reconstructed mesh, before edits.
   [[nodiscard]] std::filesystem::path surface() const { return derived / "surface.ply"; }
   /// Figures of the reconstruction, JSON.

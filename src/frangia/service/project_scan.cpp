@@ -13,11 +13,10 @@
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/read_text_file.h"
-#include "frangia/devices/rig_devices.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/encode_arrays.h"
+#include "frangia/service/internal/opened_devices.h"
 #include "frangia/service/internal/station_cloud.h"
-#include "frangia/simulate/default_patterns.h"
 
 namespace frangia {
 namespace {
@@ -89,12 +88,13 @@ class StationBook {
 
 Scan plan_of(const ProjectFolder& project,
              const std::vector<ProjectStation>& stations,
+             const CaptureSettings& settings,
              const Run& run) {
   Scan plan;
   plan.folder = project.scan;
   plan.name = project.name;
   plan.rig = read_rig(project.rig(), run);
-  plan.patterns = default_patterns(plan.rig);
+  plan.patterns = patterns_of(settings, plan.rig);
   for (std::size_t i = 0; i < stations.size(); ++i)
     plan.views.push_back({rad_from_deg(stations[i].angle_deg), fmt::format("views/{:03}", i)});
   return plan;
@@ -191,27 +191,21 @@ std::vector<ProjectStation> read_stations(const ProjectFolder& project, const Ru
 CaptureReport capture_project(
     const ProjectFolder& project,
     std::vector<ProjectStation> stations,
+    const CaptureSettings& settings,
     const CaptureSetup& setup,
     const std::function<void(const std::vector<ProjectStation>&)>& on_change,
     const Run& run) {
   run.stage("devices");
-  const Scan plan = plan_of(project, stations, run);
+  const Scan plan = plan_of(project, stations, settings, run);
   make_folder(project.derived / "clouds");
   const FolderLock lock(plan.folder);
-  const std::shared_ptr<void> hold = setup.hold_devices ? setup.hold_devices() : nullptr;
-  std::optional<Guardian> guardian;
-  if (setup.guardian) guardian.emplace(*setup.guardian);
-  constexpr double kOpen_s = 30.0;
-  RigDevices devices = open_devices(project.rig(),
-                                    plan.rig,
-                                    setup.drivers(),
-                                    Deadline::in(kOpen_s, run.stop),
-                                    run,
-                                    guardian ? &*guardian : nullptr);
+  OpenedDevices opened(project.rig(), plan.rig, setup.drivers(), setup, run);
+  RigDevices& devices = opened.devices();
   run.stage("scan");
   StationBook book(project, std::move(stations), on_change);
   const StationCloud clouds(plan.rig);
   CaptureOptions options;
+  options.camera = settings.camera;
   options.on_view = [&](const ViewAssessment& found) {
     enter(found, clouds, project, book, plan.views[found.view].angle_rad);
   };

@@ -12,7 +12,9 @@
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/devices/driver.h"
 #include "frangia/devices/guardian.h"
+#include "frangia/service/capture_settings.h"
 #include "frangia/service/project_folder.h"
+#include "frangia/simulate/simulated_drivers.h"
 
 namespace frangia {
 
@@ -39,7 +41,9 @@ struct ProjectStation {
 /// What the capture of a project needs from the program.
 struct CaptureSetup {
   std::function<std::vector<Driver>()> drivers;  ///< all drivers that a rig may name
-  std::optional<GuardianProgram> guardian;       ///< switches devices off when the program dies
+  /// The same, with a board before the simulated camera.
+  std::function<std::vector<Driver>(const SimulatedBoard&)> board_drivers;
+  std::optional<GuardianProgram> guardian;  ///< switches devices off when the program dies
   /// Returns an object that lives as long as devices are open; may be empty.
   std::function<std::shared_ptr<void>()> hold_devices;
 };
@@ -66,6 +70,7 @@ void write_stations(const ProjectFolder& project, const std::vector<ProjectStati
 CaptureReport capture_project(
     const ProjectFolder& project,
     std::vector<ProjectStation> stations,
+    const CaptureSettings& settings,
     const CaptureSetup& setup,
     const std::function<void(const std::vector<ProjectStation>&)>& on_change,
     const Run& run = {});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "frangia/editor/edit_operation.h"
+#include "frangia/service/capture_settings.h"
+#include "frangia/service/live_preview.h"
 #include "frangia/service/project_folder.h"
 #include "frangia/service/project_scan.h"
 
@@ -22,6 +25,7 @@ struct ProjectProgress {
   bool scan_complete = false;   ///< the scan can be reconstructed
   bool has_surface = false;     ///< a surface was reconstructed and read
   std::vector<EditStep> steps;  ///< applied edits
+  CaptureSettings capture;      ///< of the scan
 };
 
 /// Command lines by the name of the step that they stand for, as words.
@@ -32,6 +36,8 @@ struct ServiceOptions {
   std::filesystem::path projects;  ///< folder of the projects
   CaptureSetup capture;            ///< drivers and the guardian
   std::string version;             ///< of the program, for the state
+  /// Called when a live preview has a new picture, on any thread; may be empty.
+  std::function<void()> on_picture;
   /// Words the command lines that do the same as a project's steps; empty: the state has none.
   std::function<CommandLines(const ProjectProgress&)> command_lines;
 };
@@ -40,6 +46,12 @@ struct ServiceOptions {
 struct ExportedFile {
   std::string name;            ///< "bust.dxf"
   std::filesystem::path path;  ///< in the project's exports
+};
+
+/// A packed message of a live preview.
+struct LivePicture {
+  std::uint64_t revision = 0;                ///< changes with each picture
+  std::shared_ptr<const std::string> bytes;  ///< as encode_live packs them; null: nothing new
 };
 
 /// The operator's app without its network: one project at a time, its long tasks, its edit history
@@ -79,6 +91,8 @@ class Service {
   [[nodiscard]] std::shared_ptr<const std::string> selection() const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
+  /// The newest picture of a live preview or of a calibration, unless it has the revision `after`.
+  [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
   /// A file that was exported.
   ///
   /// @errors   Error(Input) when there is no export of this name

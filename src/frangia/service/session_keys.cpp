@@ -50,7 +50,7 @@ std::string SessionKeys::issue_token(Clock::time_point now) {
   return tokens_.back().text;
 }
 
-std::optional<std::string> SessionKeys::redeem(std::string_view token, Clock::time_point now) {
+std::optional<SessionKey> SessionKeys::redeem(std::string_view token, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   std::erase_if(tokens_, [&](const Token& one) { return now - one.issued > kTokenLife; });
   const auto found = std::find_if(tokens_.begin(), tokens_.end(), [&](const Token& one) {
@@ -58,23 +58,56 @@ std::optional<std::string> SessionKeys::redeem(std::string_view token, Clock::ti
   });
   if (found == tokens_.end()) return std::nullopt;
   tokens_.erase(found);
-  return add_key();
+  return add_key(false).session;
+}
+
+SessionKey SessionKeys::admit() {
+  const std::lock_guard lock(mutex_);
+  return add_key(false).session;
 }
 
 std::string SessionKeys::issue_key() {
   const std::lock_guard lock(mutex_);
-  return add_key();
+  return add_key(true).session.key;
 }
 
 bool SessionKeys::is_valid(std::string_view key) const {
   const std::lock_guard lock(mutex_);
-  return std::any_of(
-      keys_.begin(), keys_.end(), [&](const std::string& one) { return equal_secrets(one, key); });
+  return find(key) != nullptr;
 }
 
-std::string SessionKeys::add_key() {
-  if (keys_.size() >= kMostKeys) keys_.pop_front();
-  keys_.push_back(random_key());
+bool SessionKeys::may_act(std::string_view key) const {
+  const std::lock_guard lock(mutex_);
+  const Key* known = find(key);
+  return known != nullptr && (known->script || known->session.id == operator_id_);
+}
+
+void SessionKeys::take_over(std::string_view key) {
+  const std::lock_guard lock(mutex_);
+  if (const Key* known = find(key)) operator_id_ = known->session.id;
+}
+
+std::string SessionKeys::operator_id() const {
+  const std::lock_guard lock(mutex_);
+  return operator_id_;
+}
+
+const SessionKeys::Key* SessionKeys::find(std::string_view key) const {
+  const Key* found = nullptr;  // all are compared, so that the time tells nothing
+  for (const Key& one : keys_)
+    if (equal_secrets(one.session.key, key)) found = &one;
+  return found;
+}
+
+const SessionKeys::Key& SessionKeys::add_key(bool script) {
+  if (keys_.size() >= kMostKeys) {
+    const auto oldest =
+        std::find_if(keys_.begin(), keys_.end(), [](const Key& one) { return !one.script; });
+    keys_.erase(oldest != keys_.end() ? oldest : keys_.begin());
+  }
+  constexpr std::size_t kIdLength = 8;
+  keys_.push_back({{random_key(), random_key().substr(0, kIdLength)}, script});
+  if (!script && operator_id_.empty()) operator_id_ = keys_.back().session.id;
   return keys_.back();
 }
 

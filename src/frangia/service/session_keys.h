@@ -18,8 +18,16 @@ namespace frangia {
 /// Compares secrets in a time that depends on the length of `given` only.
 [[nodiscard]] bool equal_secrets(std::string_view expected, std::string_view given);
 
+/// A key and the public name of its session.
+struct SessionKey {
+  std::string key;  ///< secret
+  std::string id;   ///< shown to other sessions
+};
+
 /// The launch tokens and session keys of the operator's app. A token stands in a link and is
-/// exchanged once for a key; a key authorizes every request. Safe to call from several threads.
+/// exchanged once for a key; a key authorizes every request. One session operates, the others watch
+/// until they take over; scripts of the same user may always act. Safe to call from several
+/// threads.
 class SessionKeys {
  public:
   using Clock = std::chrono::steady_clock;            ///< measures the life of tokens
@@ -30,10 +38,18 @@ class SessionKeys {
   /// Makes a token for one browser.
   [[nodiscard]] std::string issue_token(Clock::time_point now = Clock::now());
   /// Exchanges a token for a new key. Empty for a token that is unknown, used or too old.
-  [[nodiscard]] std::optional<std::string> redeem(std::string_view token,
-                                                  Clock::time_point now = Clock::now());
-  /// Makes a key without a token, for scripts of the same user.
+  [[nodiscard]] std::optional<SessionKey> redeem(std::string_view token,
+                                                 Clock::time_point now = Clock::now());
+  /// Makes a key without a token, for a browser that gave the password.
+  [[nodiscard]] SessionKey admit();
+  /// Makes a key for scripts of the same user.
   [[nodiscard]] std::string issue_key();
+  /// Whether a valid key may change something: that of the operator or of a script.
+  [[nodiscard]] bool may_act(std::string_view key) const;
+  /// Makes the session of a valid key the operator.
+  void take_over(std::string_view key);
+  /// Public name of the session that operates; empty before the first one.
+  [[nodiscard]] std::string operator_id() const;
   /// Whether a key was issued and not dropped.
   [[nodiscard]] bool is_valid(std::string_view key) const;
 
@@ -42,11 +58,17 @@ class SessionKeys {
     std::string text;
     Clock::time_point issued;
   };
-  std::string add_key();
+  struct Key {
+    SessionKey session;
+    bool script = false;
+  };
+  const Key& add_key(bool script);
+  [[nodiscard]] const Key* find(std::string_view key) const;
 
   mutable std::mutex mutex_;
   std::deque<Token> tokens_;
-  std::deque<std::string> keys_;
+  std::deque<Key> keys_;
+  std::string operator_id_;
 };
 
 }  // namespace frangia

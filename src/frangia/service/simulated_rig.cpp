@@ -33,6 +33,9 @@ void write_simulated_rig(const std::filesystem::path& path, const std::string& p
   const SimulateOptions camera;
   constexpr double kWhite = 255.0;
   rig.camera.noise = NoiseModel::from_camera(camera.full_well_e / kWhite, camera.read_e);
+  AtomicFile truth(true_rig_beside(path));
+  truth.stream() << rig_text(rig);
+  truth.commit();
   AtomicFile file(path);
   file.stream() << rig_text(rig)
                 << fmt::format(R"(
@@ -40,6 +43,7 @@ void write_simulated_rig(const std::filesystem::path& path, const std::string& p
 driver = "simulated"
 part = "{}"
 samples = 4
+true_rig = "true-rig.toml"
 
 [devices.fringes]
 driver = "simulated-display"
@@ -51,6 +55,10 @@ backlash_deg = 0.5
 )",
                                part);
   file.commit();
+}
+
+std::filesystem::path true_rig_beside(const std::filesystem::path& rig) {
+  return rig.parent_path() / "true-rig.toml";
 }
 
 }  // namespace frangia

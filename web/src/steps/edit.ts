@@ -1,12 +1,17 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
-import { icon } from '../icons';
-import { number, t } from '../messages';
+import { icon, type IconName } from '../icons';
+import { type MessageKey, number, t } from '../messages';
 import { choice } from '../ui';
 import type { Tool } from '../viewer';
+import { fitting, selectingByValue, shaping } from './edit_more';
 
 export type Combine = 'replace' | 'add' | 'within';
 const SHOWN_HOLES = 6;
+
+/** An icon whose name shows when it is pointed at. */
+const tip = (name: IconName, key: MessageKey): TemplateResult =>
+  html`<span class="tip" title=${t(key)}>${icon(name)}<span class="sr">${t(key)}</span></span>`;
 
 function selecting(app: App): TemplateResult {
   const surface = app.project.surface;
@@ -18,10 +23,12 @@ function selecting(app: App): TemplateResult {
       t('edit.select'),
       app.viewer.tool,
       [
-        ['orbit', html`${icon('orbit')}<span>${t('edit.orbit')}</span>`],
-        ['lasso', html`${icon('lasso')}<span>${t('edit.lasso')}</span>`],
-        ['rectangle', html`${icon('rectangle')}<span class="sr">${t('edit.rectangle')}</span>`],
-        ['part', html`${icon('part')}<span>${t('edit.part')}</span>`],
+        ['orbit', tip('orbit', 'edit.orbit')],
+        ['brush', tip('brush', 'edit.brush')],
+        ['lasso', tip('lasso', 'edit.lasso')],
+        ['rectangle', tip('rectangle', 'edit.rectangle')],
+        ['part', tip('part', 'edit.part')],
+        ['loop', tip('loop', 'edit.loop')],
       ],
       (tool) => app.setTool(tool),
     )}
@@ -74,6 +81,9 @@ function repairing(app: App): TemplateResult {
   <section class="group">
     <h2>${t('edit.repair')}</h2>
     <button class="btn wide" ?disabled=${app.busy} @click=${() => app.edit('remove-spikes')}>${t('edit.spikes')}</button>
+    ${surface.hole_count > 1
+      ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.edit('bridge', `${surface.holes[0]?.number},${surface.holes[1]?.number}`)}>${t('edit.bridge')}</button>`
+      : ''}
     <button class="btn wide" ?disabled=${app.busy || surface.components < 2} @click=${() => app.edit('keep-largest', '1')}>${t('edit.islands')}</button>
     <form class="row" @submit=${(event: SubmitEvent) => {
       event.preventDefault();
@@ -89,7 +99,7 @@ function repairing(app: App): TemplateResult {
 export function editStep(app: App): TemplateResult {
   const surface = app.project.surface;
   if (!surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
-  return html`${selecting(app)}${repairing(app)}
+  return html`${selecting(app)}${selectingByValue(app)}${repairing(app)}${fitting(app)}${shaping(app)}
     <section class="group">
       <h2>${t('edit.history')}</h2>
       <div class="pair">

@@ -51,6 +51,13 @@ export function exportStep(app: App): TemplateResult {
       <button class="btn primary wide" id="export" ?disabled=${app.busy} @click=${start}>${t('export.write', { format: format.toUpperCase() })}</button>
     </section>
     <section class="group">
+      <h2>${t('export.more')}</h2>
+      <div class="pair">
+        <button class="btn" id="zip" ?disabled=${app.occupied || !project.scan_complete} @click=${() => app.command('export', { format: 'zip' })}>${t('export.zip')}</button>
+        <button class="btn" id="picture" @click=${() => app.pictureFile()}>${t('export.picture')}</button>
+      </div>
+    </section>
+    <section class="group">
       <h2>${t('export.files')}</h2>
       ${project.exports.length === 0 ? html`<p class="quiet">${t('export.none')}</p>` : ''}
       <div>

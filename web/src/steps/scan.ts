@@ -26,9 +26,9 @@ export function scanStep(app: App): TemplateResult {
       ${job
         ? html`<button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>${icon('pause')}${t('scan.pause')}</button>`
         : project.scan_complete
-          ? html`<button class="btn primary wide" id="build" ?disabled=${app.busy} @click=${() => app.build()}>${t('scan.build')}${icon('arrow')}</button>`
+          ? html`<button class="btn primary wide" id="build" ?disabled=${app.occupied} @click=${() => app.build()}>${t('scan.build')}${icon('arrow')}</button>`
           : project.can_scan
-            ? html`<button class="btn primary wide" id="scan" ?disabled=${app.busy} @click=${() => app.command('start-scan')}>
+            ? html`<button class="btn primary wide" id="scan" ?disabled=${app.occupied} @click=${() => app.command('start-scan')}>
                 ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}
               </button>`
             : ''}
@@ -46,8 +46,12 @@ export function scanStep(app: App): TemplateResult {
         </thead>
         <tbody class="num">
           ${project.stations.map(
-            (station) => html`<tr title=${station.verdict}>
-              <td><span class="dot ${dot(station)}"></span><span class="angle">${number(station.angle_deg, 1)}°</span></td>
+            (station, i) => html`<tr title=${station.verdict}>
+              <td>
+                ${station.state === 'done' || station.state === 'skipped'
+                  ? html`<button class="rescan" title=${t('scan.rescan')} aria-label="${t('scan.rescan')}: ${number(station.angle_deg, 1)}°" ?disabled=${app.occupied || !project.can_scan}
+                      @click=${() => app.command('rescan-station', { station: i })}><span class="dot ${dot(station)}"></span>${icon('again')}</button>`
+                  : html`<span class="dot ${dot(station)}"></span>`}<span class="angle">${number(station.angle_deg, 1)}°</span></td>
               ${measured || begun
                 ? station.points
                   ? html`<td>${number(station.contrast, 2)}</td><td>${number(100 * station.saturated, 1)} %</td><td>${number(station.points)}</td>`

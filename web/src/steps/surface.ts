@@ -3,9 +3,10 @@ import type { App } from '../app';
 import { css, MARK_COLORS } from '../colors';
 import { icon } from '../icons';
 import { legend } from '../legend';
+import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
 import { choice } from '../ui';
-import type { Coloring, SectionAxis, Shading } from '../viewer';
+import type { SectionAxis, Shading } from '../viewer';
 
 const um = (value: number | null): TemplateResult =>
   value === null ? html`<dd class="num">·</dd>` : html`<dd class="num">${number(1000 * value, 1)}<span>µm</span></dd>`;
@@ -64,9 +65,11 @@ export function surfaceStep(app: App): TemplateResult {
               @input=${(event: Event) => app.setLook({ share: Number((event.target as HTMLInputElement).value) })} />
             <button class="icon-btn" title=${t('surface.flip')} aria-label=${t('surface.flip')} @click=${() => app.setLook({ flipped: !look.flipped })}>${icon('flip')}</button>
           </div>`}
-      <button class="btn wide" aria-pressed=${app.viewer.tool === 'measure'} @click=${() => app.setTool(app.viewer.tool === 'measure' ? 'orbit' : 'measure')}>
-        ${icon('measure')}${t('surface.measure')}
-      </button>
+      ${(['measure', 'angle'] as const).map(
+        (tool) => html`<button class="btn wide" aria-pressed=${app.viewer.tool === tool} @click=${() => app.setTool(app.viewer.tool === tool ? 'orbit' : tool)}>
+          ${icon(tool)}${t(tool === 'measure' ? 'surface.measure' : 'surface.measureAngle')}
+        </button>`,
+      )}
     </section>
     <section class="group">
       <h2>${t('surface.figures')}</h2>

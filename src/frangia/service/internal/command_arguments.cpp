@@ -1,5 +1,8 @@
 #include "frangia/service/internal/command_arguments.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "frangia/core/check_nesting.h"
@@ -59,6 +62,29 @@ std::optional<double> CommandArguments::positive(const char* key) {
   if (!value->is_number() || !(value->get<double>() > 0.0))
     fail_argument(key, "a number above 0 is missing here");
   return value->get<double>();
+}
+
+std::optional<double> CommandArguments::zero_or_more(const char* key) {
+  const auto value = number(key);
+  if (value && *value < 0.0) fail_argument(key, "a number of 0 or more is missing here");
+  return value;
+}
+
+std::optional<double> CommandArguments::number(const char* key) {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_number() || !std::isfinite(value->get<double>()))
+    fail_argument(key, "a number is missing here");
+  return value->get<double>();
+}
+
+std::vector<double> CommandArguments::numbers(const char* key, std::size_t count) {
+  const nlohmann::json* value = find(key);
+  const auto is_number = [](const nlohmann::json& one) { return one.is_number(); };
+  if (value == nullptr || !value->is_array() || value->size() != count ||
+      !std::all_of(value->begin(), value->end(), is_number))
+    fail_argument(key, fmt::format("a list of {} numbers is missing here", count));
+  return value->get<std::vector<double>>();
 }
 
 void CommandArguments::check_all_read() const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,9 @@ class CommandArguments {
                                      std::size_t most);
   /// A number above 0, or empty.
   [[nodiscard]] std::optional<double> positive(const char* key);
+  [[nodiscard]] std::optional<double> zero_or_more(const char* key);  ///< likewise
+  [[nodiscard]] std::optional<double> number(const char* key);        ///< any finite number
+  [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count);  ///< required
   /// Fails when a key is left that no function has read.
   void check_all_read() const;
 

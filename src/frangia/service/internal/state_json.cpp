@@ -1,10 +1,14 @@
 #include "frangia/service/internal/state_json.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/angles.h"
+#include "frangia/phase/published_algorithms.h"
+#include "frangia/service/internal/rig_json.h"
 #include "frangia/simulate/parts.h"
 
 namespace frangia {
@@ -47,6 +51,18 @@ Json json_of_stations(const std::vector<ProjectStation>& stations) {
   return all;
 }
 
+Json json_of_fit(const SurfaceFit& fit) {
+  const auto vector = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
+  return {{"kind", fit.kind},
+          {"center_mm", vector(fit.center_mm)},
+          {"axis", vector(fit.axis)},
+          {"diameter_mm", number_or_null(fit.diameter_mm)},
+          {"u95_mm", number_or_null(fit.u95_mm)},
+          {"rms_mm", fit.rms_mm},
+          {"form_mm", fit.form_mm},
+          {"points", fit.points}};
+}
+
 Json json_of_surface(const SurfaceSnapshot& surface, const std::string& summary) {
   Json json{{"mesh_revision", surface.mesh_revision},
             {"selection_revision", surface.selection_revision},
@@ -71,16 +87,41 @@ Json json_of_surface(const SurfaceSnapshot& surface, const std::string& summary)
   for (const EditStep& step : surface.steps)
     json["steps"].push_back({{"operation", step.operation}, {"value", step.value}});
   json["steps_done"] = surface.done;
+  json["fits"] = Json::array();
+  for (const SurfaceFit& fit : surface.fits)
+    json["fits"].push_back(json_of_fit(fit));
   json["summary"] = summary.empty() ? Json() : Json::parse(summary, nullptr, false);
   if (json["summary"].is_discarded()) json["summary"] = Json();
   return json;
+}
+
+Json json_of_live(const LivePreview& live) {
+  static constexpr std::array kPatterns = {"fringes", "white", "dark"};
+  const LiveSettings settings = live.settings();
+  return {{"pattern", kPatterns.at(static_cast<std::size_t>(settings.pattern))},
+          {"table_deg", deg_from_rad(settings.table_rad)}};
+}
+
+Json json_of_capture(const CaptureSettings& settings) {
+  return {{"exposure_ms", settings.camera.exposure_ms},
+          {"gain_db", settings.camera.gain_db},
+          {"black_level_counts", settings.camera.black_level_counts},
+          {"shifts", settings.shifts},
+          {"algorithm", settings.algorithm}};
 }
 
 Json json_of_project(const OpenProject& project, const CommandLines& commands) {
   Json json{
       {"name", project.folder.name},
       {"can_scan", project.can_scan},
+      {"scan_begun", project.scan_begun},
       {"scan_complete", project.scan_complete},
+      {"capture", json_of_capture(project.capture)},
+      {"rig", project.rig ? json_of_rig(*project.rig) : Json()},
+      {"rig_fault", project.rig_fault},
+      {"devices", json_of_devices(project.devices)},
+      {"live", project.live ? json_of_live(*project.live) : Json()},
+      {"calibration", project.wizard ? json_of_wizard(project.wizard->state()) : Json()},
       {"stations", json_of_stations(project.stations)},
       {"surface", project.surface ? json_of_surface(*project.surface, project.summary) : Json()}};
   json["exports"] = Json::array();
@@ -97,6 +138,10 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
 std::string state_json(const ServiceView& view) {
   Json json{{"version", view.version}};
   json["parts"] = part_names();
+  json["algorithms"] = Json::array();
+  for (const PublishedAlgorithm& algorithm : published_algorithms())
+    json["algorithms"].push_back(
+        {{"name", algorithm.name}, {"frames", describe_frames(algorithm)}});
   json["projects"] = Json::array();
   for (const ProjectEntry& entry : view.projects) {
     json["projects"].push_back({{"name", entry.name},

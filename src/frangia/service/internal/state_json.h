@@ -1,13 +1,18 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "frangia/rig/rig.h"
+#include "frangia/service/calibration_wizard.h"
+#include "frangia/service/capture_settings.h"
 #include "frangia/service/internal/surface_model.h"
 #include "frangia/service/job_queue.h"
+#include "frangia/service/live_preview.h"
 #include "frangia/service/project_folder.h"
 #include "frangia/service/project_scan.h"
 #include "frangia/service/service.h"
@@ -20,11 +25,27 @@ struct ExportEntry {
   std::size_t bytes = 0;
 };
 
+/// A device of the rig and its last test.
+struct ProjectDevice {
+  std::string table;   ///< "camera", "fringes", ...
+  std::string driver;  ///< as rig.toml names it
+  std::string name;    ///< as the device names itself; empty before a test
+  std::string answer;  ///< to its test
+  std::string fault;   ///< instead of an answer
+};
+
 /// The open project as the service knows it.
 struct OpenProject {
   ProjectFolder folder;
   bool can_scan = false;       ///< its rig names devices
   bool scan_complete = false;  ///< scan.toml exists
+  bool scan_begun = false;     ///< frames were captured: settings are fixed
+  CaptureSettings capture;
+  std::optional<Rig> rig;
+  std::string rig_fault;  ///< why there is no rig
+  std::vector<ProjectDevice> devices;
+  std::shared_ptr<LivePreview> live;          ///< while a preview runs
+  std::shared_ptr<CalibrationWizard> wizard;  ///< since a calibration began
   std::vector<ProjectStation> stations;
   std::string summary;  ///< JSON of the reconstruction; empty without one
   SurfacePtr surface;   ///< null without one, or until it is read

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/editor/edit_script.h"
+#include "frangia/features/feature_points.h"
+#include "frangia/features/fit_points.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/connected_components.h"
@@ -46,6 +49,12 @@ std::vector<SurfaceHole> holes_of(const Mesh& mesh) {
   return holes;
 }
 
+ShapeKind shape_kind_of(const std::string& name) {
+  for (const ShapeKind kind : {ShapeKind::Plane, ShapeKind::Cylinder, ShapeKind::Sphere})
+    if (name == name_of(kind)) return kind;
+  throw Error(ErrorKind::Input, "kind: is plane, cylinder or sphere");
+}
+
 }  // namespace
 
 SurfaceModel::SurfaceModel(const ProjectFolder& project, int revision, const Run& run)
@@ -75,6 +84,36 @@ SurfacePtr SurfaceModel::select_component_of(std::size_t triangle, const Run& ru
   require(triangle < mesh().triangles.size(), "the surface has no such triangle; pick another one");
   const auto number = connected_components(mesh()).component_of[triangle];
   return apply({"select-component", std::to_string(number)}, run);
+}
+
+SurfacePtr SurfaceModel::fit(const std::string& kind, const Run& run) {
+  const Selection& selection = history_->state().selection;
+  require(count_selected(selection) > 0, "nothing is selected; select the surface to be fitted");
+  Mesh part = mesh();
+  part.triangles.clear();
+  part.triangle_marks.clear();
+  for (std::size_t i = 0; i < selection.size(); ++i) {
+    if (selection[i] == 0) continue;
+    part.triangles.push_back(mesh().triangles[i]);
+    if (!mesh().triangle_marks.empty()) part.triangle_marks.push_back(mesh().triangle_marks[i]);
+  }
+  const FeaturePoints points = feature_points_of(part, run);
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const Feature found = fit_points(points, all, shape_kind_of(kind), run);
+  const Shape& shape = found.fit.shape;
+  auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
+  next->fits.push_back({.kind = kind,
+                        .center_mm = shape.center_mm,
+                        .axis = shape.axis,
+                        .diameter_mm = kind == "plane" ? kMissing : 2.0 * shape.radius_mm,
+                        .u95_mm = found.uncertainty.u95_mm,
+                        .rms_mm = found.fit.rms_mm,
+                        .form_mm = found.fit.form_mm,
+                        .points = found.fit.points});
+  if (next->fits.size() > SurfaceSnapshot::kMostFits) next->fits.erase(next->fits.begin());
+  snapshot_ = std::move(next);
+  return snapshot_;
 }
 
 SurfacePtr SurfaceModel::undo() {

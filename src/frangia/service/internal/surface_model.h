@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/editor/edit_history.h"
 #include "frangia/geometry/median_sigma.h"
@@ -23,6 +24,18 @@ struct SurfaceHole {
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
 };
 
+/// A plane, cylinder or sphere that was fitted to selected triangles.
+struct SurfaceFit {
+  std::string kind;  ///< "plane", "cylinder" or "sphere"
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  double diameter_mm = kMissing;  ///< NaN for a plane
+  double u95_mm = kMissing;       ///< expanded uncertainty of the diameter, or of a plane's offset
+  double rms_mm = 0.0;            ///< of the residuals
+  double form_mm = 0.0;           ///< range of the residuals
+  std::size_t points = 0;
+};
+
 /// What clients see of a surface. Immutable, so that a client reads it while an edit runs.
 struct SurfaceSnapshot {
   int mesh_revision = 0;       ///< changes with the mesh
@@ -36,10 +49,12 @@ struct SurfaceSnapshot {
   std::size_t hole_count = 0;
   std::vector<EditStep> steps;  ///< those after the first `done` were undone
   std::size_t done = 0;
+  std::vector<SurfaceFit> fits;  ///< of the present mesh, the newest last, at most kMostFits
   std::shared_ptr<const std::string> mesh;       ///< packed
   std::shared_ptr<const std::string> selection;  ///< packed
 
   static constexpr std::size_t kMostHoles = 100;
+  static constexpr std::size_t kMostFits = 12;
 };
 using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
 
@@ -57,6 +72,11 @@ class SurfaceModel {
   SurfacePtr apply(const EditStep& step, const Run& run);
   /// Selects the connected component of a triangle.
   SurfacePtr select_component_of(std::size_t triangle, const Run& run);
+  /// Fits a shape, "plane", "cylinder" or "sphere", to the selected triangles.
+  ///
+  /// @errors   Error(Input) for another kind, for too small a selection, or when its points do not
+  ///          determine the shape
+  SurfacePtr fit(const std::string& kind, const Run& run);
   SurfacePtr undo();  ///< Error(Input) without a step to undo
   SurfacePtr redo();  ///< Error(Input) without a step to redo
   [[nodiscard]] SurfacePtr snapshot() const { return snapshot_; }

@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "frangia/acquisition/calibrate_capture.h"
+#include "frangia/calibrate/find_board.h"
+#include "frangia/core/error.h"
+#include "frangia/core/folder_lock.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/calibrate_rig.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
+#include "frangia/service/calibration_wizard.h"
+#include "frangia/service/internal/opened_devices.h"
+#include "frangia/simulate/default_patterns.h"
+
+namespace frangia {
+namespace {
+
+void enter(const PoseCoverage& coverage, WizardState& state) {
+  state.coverage = coverage;
+  state.field = coverage.field();
+  state.sufficient = coverage.sufficient();
+}
+
+}  // namespace
+
+CalibrationWizard::CalibrationWizard(ProjectFolder project, std::function<void()> on_change)
+    : project_(std::move(project)),
+      folder_(project_.derived / "calibration"),
+      on_change_(std::move(on_change)) {}
+
+void CalibrationWizard::capture_pose() {
+  answer(Answer::Capture);
+}
+
+void CalibrationWizard::end_poses() {
+  answer(Answer::End);
+}
+
+void CalibrationWizard::answer(Answer given) {
+  {
+    const std::lock_guard lock(mutex_);
+    require(state_.waiting, "no pose of the board is waited for");
+    answer_ = given;
+    state_.waiting = false;
+  }
+  answered_.notify_all();
+}
+
+void CalibrationWizard::change(const std::function<void(WizardState&)>& edit) {
+  {
+    const std::lock_guard lock(mutex_);
+    edit(state_);
+  }
+  on_change_();
+}
+
+/// Publishes a frame with the points of the board that it shows.
+void CalibrationWizard::show(Frame frame, int white_level, const Board& board) {
+  auto next = std::make_shared<LiveSnapshot>();
+  Image<float> counts(width_of(frame), height_of(frame));
+  std::visit(
+      [&](const auto& image) {
+        std::copy(image.pixels().begin(), image.pixels().end(), counts.pixels().begin());
+      },
+      frame);
+  for (const BoardPoint& point : find_board(counts, board))
+    next->corners_px.push_back(point.camera_px);
+  next->white_level = white_level;
+  next->frame = std::make_shared<const Frame>(std::move(frame));
+  change([&](WizardState& state) {
+    state.found = next->corners_px.size();
+    next->revision = snapshot_ ? snapshot_->revision + 1 : 1;
+    snapshot_ = next;
+  });
+}
+
+/// Shows what the camera sees until somebody answers.
+bool CalibrationWizard::wait_for_answer(RigDevices& devices,
+                                        const Board& board,
+                                        std::size_t number,
+                                        const PoseCoverage& coverage,
+                                        const Run& run) {
+  change([&](WizardState& state) {
+    enter(coverage, state);
+    state.waiting = true;
+    answer_ = Answer::None;
+  });
+  constexpr double kTimeout_s = 10.0;
+  constexpr std::chrono::milliseconds kPause{200};
+  for (int attempt = 0;; ++attempt) {
+    run.check();
+    CapturedFrame seen = devices.camera->capture(
+        {.view = static_cast<int>(number) - 1, .pattern = "white", .attempt = attempt},
+        Deadline::in(kTimeout_s, run.stop));
+    if (seen.complete) show(std::move(seen.frame), devices.camera->info().white_level, board);
+    std::unique_lock lock(mutex_);
+    answered_.wait_for(lock, kPause, [&] { return answer_ != Answer::None; });
+    if (answer_ != Answer::None) return std::exchange(answer_, Answer::None) == Answer::Capture;
+  }
+}
+
+void CalibrationWizard::capture(const Board& board,
+                                std::size_t poses,
+                                const CaptureSetup& setup,
+                                const Run& run) {
+  Scan plan;
+  plan.folder = folder_;
+  plan.name = "poses";
+  plan.rig = read_rig(project_.rig(), run, RigContent::StartValues);
+  plan.board = board;
+  plan.patterns = calibration_patterns(plan.rig);
+  const FolderLock lock(plan.folder);
+  const SimulatedBoard simulated{.board = board, .poses = static_cast<int>(poses)};
+  OpenedDevices opened(project_.rig(), plan.rig, setup.board_drivers(simulated), setup, run);
+  RigDevices& devices = opened.devices();
+  CalibrateCaptureOptions options;
+  options.poses = poses;
+  options.wait_for_pose = [&](std::size_t number, const PoseCoverage& coverage) {
+    return wait_for_answer(devices, board, number, coverage, run);
+  };
+  options.on_pose = [&](const CapturedPose& pose) {
+    change([&](WizardState& state) {
+      state.poses.push_back({pose.points, pose.expected});
+      enter(pose.coverage, state);
+    });
+  };
+  run.stage("poses");
+  static_cast<void>(calibrate_capture(plan, devices, lock, options, run));
+}
+
+void CalibrationWizard::solve(const Run& run) {
+  run.stage("calibrate");
+  Run listening = run;
+  listening.on_warning = [&](const std::string& sentence) {
+    change([&](WizardState& state) { state.findings.push_back(sentence); });
+    run.warn(sentence);
+  };
+  const RigCalibration result =
+      calibrate_rig(read_scan(folder_, listening, RigContent::StartValues), {}, listening);
+  const std::filesystem::path fresh = project_.folder / "rig-calibrated.toml";
+  write_rig(fresh, result.rig, Durability::Synced, project_.rig());
+  std::filesystem::rename(fresh, project_.rig());
+  const RigSolution& solution = result.solution;
+  WizardVerdict verdict;
+  verdict.grade = calibration_grade(solution);
+  verdict.point_sigma_mm = solution.point_sigma_mm;
+  verdict.spread_mm = solution.spread_mm;
+  verdict.distance_mm = solution.distance_mm;
+  verdict.baseline_mm = solution.projector_from_camera.translation().norm();
+  verdict.camera_rms_px = solution.camera_residuals.rms_px;
+  verdict.projector_rms_px = solution.projector_residuals.rms_px;
+  verdict.poses = result.views.size();
+  change([&](WizardState& state) { state.verdict = verdict; });
+}
+
+void CalibrationWizard::run(const Board& board,
+                            std::size_t poses,
+                            const CaptureSetup& setup,
+                            const Run& run) {
+  change([&](WizardState& state) {
+    state = {};
+    state.active = true;
+    state.wanted = poses;
+  });
+  struct AtEnd {
+    CalibrationWizard& wizard;
+    explicit AtEnd(CalibrationWizard& one) : wizard(one) {}
+    AtEnd(const AtEnd&) = delete;
+    AtEnd& operator=(const AtEnd&) = delete;
+    AtEnd(AtEnd&&) = delete;
+    AtEnd& operator=(AtEnd&&) = delete;
+    ~AtEnd() {
+      wizard.change([](WizardState& state) { state.active = state.waiting = false; });
+    }
+  };
+  const AtEnd at_end(*this);
+  capture(board, poses, setup, run);
+  solve(run);
+}
+
+}  // namespace frangia

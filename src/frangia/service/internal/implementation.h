@@ -1,0 +1,96 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "frangia/service/calibration_wizard.h"
+#include "frangia/service/internal/command_arguments.h"
+#include "frangia/service/internal/state_json.h"
+#include "frangia/service/internal/surface_model.h"
+#include "frangia/service/job_queue.h"
+#include "frangia/service/live_preview.h"
+#include "frangia/service/project_folder.h"
+#include "frangia/service/service.h"
+
+namespace frangia {
+
+/// The state behind a mutex, and the queue whose one thread changes the surface.
+class Service::Implementation {
+ public:
+  Implementation(ServiceOptions options, std::function<void()> on_change);
+
+  void open(const ProjectFolder& folder);
+  std::string command(const std::string& name, const std::string& text);
+  [[nodiscard]] std::string state() const;
+  [[nodiscard]] SurfacePtr surface() const;
+  /// @errors   Error(Input) when no project is open
+  [[nodiscard]] ProjectFolder folder() const;
+  [[nodiscard]] std::string cloud(std::size_t station) const;
+  [[nodiscard]] ExportedFile exported(const std::string& name) const;
+  [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
+
+ private:
+  using Json = nlohmann::ordered_json;
+
+  Json create_project(CommandArguments& arguments);
+  Json open_project(CommandArguments& arguments);
+  Json close_project(CommandArguments& arguments);
+
+  Json set_capture(CommandArguments& arguments);
+  Json start_live(CommandArguments& arguments);
+  Json set_live(CommandArguments& arguments);
+  Json start_scan(CommandArguments& arguments);
+  Json rescan_station(CommandArguments& arguments);
+  Json start_reconstruct(CommandArguments& arguments);
+
+  Json test_devices(CommandArguments& arguments);
+  Json set_rig(CommandArguments& arguments);
+  Json start_calibration(CommandArguments& arguments);
+  Json capture_pose(CommandArguments& arguments);
+  Json end_poses(CommandArguments& arguments);
+
+  Json start_edit(CommandArguments& arguments);
+  Json start_select_component(CommandArguments& arguments);
+  Json start_undo(CommandArguments& arguments);
+  Json start_redo(CommandArguments& arguments);
+  Json start_fit(CommandArguments& arguments);
+  Json start_export(CommandArguments& arguments);
+  Json start_zip(const ProjectFolder& project);
+  Json stop_job(CommandArguments& arguments);
+
+  /// Starts a job. A live preview that runs is stopped first: it holds the devices and the thread.
+  Json started(const char* kind, std::function<void(const Run&)> work);
+  Json started_edit(std::function<SurfacePtr(SurfaceModel&, const Run&)> work);
+  void stop_live();
+  void require_idle() const;
+  /// On the queue's thread.
+  void load_surface(const ProjectFolder& project, const Run& run);
+  /// On the queue's thread. The next model counts on, so that no two meshes share a revision.
+  void drop_model();
+  void change(const std::function<void(OpenProject&)>& edit);
+  void refresh_projects();
+  [[nodiscard]] OpenProject opened() const;
+
+  static constexpr std::size_t kMostStations = 360;
+
+  ServiceOptions options_;
+  ProjectLibrary library_;
+  std::function<void()> on_change_;
+  mutable std::mutex mutex_;
+  std::vector<ProjectEntry> projects_;
+  std::optional<OpenProject> project_;
+  std::unique_ptr<SurfaceModel> model_;  ///< of the queue's thread
+  int revision_ = 0;                     ///< of the queue's thread
+  JobQueue queue_;                       ///< last: its thread uses everything else
+};
+
+/// Files in a project's exports, by name.
+[[nodiscard]] std::vector<ExportEntry> exports_of(const ProjectFolder& project);
+
+}  // namespace frangia

@@ -1,0 +1,109 @@
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/service/internal/implementation.h"
+#include "frangia/service/internal/opened_devices.h"
+
+namespace frangia {
+namespace {
+
+/// The settings with those that the arguments name.
+CaptureSettings with_arguments(CaptureSettings settings, CommandArguments& arguments) {
+  settings.camera.exposure_ms =
+      arguments.positive("exposure_ms").value_or(settings.camera.exposure_ms);
+  settings.camera.gain_db = arguments.zero_or_more("gain_db").value_or(settings.camera.gain_db);
+  settings.camera.black_level_counts =
+      arguments.zero_or_more("black_level_counts").value_or(settings.camera.black_level_counts);
+  settings.shifts = static_cast<int>(arguments.whole_or("shifts",
+                                                        static_cast<std::size_t>(settings.shifts),
+                                                        CaptureSettings::kFewestShifts,
+                                                        CaptureSettings::kMostShifts));
+  settings.algorithm = arguments.text_or("algorithm", settings.algorithm);
+  settings.check();
+  return settings;
+}
+
+LiveSettings live_arguments(LiveSettings settings, CommandArguments& arguments) {
+  static const std::map<std::string, LivePattern> kPatterns = {{"fringes", LivePattern::Fringes},
+                                                               {"white", LivePattern::White},
+                                                               {"dark", LivePattern::Dark}};
+  const std::string name = arguments.text_or("pattern", "");
+  if (!name.empty()) {
+    const auto found = kPatterns.find(name);
+    require(found != kPatterns.end(), "pattern: is fringes, white or dark");
+    settings.pattern = found->second;
+  }
+  if (const auto angle = arguments.number("table_deg")) settings.table_rad = rad_from_deg(*angle);
+  return settings;
+}
+
+}  // namespace
+
+/// Settings of the scan. They are fixed once its first frame is stored.
+nlohmann::ordered_json Service::Implementation::set_capture(CommandArguments& arguments) {
+  const OpenProject project = opened();
+  const CaptureSettings settings = with_arguments(project.capture, arguments);
+  arguments.check_all_read();
+  require(!project.scan_begun || settings == project.capture,
+          "the scan has begun with its settings; create a project to scan with others");
+  if (!(settings == project.capture)) {
+    make_folder(project.folder.derived);
+    write_capture_settings(project.folder.capture(), settings);
+    change([&](OpenProject& now) { now.capture = settings; });
+  }
+  if (project.live) {
+    LiveSettings live = project.live->settings();
+    live.capture = settings;
+    project.live->set(live);
+  }
+  return Json::object();
+}
+
+nlohmann::ordered_json Service::Implementation::set_live(CommandArguments& arguments) {
+  const OpenProject project = opened();
+  require(project.live != nullptr, "no preview runs; start it first");
+  const LiveSettings settings = live_arguments(project.live->settings(), arguments);
+  arguments.check_all_read();
+  project.live->set(settings);
+  change([](OpenProject&) {});
+  return Json::object();
+}
+
+nlohmann::ordered_json Service::Implementation::start_live(CommandArguments& arguments) {
+  const OpenProject project = opened();
+  const LiveSettings settings = live_arguments({.capture = project.capture}, arguments);
+  arguments.check_all_read();
+  require(project.can_scan, "this project has no rig with devices; create one for a preview");
+  require(project.rig.has_value(), project.rig_fault.c_str());
+  require_idle();
+  const auto live = std::make_shared<LivePreview>(*project.rig, settings, [this] {
+    if (options_.on_picture) options_.on_picture();
+  });
+  return started("live", [this, live, project](const Run& run) {
+    run.stage("devices");
+    OpenedDevices devices(
+        project.folder.rig(), *project.rig, options_.capture.drivers(), options_.capture, run);
+    run.stage("preview");
+    change([&](OpenProject& now) { now.live = live; });
+    struct AtEnd {
+      Implementation& service;
+      explicit AtEnd(Implementation& one) : service(one) {}
+      AtEnd(const AtEnd&) = delete;
+      AtEnd& operator=(const AtEnd&) = delete;
+      AtEnd(AtEnd&&) = delete;
+      AtEnd& operator=(AtEnd&&) = delete;
+      ~AtEnd() {
+        service.change([](OpenProject& now) { now.live.reset(); });
+      }
+    };
+    const AtEnd at_end(*this);
+    live->run(devices.devices(), run);
+  });
+}
+
+}  // namespace frangia

@@ -1,0 +1,113 @@
+#include "frangia/service/internal/rig_json.h"
+
+#include <variant>
+
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+using RigJson = nlohmann::ordered_json;
+
+RigJson list_of(const Eigen::Isometry3d& pose) {
+  RigJson list = RigJson::array();
+  for (Eigen::Index row = 0; row < 4; ++row) {
+    for (Eigen::Index column = 0; column < 4; ++column)
+      list.push_back(pose.matrix()(row, column));
+  }
+  return list;
+}
+
+RigJson list_of(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+RigJson json_of_optics(const CameraModel& model) {
+  return {{"width_px", model.width_px},
+          {"height_px", model.height_px},
+          {"focal_px", {model.focal_px.x(), model.focal_px.y()}},
+          {"principal_point_px", {model.principal_point_px.x(), model.principal_point_px.y()}}};
+}
+
+}  // namespace
+
+RigJson json_of_rig(const Rig& rig) {
+  Eigen::Isometry3d rig_from_projector = Eigen::Isometry3d::Identity();
+  rig_from_projector.linear() = rig.projector.rotation.transpose();
+  rig_from_projector.translation() = rig.projector.position_mm;
+  RigJson json{{"camera", json_of_optics(rig.camera.model)},
+               {"rig_from_projector", list_of(rig_from_projector)},
+               {"baseline_mm", rig.projector.position_mm.norm()}};
+  if (const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
+    json["projector"] = json_of_optics(*pinhole);
+    json["field_deg"] = nullptr;
+  } else {
+    const auto& angular = std::get<AngularModel>(rig.projector.model);
+    json["projector"] = nullptr;
+    json["field_deg"] = {deg_from_rad(angular.field_min_rad), deg_from_rad(angular.field_max_rad)};
+  }
+  json["laser_sheet"] = nullptr;
+  if (rig.laser_sheet)
+    json["laser_sheet"] = {{"normal", list_of(rig.laser_sheet->normal)},
+                           {"offset_mm", rig.laser_sheet->offset_mm}};
+  json["turntable"] = nullptr;
+  if (rig.turntable)
+    json["turntable"] = {{"object_from_rig", list_of(rig.rig_from_object(0.0).inverse())},
+                         {"distance_mm", rig.turntable->point_mm.norm()}};
+  json["calibration"] = nullptr;
+  if (rig.calibration)
+    json["calibration"] = {{"date", rig.calibration->date},
+                           {"poses", rig.calibration->poses},
+                           {"point_sigma_mm", rig.calibration->point_sigma_mm},
+                           {"distance_mm", rig.calibration->distance_mm}};
+  return json;
+}
+
+RigJson json_of_devices(const std::vector<ProjectDevice>& devices) {
+  RigJson all = RigJson::array();
+  for (const ProjectDevice& device : devices) {
+    all.push_back({{"table", device.table},
+                   {"driver", device.driver},
+                   {"name", device.name},
+                   {"answer", device.answer},
+                   {"fault", device.fault}});
+  }
+  return all;
+}
+
+RigJson json_of_wizard(const WizardState& state) {
+  const PoseCoverage& coverage = state.coverage;
+  RigJson json{
+      {"active", state.active},
+      {"waiting", state.waiting},
+      {"found", state.found},
+      {"wanted", state.wanted},
+      {"with_board", coverage.poses},
+      {"field", state.field},
+      {"cells", coverage.cells},
+      {"columns", PoseCoverage::kColumns},
+      {"distance_ratio", coverage.nearest > 0.0 ? coverage.farthest / coverage.nearest : 1.0},
+      {"tilts_deg", coverage.tilts_deg},
+      {"sufficient", state.sufficient},
+      {"next", coverage.next},
+      {"findings", state.findings}};
+  json["poses"] = RigJson::array();
+  for (const WizardPose& pose : state.poses)
+    json["poses"].push_back({{"points", pose.points}, {"expected", pose.expected}});
+  const WizardVerdict& verdict = state.verdict;
+  json["verdict"] = nullptr;
+  if (!verdict.grade.empty())
+    json["verdict"] = {{"grade", verdict.grade},
+                       {"point_sigma_mm", verdict.point_sigma_mm},
+                       {"spread_mm", verdict.spread_mm},
+                       {"distance_mm", verdict.distance_mm},
+                       {"baseline_mm", verdict.baseline_mm},
+                       {"camera_rms_px", verdict.camera_rms_px},
+                       {"projector_rms_px", verdict.projector_rms_px},
+                       {"poses", verdict.poses}};
+  return json;
+}
+
+}  // namespace frangia

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "frangia/rig/rig.h"
+#include "frangia/service/calibration_wizard.h"
+#include "frangia/service/internal/state_json.h"
+
+namespace frangia {
+
+/// The geometry of a rig as a client draws it: mm, in the rig frame; poses are row-major 4 x 4.
+[[nodiscard]] nlohmann::ordered_json json_of_rig(const Rig& rig);
+[[nodiscard]] nlohmann::ordered_json json_of_devices(const std::vector<ProjectDevice>& devices);
+[[nodiscard]] nlohmann::ordered_json json_of_wizard(const WizardState& state);
+
+}  // namespace frangia

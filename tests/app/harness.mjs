@@ -1,0 +1,123 @@
+// What the stories of the operator's app share: the server, Debian's Chromium, and the checks of every message and page.
+import { spawn, spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import os from 'node:os';
+import path from 'node:path';
+
+const require = createRequire(path.join(process.env.FRANGIA_WEB ?? 'web', 'package.json'));
+const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
+
+export const problems = [];
+export const fail = (sentence) => problems.push(sentence);
+export const expect = (condition, sentence) => {
+  if (!condition) throw new Error(sentence);
+};
+const begin = Date.now();
+export const passed = (what) => console.log(`${((Date.now() - begin) / 1000).toFixed(1).padStart(6)} s  ${what}`);
+
+const chromiumPath = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((name) => fs.existsSync(name));
+/** Ends the test with 77 where Chromium is missing. */
+export function requireChromium() {
+  if (chromiumPath) return;
+  console.log('skipped: chromium is not installed (apt-get install chromium)');
+  process.exit(77);
+}
+
+let ajv;
+/** Checks a message against a definition of docs/service-schema.json. */
+export function check(name, value) {
+  if (!ajv) {
+    const Ajv = require('ajv').default;
+    ajv = new Ajv({ strict: false, allErrors: true });
+    ajv.addSchema(JSON.parse(fs.readFileSync(path.join(here, '../../docs/service-schema.json'), 'utf8')), 'schema');
+  }
+  const valid = ajv.getSchema(`schema#/definitions/${name}`);
+  if (!valid) return fail(`the schema does not define ${name}`);
+  if (!valid(value)) fail(`${name}: ${ajv.errorsText(valid.errors).slice(0, 400)}`);
+}
+
+export const newHome = () => fs.mkdtempSync(path.join(os.tmpdir(), 'frangia-story-'));
+
+/** Starts a server whose projects and runtime file are in a folder. */
+export async function startServer(program, home, ...more) {
+  const process_ = spawn(program, ['--json', 'serve', '--port', '0', '--projects', path.join(home, 'projects'), ...more], {
+    env: { ...process.env, XDG_RUNTIME_DIR: home },
+  });
+  const url = await new Promise((resolve, reject) => {
+    let text = '';
+    process_.stdout.on('data', (block) => {
+      text += block;
+      try {
+        resolve(JSON.parse(text).url);
+      } catch {
+        // not complete yet
+      }
+    });
+    process_.on('exit', () => reject(new Error('the server ended')));
+  });
+  const end = (signal) => {
+    const ended = new Promise((resolve) => process_.on('exit', resolve));
+    process_.kill(signal);
+    return ended;
+  };
+  return { url, end };
+}
+
+export function newLink(program, home) {
+  const asked = spawnSync(program, ['serve', '--new-link'], { env: { ...process.env, XDG_RUNTIME_DIR: home }, encoding: 'utf8' });
+  expect(asked.status === 0, `no new link: ${asked.stderr}`);
+  return asked.stdout.trim();
+}
+
+export const launch = () =>
+  require('playwright-core').chromium.launch({
+    executablePath: chromiumPath,
+    args: ['--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage'],
+  });
+
+/** A page all of whose messages are checked. */
+export async function openPage(browser, url, viewport = { width: 1440, height: 900 }) {
+  const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB' });
+  const page = await context.newPage();
+  // Not by the page's own policy, which forbids it.
+  await page.addInitScript(fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8'));
+  page.on('pageerror', (error) => fail(`the page: ${error.message}`));
+  page.on('console', (message) => {
+    const text = message.text();
+    if (message.type() === 'error' && !/GL Driver|404|409|ERR_CONNECTION|WebSocket/.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
+  });
+  page.on('request', (request) => {
+    const { pathname, origin } = new URL(request.url());
+    if (origin !== new URL(url).origin && !request.url().startsWith('blob:')) fail(`the page asked for ${request.url()}`);
+    const command = pathname.match(/^\/api\/commands\/(.+)$/);
+    if (command) check(`commands/${command[1]}`, request.postDataJSON());
+    if (pathname === '/api/session') check('session', request.postDataJSON());
+  });
+  page.on('websocket', (socket) => {
+    socket.on('framesent', ({ payload }) => {
+      const message = JSON.parse(payload);
+      check(message.type === 'show' ? 'show' : 'hello', message);
+    });
+    socket.on('framereceived', ({ payload }) => {
+      if (typeof payload === 'string') check('live', JSON.parse(payload));
+    });
+  });
+  await page.goto(url);
+  return page;
+}
+
+/** Takes a screenshot and runs axe on the page. */
+export async function look(page, folder, name) {
+  await page.waitForTimeout(200);
+  await page.screenshot({ path: path.join(folder, `${name}.png`) });
+  const found = await page
+    .evaluate(async () => (await window.axe.run(document)).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).slice(0, 3)}`))
+    .catch((error) => [`axe: ${error.message}`]);
+  for (const violation of found) fail(`${name}: ${violation}`);
+  passed(name);
+}
+
+export const stateOf = (page) =>
+  page.evaluate(async () => (await fetch('/api/state', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json());

@@ -1,0 +1,99 @@
+// The second and third story of the operator's app: the browser is closed in mid-scan and opened again, a second browser
+// watches and takes over, and the server is killed in mid-scan and resumes to the same bytes.
+//
+//   node resume.mjs PROGRAM FOLDER      FOLDER receives the screenshots
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, startServer, stateOf } from './harness.mjs';
+
+const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
+requireChromium();
+const home = newHome();
+fs.mkdirSync(shots, { recursive: true });
+const STATIONS = 4;
+let server = await startServer(program, home);
+let browser;
+let code = 1;
+
+async function waitFor(page, wanted, timeout = 60_000) {
+  const end = Date.now() + timeout;
+  for (;;) {
+    const state = await stateOf(page);
+    if (wanted(state)) return state;
+    expect(Date.now() < end, `the state does not come: ${wanted}`);
+    await page.waitForTimeout(50);
+  }
+}
+const share = (state) => state.jobs.find((job) => job.kind === 'scan' && job.state === 'running')?.progress ?? 0;
+
+/** Contents of all frames of a scan folder, by name. */
+function framesOf(folder) {
+  const frames = new Map();
+  for (const name of fs.readdirSync(path.join(folder, 'views'), { recursive: true }))
+    if (name.endsWith('.png')) frames.set(name, fs.readFileSync(path.join(folder, 'views', name)));
+  return frames;
+}
+
+try {
+  browser = await launch();
+  let page = await openPage(browser, server.url);
+  await page.waitForSelector('input[name=name]');
+  await page.fill('input[name=name]', 'Plate');
+  await page.selectOption('select[name=part]', 'plate');
+  await page.fill('input[name=stations]', String(STATIONS));
+  await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('#scan:not([disabled])');
+  await page.click('#scan');
+  await waitFor(page, (state) => share(state) > 0.1);
+  await page.context().close();
+
+  // A new browser finds the scan going on. It watches, since the first one was the operator, and takes over by asking.
+  page = await openPage(browser, newLink(program, home));
+  await page.waitForSelector('#take-over');
+  await waitFor(page, (state) => share(state) > 0.2 || state.project.scan_complete);
+  await look(page, shots, 'watching');
+  const refused = await page.evaluate(async () => {
+    const answer = await fetch('/api/commands/close-project', {
+      method: 'POST', body: '{}', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` },
+    });
+    return answer.status;
+  });
+  expect(refused === 409, `a browser that watches may act: ${refused}`);
+  await page.click('#take-over');
+  await page.waitForSelector('#take-over', { state: 'detached' });
+  passed('the second browser has taken over');
+
+  // SIGKILL in mid-scan. The server finds the project on the disk and goes on with the first missing frame.
+  await waitFor(page, (state) => share(state) > 0.4);
+  await server.end('SIGKILL');
+  await page.waitForSelector('.notice.warn[role=alert]', { timeout: 30_000 });
+  await look(page, shots, 'lost');
+  await page.context().close();
+  server = await startServer(program, home);
+  page = await openPage(browser, server.url);
+  await page.locator('.card', { hasText: 'Plate' }).click();
+  await page.waitForSelector('#scan:not([disabled])');
+  expect(/Continue/.test(await page.locator('#scan').innerText()), 'the app does not offer to continue');
+  await look(page, shots, 'resume');
+  await page.click('#scan');
+  const done = await waitFor(page, (state) => state.project.scan_complete && state.jobs.every((job) => job.state !== 'running'));
+  expect(done.project.stations.every((station) => station.state === 'done'), 'a station is missing');
+  const project = path.join(home, 'projects', 'Plate');
+  const whole = spawnSync(program, ['scan', path.join(project, 'rig.toml'), '-o', path.join(home, 'whole'), '--views', String(STATIONS)], { encoding: 'utf8' });
+  expect(whole.status === 0, `frangia scan fails: ${whole.stderr}`);
+  const [resumed, once] = [framesOf(path.join(project, 'scan')), framesOf(path.join(home, 'whole'))];
+  expect(once.size > 0 && resumed.size === once.size, `${resumed.size} frames instead of ${once.size}`);
+  for (const [name, bytes] of once) expect(bytes.equals(resumed.get(name) ?? Buffer.alloc(0)), `${name} differs from an uninterrupted scan`);
+  passed(`${once.size} frames equal those of an uninterrupted scan`);
+  code = problems.length === 0 ? 0 : 1;
+} catch (error) {
+  console.log(error.stack ?? error);
+} finally {
+  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
+  await browser?.close();
+  await server.end('SIGTERM');
+  fs.rmSync(home, { recursive: true, force: true });
+}
+passed(code === 0 ? 'the scan survived' : 'the story broke off');
+process.exit(code);

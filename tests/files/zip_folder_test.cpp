@@ -1,0 +1,47 @@
+#include "frangia/files/zip_folder.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "frangia/files/internal/zip_file.h"
+
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+
+TEST(ZipFolder, HoldsTheFilesOfAllSubfolders) {
+  const testing::TemporaryFolder folder;
+  const auto scan = folder.path() / "scan";
+  std::filesystem::create_directories(scan / "views" / "000");
+  const std::string large(300'000, 'f');
+  std::ofstream(scan / "scan.toml") << "version = 2\n";
+  std::ofstream(scan / "views" / "000" / "frame.png") << large;
+  std::ofstream(scan / ".hidden") << "x";
+  std::filesystem::create_symlink("/etc/passwd", scan / "link");
+  const auto archive = folder.path() / "scan.zip";
+  zip_folder(scan, "My part", archive);
+  const ZipReader reader(archive);
+  const auto read = [&](const std::string& name) {
+    std::string text;
+    const bool found = reader.read(name, [&](std::string_view piece, double) { text += piece; });
+    return found ? text : "missing";
+  };
+  EXPECT_EQ(read("My part/scan.toml"), "version = 2\n");
+  EXPECT_EQ(read("My part/views/000/frame.png"), large);
+  EXPECT_EQ(read("My part/.hidden"), "missing");
+  EXPECT_EQ(read("My part/link"), "missing");
+}
+
+TEST(ZipFolder, RefusesAFolderWithoutFiles) {
+  const testing::TemporaryFolder folder;
+  EXPECT_NE(error_of([&] { zip_folder(folder.path(), "x", folder.path() / "x.zip"); }), "");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.zip"));
+}
+
+}  // namespace
+}  // namespace frangia

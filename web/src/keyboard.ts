@@ -1,0 +1,56 @@
+import type { App } from './app';
+import { type StepName, STEPS } from './app_steps';
+import type { IconName } from './icons';
+import type { MessageKey } from './messages';
+
+export const KEYS: readonly (readonly [MessageKey | IconName, string])[] = [
+  ['keys.steps', '1 – 7'],
+  ['app.frame', 'F'],
+  ['rig.poseKey', 'Enter'],
+  ['edit.brush', 'B'],
+  ['edit.lasso', 'L'],
+  ['edit.rectangle', 'R'],
+  ['edit.part', 'P'],
+  ['surface.measure', 'M'],
+  ['surface.measureAngle', 'A'],
+  ['edit.delete', 'Del'],
+  ['edit.invert', 'I'],
+  ['edit.undo', 'Ctrl Z'],
+  ['edit.redo', 'Ctrl Shift Z'],
+  ['keys.deselect', 'Esc'],
+  ['app.theme', 'D'],
+  ['app.keys', '?'],
+];
+
+/** Keyboard shortcuts of the window; the sheet `keys` lists them. */
+export function onKey(app: App, event: KeyboardEvent): void {
+  const target = event.target as HTMLElement;
+  if (target.matches('input:not([type=radio]):not([type=checkbox]):not([type=range]), select, textarea')) return;
+  if (!app.session.state || document.querySelector('dialog[open]')) return;
+  const surface = app.state.project?.surface;
+  const key = event.key.toLowerCase();
+  if (event.ctrlKey || event.metaKey) {
+    if (key !== 'z' || !surface) return;
+    event.preventDefault();
+    return void app.command(event.shiftKey ? 'redo' : 'undo');
+  }
+  if (event.altKey) return;
+  if (/^[1-7]$/.test(key)) {
+    const step = STEPS[Number(key) - 1] as StepName;
+    if (app.reachable(step)) app.go(step);
+  } else if (key === '?') app.dialog('keys').showModal();
+  else if (key === 'd') app.toggleTheme();
+  else if (key === 'f') app.viewer.frame();
+  else if (key === 'escape') app.setTool('orbit');
+  else if (key === 'enter' && app.step === 'rig' && app.state.project?.calibration?.waiting && !target.matches('button, summary')) void app.command('capture-pose');
+  else if (!surface) return;
+  else if (key === 'm') app.setTool('measure');
+  else if (key === 'a') app.setTool('angle');
+  else if (app.step !== 'edit') return;
+  else if (key === 'l') app.setTool('lasso');
+  else if (key === 'b') app.setTool('brush');
+  else if (key === 'r') app.setTool('rectangle');
+  else if (key === 'p') app.setTool('part');
+  else if (key === 'i') app.edit('invert');
+  else if ((key === 'delete' || key === 'backspace') && surface.selected) app.edit('delete');
+}
