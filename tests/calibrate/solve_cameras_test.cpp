@@ -69,7 +69,7 @@ std::vector<BoardView> views_of_both(double noise_px, unsigned seed) {
   return views;
 }
 
-Rig true_rig() {
+Rig true_cameras() {
   const auto model_of =
       [](const cv::Mat& matrix, const cv::Mat& distortion, int width, int height) {
         CameraModel model{.width_px = width, .height_px = height};
@@ -146,7 +146,7 @@ double normalized_error(const Rig& known, const Rig& truth) {
 }
 
 TEST(SolveCameras, ErrorsAreAsLargeAsTheFullCovarianceStates) {
-  const double rms = normalized_error(known_cameras(), true_rig());
+  const double rms = normalized_error(known_cameras(), true_cameras());
   EXPECT_GT(rms, 0.8);
   EXPECT_LT(rms, 1.25);
 }
@@ -154,20 +154,20 @@ TEST(SolveCameras, ErrorsAreAsLargeAsTheFullCovarianceStates) {
 TEST(SolveCameras, NeedNoModelOfAProjectorThatLabelsPoints) {
   Rig label = known_cameras();
   label.projector.is_label = true;
-  const double rms = normalized_error(label, true_rig());
+  const double rms = normalized_error(label, true_cameras());
   EXPECT_GT(rms, 0.8);
   EXPECT_LT(rms, 1.25);
 }
 
 TEST(SolveCameras, NamesTheParametersOfEachCamera) {
   const RigSolution found = solve_rig(kBoard, views_of_both(1e-4, 3), known_cameras());
-  EXPECT_EQ(found.parameters, rig_parameter_names(true_rig()));
+  EXPECT_EQ(found.parameters, rig_parameter_names(true_cameras()));
   EXPECT_EQ(found.parameters.back(), "camera-left.z_mm");
   const Rig moved = change_parameters(
-      true_rig(), {"camera-left.z_mm", "camera-left.focal_px"}, Eigen::Vector2d(2.0, 5.0));
+      true_cameras(), {"camera-left.z_mm", "camera-left.focal_px"}, Eigen::Vector2d(2.0, 5.0));
   EXPECT_NEAR(moved.more_cameras[0].camera_from_rig().translation().z(), 92.0, 1e-9);
   EXPECT_NEAR(moved.more_cameras[0].camera.model.focal_px.y(), 2305.0, 1e-9);
-  EXPECT_EQ(moved.camera.model.focal_px, true_rig().camera.model.focal_px);
+  EXPECT_EQ(moved.camera.model.focal_px, true_cameras().camera.model.focal_px);
 }
 
 TEST(SolveCameras, APoseThatOneCameraMissesStillServesTheOthers) {
