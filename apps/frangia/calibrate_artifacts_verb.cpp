@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/pipeline/calibrate_artifact_report.h"
 #include "frangia/pipeline/calibrate_artifacts.h"
+#include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/write_rig.h"
 
 #include "counted.h"
@@ -93,10 +95,12 @@ void print_table(const ArtifactCalibration& result) {
                fmt::format("{:.4f}", fmt::join(table.diameters_mm[c], ", ")));
   }
   print_text("  {:<10} {}\n", "held", fmt::format("{}", fmt::join(table.held, ", ")));
-  print_text("  {:<10} the calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} mm\n",
-             "grade",
-             rig.calibration->point_sigma_mm,
-             rig.calibration->distance_mm);
+  print_text(
+      "  {:<10} {}: the calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} mm\n",
+      "grade",
+      calibration_grade(rig.calibration->point_sigma_mm, rig.calibration->distance_mm),
+      rig.calibration->point_sigma_mm,
+      rig.calibration->distance_mm);
 }
 
 nlohmann::ordered_json json_of_artifacts(const ArtifactCalibration& result,
@@ -118,6 +122,8 @@ nlohmann::ordered_json json_of_artifacts(const ArtifactCalibration& result,
   json["angle_sigma_deg"] = deg_from_rad(table.angle_sigma_rad);
   json["diameters_mm"] = table.diameters_mm;
   json["held"] = table.held;
+  json["grade"] = calibration_grade(result.rig.calibration->point_sigma_mm,
+                                    result.rig.calibration->distance_mm);
   json["calibration_sigma_mm"] = result.rig.calibration->point_sigma_mm;
   return json;
 }
@@ -136,6 +142,7 @@ void calibrate_by_artifacts(const std::vector<Scan>& scans,
   covariance.replace_filename(options.output.stem().string() + "-covariance.csv");
   result.rig.calibration->covariance_file = covariance.filename().string();
   write_rig(options.output, result.rig, Durability::Buffered, scans.back().folder / "rig.toml");
+  if (!options.report.empty()) write_artifact_report(options.report, result, terminal.warnings());
   terminal.finish();
   if (terminal.json) {
     nlohmann::ordered_json json = json_of_artifacts(result, options.output);
@@ -149,6 +156,7 @@ void calibrate_by_artifacts(const std::vector<Scan>& scans,
   }
   terminal.print_written(options.output.string());
   terminal.print_written(covariance.string());
+  if (!options.report.empty()) terminal.print_written(options.report.string());
 }
 
 }  // namespace frangia

@@ -14,6 +14,7 @@ namespace frangia {
 /// What `frangia calibrate rig` was asked for, when a scan holds a screen, plate or balls.
 struct ArtifactVerbOptions {
   std::filesystem::path output;       ///< rig.toml to write
+  std::filesystem::path report;       ///< page to write; empty: none
   std::optional<double> baseline_mm;  ///< distance of camera and projector, where it is known
   bool flat_screen = false;           ///< do not estimate the shape of the screen
 };

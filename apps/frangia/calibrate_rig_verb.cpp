@@ -1,10 +1,12 @@
 #include "calibrate_rig_verb.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,20 +47,27 @@ double sigma_of(const RigSolution& solution, const std::string& name) {
   return 0.0;
 }
 
-/// Length of the baseline and its standard deviation, mm.
-std::pair<double, double> baseline_of(const RigSolution& solution) {
-  const Eigen::Vector3d translation = solution.projector_from_camera.translation();
-  const Eigen::Matrix3d covariance = solution.covariance.bottomRightCorner<3, 3>();
+/// Distance of a device from the reference camera and its standard deviation, mm. `prefix` begins
+/// the names of its parameters.
+std::pair<double, double> distance_of(const RigSolution& solution,
+                                      const std::string& prefix,
+                                      const Eigen::Vector3d& translation) {
+  std::vector<Eigen::Index> rows;
+  for (const char* axis : {"x_mm", "y_mm", "z_mm"}) {
+    const auto found =
+        std::find(solution.parameters.begin(), solution.parameters.end(), prefix + "." + axis);
+    rows.push_back(found - solution.parameters.begin());
+  }
+  const Eigen::Matrix3d covariance = solution.covariance(rows, rows);
   const Eigen::Vector3d direction = translation.normalized();
   return {translation.norm(), std::sqrt(direction.dot(covariance * direction))};
 }
 
-void print_device(const char* name,
-                  const char* prefix,
+void print_device(const std::string& name,
+                  const std::string& prefix,
                   const CameraModel& model,
                   const ResidualSummary& residuals,
                   const RigSolution& solution) {
-  const std::string parameter(prefix);
   print_text("  {:<10} {:.3f} px rms, {:.2f} px at most, {} points\n",
              name,
              residuals.rms_px,
@@ -69,11 +78,25 @@ void print_device(const char* name,
       "{:.2f}) px\n",
       "",
       model.focal_px.x(),
-      sigma_of(solution, parameter + ".focal_px"),
+      sigma_of(solution, prefix + ".focal_px"),
       model.principal_point_px.x(),
-      sigma_of(solution, parameter + ".principal_x_px"),
+      sigma_of(solution, prefix + ".principal_x_px"),
       model.principal_point_px.y(),
-      sigma_of(solution, parameter + ".principal_y_px"));
+      sigma_of(solution, prefix + ".principal_y_px"));
+}
+
+/// The distance of a device from the reference camera.
+void print_distance(const char* label,
+                    const std::string& prefix,
+                    const Eigen::Isometry3d& from_camera,
+                    const RigSolution& solution) {
+  const auto [distance, sigma] = distance_of(solution, prefix, from_camera.translation());
+  print_text("  {:<10} {:.2f} ± {:.2f} mm{}, axes turned by {:.2f} degrees\n",
+             label,
+             distance,
+             sigma,
+             std::string_view(label).empty() ? " from the camera" : "",
+             deg_from_rad(Eigen::AngleAxisd(from_camera.linear()).angle()));
 }
 
 void print_summary(const RigCalibration& result, const Board& board) {
@@ -84,16 +107,22 @@ void print_summary(const RigCalibration& result, const Board& board) {
              board.columns,
              board.rows);
   print_device("camera", "camera", solution.camera, solution.camera_residuals, solution);
-  print_device(
-      "projector", "projector", solution.projector, solution.projector_residuals, solution);
-  const auto [baseline, baseline_sigma] = baseline_of(solution);
-  const double angle =
-      deg_from_rad(Eigen::AngleAxisd(solution.projector_from_camera.linear()).angle());
-  print_text("  {:<10} {:.2f} ± {:.2f} mm, axes turned by {:.2f} degrees\n",
-             "baseline",
-             baseline,
-             baseline_sigma,
-             angle);
+  if (solution.has_projector) {
+    print_device(
+        "projector", "projector", solution.projector, solution.projector_residuals, solution);
+    print_distance("baseline", "projector", solution.projector_from_camera, solution);
+  }
+  for (const FurtherCameraSolution& camera : solution.more_cameras) {
+    const std::string prefix = "camera-" + camera.name;
+    print_device(camera.name, prefix, camera.model, camera.residuals, solution);
+    print_distance("", prefix, camera.camera_from_rig, solution);
+    print_text("  {:<10} {:.3f} px rms of the {}\n",
+               "",
+               camera.projector_residuals.rms_px,
+               solution.has_projector
+                   ? "projector, by the fringes that it sees"
+                   : "projector pixels, against those that the reference camera reads");
+  }
   const std::vector<std::string> none = {"nothing"};
   print_text("  {:<10} {}\n",
              "estimated",
@@ -113,16 +142,13 @@ void print_summary(const RigCalibration& result, const Board& board) {
 
 nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments& arguments) {
   const RigSolution& solution = result.solution;
-  const auto [baseline, baseline_sigma] = baseline_of(solution);
   nlohmann::ordered_json json{
       {"rig", arguments.output.string()},
       {"poses", result.views.size()},
       {"views_without_board", result.without_board},
       {"views_left_out", result.left_out},
       {"camera_rms_px", solution.camera_residuals.rms_px},
-      {"projector_rms_px", solution.projector_residuals.rms_px},
-      {"baseline_mm", baseline},
-      {"baseline_sigma_mm", baseline_sigma},
+      {"projector_rms_px", result.rig.calibration->projector_rms_px},
       {"point_sigma_mm", solution.point_sigma_mm},
       {"distance_mm", solution.distance_mm},
       {"spread_mm", solution.spread_mm},
@@ -130,6 +156,21 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
       {"estimated", solution.terms},
       {"held", solution.held},
   };
+  if (solution.has_projector) {
+    const auto [baseline, sigma] =
+        distance_of(solution, "projector", solution.projector_from_camera.translation());
+    json["baseline_mm"] = baseline;
+    json["baseline_sigma_mm"] = sigma;
+  }
+  for (const FurtherCameraSolution& camera : solution.more_cameras) {
+    const auto [distance, sigma] =
+        distance_of(solution, "camera-" + camera.name, camera.camera_from_rig.translation());
+    json["more_cameras"].push_back({{"name", camera.name},
+                                    {"rms_px", camera.residuals.rms_px},
+                                    {"projector_rms_px", camera.projector_residuals.rms_px},
+                                    {"distance_mm", distance},
+                                    {"distance_sigma_mm", sigma}});
+  }
   for (const auto& [name, sigma] : result.rig.calibration->sigma)
     json["sigma"][name] = sigma;
   for (std::size_t i = 0; i < result.views.size(); ++i) {
@@ -154,7 +195,6 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
 void calibrate_by_several(const std::vector<Scan>& scans,
                           const RigArguments& arguments,
                           Terminal& terminal) {
-  require(arguments.report.empty(), "`report` is for poses of one board only");
   std::optional<Rig> start;
   std::vector<Scan> artifacts;
   for (const Scan& scan : scans) {
@@ -172,7 +212,7 @@ void calibrate_by_several(const std::vector<Scan>& scans,
   require(!artifacts.empty(), "two scans hold poses of a board; put all poses into one scan");
   for (const Scan& scan : artifacts)
     if (start && !start->turntable) start->turntable = scan.rig.turntable;
-  ArtifactVerbOptions options{arguments.output, {}, arguments.flat_board};
+  ArtifactVerbOptions options{arguments.output, arguments.report, {}, arguments.flat_board};
   if (arguments.length_mm > 0.0) options.baseline_mm = arguments.length_mm;
   calibrate_by_artifacts(artifacts, start, options, terminal);
 }

@@ -350,6 +350,18 @@ void simulate_artifacts(const SimulateArguments& arguments,
   print_result(simulate_artifact(plan, options, run), "truth-rig.toml", terminal);
 }
 
+void refuse_label_of_one_camera(const SimulateArguments& arguments, const Rig& rig) {
+  if (!arguments.label || !rig.more_cameras.empty()) return;
+  throw Error(ErrorKind::Input, "`label` needs a rig with two cameras, such as `--rig binocular`");
+}
+
+/// Writes the projector as a label into the rig.toml of a scan, if that was asked for.
+void state_label(const SimulateArguments& arguments, Scan& scan) {
+  if (!arguments.label) return;
+  scan.rig.projector.is_label = true;
+  write_rig(scan.folder / "rig.toml", scan.rig);
+}
+
 /// Renders poses of a board instead of a part.
 void simulate_poses(const SimulateArguments& arguments,
                     const SimulateOptions& options,
@@ -366,8 +378,11 @@ void simulate_poses(const SimulateArguments& arguments,
   plan.poses = arguments.views;
   plan.on_turntable = arguments.on_turntable;
   plan.patterns = arguments.patterns;
+  refuse_label_of_one_camera(arguments, plan.rig);
   run.stage("render");
-  print_result(simulate_calibration(plan, options, run), "truth-rig.toml", terminal);
+  Scan scan = simulate_calibration(plan, options, run);
+  state_label(arguments, scan);
+  print_result(scan, "truth-rig.toml", terminal);
 }
 
 void simulate(SimulateArguments arguments, Terminal& terminal) {
@@ -403,15 +418,9 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   const Mesh part = part_of(arguments.part, arguments.read, run);
   add_setups(plan, part, arguments);
   run.stage("render");
-  if (arguments.label && plan.rig.more_cameras.empty()) {
-    throw Error(ErrorKind::Input,
-                "`label` needs a rig with two cameras, such as `--rig binocular`");
-  }
+  refuse_label_of_one_camera(arguments, plan.rig);
   Scan scan = simulate_scan(part, plan, options, run);
-  if (arguments.label) {
-    scan.rig.projector.is_label = true;
-    write_rig(scan.folder / "rig.toml", scan.rig);
-  }
+  state_label(arguments, scan);
   print_result(scan, "truth.ply", terminal);
 }
 

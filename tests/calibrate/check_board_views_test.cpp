@@ -58,6 +58,17 @@ TEST(CheckBoardViews, NamesTheCornersThatTheImagesShow) {
   EXPECT_NE(message.find("set corners = [9, 6]"), std::string::npos) << message;
 }
 
+TEST(CheckBoardViews, TakesASmallGridBesideTheBoardForNoise) {
+  std::vector<PoseCapture> poses = captures(8);
+  for (std::size_t i = 2; i < poses.size(); ++i) {
+    poses[i].view.points.clear();
+    if (i < 5) poses[i].counted = {{4, 3}};
+  }
+  const std::string message =
+      testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+  EXPECT_NE(message.find("found in 2 of 8 views"), std::string::npos) << message;
+}
+
 TEST(CheckBoardViews, NamesDarkAndOverexposedBoards) {
   EXPECT_NE(fault_of([](PoseCapture& pose) {
               pose.view.points.clear();

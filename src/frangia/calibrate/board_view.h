@@ -37,7 +37,16 @@ struct BoardPicture {
 /// One pose of the board.
 struct BoardView {
   std::string name;                ///< of the view's folder, for messages
-  std::vector<BoardPoint> points;  ///< those that were found
+  std::vector<BoardPoint> points;  ///< those that the reference camera found
+  /// Those that each further camera found, in the order of `Rig::more_cameras`; none where it does
+  /// not see the board.
+  std::vector<std::vector<BoardPoint>> more{};
 };
+
+/// The points that a camera found: 0 is the reference camera, the further ones follow.
+[[nodiscard]] inline const std::vector<BoardPoint>& points_of(const BoardView& view,
+                                                              std::size_t camera) {
+  return camera == 0 ? view.points : view.more.at(camera - 1);
+}
 
 }  // namespace frangia

@@ -42,6 +42,10 @@ void check_counts(std::span<const PoseCapture> poses, const Board& board) {
       2 * most->second <= counted)
     return;
   const auto [longer, shorter] = most->first;
+  // Where the expected board is seen at all, a smaller one is a part of it or noise.
+  const bool smaller = longer <= std::max(board.columns, board.rows) &&
+                       shorter <= std::min(board.columns, board.rows);
+  if (expected > 0 && smaller) return;
   if (longer == std::max(board.columns, board.rows) &&
       shorter == std::min(board.columns, board.rows))
     return;
@@ -160,11 +164,8 @@ void check_range(std::span<const PoseCapture> poses, const CameraModel& projecto
 }
 
 /// Largest angle between the normals of two poses.
-double largest_tilt_rad(std::span<const BoardView> found,
-                        const Board& board,
-                        const CameraModel& camera,
-                        const CameraModel& projector) {
-  const RigParameters start = start_values(board, found, camera, projector);
+double largest_tilt_rad(std::span<const BoardView> found, const Board& board, const Rig& known) {
+  const RigParameters start = start_values(board, found, known);
   std::vector<Eigen::Vector3d> normals;
   for (const RigParameters::Pose& pose : start.camera_from_board)
     normals.push_back(isometry_of(pose).linear().col(2));
@@ -252,7 +253,7 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
   found.clear();
   for (const PoseCapture& pose : seen)
     found.push_back(pose.view);
-  const double tilt_rad = largest_tilt_rad(found, board, known.camera.model, projector);
+  const double tilt_rad = largest_tilt_rad(found, board, known);
   if (deg_from_rad(tilt_rad) < options.min_tilt_deg) {
     fail(
         fmt::format("all poses of the board are parallel within {:.1f} degrees, which leaves the "

@@ -2,121 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "frangia/calibrate/internal/artifact_inverse.h"
 #include "frangia/calibrate/internal/artifact_model.h"
+#include "frangia/calibrate/internal/artifact_prior.h"
+#include "frangia/calibrate/internal/check_artifact_captures.h"
 #include "frangia/calibrate/internal/fit_sheet.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
-#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
-#include "frangia/core/symmetric_eigen.h"
 #include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 namespace {
-
-constexpr std::array kPriorNames = {
-    "focal_px", "focal_ratio", "principal_x_px", "principal_y_px", "k1", "k2", "p1", "p2", "k3"};
-
-/// Place of a parameter of a rig's covariance among the 25 of the prior.
-std::optional<Eigen::Index> prior_column(const std::string& name) {
-  static constexpr std::array kPoseAndPitch = {"projector.rotation_x_rad",
-                                               "projector.rotation_y_rad",
-                                               "projector.rotation_z_rad",
-                                               "projector.x_mm",
-                                               "projector.y_mm",
-                                               "projector.z_mm",
-                                               "projector.pitch_scale"};
-  for (std::size_t i = 0; i < kPriorNames.size(); ++i) {
-    if (name == fmt::format("camera.{}", kPriorNames.at(i))) return static_cast<Eigen::Index>(i);
-    if (name == fmt::format("projector.{}", kPriorNames.at(i)))
-      return static_cast<Eigen::Index>(i) + 9;
-  }
-  for (std::size_t i = 0; i < kPoseAndPitch.size(); ++i)
-    if (name == kPoseAndPitch.at(i)) return static_cast<Eigen::Index>(i) + 18;
-  return std::nullopt;
-}
-
-/// Takes the covariance of the start as a prior. That of the pose of an angular projector is left
-/// out: it is estimated anew.
-void set_prior(const Rig& start, ArtifactProblem& problem) {
-  if (!start.calibration || start.calibration->covariance.empty()) return;
-  const RigCovariance& known = start.calibration->covariance;
-  std::vector<Eigen::Index> rows;
-  std::vector<Eigen::Index> columns;
-  for (std::size_t i = 0; i < known.parameters.size(); ++i) {
-    const auto column = prior_column(known.parameters[i]);
-    const auto row = static_cast<Eigen::Index>(i);
-    const bool camera = column && *column < 9;
-    if (!column || !(known.covariance(row, row) > 0.0)) continue;
-    if (start.projector.is_angular() && !camera) continue;
-    rows.push_back(row);
-    columns.push_back(*column);
-  }
-  if (rows.empty()) return;
-  const Eigen::MatrixXd covariance = known.covariance(rows, rows);
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const auto eigen =
-      symmetric_eigen(Eigen::MatrixXd(scale.asDiagonal() * covariance * scale.asDiagonal()));
-  constexpr double kLeast = 1e-9;  // of a correlation matrix that is written with nine digits
-  const Eigen::VectorXd root = eigen.values.cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd whiten = root.asDiagonal() * eigen.vectors.transpose() * scale.asDiagonal();
-  problem.prior = Eigen::MatrixXd::Zero(whiten.rows(), 25);
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    problem.prior.col(columns[i]) = whiten.col(static_cast<Eigen::Index>(i));
-  const auto covers = [&](Eigen::Index first, Eigen::Index count) {
-    for (Eigen::Index i = first; i < first + count; ++i)
-      if (std::find(columns.begin(), columns.end(), i) == columns.end()) return false;
-    return true;
-  };
-  problem.free_camera = covers(0, 9);
-  problem.free_intrinsics = problem.free_camera && covers(9, 15);
-  if (!problem.free_camera || (!start.projector.is_angular() && !problem.free_intrinsics)) {
-    problem.prior.resize(0, 25);
-    problem.free_camera = problem.free_intrinsics = false;
-  }
-}
-
-void check_captures(std::span<const ArtifactCapture> captures, const Rig& start) {
-  constexpr std::size_t kFewestViews = 3;
-  constexpr double kLeast_rad = 0.35;  // 20 degrees
-  if (!start.turntable) {
-    throw Error(ErrorKind::Input,
-                "the rig has no [turntable]; add its point_mm and axis to rig.toml, within a few "
-                "degrees");
-  }
-  require(!captures.empty(), "there is no plate and no ball to calibrate by");
-  for (const ArtifactCapture& capture : captures) {
-    const std::string name = name_of(capture.artifact);
-    require(!std::holds_alternative<Screen>(capture.artifact), "a screen does not turn");
-    if (capture.views.size() < kFewestViews) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("the {} is found in {} of at least {} views; turn the table by "
-                              "smaller steps, so that camera and projector see it",
-                              name,
-                              capture.views.size(),
-                              kFewestViews));
-    }
-    double widest = 0.0;
-    for (const ArtifactView& a : capture.views)
-      for (const ArtifactView& b : capture.views)
-        widest = std::max(widest, std::abs(std::remainder(a.angle_rad - b.angle_rad, kTwoPi)));
-    if (widest < kLeast_rad) {
-      throw Error(ErrorKind::Input,
-                  fmt::format("the angles of the views of the {} span {:.1f} degrees; state "
-                              "angle_deg of each view in scan.toml, and turn the table by 60 to "
-                              "120 degrees in all",
-                              name,
-                              deg_from_rad(widest)));
-    }
-  }
-}
 
 /// Standard deviation of residuals in their own standard deviations, with the weights of the loss.
 double noise_of_residuals(const std::vector<double>& sigmas, double noise) {
@@ -145,40 +48,9 @@ double rms_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Covariance of the estimated parameters. Directions that the data leaves open are infinite.
-struct Inverse {
-  std::vector<std::string> names;
-  Eigen::MatrixXd covariance;
-  std::vector<std::string> open;
-};
-
-Inverse invert(const ArtifactLinearization& linear) {
-  constexpr double kOpen = 1e-13;
-  constexpr double kMuch = 0.1;  // share of a parameter that lies in open directions
-  const Eigen::VectorXd scale = linear.normal.diagonal().unaryExpr(
-      [](double square) { return square > 0.0 ? 1.0 / std::sqrt(square) : 0.0; });
-  const auto eigen =
-      symmetric_eigen(Eigen::MatrixXd(scale.asDiagonal() * linear.normal * scale.asDiagonal()));
-  const double least = kOpen * eigen.values.tail<1>()[0];
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(scale.size(), scale.size());
-  Eigen::VectorXd open = Eigen::VectorXd::Zero(scale.size());
-  for (Eigen::Index i = 0; i < eigen.values.size(); ++i) {
-    const Eigen::VectorXd direction = eigen.vectors.col(i);
-    if (eigen.values[i] > least) {
-      inverse += direction * direction.transpose() / eigen.values[i];
-    } else {
-      open += direction.cwiseAbs2();
-    }
-  }
-  Inverse out{linear.names, scale.asDiagonal() * inverse * scale.asDiagonal(), {}};
-  for (Eigen::Index i = 0; i < open.size(); ++i)
-    if (open[i] > kMuch) out.open.push_back(linear.names[static_cast<std::size_t>(i)]);
-  return out;
-}
-
 /// Standard deviation of the table's angles from their estimated errors, by variance components.
 double angle_sigma_of(const ArtifactParameters& parameters,
-                      const Inverse& inverse,
+                      const ArtifactInverse& inverse,
                       double before_rad) {
   constexpr double kLeast_rad = 1e-5;  // 0.0006 degrees, beyond rotary stages
   double squares = 0.0;
@@ -199,7 +71,7 @@ double angle_sigma_of(const ArtifactParameters& parameters,
 struct ArtifactFit {
   ArtifactParameters parameters;
   ArtifactNoise noise;
-  Inverse inverse;
+  ArtifactInverse inverse;
 };
 
 void adjust_in_rounds(const ArtifactProblem& problem, ArtifactFit& fit, const Run& run) {
@@ -220,7 +92,7 @@ void adjust_in_rounds(const ArtifactProblem& problem, ArtifactFit& fit, const Ru
     const ArtifactResiduals after = artifact_residuals(problem, fit.parameters);
     fit.noise.light =
         noise_of_residuals(after.light_sigmas, median_of_magnitudes(after.light_sigmas));
-    fit.inverse = invert(linearize_artifacts(problem, fit.noise, fit.parameters));
+    fit.inverse = invert_artifacts(linearize_artifacts(problem, fit.noise, fit.parameters));
     // While the noise of the phases is overestimated, the prior alone holds the angles.
     constexpr double kNear = 0.2;
     const double change = std::abs(fit.noise.light / last.light - 1.0);
@@ -251,7 +123,7 @@ std::vector<ArtifactCapture> thinned(std::span<const ArtifactCapture> captures) 
 }
 
 /// Covariance by the names of the rig; parameters that are held have none.
-void set_covariance(const Inverse& inverse, ArtifactSolution& out) {
+void set_covariance(const ArtifactInverse& inverse, ArtifactSolution& out) {
   out.parameters = rig_parameter_names(out.rig);
   const auto count = static_cast<Eigen::Index>(out.parameters.size());
   out.covariance = Eigen::MatrixXd::Zero(count, count);
@@ -295,12 +167,12 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
                                  const Rig& start,
                                  const ArtifactSolveOptions& options,
                                  const Run& run) {
-  check_captures(captures, start);
+  check_artifact_captures(captures, start);
   ArtifactProblem problem;
   problem.captures = captures;
   problem.start = start;
   problem.options = options;
-  set_prior(start, problem);
+  set_artifact_prior(start, problem);
   for (const ArtifactCapture& capture : captures)
     problem.has_scale = problem.has_scale || std::holds_alternative<Balls>(capture.artifact);
   ArtifactFit fit{artifact_start(problem), {}, {}};

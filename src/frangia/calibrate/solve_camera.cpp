@@ -12,6 +12,8 @@
 #include "frangia/calibrate/internal/select_terms.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/rig/rig.h"
+#include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 namespace {
@@ -148,7 +150,6 @@ RigParameters start_of_screen(const Screen& screen,
                   matrix.at<double>(0, 2),
                   matrix.at<double>(1, 2),
                   distortion.at<double>(0)};
-  start.projector = start.camera;
   for (std::size_t i = 0; i < turns.size(); ++i) {
     RigParameters::Pose pose{};
     for (int k = 0; k < 3; ++k) {
@@ -162,7 +163,7 @@ RigParameters start_of_screen(const Screen& screen,
 
 struct CameraFit {
   RigParameters parameters;
-  RigFreedom freedom;
+  RigFreedom freedom{RigLayout{.has_projector = false}};
   RigNoise noise;
 };
 
@@ -181,27 +182,27 @@ void adjust_camera(std::span<const RigObservation> observations,
                   "the calibration of the camera does not converge; check board.size_px, the "
                   "periods of the patterns, and that nothing moved during a pose");
     }
-    const double before = fit.noise.camera;
+    const double before = fit.noise.camera[0];
     for (int k = 0; k < kRounds; ++k) {
       double weighted = 0.0;
       for (const RigObservation& observation : observations) {
         const double squared = residual_of(observation, fit.parameters)
                                    .cwiseQuotient(observation.sigma_px)
                                    .squaredNorm();
-        weighted += robust_weight(std::sqrt(squared) / fit.noise.camera) * squared;
+        weighted += robust_weight(std::sqrt(squared) / fit.noise.camera[0]) * squared;
       }
-      fit.noise.camera = std::max(std::sqrt(weighted / count), 1e-9);
+      fit.noise.camera[0] = std::max(std::sqrt(weighted / count), 1e-9);
     }
-    if (std::abs(fit.noise.camera / before - 1.0) < kSettled) break;
+    if (std::abs(fit.noise.camera[0] / before - 1.0) < kSettled) break;
   }
 }
 
 /// Optional terms of a camera before a screen: its pixels are square and evenly spaced.
 std::vector<ModelTerm> screen_terms(bool release_board) {
-  std::vector<ModelTerm> terms = optional_terms(release_board);
-  std::erase_if(terms, [](const ModelTerm& term) {
-    const bool aspect = !term.board.empty() && term.board.front() < 2;
-    return !term.projector.empty() || aspect;
+  const RigLayout layout{.has_projector = false};
+  std::vector<ModelTerm> terms = optional_terms(layout, {}, release_board);
+  std::erase_if(terms, [&](const ModelTerm& term) {
+    return term.of_board && term.parameters.front() < layout.board() + 2;  // aspect and shear
   });
   for (ModelTerm& term : terms) {
     const std::size_t at = term.name.find("board");
@@ -220,10 +221,12 @@ void summarize_screen(std::span<const RigObservation> observations,
                       const CameraFit& fit,
                       CameraSolution& out) {
   out.by_view.resize(fit.parameters.camera_from_board.size());
+  out.residuals_px.resize(out.by_view.size());
   for (const RigObservation& observation : observations) {
     const Eigen::Vector2d residual = residual_of(observation, fit.parameters);
     add_screen_residual(residual, out.residuals);
     add_screen_residual(residual, out.by_view[observation.view]);
+    out.residuals_px[observation.view].emplace_back(-residual);
     double height = 0.0;
     for (std::size_t i = 0; i < observation.site.height_terms.size(); ++i)
       height += fit.parameters.board.at(i + 2) * observation.site.height_terms.at(i);
@@ -234,7 +237,7 @@ void summarize_screen(std::span<const RigObservation> observations,
   };
   finish(out.residuals);
   std::for_each(out.by_view.begin(), out.by_view.end(), finish);
-  out.residuals.sigma_px = fit.noise.camera;
+  out.residuals.sigma_px = fit.noise.camera[0];
 }
 
 }  // namespace
@@ -249,7 +252,6 @@ CameraSolution solve_camera(const Screen& screen,
   check_screen_views(screen, views, width_px, height_px);
   const std::vector<RigObservation> observations = observations_of_screen(screen, views);
   CameraFit fit;
-  fit.freedom.projector.fill(false);
   fit.parameters = start_of_screen(screen, views, width_px, height_px);
   adjust_camera(observations, options, fit, run);
   const std::vector<ModelTerm> terms = screen_terms(options.release_board);
@@ -272,11 +274,11 @@ CameraSolution solve_camera(const Screen& screen,
     out.camera_from_screen.push_back(isometry_of(pose));
   summarize_screen(observations, fit, out);
   RigSolution all;
-  RigFreedom alone = fit.freedom;
-  alone.projector.fill(true);  // no observation depends on it, and nothing is known beforehand
-  add_covariance(observations, alone, fit.noise, fit.parameters, all);
-  out.parameters.assign(all.parameters.begin(), all.parameters.begin() + kIntrinsics);
-  out.covariance = all.covariance.topLeftCorner(kIntrinsics, kIntrinsics);
+  std::vector<std::string> names = rig_parameter_names(Rig{});
+  names.resize(kIntrinsics);
+  add_covariance(observations, fit.freedom, fit.noise, fit.parameters, names, all);
+  out.parameters = all.parameters;
+  out.covariance = all.covariance;
   if (!out.covariance.allFinite()) {
     throw Error(ErrorKind::Input,
                 "the poses of the screen do not determine the camera; capture more poses that fill "

@@ -28,6 +28,8 @@ struct CameraSolution {
   std::vector<Eigen::Isometry3d> camera_from_screen;  ///< one a view, mm
   ResidualSummary residuals;                          ///< of all points, px of the camera
   std::vector<ResidualSummary> by_view;               ///< one a view
+  /// Observed minus predicted pixel of each point, by view; in the order of the points.
+  std::vector<std::vector<Eigen::Vector2d>> residuals_px;
   double bend_mm = 0.0;                 ///< largest estimated deviation of the screen from a plane
   std::vector<std::string> terms;       ///< model terms that the data supports, in words
   std::vector<std::string> held;        ///< optional terms that the data does not support

@@ -40,17 +40,34 @@ struct RigSolveOptions {
   bool release_board = true;  ///< estimate the board's deviation from its nominal shape, too
 };
 
+/// How a camera beside the reference camera was calibrated.
+struct FurtherCameraSolution {
+  std::string name;                                                   ///< as in rig.toml
+  CameraModel model;                                                  ///< intrinsics
+  Eigen::Isometry3d camera_from_rig = Eigen::Isometry3d::Identity();  ///< relative pose, mm
+  ResidualSummary residuals;                                          ///< of all its pixels
+  /// Of the projector pixels that it reads or, with a label, of their differences from those that
+  /// the reference camera reads.
+  ResidualSummary projector_residuals;
+  std::vector<ResidualSummary> by_view;            ///< one a view
+  std::vector<ResidualSummary> projector_by_view;  ///< one a view
+  /// Observed minus predicted, point by point in the order of `BoardView::more`.
+  std::vector<std::vector<Eigen::Vector2d>> residuals_px;
+};
+
 /// The calibrated part of a rig, with its uncertainty.
 struct RigSolution {
-  CameraModel camera;      ///< intrinsics of the camera
-  PinholeModel projector;  ///< intrinsics of the projector
+  CameraModel camera;         ///< intrinsics of the reference camera
+  bool has_projector = true;  ///< false where the projector only labels points
+  PinholeModel projector;     ///< intrinsics of the projector
   Eigen::Isometry3d projector_from_camera = Eigen::Isometry3d::Identity();  ///< relative pose, mm
   std::vector<Eigen::Isometry3d> camera_from_board;                         ///< one a view
-  BoardShape board;                                ///< estimated shape of the board
-  ResidualSummary camera_residuals;                ///< of all camera pixels
-  ResidualSummary projector_residuals;             ///< of all projector pixels
-  std::vector<ResidualSummary> camera_by_view;     ///< one a view
-  std::vector<ResidualSummary> projector_by_view;  ///< one a view
+  BoardShape board;                                 ///< estimated shape of the board
+  ResidualSummary camera_residuals;                 ///< of all camera pixels
+  ResidualSummary projector_residuals;              ///< of all projector pixels
+  std::vector<ResidualSummary> camera_by_view;      ///< one a view
+  std::vector<ResidualSummary> projector_by_view;   ///< one a view
+  std::vector<FurtherCameraSolution> more_cameras;  ///< in the order of the rig's
   /// Residuals, observed minus predicted, point by point in the order of the views; NaN where there
   /// is no observation.
   std::vector<std::vector<Eigen::Vector2d>> camera_residuals_px;
@@ -58,8 +75,8 @@ struct RigSolution {
   std::vector<std::string> terms;       ///< model terms that the data supports, in words
   std::vector<std::string> held;        ///< optional terms that the data does not support
   std::vector<std::string> parameters;  ///< names of the rows of `covariance`: "camera.focal_px"
-  /// Of all parameters of camera, projector and relative pose. A held term has the uncertainty that
-  /// ordinary lenses leave and its correlation with the parameters that would compensate it.
+  /// Of all parameters of cameras, projector and relative poses. A held term has the uncertainty
+  /// that ordinary lenses leave and its correlation with the parameters that would compensate it.
   Eigen::MatrixXd covariance;
   std::vector<std::string> undetermined;  ///< parameters that the poses do not determine
   /// Standard uncertainty of the shape of a part that the uncertainty of the estimated parameters
@@ -76,16 +93,18 @@ struct RigSolution {
   int iterations = 0;  ///< of the solver, all rounds together
 };
 
-/// Estimates camera, projector and their relative pose from views of a board in one bundle
-/// adjustment over all views. The order of the distortion models and of the board's shape is chosen
-/// by evidence; the standard deviations of corners and phases are scaled to the residuals. Of
-/// `known` the sizes are used, and focal lengths and principal points as starting values where they
-/// are finite.
+/// Estimates all cameras, the projector and their relative poses from views of a board in one
+/// bundle adjustment over all views. A projector that is a label is not estimated: the pixels that
+/// two cameras read at one point must agree. The order of the distortion models and of the board's
+/// shape is chosen by evidence; the standard deviations of corners and phases are scaled to the
+/// residuals. Of `known` the sizes are used, and focal lengths and principal points as starting
+/// values where they are finite.
 ///
 /// @units    mm, px, rad
 /// @missing  points whose `projector_px` is NaN enter by their camera pixel alone
-/// @errors   Error(Input) for fewer than three views, none with a projector pixel, or an angular
-///           projector; Error(Numeric) when the adjustment fails
+/// @errors   Error(Input) for fewer than three views, in all or of a further camera, none with a
+///           projector pixel, a label without a further camera, or an angular projector;
+///           Error(Numeric) when the adjustment fails
 /// @source   Zhang 2000, A Flexible New Technique for Camera Calibration; Zhang & Huang 2006, Novel
 ///           method for structured light system calibration; Akaike 1974 for the order of the model
 [[nodiscard]] RigSolution solve_rig(const Board& board,

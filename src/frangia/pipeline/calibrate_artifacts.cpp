@@ -27,8 +27,8 @@ bool is_kind(const Scan& scan) {
 /// The camera from all poses of a screen.
 CameraSolution camera_from_screens(std::span<const Scan> scans,
                                    const CalibrateArtifactsOptions& options,
-                                   const Run& run) {
-  std::vector<ScreenView> views;
+                                   const Run& run,
+                                   std::vector<ScreenView>& views) {
   const Scan* first = nullptr;
   for (const Scan& scan : scans) {
     if (!is_kind<Screen>(scan)) continue;
@@ -265,7 +265,7 @@ ArtifactCalibration calibrate_artifacts(std::span<const Scan> scans,
   result.rig = start ? *start : table != nullptr ? table->rig : scans.front().rig;
   if (std::any_of(scans.begin(), scans.end(), is_kind<Screen>)) {
     run.stage("screen");
-    result.camera = camera_from_screens(scans, options, run);
+    result.camera = camera_from_screens(scans, options, run, result.screens);
     take_camera(*result.camera, result.rig);
   }
   if (table != nullptr) calibrate_table(scans, options, run, result);

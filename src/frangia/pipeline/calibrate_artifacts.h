@@ -35,6 +35,7 @@ struct CalibrateArtifactsOptions {
 struct ArtifactCalibration {
   Rig rig;                                ///< with `calibration` filled, its covariance included
   std::optional<CameraSolution> camera;   ///< from a screen
+  std::vector<ScreenView> screens;        ///< poses of the screen, as they were used
   std::optional<ArtifactSolution> table;  ///< from plates and balls
   std::vector<ArtifactCapture> captures;  ///< of plates and balls, as they were used
   std::vector<std::string> left_out;      ///< folders of views without the artifact

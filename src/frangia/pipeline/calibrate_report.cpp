@@ -1,73 +1,20 @@
-// Over 250 lines: a page of HTML, section by section.
 #include "frangia/pipeline/calibrate_report.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
-#include <variant>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
-#include "frangia/frames/png.h"
+#include "frangia/pipeline/internal/calibrate_report_page.h"
 
 namespace frangia {
 namespace {
-
-constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>Calibration</title><style>
-body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;max-width:1100px;padding:0 1em;color:#222}
-table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .8em;border-bottom:1px solid #ddd;text-align:right}
-td:first-child,th:first-child{text-align:left}.bad{color:#b00020;font-weight:600}
-.row{display:flex;flex-wrap:wrap;gap:1.2em}figure{margin:0}figcaption{font-size:13px;color:#555}
-svg{background:#f6f6f6;border:1px solid #ccc}.warning{background:#fff4e0;border-left:4px solid #e09000;padding:.4em .8em}
-</style></head><body>
-)";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
-std::string base64_of(const std::vector<char>& bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t block = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t byte =
-          i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U;
-      block = block << 8U | byte;
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? kDigits[block >> (18U - 6U * k) & 63U] : '=';
-  }
-  return out;
-}
-
-/// Color of an error relative to a large one: green, yellow, red.
-std::string color_of(double share) {
-  const double hue = 120.0 * (1.0 - std::clamp(share, 0.0, 1.0));
-  return fmt::format("hsl({:.0f},85%,40%)", hue);
-}
 
 double sigma_named(const RigSolution& solution, const std::string& name) {
   for (std::size_t i = 0; i < solution.parameters.size(); ++i) {
@@ -77,7 +24,7 @@ double sigma_named(const RigSolution& solution, const std::string& name) {
   return 0.0;
 }
 
-void add_device(const char* name,
+void add_device(const std::string& name,
                 const std::string& prefix,
                 const CameraModel& model,
                 const ResidualSummary& residuals,
@@ -97,6 +44,14 @@ void add_device(const char* name,
       model.principal_point_px.y(),
       sigma_named(solution, prefix + ".principal_y_px"),
       model.distortion[0]);
+}
+
+/// How a device stands to the reference camera.
+std::string place_of(const std::string& device, const Eigen::Isometry3d& from_camera) {
+  return fmt::format("<p>{} is {:.2f} mm from the camera; their axes are turned by {:.2f}°.</p>\n",
+                     device,
+                     from_camera.translation().norm(),
+                     deg_from_rad(Eigen::AngleAxisd(from_camera.linear()).angle()));
 }
 
 void add_summary(const RigCalibration& result, const Board& board, std::string& html) {
@@ -120,83 +75,103 @@ void add_summary(const RigCalibration& result, const Board& board, std::string& 
       "<table><tr><th></th><th>RMS, px</th><th>largest, px</th><th>points</th><th>focal length, px"
       "</th><th>principal point x</th><th>y, px</th><th>k1</th></tr>\n";
   add_device("camera", "camera", solution.camera, solution.camera_residuals, solution, html);
-  add_device(
-      "projector", "projector", solution.projector, solution.projector_residuals, solution, html);
-  const Eigen::Vector3d baseline = solution.projector_from_camera.translation();
+  if (solution.has_projector) {
+    add_device(
+        "projector", "projector", solution.projector, solution.projector_residuals, solution, html);
+  }
+  for (const FurtherCameraSolution& camera : solution.more_cameras) {
+    add_device(escaped("camera \"" + camera.name + "\""),
+               "camera-" + camera.name,
+               camera.model,
+               camera.residuals,
+               solution,
+               html);
+  }
+  html += "</table>\n";
+  if (solution.has_projector) html += place_of("The projector", solution.projector_from_camera);
+  for (const FurtherCameraSolution& camera : solution.more_cameras)
+    html += place_of(escaped("Camera \"" + camera.name + "\""), camera.camera_from_rig);
   html += fmt::format(
-      "</table><p>Baseline {:.2f} mm; the axes are turned by {:.2f}°.</p>\n"
       "<p>Estimated beyond one focal length, principal point and k1: {}.<br>Held, because the "
       "poses "
       "do not support them: {}.</p>\n",
-      baseline.norm(),
-      deg_from_rad(Eigen::AngleAxisd(solution.projector_from_camera.linear()).angle()),
       solution.terms.empty() ? "nothing" : fmt::format("{}", fmt::join(solution.terms, ", ")),
       solution.held.empty() ? "nothing" : fmt::format("{}", fmt::join(solution.held, ", ")));
 }
 
+/// A column of the table of poses: the residuals of one device.
+struct PoseColumn {
+  std::string title;
+  const std::vector<ResidualSummary>* by_view = nullptr;
+  double typical_px = 0.0;
+};
+
+std::vector<PoseColumn> pose_columns(const RigSolution& solution) {
+  std::vector<PoseColumn> columns{
+      {"camera", &solution.camera_by_view, solution.camera_residuals.rms_px}};
+  if (solution.has_projector) {
+    columns.push_back(
+        {"projector", &solution.projector_by_view, solution.projector_residuals.rms_px});
+  }
+  for (const FurtherCameraSolution& camera : solution.more_cameras)
+    columns.push_back({escaped(camera.name), &camera.by_view, camera.residuals.rms_px});
+  return columns;
+}
+
 void add_poses(const RigCalibration& result, std::string& html) {
   const RigSolution& solution = result.solution;
-  html +=
-      "<h2>Poses</h2><table><tr><th>view</th><th>camera RMS, px</th><th>projector RMS, px</th>"
-      "<th>distance, mm</th><th>tilt, °</th><th>change when left out, mm</th></tr>\n";
+  const std::vector<PoseColumn> columns = pose_columns(solution);
+  html += "<h2>Poses</h2><table><tr><th>view</th>";
+  for (const PoseColumn& column : columns)
+    html += fmt::format("<th>{} RMS, px</th>", column.title);
+  html += "<th>distance, mm</th><th>tilt, °</th><th>change when left out, mm</th></tr>\n";
   for (std::size_t i = 0; i < result.views.size(); ++i) {
     const Eigen::Isometry3d& pose = solution.camera_from_board[i];
     const double tilt_rad =
         std::acos(std::min(1.0, std::abs(pose.linear().col(2).dot(Eigen::Vector3d::UnitZ()))));
-    const auto cell = [](double value, double typical) {
-      return fmt::format("<td{}>{:.3f}</td>", value > 3.0 * typical ? " class=\"bad\"" : "", value);
-    };
-    html +=
-        fmt::format("<tr><td>{}</td>{}{}<td>{:.0f}</td><td>{:.0f}</td><td>{:.4f}</td></tr>\n",
-                    escaped(result.views[i].name),
-                    cell(solution.camera_by_view[i].rms_px, solution.camera_residuals.rms_px),
-                    cell(solution.projector_by_view[i].rms_px, solution.projector_residuals.rms_px),
-                    pose.translation().norm(),
-                    deg_from_rad(tilt_rad),
-                    i < solution.leave_one_out_mm.size() ? solution.leave_one_out_mm[i] : 0.0);
+    html += fmt::format("<tr><td>{}</td>", escaped(result.views[i].name));
+    for (const PoseColumn& column : columns) {
+      const double rms_px = (*column.by_view)[i].rms_px;
+      const bool bad = rms_px > 3.0 * column.typical_px;
+      html += fmt::format("<td{}>{:.3f}</td>", bad ? " class=\"bad\"" : "", rms_px);
+    }
+    html += fmt::format("<td>{:.0f}</td><td>{:.0f}</td><td>{:.4f}</td></tr>\n",
+                        pose.translation().norm(),
+                        deg_from_rad(tilt_rad),
+                        i < solution.leave_one_out_mm.size() ? solution.leave_one_out_mm[i] : 0.0);
   }
   html += "</table>\n";
 }
 
-/// Arrows of all residuals over the image of one device.
-void add_residual_map(const char* title,
-                      const RigCalibration& result,
-                      bool by_projector,
-                      const CameraModel& model,
-                      const ResidualSummary& summary,
-                      std::string& html) {
-  constexpr double kArrow = 0.03;  // of the width: length of an arrow of the RMS
-  const double scale = kArrow * model.width_px / std::max(summary.rms_px, 1e-6);
-  html +=
-      fmt::format("<figure><svg viewBox=\"0 0 {0} {1}\" width=\"520\" stroke-width=\"{2:.1f}\">\n",
-                  model.width_px,
-                  model.height_px,
-                  model.width_px / 500.0);
-  const auto& residuals =
-      by_projector ? result.solution.projector_residuals_px : result.solution.camera_residuals_px;
+/// Arrows of all residuals over the image of one device: of a camera, 0 being the reference camera,
+/// or of the projector as the reference camera reads it.
+std::string map_of(const RigCalibration& result, std::size_t camera, bool by_projector) {
+  const RigSolution& solution = result.solution;
+  const FurtherCameraSolution* further = camera > 0 ? &solution.more_cameras[camera - 1] : nullptr;
+  const CameraModel& model = further != nullptr ? further->model
+                             : by_projector     ? solution.projector
+                                                : solution.camera;
+  const auto& residuals = further != nullptr ? further->residuals_px
+                          : by_projector     ? solution.projector_residuals_px
+                                             : solution.camera_residuals_px;
+  ResidualMap map{
+      .title = by_projector ? "Projector" : "Camera",
+      .width = model.width_px,
+      .height = model.height_px,
+      .rms = by_projector ? solution.projector_residuals.rms_px : solution.camera_residuals.rms_px};
+  if (further != nullptr) {
+    map.title = "camera \"" + further->name + "\"";
+    map.rms = further->residuals.rms_px;
+  }
   for (std::size_t view = 0; view < result.views.size(); ++view) {
-    for (std::size_t i = 0; i < result.views[view].points.size(); ++i) {
-      const BoardPoint& point = result.views[view].points[i];
-      const Eigen::Vector2d& from = by_projector ? point.projector_px : point.camera_px;
-      const Eigen::Vector2d& residual = residuals[view][i];
-      if (!from.allFinite() || !residual.allFinite()) continue;
-      const Eigen::Vector2d to = from + scale * residual;
-      html += fmt::format(
-          "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n",
-          from.x(),
-          from.y(),
-          to.x(),
-          to.y(),
-          color_of(residual.norm() / (3.0 * summary.rms_px)));
+    const std::vector<BoardPoint>& points = points_of(result.views[view], camera);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector2d& from = by_projector ? points[i].projector_px : points[i].camera_px;
+      if (from.allFinite() && residuals[view][i].allFinite())
+        map.arrows.push_back({from, residuals[view][i]});
     }
   }
-  html += fmt::format(
-      "</svg><figcaption>{}: residuals of all points, enlarged {:.0f} times. Red is three times "
-      "the RMS of {:.3f} px or more. Arrows of neighbors that agree are a fault of the model; a "
-      "random pattern is noise.</figcaption></figure>\n",
-      title,
-      scale,
-      summary.rms_px);
+  return residual_figure(map);
 }
 
 /// Share of the cells of a grid over the image that hold a point.
@@ -260,10 +235,10 @@ void add_boards(const RigCalibration& result, std::string& html) {
     const int height = picture.pixels.height();
     html += fmt::format(
         "<figure><svg viewBox=\"0 0 {0} {1}\" width=\"340\"><image width=\"{0}\" height=\"{1}\" "
-        "href=\"data:image/png;base64,{2}\"/>\n",
+        "href=\"{2}\"/>\n",
         width,
         height,
-        base64_of(encode_png(picture.pixels)));
+        picture_data(picture.pixels));
     for (std::size_t i = 0; i < result.views[view].points.size(); ++i) {
       const Eigen::Vector2d pixel =
           (result.views[view].points[i].camera_px.array() + 0.5) / picture.px_per_px;
@@ -286,23 +261,22 @@ void write_calibration_report(const std::filesystem::path& path,
                               const RigCalibration& result,
                               const Board& board,
                               std::span<const std::string> warnings) {
-  std::string html = kHead;
+  std::string html = report_head();
   add_summary(result, board, html);
   for (const std::string& warning : warnings)
     html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(warning));
   add_poses(result, html);
   const RigSolution& solution = result.solution;
   html += "<h2>Residuals and coverage</h2><div class=\"row\">\n";
-  add_residual_map("Camera", result, false, solution.camera, solution.camera_residuals, html);
-  add_residual_map(
-      "Projector", result, true, solution.projector, solution.projector_residuals, html);
+  html += map_of(result, 0, false);
+  if (solution.has_projector) html += map_of(result, 0, true);
+  for (std::size_t camera = 1; camera <= solution.more_cameras.size(); ++camera)
+    html += map_of(result, camera, false);
   add_coverage(result, board, html);
   html += "</div>\n";
   add_boards(result, html);
   html += "</body></html>\n";
-  AtomicFile file(path);
-  file.stream().write(html.data(), static_cast<std::streamsize>(html.size()));
-  file.commit();
+  write_report(path, html);
 }
 
 }  // namespace frangia

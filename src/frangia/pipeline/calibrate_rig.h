@@ -41,6 +41,9 @@ struct RigCalibration {
 /// "usable" up to 1 / 1000, else "poor".
 [[nodiscard]] std::string calibration_grade(const RigSolution& solution);
 
+/// The same from an uncertainty and the distance at which it holds.
+[[nodiscard]] std::string calibration_grade(double sigma_mm, double distance_mm);
+
 /// Calibrates camera, projector and their relative pose from a scan whose views are poses of a
 /// board, with fringes in both directions.
 ///

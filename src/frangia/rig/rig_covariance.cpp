@@ -1,15 +1,12 @@
 #include "frangia/rig/rig_covariance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
-#include <variant>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,18 +15,11 @@
 #include "frangia/core/read_text_file.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/rig/internal/covariance_reader.h"
+#include "frangia/rig/internal/parameter_names.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {
-
-constexpr std::array kIntrinsics = {
-    "focal_px", "focal_ratio", "principal_x_px", "principal_y_px", "k1", "k2", "p1", "p2", "k3"};
-constexpr std::array kPose = {
-    "rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "x_mm", "y_mm", "z_mm"};
-constexpr std::string_view kCamera = "camera.";
-constexpr std::string_view kProjector = "projector.";
-constexpr std::string_view kPitchScale = "projector.pitch_scale";
 
 /// Largest negative eigenvalue of the correlation matrix, and largest difference of correlations
 /// across its diagonal. The file holds nine digits.
@@ -72,54 +62,22 @@ void check_matrix(const RigCovariance& read, const CovarianceReader& reader) {
   }
 }
 
-/// Adds to one of the nine intrinsic parameters.
-void change_intrinsic(CameraModel& model, std::size_t which, double change) {
-  const double ratio = model.focal_px.y() / model.focal_px.x();
-  switch (which) {
-    case 0:
-      model.focal_px += change * Eigen::Vector2d(1.0, ratio);
-      break;
-    case 1:
-      model.focal_px.y() += change * model.focal_px.x();
-      break;
-    case 2:
-      model.principal_point_px.x() += change;
-      break;
-    case 3:
-      model.principal_point_px.y() += change;
-      break;
-    default:
-      model.distortion.at(which - 4) += change;
-  }
-}
-
-/// Adds to the rotation vector and the translation of `p = R X + t`.
-void change_pose(Projector& projector, const Eigen::Matrix<double, 6, 1>& changes) {
-  const Eigen::Vector3d translation = -(projector.rotation * projector.position_mm);
-  const Eigen::AngleAxisd turn(projector.rotation);
-  const Eigen::Vector3d vector = turn.angle() * turn.axis() + changes.head<3>();
-  const double angle = vector.norm();
-  projector.rotation = angle > 0.0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix()
-                                   : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  projector.position_mm = -(projector.rotation.transpose() * (translation + changes.tail<3>()));
-}
-
-template <std::size_t n>
-std::size_t index_in(const std::array<const char*, n>& names, std::string_view name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 }  // namespace
 
 std::vector<std::string> rig_parameter_names(const Rig& rig) {
   std::vector<std::string> names;
-  for (const char* name : kIntrinsics)
-    names.push_back(std::string(kCamera) + name);
-  for (const char* name : kIntrinsics)
-    if (!rig.projector.is_angular()) names.push_back(std::string(kProjector) + name);
-  for (const char* name : kPose)
-    names.push_back(std::string(kProjector) + name);
-  if (rig.projector.is_angular()) names.emplace_back(kPitchScale);
+  const auto add = [&](const std::string& device, const auto& of_device) {
+    for (const char* name : of_device)
+      names.push_back(device + name);
+  };
+  add(std::string(kCameraPrefix), kIntrinsicNames);
+  if (!rig.projector.is_angular()) add(std::string(kProjectorPrefix), kIntrinsicNames);
+  add(std::string(kProjectorPrefix), kPoseNames);
+  if (rig.projector.is_angular()) names.emplace_back(kPitchScaleName);
+  for (const PosedCamera& posed : rig.more_cameras) {
+    add(camera_prefix(posed.camera.name), kIntrinsicNames);
+    add(camera_prefix(posed.camera.name), kPoseNames);
+  }
   return names;
 }
 
@@ -192,38 +150,6 @@ Eigen::MatrixXd covariance_factor(const RigCovariance& covariance) {
   const Eigen::Index kept = eigen.values.size() - first;
   return sigma.asDiagonal() * eigen.vectors.rightCols(kept) *
          eigen.values.tail(kept).cwiseSqrt().asDiagonal();
-}
-
-Rig change_parameters(const Rig& rig,
-                      const std::vector<std::string>& names,
-                      const Eigen::VectorXd& changes) {
-  require(static_cast<std::size_t>(changes.size()) == names.size(),
-          "change_parameters: there must be one change for each parameter");
-  Rig changed = rig;
-  Eigen::Matrix<double, 6, 1> pose = Eigen::Matrix<double, 6, 1>::Zero();
-  auto* const pinhole = std::get_if<PinholeModel>(&changed.projector.model);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const double change = changes[static_cast<Eigen::Index>(i)];
-    const std::string_view name = names[i];
-    const bool of_camera = name.starts_with(kCamera);
-    const std::string_view tail = name.substr(std::min(name.find('.') + 1, name.size()));
-    const std::size_t intrinsic = index_in(kIntrinsics, tail);
-    const std::size_t in_pose = index_in(kPose, tail);
-    if (of_camera && intrinsic < kIntrinsics.size()) {
-      change_intrinsic(changed.camera.model, intrinsic, change);
-    } else if (name.starts_with(kProjector) && intrinsic < kIntrinsics.size() &&
-               pinhole != nullptr) {
-      change_intrinsic(*pinhole, intrinsic, change);
-    } else if (name.starts_with(kProjector) && in_pose < kPose.size()) {
-      pose[static_cast<Eigen::Index>(in_pose)] += change;
-    } else if (name == kPitchScale && pinhole == nullptr) {
-      std::get<AngularModel>(changed.projector.model).pitch_scale += change;
-    } else {
-      throw Error(ErrorKind::Input, fmt::format("'{}' is not a parameter of this rig", name));
-    }
-  }
-  if (!pose.isZero(0.0)) change_pose(changed.projector, pose);
-  return changed;
 }
 
 }  // namespace frangia

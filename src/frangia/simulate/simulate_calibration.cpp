@@ -37,7 +37,7 @@ bool is_inside(const CameraModel& model, const Eigen::Vector3d& point) {
   return share.minCoeff() > kMargin && share.maxCoeff() < 1.0 - kMargin;
 }
 
-/// Whether camera and projector see all of the sheet, and not too obliquely.
+/// Whether all cameras and the projector see all of the sheet, and not too obliquely.
 bool is_visible(const Board& board,
                 const Eigen::Isometry3d& rig_from_board,
                 const Rig& rig,
@@ -48,6 +48,8 @@ bool is_visible(const Board& board,
       const Eigen::Vector3d corner = rig_from_board * Eigen::Vector3d(x, y, 0.0);
       if (!is_inside(rig.camera.model, corner)) return false;
       if (!is_inside(projector, rig.projector.from_rig(corner))) return false;
+      for (const PosedCamera& posed : rig.more_cameras)
+        if (!is_inside(posed.camera.model, posed.camera_from_rig() * corner)) return false;
     }
   }
   constexpr double kLeastCosine = 0.5;
@@ -56,7 +58,10 @@ bool is_visible(const Board& board,
   const auto faces = [&](const Eigen::Vector3d& viewer) {
     return normal.dot((viewer - center).normalized()) > kLeastCosine;
   };
-  return faces(Eigen::Vector3d::Zero()) && faces(rig.projector.position_mm);
+  return faces(Eigen::Vector3d::Zero()) && faces(rig.projector.position_mm) &&
+         std::all_of(rig.more_cameras.begin(), rig.more_cameras.end(), [&](const auto& posed) {
+           return faces(posed.position_mm);
+         });
 }
 
 /// A pose with a random tilt, turn and place; `stream` chooses it.
@@ -99,11 +104,12 @@ std::vector<Eigen::Isometry3d> choose_poses(const CalibrationPlan& plan,
     if (is_visible(plan.board, pose, plan.rig, projector)) poses.push_back(pose);
   }
   if (static_cast<int>(poses.size()) < plan.poses) {
-    throw Error(ErrorKind::Input,
-                fmt::format("no {} poses show the whole board to camera and projector; set a "
-                            "`square` below {:g} mm",
-                            plan.poses,
-                            plan.board.square_mm));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("no {} poses show the whole board to all cameras and the projector; set a "
+                    "`square` below {:g} mm",
+                    plan.poses,
+                    plan.board.square_mm));
   }
   return poses;
 }
@@ -152,6 +158,12 @@ Rig sizes_of(const Rig& rig) {
   for (CameraModel* model : {&known.camera.model, &projector}) {
     model->focal_px = model->principal_point_px = unknown;
     model->distortion = {};
+  }
+  for (PosedCamera& posed : known.more_cameras) {
+    posed.camera.model.focal_px = posed.camera.model.principal_point_px = unknown;
+    posed.camera.model.distortion = {};
+    posed.position_mm.setConstant(std::nan(""));
+    posed.rotation.setConstant(std::nan(""));
   }
   known.projector.position_mm.setConstant(std::nan(""));
   known.projector.rotation.setConstant(std::nan(""));

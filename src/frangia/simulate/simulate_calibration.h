@@ -34,15 +34,15 @@ struct BoardPoses {
   Mesh plate;  ///< whose face at z = 0 shows the board
 };
 
-/// Chooses poses in which camera and projector see the whole board.
+/// Chooses poses in which all cameras and the projector see the whole board.
 ///
 /// @errors   Error(Input) when the projector is angular or no pose shows the whole board
 [[nodiscard]] BoardPoses plan_board_poses(const CalibrationPlan& plan, std::uint64_t seed);
 
-/// Renders poses of a printed board into a scan folder: fringes in both directions and one frame of
-/// white light. Returns the scan as written.
+/// Renders poses of a printed board, as all cameras see them, into a scan folder: fringes in both
+/// directions and one frame of white light. Returns the scan as written.
 ///
-/// rig.toml holds the sizes of camera and projector only. The true rig is written to
+/// rig.toml holds the sizes of cameras and projector only. The true rig is written to
 /// truth-rig.toml, the true poses to truth-setups.toml.
 /// @errors   Error(Input) when the projector is angular, when no pose shows the whole board to
 ///           camera and projector, or as `simulate_scan`

@@ -58,6 +58,14 @@ def copied(source, folder):
     return folder
 
 
+def copy_rig(rig, scan):
+    """Gives a scan another rig, with the file of its covariance."""
+    shutil.copy(rig, scan / "rig.toml")
+    covariance = tomllib.loads(rig.read_text()).get("calibration", {}).get("covariance")
+    if covariance:
+        shutil.copy(rig.parent / covariance, scan / covariance)
+
+
 def write_scan(source, folder):
     """The poses with a scan.toml, and with a rig.toml that holds sizes only."""
     copied(source, folder)
@@ -192,7 +200,7 @@ def measure_real(study):
     study.table("rig", "median distance from reference.ply, mm", "90 %, mm", "scale", "median distance from the reference triangulated by the rig, mm")
     for name, rig in rigs.items():
         scan = copied(skull, study.work / "skull-scan")
-        shutil.copy(rig, scan / "rig.toml")
+        copy_rig(rig, scan)
         scale = baseline[name] / baseline["given"]
         vertices = reconstructed(study, scan)
         median, high, fitted = distance_to(reference, vertices, scale)
@@ -277,6 +285,7 @@ def measure_simulated(study):
     rigs = {"true rig": (bar / "rig.toml").read_text(),
             "found rig": file.read_text() + f"\n[turntable]\npoint_mm = {table['point_mm']}\naxis = {table['axis']}\n"}
     study.add("\nA ball bar, rendered by the true rig and reconstructed with each.\n")
+    copy_rig(file, bar)
     study.table("reconstructed with", "spacing, mm (70)", "diameters, mm (40)")
     for name, text in rigs.items():
         (bar / "rig.toml").write_text(text)

@@ -1,4 +1,3 @@
-// Over 250 lines: the one place that knows the blocks of the adjustment and their order.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,8 +6,10 @@
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
+#include "frangia/calibrate/internal/artifact_light.h"
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/artifact_residuals.h"
+#include "frangia/calibrate/internal/rig_prior.h"
 
 namespace frangia {
 namespace {
@@ -16,91 +17,6 @@ namespace {
 constexpr double kHuberSigmas = 3.0;
 /// Relative standard deviation of a certified length; it only has to be far below that of the data.
 constexpr double kCertified = 1e-5;
-
-std::array<double, 9> block_of(const CameraModel& model) {
-  return {model.focal_px.x(),
-          model.focal_px.y() / model.focal_px.x(),
-          model.principal_point_px.x(),
-          model.principal_point_px.y(),
-          model.distortion[0],
-          model.distortion[1],
-          model.distortion[2],
-          model.distortion[3],
-          model.distortion[4]};
-}
-
-CameraModel with_intrinsics(CameraModel model, const std::array<double, 9>& values) {
-  model.focal_px = {values[0], values[0] * values[1]};
-  model.principal_point_px = {values[2], values[3]};
-  std::copy(values.begin() + 4, values.end(), model.distortion.begin());
-  return model;
-}
-
-LinearRay ray_at(const CameraModel& model, const Eigen::Vector2d& pixel) {
-  const std::array<double, 9> values = block_of(model);
-  LinearRay out;
-  out.ray = model.ray(pixel);
-  out.intrinsics = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(values.data());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double step = i == 0 || i == 2 || i == 3 ? 1e-2 : 1e-5;
-    std::array<double, 9> up = values;
-    std::array<double, 9> down = values;
-    up.at(i) += step;
-    down.at(i) -= step;
-    out.by_intrinsics.col(static_cast<Eigen::Index>(i)) =
-        (with_intrinsics(model, up).ray(pixel) - with_intrinsics(model, down).ray(pixel)) /
-        (2.0 * step);
-  }
-  return out;
-}
-
-TurnedSurface surface_at(const ArtifactProblem& problem,
-                         std::size_t capture,
-                         const ArtifactView& view,
-                         int surface,
-                         const Eigen::Vector2d& pixel) {
-  const ArtifactCapture& seen = problem.captures[capture];
-  const auto* balls = std::get_if<Balls>(&seen.artifact);
-  return {ray_at(problem.start.camera.model, pixel),
-          {problem.start.turntable->point_mm, problem.start.turntable->axis},
-          view.angle_rad,
-          seen.surfaces[static_cast<std::size_t>(surface)],
-          balls != nullptr,
-          balls != nullptr ? 0.5 * balls->diameter_mm : 0.0};
-}
-
-/// Information about camera, projector, pose and pitch from an earlier calibration.
-class RigPrior final : public ceres::CostFunction {
- public:
-  RigPrior(Eigen::MatrixXd root, const std::array<double, 25>& mean)
-      : root_(std::move(root)), mean_(mean) {
-    set_num_residuals(static_cast<int>(root_.rows()));
-    *mutable_parameter_block_sizes() = {9, 9, 6, 1};
-  }
-  bool Evaluate(const double* const* parameters,
-                double* residuals,
-                double** jacobians) const override {
-    const std::vector<int>& sizes = parameter_block_sizes();
-    Eigen::VectorXd change(static_cast<Eigen::Index>(mean_.size()));
-    Eigen::Index at = 0;
-    for (std::size_t block = 0; block < sizes.size(); ++block) {
-      const Eigen::MatrixXd columns = root_.middleCols(at, sizes[block]);
-      for (int i = 0; i < sizes[block]; ++i)
-        change[at + i] = parameters[block][i] - mean_.at(static_cast<std::size_t>(at + i));
-      if (jacobians != nullptr && jacobians[block] != nullptr) {
-        Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-            jacobians[block], columns.rows(), columns.cols()) = columns;
-      }
-      at += sizes[block];
-    }
-    Eigen::Map<Eigen::VectorXd>(residuals, root_.rows()) = root_ * change;
-    return true;
-  }
-
- private:
-  Eigen::MatrixXd root_;
-  std::array<double, 25> mean_;
-};
 
 /// A block of the adjustment and the names of the parameters that are estimated.
 struct FreeBlock {
@@ -217,14 +133,6 @@ void add_capture_blocks(const ArtifactProblem& problem,
   }
 }
 
-Eigen::Vector2d weight_of(const LightSite& site, double noise) {
-  Eigen::Vector2d weight = Eigen::Vector2d::Zero();
-  for (int i = 0; i < 2; ++i)
-    if (std::isfinite(site.light[i]) && site.sigma[i] > 0.0)
-      weight[i] = 1.0 / (noise * site.sigma[i]);
-  return weight;
-}
-
 void add_views(const ArtifactProblem& problem,
                const ArtifactNoise& noise,
                ArtifactParameters& parameters,
@@ -237,10 +145,10 @@ void add_views(const ArtifactProblem& problem,
         const LightSite& site = view.sites[i];
         out.AddResidualBlock(
             new ceres::AutoDiffCostFunction<LightResidual, 2, 9, 9, 6, 1, 4, 1, 4>(
-                new LightResidual{surface_at(problem, c, view, view.surface[i], site.camera_px),
+                new LightResidual{turned_surface(problem, c, view, view.surface[i], site.camera_px),
                                   angular,
                                   site.light,
-                                  weight_of(site, noise.light)}),
+                                  light_weight(site, noise.light)}),
             new ceres::HuberLoss(kHuberSigmas),
             parameters.camera.data(),
             parameters.projector.data(),
@@ -297,68 +205,6 @@ class StopArtifacts final : public ceres::IterationCallback {
 
 }  // namespace
 
-ArtifactParameters artifact_start(const ArtifactProblem& problem) {
-  const Rig& rig = problem.start;
-  ArtifactParameters out;
-  out.camera = block_of(rig.camera.model);
-  if (const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
-    out.projector = block_of(*pinhole);
-  } else {
-    out.pitch_scale = std::get<AngularModel>(rig.projector.model).pitch_scale;
-  }
-  const Eigen::AngleAxisd turn(rig.projector.rotation);
-  const Eigen::Vector3d rotation = turn.angle() * turn.axis();
-  const Eigen::Vector3d translation = -(rig.projector.rotation * rig.projector.position_mm);
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.pose.at(i) = rotation[static_cast<Eigen::Index>(i)];
-    out.pose.at(i + 3) = translation[static_cast<Eigen::Index>(i)];
-  }
-  for (const ArtifactCapture& capture : problem.captures) {
-    out.angle_errors.emplace_back(capture.views.size(), 0.0);
-    out.surfaces.emplace_back();
-    const bool plate = std::holds_alternative<Plate>(capture.artifact);
-    for (const Eigen::Vector4d& surface : capture.surfaces) {
-      if (plate) {
-        out.surfaces.back().push_back({0.0, 0.0, surface[3], 0.0});
-      } else {
-        out.surfaces.back().push_back({surface[0], surface[1], surface[2], 0.0});
-      }
-    }
-  }
-  return out;
-}
-
-Rig artifact_rig(const ArtifactProblem& problem, const ArtifactParameters& parameters) {
-  Rig rig = problem.start;
-  rig.camera.model = with_intrinsics(rig.camera.model, parameters.camera);
-  if (auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
-    *pinhole = with_intrinsics(*pinhole, parameters.projector);
-  } else {
-    std::get<AngularModel>(rig.projector.model).pitch_scale = parameters.pitch_scale;
-  }
-  const Eigen::Isometry3d projector_from_camera = isometry_of(parameters.pose);
-  rig.projector.rotation = projector_from_camera.linear();
-  rig.projector.position_mm =
-      -(rig.projector.rotation.transpose() * projector_from_camera.translation());
-  const Eigen::Vector3d axis = problem.start.turntable->axis;
-  const Eigen::Vector3d u = axis.unitOrthogonal();
-  rig.turntable->axis = tilted(axis, parameters.table[0], parameters.table[1]);
-  rig.turntable->point_mm += parameters.table[2] * u + parameters.table[3] * axis.cross(u);
-  return rig;
-}
-
-Eigen::Vector4d artifact_surface(const ArtifactProblem& problem,
-                                 std::size_t capture,
-                                 std::size_t surface,
-                                 const ArtifactParameters& parameters) {
-  const ArtifactCapture& seen = problem.captures[capture];
-  const ArtifactParameters::Surface& values = parameters.surfaces[capture][surface];
-  if (!std::holds_alternative<Plate>(seen.artifact)) return {values[0], values[1], values[2], 0.0};
-  const Eigen::Vector3d normal =
-      tilted(Eigen::Vector3d(seen.surfaces[surface].head<3>()), values[0], values[1]);
-  return {normal.x(), normal.y(), normal.z(), values[2]};
-}
-
 bool adjust_artifacts(const ArtifactProblem& problem,
                       const ArtifactNoise& noise,
                       ArtifactParameters& parameters,
@@ -378,63 +224,6 @@ bool adjust_artifacts(const ArtifactProblem& problem,
   ceres::Solve(options, &composed, &summary);
   run.check();
   return summary.IsSolutionUsable();
-}
-
-ArtifactResiduals artifact_residuals(const ArtifactProblem& problem,
-                                     const ArtifactParameters& parameters) {
-  ArtifactResiduals out;
-  const bool angular = problem.start.projector.is_angular();
-  for (std::size_t c = 0; c < problem.captures.size(); ++c) {
-    for (std::size_t v = 0; v < problem.captures[c].views.size(); ++v) {
-      const ArtifactView& view = problem.captures[c].views[v];
-      for (std::size_t i = 0; i < view.sites.size(); ++i) {
-        const LightSite& site = view.sites[i];
-        const Eigen::Vector2d weight = weight_of(site, 1.0);
-        Eigen::Vector2d sigmas = Eigen::Vector2d::Zero();
-        const LightResidual residual{surface_at(problem, c, view, view.surface[i], site.camera_px),
-                                     angular,
-                                     site.light,
-                                     weight};
-        const bool hit =
-            residual(parameters.camera.data(),
-                     parameters.projector.data(),
-                     parameters.pose.data(),
-                     &parameters.pitch_scale,
-                     parameters.table.data(),
-                     &parameters.angle_errors[c][v],
-                     parameters.surfaces[c][static_cast<std::size_t>(view.surface[i])].data(),
-                     sigmas.data());
-        if (!hit) ++out.missed;
-        for (int k = 0; hit && k < 2; ++k) {
-          if (!(weight[k] > 0.0)) continue;
-          out.light_sigmas.push_back(sigmas[k]);
-          out.light.push_back(sigmas[k] / weight[k]);
-        }
-      }
-    }
-  }
-  return out;
-}
-
-std::vector<Eigen::Vector3d> artifact_line_points(const ArtifactProblem& problem,
-                                                  const ArtifactParameters& parameters) {
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t c = 0; c < problem.captures.size(); ++c) {
-    for (std::size_t v = 0; v < problem.captures[c].views.size(); ++v) {
-      const ArtifactView& view = problem.captures[c].views[v];
-      for (const LinePixel& pixel : view.line) {
-        Eigen::Vector3d point;
-        const bool hit = surface_at(problem, c, view, 0, pixel.camera_px)
-                             .intersect(parameters.camera.data(),
-                                        parameters.table.data(),
-                                        &parameters.angle_errors[c][v],
-                                        parameters.surfaces[c][0].data(),
-                                        point);
-        if (hit) points.push_back(point);
-      }
-    }
-  }
-  return points;
 }
 
 ArtifactLinearization linearize_artifacts(const ArtifactProblem& problem,

@@ -1,40 +1,28 @@
 #include "frangia/calibrate/internal/leave_one_out.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
 namespace frangia {
-namespace {
-
-/// Rows of the response that the free parameters of camera, projector and relative pose have in the
-/// order of the linearization, and their number in the full order.
-std::vector<Eigen::Index> free_parameters(const RigFreedom& freedom) {
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < kIntrinsics; ++i)
-    if (freedom.camera.at(static_cast<std::size_t>(i))) free.push_back(i);
-  for (Eigen::Index i = 0; i < kIntrinsics; ++i)
-    if (freedom.projector.at(static_cast<std::size_t>(i))) free.push_back(kIntrinsics + i);
-  for (Eigen::Index i = 0; i < kPose; ++i)
-    free.push_back(2 * kIntrinsics + i);
-  return free;
-}
-
-}  // namespace
-
 void add_leave_one_out(std::span<const RigObservation> observations,
                        const RigFreedom& freedom,
                        const RigNoise& noise,
                        const RigParameters& parameters,
                        const Eigen::MatrixXd& response,
                        RigSolution& solution) {
-  const RigLinearization all = linearize_rig(observations, freedom, noise, parameters);
+  RigLinearization all = linearize_rig(observations, freedom.layout, noise, parameters);
+  const std::vector<Eigen::Index> columns = free_columns(freedom, all.jacobian.cols());
+  all.jacobian = all.jacobian(Eigen::all, columns).eval();
   const Eigen::MatrixXd normal = all.jacobian.transpose() * all.jacobian;
   const Eigen::VectorXd gradient = all.jacobian.transpose() * all.residuals;
-  const auto free = free_parameters(freedom);
-  const auto shown = static_cast<Eigen::Index>(free.size());
-  const Eigen::MatrixXd by_free = response(Eigen::all, free);
+  // The free parameters of the devices come first.
+  const auto devices = static_cast<Eigen::Index>(freedom.layout.board());
+  const auto shown = std::lower_bound(columns.begin(), columns.end(), devices) - columns.begin();
+  const Eigen::MatrixXd by_free =
+      response(Eigen::all, std::vector<Eigen::Index>(columns.begin(), columns.begin() + shown));
   const std::size_t views = parameters.camera_from_board.size();
   const auto points = static_cast<double>(response.rows()) / 3.0;
   double squares = 0.0;

@@ -3,60 +3,70 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <ceres/rotation.h>
 
 namespace frangia {
 namespace {
 
-/// Camera pixel and projector column of a point in the camera frame.
-Eigen::Vector3d coordinates_of(const RigParameters& parameters, const Eigen::Vector3d& point) {
-  const Eigen::Vector2d camera = project_point(parameters.camera.data(), point);
+Eigen::Vector3d moved_by(const RigParameters::Pose& pose, const Eigen::Vector3d& point) {
   Eigen::Vector3d moved;
-  ceres::AngleAxisRotatePoint(parameters.projector_from_camera.data(), point.data(), moved.data());
-  moved += Eigen::Vector3d::Map(parameters.projector_from_camera.data() + 3);
-  return {camera.x(), camera.y(), project_point(parameters.projector.data(), moved).x()};
+  ceres::AngleAxisRotatePoint(pose.data(), point.data(), moved.data());
+  return moved + Eigen::Vector3d::Map(pose.data() + 3);
 }
 
-/// The parameters of camera, projector and relative pose, in the order of the covariance.
-std::vector<double*> all_parameters(RigParameters& parameters) {
-  std::vector<double*> values;
-  for (double& value : parameters.camera)
-    values.push_back(&value);
-  for (double& value : parameters.projector)
-    values.push_back(&value);
-  for (double& value : parameters.projector_from_camera)
-    values.push_back(&value);
-  return values;
+/// What determines a point of the reference camera's frame: its camera pixel and its projector
+/// column or, with a label, its pixels in all cameras.
+Eigen::VectorXd coordinates_of(const RigLayout& layout,
+                               const RigParameters& parameters,
+                               const Eigen::Vector3d& point) {
+  Eigen::VectorXd out(layout.has_projector ? 3 : 2 + 2 * static_cast<Eigen::Index>(layout.more));
+  out.head<2>() = project_point(parameters.camera.data(), point);
+  if (layout.has_projector) {
+    const Eigen::Vector3d lit = moved_by(parameters.projector_from_camera, point);
+    out[2] = project_point(parameters.projector.data(), lit).x();
+    return out;
+  }
+  Eigen::Index row = 2;
+  for (const RigParameters::FurtherCamera& camera : parameters.more) {
+    out.segment<2>(row) =
+        project_point(camera.intrinsics.data(), moved_by(camera.from_reference, point));
+    row += 2;
+  }
+  return out;
 }
 
 /// Derivative of a triangulated point with respect to the parameters, 3 x parameters.
 Eigen::MatrixXd response_at(const Eigen::Vector3d& point,
+                            const RigLayout& layout,
                             const RigParameters& parameters,
                             const Eigen::MatrixXd& covariance) {
-  Eigen::Matrix3d by_point;
+  const auto seen = [&](const RigParameters& by, const Eigen::Vector3d& at) {
+    return coordinates_of(layout, by, at);
+  };
+  Eigen::MatrixXd by_point(seen(parameters, point).size(), 3);
   const double step_mm = 1e-4 * point.norm();
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d step = step_mm * Eigen::Vector3d::Unit(i);
     by_point.col(i) =
-        (coordinates_of(parameters, point + step) - coordinates_of(parameters, point - step)) /
-        (2.0 * step_mm);
+        (seen(parameters, point + step) - seen(parameters, point - step)) / (2.0 * step_mm);
   }
   RigParameters changed = parameters;
-  const std::vector<double*> values = all_parameters(changed);
-  Eigen::MatrixXd by_parameter(3, covariance.cols());
-  for (Eigen::Index i = 0; i < covariance.cols(); ++i) {
-    double& value = *values[static_cast<std::size_t>(i)];
-    const double kept = value;
-    const double step = std::sqrt(covariance(i, i));
-    value = kept + step;
-    const Eigen::Vector3d above = coordinates_of(changed, point);
-    value = kept - step;
-    by_parameter.col(i) = (above - coordinates_of(changed, point)) / (2.0 * step);
-    value = kept;
+  Eigen::MatrixXd by_parameter(by_point.rows(), covariance.cols());
+  Eigen::Index column = 0;
+  for (const auto& [block, size] : blocks_of(layout, changed)) {
+    for (int i = 0; i < size && column < covariance.cols(); ++i, ++column) {
+      double& value = block[i];  // NOLINT(*-pointer-arithmetic) a block of `size` numbers
+      const double kept = value;
+      const double step = std::sqrt(covariance(column, column));
+      value = kept + step;
+      const Eigen::VectorXd above = seen(changed, point);
+      value = kept - step;
+      by_parameter.col(column) = (above - seen(changed, point)) / (2.0 * step);
+      value = kept;
+    }
   }
-  return -by_point.partialPivLu().solve(by_parameter);
+  return -by_point.colPivHouseholderQr().solve(by_parameter);
 }
 
 /// Removes from the columns of `response`, displacements of all points one below the other, what a
@@ -80,6 +90,7 @@ void remove_rigid_motions(const std::vector<Eigen::Vector3d>& points, Eigen::Mat
 }  // namespace
 
 ShapeResponse shape_response(const Board& board,
+                             const RigLayout& layout,
                              const RigParameters& parameters,
                              const RigSolution& solution) {
   const double half_x = 0.5 * (board.columns - 1) * board.square_mm;
@@ -98,7 +109,7 @@ ShapeResponse shape_response(const Board& board,
   result.by_parameter.resize(3 * static_cast<Eigen::Index>(points.size()), covariance.cols());
   for (std::size_t i = 0; i < points.size(); ++i) {
     result.by_parameter.middleRows<3>(static_cast<Eigen::Index>(3 * i)) =
-        response_at(points[i], parameters, covariance);
+        response_at(points[i], layout, parameters, covariance);
   }
   remove_rigid_motions(points, result.by_parameter);
   result.distance_mm /= static_cast<double>(points.size());

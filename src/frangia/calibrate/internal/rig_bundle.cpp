@@ -12,16 +12,14 @@ namespace {
 
 constexpr double kHuber = 3.0;  // standard deviations
 
-template <std::size_t n>
-void fix(ceres::Problem& problem, double* block, const std::array<bool, n>& free) {
+void fix(ceres::Problem& problem, double* block, int size, const RigFreedom& freedom, int first) {
   std::vector<int> constant;
-  for (std::size_t i = 0; i < n; ++i)
-    if (!free[i]) constant.push_back(static_cast<int>(i));
-  if (constant.size() == n) {
+  for (int i = 0; i < size; ++i)
+    if (!freedom.free[static_cast<std::size_t>(first + i)]) constant.push_back(i);
+  if (constant.size() == static_cast<std::size_t>(size)) {
     problem.SetParameterBlockConstant(block);
   } else if (!constant.empty()) {
-    problem.SetManifold(block,
-                        new ceres::SubsetManifold(static_cast<int>(n), constant));  // NOLINT owned
+    problem.SetManifold(block, new ceres::SubsetManifold(size, constant));  // NOLINT owned
   }
 }
 
@@ -37,125 +35,102 @@ class StopCallback final : public ceres::IterationCallback {
   const Run& run_;
 };
 
+template <int... sizes, typename Residual>
+ceres::CostFunction* cost_of(const Residual& residual) {
+  return new ceres::AutoDiffCostFunction<Residual, 2, sizes...>(  // NOLINT(*-owning-memory)
+      new Residual(residual));                                    // NOLINT(*-owning-memory)
+}
+
+/// The residual of an observation and the blocks of parameters on which it depends.
+struct RigCost {
+  ceres::CostFunction* function = nullptr;
+  std::vector<double*> blocks;
+};
+
+RigCost cost_of_observation(const RigObservation& seen,
+                            const Eigen::Vector2d& weight,
+                            RigParameters& parameters) {
+  double* pose = parameters.camera_from_board[seen.view].data();
+  double* shape = parameters.board.data();
+  double* reference = parameters.camera.data();
+  double* projector = parameters.projector.data();
+  double* projector_pose = parameters.projector_from_camera.data();
+  const CameraResidual by_camera{seen.site, seen.circle_radius_mm, seen.pixel, weight};
+  const ProjectorResidual by_projector{seen.site, seen.pixel, weight, seen.reading};
+  constexpr int kI = kIntrinsics;
+  if (seen.camera == 0 && !seen.by_projector)
+    return {cost_of<kI, kShape, kPose>(by_camera), {reference, shape, pose}};
+  if (seen.camera == 0) {
+    return {cost_of<kI, kI, kPose, kShape, kPose>(by_projector),
+            {reference, projector, projector_pose, shape, pose}};
+  }
+  RigParameters::FurtherCamera& further = parameters.more[seen.camera - 1];
+  double* camera = further.intrinsics.data();
+  double* camera_pose = further.from_reference.data();
+  if (!seen.by_projector)
+    return {cost_of<kI, kPose, kShape, kPose>(by_camera), {camera, camera_pose, shape, pose}};
+  if (seen.is_label) {
+    return {cost_of<kI, kI, kPose, kShape, kPose>(
+                LabelResidual{seen.site, seen.pixel, weight, seen.reference, seen.reading}),
+            {reference, camera, camera_pose, shape, pose}};
+  }
+  return {cost_of<kI, kPose, kI, kPose, kShape, kPose>(by_projector),
+          {camera, camera_pose, projector, projector_pose, shape, pose}};
+}
+
 void build(std::span<const RigObservation> observations,
-           const RigFreedom& freedom,
+           const RigLayout& layout,
            const RigNoise& noise,
            RigParameters& parameters,
            ceres::Problem& problem) {
-  problem.AddParameterBlock(parameters.camera.data(), kIntrinsics);
-  problem.AddParameterBlock(parameters.projector.data(), kIntrinsics);
-  problem.AddParameterBlock(parameters.projector_from_camera.data(), kPose);
-  problem.AddParameterBlock(parameters.board.data(), kShape);
+  for (const auto& [block, size] : blocks_of(layout, parameters))
+    problem.AddParameterBlock(block, size);
   for (RigParameters::Pose& pose : parameters.camera_from_board)
     problem.AddParameterBlock(pose.data(), kPose);
   for (const RigObservation& observation : observations) {
-    const double scale = observation.by_projector ? noise.projector : noise.camera;
-    const Eigen::Vector2d weight = (scale * observation.sigma_px).cwiseInverse();
+    const Eigen::Vector2d weight = (observation.scale(noise) * observation.sigma_px).cwiseInverse();
+    const RigCost cost = cost_of_observation(observation, weight, parameters);
     auto* loss = new ceres::HuberLoss(kHuber);  // NOLINT(*-owning-memory) the problem owns it
-    double* pose = parameters.camera_from_board[observation.view].data();
-    if (observation.by_projector) {
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ProjectorResidual,
-                                                               2,
-                                                               kIntrinsics,
-                                                               kIntrinsics,
-                                                               kPose,
-                                                               kShape,
-                                                               kPose>(
-                                   new ProjectorResidual{observation.site,
-                                                         observation.pixel,
-                                                         weight,
-                                                         observation.camera_px,
-                                                         observation.projector_by_camera}),
-                               loss,
-                               parameters.camera.data(),
-                               parameters.projector.data(),
-                               parameters.projector_from_camera.data(),
-                               parameters.board.data(),
-                               pose);
-    } else {
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<CameraResidual, 2, kIntrinsics, kShape, kPose>(
-              new CameraResidual{
-                  observation.site, observation.circle_radius_mm, observation.pixel, weight}),
-          loss,
-          parameters.camera.data(),
-          parameters.board.data(),
-          pose);
-    }
+    problem.AddResidualBlock(cost.function, loss, cost.blocks);
   }
-  fix(problem, parameters.camera.data(), freedom.camera);
-  fix(problem, parameters.projector.data(), freedom.projector);
-  fix(problem, parameters.board.data(), freedom.board);
 }
 
 }  // namespace
-
-std::size_t RigFreedom::count() const {
-  std::size_t free = kPose;
-  for (const bool flag : camera)
-    free += flag ? 1 : 0;
-  for (const bool flag : projector)
-    free += flag ? 1 : 0;
-  for (const bool flag : board)
-    free += flag ? 1 : 0;
-  return free;
-}
-
-std::vector<RigObservation> observations_of(const Board& board, std::span<const BoardView> views) {
-  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
-  const Eigen::Vector2d center = 0.5 * (nominal.front() + nominal.back());
-  const Eigen::Vector2d half = nominal.back() - center;
-  std::vector<RigObservation> observations;
-  for (std::size_t view = 0; view < views.size(); ++view) {
-    for (std::size_t i = 0; i < views[view].points.size(); ++i) {
-      const BoardPoint& point = views[view].points[i];
-      const Eigen::Vector2d place = nominal[static_cast<std::size_t>(point.index)] - center;
-      const Eigen::Vector2d relative = place.cwiseQuotient(half);
-      const BoardSite site{place, board_height_terms(relative.x(), relative.y())};
-      RigObservation seen{view, i, site};
-      seen.pixel = point.camera_px;
-      seen.sigma_px.setOnes();
-      seen.circle_radius_mm = 0.5 * circle_diameter_mm(board);
-      observations.push_back(seen);
-      if (!point.projector_px.allFinite() || !(point.projector_sigma_px.array() > 0.0).all())
-        continue;
-      RigObservation lit{view, i, site, true};
-      lit.pixel = point.projector_px;
-      lit.sigma_px = point.projector_sigma_px;
-      lit.camera_px = point.camera_px;
-      lit.projector_by_camera = point.projector_by_camera;
-      observations.push_back(lit);
-    }
-  }
-  return observations;
-}
 
 Eigen::Vector2d independent_residual_of(const RigObservation& observation,
                                         const RigParameters& parameters) {
   Eigen::Vector2d residual = Eigen::Vector2d::Constant(std::nan(""));
   const double* pose = parameters.camera_from_board[observation.view].data();
+  const double* shape = parameters.board.data();
   const Eigen::Vector2d one = Eigen::Vector2d::Ones();
-  if (observation.by_projector) {
-    ProjectorResidual{observation.site,
-                      observation.pixel,
-                      one,
-                      observation.camera_px,
-                      observation.projector_by_camera}(parameters.camera.data(),
-                                                       parameters.projector.data(),
-                                                       parameters.projector_from_camera.data(),
-                                                       parameters.board.data(),
-                                                       pose,
-                                                       residual.data());
+  const bool further = observation.camera > 0;
+  const double* camera = further ? parameters.more[observation.camera - 1].intrinsics.data()
+                                 : parameters.camera.data();
+  const double* from_reference =
+      further ? parameters.more[observation.camera - 1].from_reference.data() : nullptr;
+  if (observation.is_label) {
+    LabelResidual{
+        observation.site, observation.pixel, one, observation.reference, observation.reading}(
+        parameters.camera.data(), camera, from_reference, shape, pose, residual.data());
+  } else if (observation.by_projector) {
+    ProjectorResidual{observation.site, observation.pixel, one, observation.reading}.evaluate(
+        camera,
+        from_reference,
+        parameters.projector.data(),
+        parameters.projector_from_camera.data(),
+        shape,
+        pose,
+        residual.data());
   } else {
-    CameraResidual{observation.site, observation.circle_radius_mm, observation.pixel, one}(
-        parameters.camera.data(), parameters.board.data(), pose, residual.data());
+    CameraResidual{observation.site, observation.circle_radius_mm, observation.pixel, one}.evaluate(
+        camera, from_reference, shape, pose, residual.data());
   }
   return residual;
 }
 
 Eigen::Vector2d residual_of(const RigObservation& observation, const RigParameters& parameters) {
   RigObservation alone = observation;
-  alone.projector_by_camera.setZero();
+  if (!observation.is_label) alone.reading.projector_by_camera.setZero();
   return independent_residual_of(alone, parameters);
 }
 
@@ -170,7 +145,12 @@ RigBundleResult adjust_rig(std::span<const RigObservation> observations,
                            RigParameters& parameters,
                            const Run& run) {
   ceres::Problem problem;
-  build(observations, freedom, noise, parameters, problem);
+  build(observations, freedom.layout, noise, parameters, problem);
+  int first = 0;
+  for (const auto& [block, size] : blocks_of(freedom.layout, parameters)) {
+    fix(problem, block, size, freedom, first);
+    first += size;
+  }
   StopCallback stop(run);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;  // eliminates the poses
@@ -187,17 +167,15 @@ RigBundleResult adjust_rig(std::span<const RigObservation> observations,
 }
 
 RigLinearization linearize_rig(std::span<const RigObservation> observations,
-                               const RigFreedom& freedom,
+                               const RigLayout& layout,
                                const RigNoise& noise,
                                const RigParameters& parameters) {
   RigParameters copy = parameters;
   ceres::Problem problem;
-  build(observations, freedom, noise, copy, problem);
+  build(observations, layout, noise, copy, problem);
   ceres::Problem::EvaluateOptions options;
-  options.parameter_blocks = {copy.camera.data(),
-                              copy.projector.data(),
-                              copy.projector_from_camera.data(),
-                              copy.board.data()};
+  for (const auto& [block, size] : blocks_of(layout, copy))
+    options.parameter_blocks.push_back(block);
   for (RigParameters::Pose& pose : copy.camera_from_board)
     options.parameter_blocks.push_back(pose.data());
   ceres::CRSMatrix sparse;
@@ -212,6 +190,15 @@ RigLinearization linearize_rig(std::span<const RigObservation> observations,
     for (auto i = static_cast<std::size_t>(sparse.rows[static_cast<std::size_t>(row)]); i < end;
          ++i)
       out.jacobian(row, sparse.cols[i]) = sparse.values[i];
+  }
+  return out;
+}
+
+std::vector<Eigen::Index> free_columns(const RigFreedom& freedom, Eigen::Index columns) {
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (at >= freedom.free.size() || freedom.free[at]) out.push_back(i);
   }
   return out;
 }

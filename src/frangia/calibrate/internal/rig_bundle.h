@@ -5,37 +5,14 @@
 
 #include <Eigen/Core>
 
-#include "frangia/calibrate/board_view.h"
 #include "frangia/calibrate/internal/rig_model.h"
+#include "frangia/calibrate/internal/rig_observations.h"
 #include "frangia/core/run.h"
-#include "frangia/rig/board.h"
 
 namespace frangia {
 
-/// One coordinate pair of the measurements, as the adjustment has it.
-struct RigObservation {
-  std::size_t view = 0;
-  std::size_t point = 0;  ///< in the view
-  BoardSite site;
-  bool by_projector = false;
-  double circle_radius_mm = 0.0;  ///< of a board of circles
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  Eigen::Vector2d sigma_px = Eigen::Vector2d::Ones();
-  Eigen::Vector2d camera_px = Eigen::Vector2d::Zero();  ///< of the point, by_projector only
-  Eigen::Matrix2d projector_by_camera = Eigen::Matrix2d::Zero();  ///< see BoardPoint
-};
-
-/// Standard deviations by which those of the observations are multiplied.
-struct RigNoise {
-  double camera = 1.0;
-  double projector = 1.0;
-};
-
-/// All observations of all views; those of the projector where it was measured.
-[[nodiscard]] std::vector<RigObservation> observations_of(const Board& board,
-                                                          std::span<const BoardView> views);
-
-/// Predicted minus observed pixel.
+/// Predicted minus observed pixel. Of a label, the difference of the pixels that both cameras read,
+/// without the part that the errors of the cameras' pixels cause.
 [[nodiscard]] Eigen::Vector2d residual_of(const RigObservation& observation,
                                           const RigParameters& parameters);
 
@@ -66,15 +43,18 @@ RigBundleResult adjust_rig(std::span<const RigObservation> observations,
 
 /// The weighted residuals near some parameters.
 struct RigLinearization {
-  Eigen::MatrixXd jacobian;  ///< residuals x free parameters
+  Eigen::MatrixXd jacobian;  ///< residuals x all parameters of the layout, then the poses
   Eigen::VectorXd residuals;
 };
 
-/// Linearizes the weighted residuals by the free parameters of camera, projector, their relative
-/// pose, the board and then the poses, with the weights of the robust loss.
+/// Linearizes the weighted residuals, with the weights of the robust loss.
 [[nodiscard]] RigLinearization linearize_rig(std::span<const RigObservation> observations,
-                                             const RigFreedom& freedom,
+                                             const RigLayout& layout,
                                              const RigNoise& noise,
                                              const RigParameters& parameters);
+
+/// Columns of the linearization that a model estimates, poses included.
+[[nodiscard]] std::vector<Eigen::Index> free_columns(const RigFreedom& freedom,
+                                                     Eigen::Index columns);
 
 }  // namespace frangia

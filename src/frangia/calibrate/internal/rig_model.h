@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,10 +21,16 @@ struct RigParameters {
   using Pose = std::array<double, 6>;        ///< rotation vector, rad; translation, mm
   using Shape = std::array<double, 14>;      ///< aspect, shear, 12 heights in mm
 
+  struct FurtherCamera {
+    Intrinsics intrinsics{};
+    Pose from_reference{};
+  };
+
   Intrinsics camera{};
   Intrinsics projector{};
   Pose projector_from_camera{};
-  std::vector<Pose> camera_from_board;
+  std::vector<FurtherCamera> more;      ///< cameras beside the reference camera
+  std::vector<Pose> camera_from_board;  ///< of the reference camera
   Shape board{};
 };
 
@@ -36,13 +44,79 @@ struct RigParameters {
   return isometry;
 }
 
-/// Which parameters are estimated. Those that are not keep their values.
-struct RigFreedom {
-  std::array<bool, 9> camera{true, false, true, true, true, false, false, false, false};
-  std::array<bool, 9> projector{true, false, true, true, true, false, false, false, false};
-  std::array<bool, 14> board{};
+/// The order of the parameters of all devices and of the board: camera, projector, its pose, then
+/// intrinsics and pose of each further camera, then the board. The poses of the board follow.
+struct RigLayout {
+  bool has_projector = true;  ///< false where the projector only labels points
+  std::size_t more = 0;       ///< cameras beside the reference camera
 
-  [[nodiscard]] std::size_t count() const;  ///< of free parameters, poses left out
+  [[nodiscard]] std::size_t projector() const { return kIntrinsics; }
+  [[nodiscard]] std::size_t projector_pose() const { return 2UL * kIntrinsics; }
+  [[nodiscard]] std::size_t camera(std::size_t i) const {
+    constexpr std::size_t kPosed = kIntrinsics + kPose;
+    return kIntrinsics + (has_projector ? kPosed : 0UL) + i * kPosed;
+  }
+  [[nodiscard]] std::size_t board() const { return camera(more); }
+  [[nodiscard]] std::size_t count() const { return board() + kShape; }
+};
+
+/// The blocks of the parameters in the order of their layout, without the poses of the board.
+[[nodiscard]] inline std::vector<std::pair<double*, int>> blocks_of(const RigLayout& layout,
+                                                                    RigParameters& parameters) {
+  std::vector<std::pair<double*, int>> blocks{{parameters.camera.data(), kIntrinsics}};
+  if (layout.has_projector) {
+    blocks.emplace_back(parameters.projector.data(), kIntrinsics);
+    blocks.emplace_back(parameters.projector_from_camera.data(), kPose);
+  }
+  for (RigParameters::FurtherCamera& camera : parameters.more) {
+    blocks.emplace_back(camera.intrinsics.data(), kIntrinsics);
+    blocks.emplace_back(camera.from_reference.data(), kPose);
+  }
+  blocks.emplace_back(parameters.board.data(), kShape);
+  return blocks;
+}
+
+/// Which parameters are estimated. Those that are not keep their values. At first: one focal
+/// length, principal point, k1 and pose of each device.
+struct RigFreedom {
+  explicit RigFreedom(const RigLayout& with) : layout(with), free(with.count(), false) {
+    free_device(0);
+    if (layout.has_projector) {
+      free_device(layout.projector());
+      free_pose(layout.projector_pose());
+    }
+    for (std::size_t i = 0; i < layout.more; ++i) {
+      free_device(layout.camera(i));
+      free_pose(layout.camera(i) + kIntrinsics);
+    }
+  }
+
+  RigLayout layout;
+  std::vector<bool> free;  ///< in the order of the layout
+
+  /// Number of free parameters, poses of the board left out.
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(std::count(free.begin(), free.end(), true));
+  }
+
+ private:
+  void free_device(std::size_t first) {
+    for (const std::size_t i : {0UL, 2UL, 3UL, 4UL})
+      free.at(first + i) = true;
+  }
+  void free_pose(std::size_t first) {
+    for (std::size_t i = 0; i < kPose; ++i)
+      free.at(first + i) = true;
+  }
+};
+
+/// Standard deviations by which those of the observations are multiplied: of the pixels of each
+/// camera, and of the projector pixels that it reads.
+struct RigNoise {
+  explicit RigNoise(std::size_t cameras = 1) : camera(cameras, 1.0), projector(cameras, 1.0) {}
+
+  std::vector<double> camera;
+  std::vector<double> projector;
 };
 
 /// Values of the height terms at a point of the board: Legendre products of degree 2, 3 and 4 in

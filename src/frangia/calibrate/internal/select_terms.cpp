@@ -1,82 +1,62 @@
 #include "frangia/calibrate/internal/select_terms.h"
 
+#include <initializer_list>
+
 #include <Eigen/Cholesky>
 
 namespace frangia {
 namespace {
 
-constexpr int kProjector = kIntrinsics;
-constexpr int kBoard = 2 * kIntrinsics + kPose;
-constexpr int kPoses = kBoard + kShape;
-
-RigFreedom all_free() {
-  RigFreedom freedom;
-  freedom.camera.fill(true);
-  freedom.projector.fill(true);
-  freedom.board.fill(true);
-  return freedom;
-}
-
-/// Columns of the full Jacobian that a model estimates.
-std::vector<Eigen::Index> columns_of(const RigFreedom& freedom, Eigen::Index count) {
-  std::vector<Eigen::Index> columns;
-  const auto add = [&](std::size_t column) {
-    columns.push_back(static_cast<Eigen::Index>(column));
-  };
-  for (std::size_t i = 0; i < kIntrinsics; ++i)
-    if (freedom.camera.at(i)) add(i);
-  for (std::size_t i = 0; i < kIntrinsics; ++i)
-    if (freedom.projector.at(i)) add(kProjector + i);
-  for (std::size_t i = 0; i < kPose; ++i)
-    add(2 * kIntrinsics + i);
-  for (std::size_t i = 0; i < kShape; ++i)
-    if (freedom.board.at(i)) add(kBoard + i);
-  for (auto i = static_cast<Eigen::Index>(kPoses); i < count; ++i)
-    columns.push_back(i);
-  return columns;
-}
-
 /// Columns that a term adds to a model.
 std::vector<Eigen::Index> new_columns(const ModelTerm& term, const RigFreedom& freedom) {
   std::vector<Eigen::Index> columns;
-  for (const std::size_t i : term.camera)
-    if (!freedom.camera.at(i)) columns.push_back(static_cast<Eigen::Index>(i));
-  for (const std::size_t i : term.projector)
-    if (!freedom.projector.at(i)) columns.push_back(static_cast<Eigen::Index>(kProjector + i));
-  for (const std::size_t i : term.board)
-    if (!freedom.board.at(i)) columns.push_back(static_cast<Eigen::Index>(kBoard + i));
+  for (const std::size_t i : term.parameters)
+    if (!freedom.free.at(i)) columns.push_back(static_cast<Eigen::Index>(i));
   return columns;
+}
+
+/// Terms of a device whose intrinsics start at `first`.
+void add_lens_terms(const std::string& device, std::size_t first, std::vector<ModelTerm>& terms) {
+  const auto add = [&](const char* name, std::initializer_list<std::size_t> parameters) {
+    ModelTerm& term = terms.emplace_back();
+    term.name = name + (" of the " + device);
+    for (const std::size_t i : parameters)
+      term.parameters.push_back(first + i);
+  };
+  add("k2", {5});
+  add("tangential distortion", {6, 7});
+  add("k3", {5, 8});
+  add("two focal lengths", {1});
 }
 
 }  // namespace
 
-std::vector<ModelTerm> optional_terms(bool release_board) {
-  std::vector<ModelTerm> terms = {
-      {"k2 of the camera", {5}, {}, {}},
-      {"tangential distortion of the camera", {6, 7}, {}, {}},
-      {"k3 of the camera", {5, 8}, {}, {}},
-      {"two focal lengths of the camera", {1}, {}, {}},
-      {"k2 of the projector", {}, {5}, {}},
-      {"tangential distortion of the projector", {}, {6, 7}, {}},
-      {"k3 of the projector", {}, {5, 8}, {}},
-      {"two focal lengths of the projector", {}, {1}, {}},
+std::vector<ModelTerm> optional_terms(const RigLayout& layout,
+                                      std::span<const std::string> cameras,
+                                      bool release_board) {
+  std::vector<ModelTerm> terms;
+  add_lens_terms("camera", 0, terms);
+  if (layout.has_projector) add_lens_terms("projector", layout.projector(), terms);
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    add_lens_terms("camera \"" + cameras[i] + "\"", layout.camera(i), terms);
+  if (!release_board) return terms;
+  const auto add = [&](const char* name, std::size_t begin, std::size_t end) {
+    ModelTerm& term = terms.emplace_back();
+    term.name = name;
+    term.of_board = true;
+    for (std::size_t i = begin; i < end; ++i)
+      term.parameters.push_back(layout.board() + i);
   };
-  if (release_board) {
-    terms.push_back({"aspect and shear of the board", {}, {}, {0, 1}});
-    terms.push_back({"bend of the board, second order", {}, {}, {2, 3, 4}});
-    terms.push_back({"bend of the board, third order", {}, {}, {5, 6, 7, 8}});
-    terms.push_back({"bend of the board, fourth order", {}, {}, {9, 10, 11, 12, 13}});
-  }
+  add("aspect and shear of the board", 0, 2);
+  add("bend of the board, second order", 2, 5);
+  add("bend of the board, third order", 5, 9);
+  add("bend of the board, fourth order", 9, 14);
   return terms;
 }
 
 void set_free(const ModelTerm& term, RigFreedom& freedom) {
-  for (const std::size_t i : term.camera)
-    freedom.camera.at(i) = true;
-  for (const std::size_t i : term.projector)
-    freedom.projector.at(i) = true;
-  for (const std::size_t i : term.board)
-    freedom.board.at(i) = true;
+  for (const std::size_t i : term.parameters)
+    freedom.free.at(i) = true;
 }
 
 bool is_free(const ModelTerm& term, const RigFreedom& freedom) {
@@ -89,10 +69,10 @@ std::optional<std::size_t> best_term(std::span<const RigObservation> observation
                                      const RigNoise& noise,
                                      const RigParameters& parameters,
                                      double min_gain) {
-  const RigLinearization full = linearize_rig(observations, all_free(), noise, parameters);
+  const RigLinearization full = linearize_rig(observations, freedom.layout, noise, parameters);
   const Eigen::MatrixXd normal = full.jacobian.transpose() * full.jacobian;
   const Eigen::VectorXd gradient = full.jacobian.transpose() * full.residuals;
-  const std::vector<Eigen::Index> active = columns_of(freedom, normal.cols());
+  const std::vector<Eigen::Index> active = free_columns(freedom, normal.cols());
   const Eigen::LDLT<Eigen::MatrixXd> solver(normal(active, active));
   const Eigen::VectorXd settled = solver.solve(gradient(active));
   std::optional<std::size_t> best;

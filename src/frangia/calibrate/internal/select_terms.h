@@ -13,11 +13,15 @@ namespace frangia {
 /// A group of parameters that enters the model together when the data supports it.
 struct ModelTerm {
   std::string name;
-  std::vector<std::size_t> camera, projector, board;  ///< parameters of the blocks
+  std::vector<std::size_t> parameters;  ///< in the order of the layout
+  bool of_board = false;
 };
 
-/// Terms beyond a principal point, one focal length and k1, the simplest first.
-[[nodiscard]] std::vector<ModelTerm> optional_terms(bool release_board);
+/// Terms beyond a principal point, one focal length and k1 of each device, the simplest first.
+/// `cameras` are the names of the further cameras.
+[[nodiscard]] std::vector<ModelTerm> optional_terms(const RigLayout& layout,
+                                                    std::span<const std::string> cameras,
+                                                    bool release_board);
 
 void set_free(const ModelTerm& term, RigFreedom& freedom);
 

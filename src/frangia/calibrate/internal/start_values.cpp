@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
@@ -18,11 +19,13 @@ struct SeenPoints {
   std::vector<cv::Point2f> pixels;
 };
 
-SeenPoints seen_points(const Board& board, const BoardView& view, bool by_projector) {
+SeenPoints seen_points(const Board& board,
+                       const std::vector<BoardPoint>& points,
+                       bool by_projector) {
   const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
   const Eigen::Vector2d center = 0.5 * (nominal.front() + nominal.back());
   SeenPoints seen;
-  for (const BoardPoint& point : view.points) {
+  for (const BoardPoint& point : points) {
     const Eigen::Vector2d& pixel = by_projector ? point.projector_px : point.camera_px;
     if (!pixel.allFinite()) continue;
     const Eigen::Vector2d place = nominal[static_cast<std::size_t>(point.index)] - center;
@@ -152,43 +155,80 @@ void require_enough_points(const BoardView& view, const SeenPoints& by_camera) {
                           by_camera.pixels.size()));
 }
 
+/// Intrinsics of a device, and its pose relative to the reference camera from its pose relative to
+/// the board in each view that it sees.
+void start_device(const std::vector<SeenPoints>& seen,
+                  const CameraModel& known,
+                  const std::vector<RigParameters::Pose>& camera_from_board,
+                  RigParameters::Intrinsics& intrinsics,
+                  RigParameters::Pose& from_camera) {
+  const cv::Mat matrix = better_matrix(seen, known);
+  intrinsics = intrinsics_of(matrix);
+  std::vector<RigParameters::Pose> relative;
+  for (std::size_t view = 0; view < seen.size(); ++view) {
+    if (seen[view].pixels.size() < kFewestPoints) continue;
+    const Eigen::Isometry3d from_board = isometry_of(pose_of(seen[view], matrix));
+    relative.push_back(pose_from(from_board * isometry_of(camera_from_board[view]).inverse()));
+  }
+  from_camera = median_pose(relative);
+}
+
+/// Throws where a further camera sees the board in too few poses.
+void require_enough_views(const std::vector<SeenPoints>& seen, const std::string& camera) {
+  constexpr std::ptrdiff_t kFewestViews = 3;
+  const auto enough = std::count_if(seen.begin(), seen.end(), [](const SeenPoints& points) {
+    return points.pixels.size() >= kFewestPoints;
+  });
+  if (enough >= kFewestViews) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("camera \"{}\" sees the board in {} of the poses, and {} are needed; "
+                          "capture poses that all cameras see",
+                          camera,
+                          enough,
+                          kFewestViews));
+}
+
 RigParameters start_by_opencv(const Board& board,
                               std::span<const BoardView> views,
-                              const CameraModel& camera_model,
-                              const CameraModel& projector_model) {
+                              const Rig& known) {
   std::vector<SeenPoints> by_camera;
   std::vector<SeenPoints> by_projector;
   for (const BoardView& view : views) {
-    by_camera.push_back(seen_points(board, view, false));
-    by_projector.push_back(seen_points(board, view, true));
+    by_camera.push_back(seen_points(board, view.points, false));
+    by_projector.push_back(seen_points(board, view.points, true));
     require_enough_points(view, by_camera.back());
   }
   RigParameters parameters;
-  const cv::Mat camera = better_matrix(by_camera, camera_model);
-  const cv::Mat projector = better_matrix(by_projector, projector_model);
+  const cv::Mat camera = better_matrix(by_camera, known.camera.model);
   parameters.camera = intrinsics_of(camera);
-  parameters.projector = intrinsics_of(projector);
-  std::vector<RigParameters::Pose> relative;
-  for (std::size_t view = 0; view < views.size(); ++view) {
-    parameters.camera_from_board.push_back(pose_of(by_camera[view], camera));
-    if (by_projector[view].pixels.size() < kFewestPoints) continue;
-    const Eigen::Isometry3d projector_from_board =
-        isometry_of(pose_of(by_projector[view], projector));
-    relative.push_back(pose_from(projector_from_board *
-                                 isometry_of(parameters.camera_from_board.back()).inverse()));
+  for (const SeenPoints& seen : by_camera)
+    parameters.camera_from_board.push_back(pose_of(seen, camera));
+  if (!known.projector.is_label) {
+    start_device(by_projector,
+                 std::get<PinholeModel>(known.projector.model),
+                 parameters.camera_from_board,
+                 parameters.projector,
+                 parameters.projector_from_camera);
   }
-  parameters.projector_from_camera = median_pose(relative);
+  for (std::size_t i = 0; i < known.more_cameras.size(); ++i) {
+    std::vector<SeenPoints> seen;
+    for (const BoardView& view : views) {
+      seen.push_back(i < view.more.size() ? seen_points(board, view.more[i], false) : SeenPoints{});
+    }
+    const Camera& further = known.more_cameras[i].camera;
+    require_enough_views(seen, further.name);
+    RigParameters::FurtherCamera& start = parameters.more.emplace_back();
+    start_device(
+        seen, further.model, parameters.camera_from_board, start.intrinsics, start.from_reference);
+  }
   return parameters;
 }
 
 }  // namespace
 
-RigParameters start_values(const Board& board,
-                           std::span<const BoardView> views,
-                           const CameraModel& camera_model,
-                           const CameraModel& projector_model) {
+RigParameters start_values(const Board& board, std::span<const BoardView> views, const Rig& known) {
   try {
-    return start_by_opencv(board, views, camera_model, projector_model);
+    return start_by_opencv(board, views, known);
   } catch (const cv::Exception& error) {
     throw Error(ErrorKind::Input,
                 fmt::format("the points of the board do not give a pose; check board.corners and "

@@ -6,6 +6,7 @@
 #include "frangia/calibrate/internal/rig_model.h"
 #include "frangia/calibrate/solve_rig.h"
 #include "frangia/rig/board.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 
@@ -13,11 +14,12 @@ namespace frangia {
 /// lengths from the homographies of the board or, where they fit better, those of the given models;
 /// poses from these.
 ///
-/// @errors   Error(Input) that names the view whose points lie on one line or in mirrored order
+/// @missing  a projector that is a label, and one without measured pixels, has none
+/// @errors   Error(Input) that names the view whose points lie on one line or in mirrored order, or
+///           a further camera that sees the board in too few poses
 /// @source   Zhang 2000; OpenCV's initCameraMatrix2D and solvePnP
 [[nodiscard]] RigParameters start_values(const Board& board,
                                          std::span<const BoardView> views,
-                                         const CameraModel& camera,
-                                         const CameraModel& projector);
+                                         const Rig& known);
 
 }  // namespace frangia
