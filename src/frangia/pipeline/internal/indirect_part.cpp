@@ -174,6 +174,35 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
   return scan.views.size();
 }
 
+/// Estimates the reflectance from the frames of the views that see most indirect light.
+AlbedoEstimate find_albedo(const Scan& scan,
+                           const MeasuredViews& measured,
+                           std::span<const ViewExposure> exposures,
+                           const std::shared_ptr<const LitSurface>& lit,
+                           const Image<Eigen::Vector2f>& rays,
+                           const DecodeOptions& decode,
+                           const Run& run) {
+  constexpr std::size_t kDecoded = 3;  // views
+  DecodeOptions options = decode;
+  options.keep_maps = true;
+  std::vector<AlbedoSample> samples;
+  for (std::size_t k = 0; k < std::min(kDecoded, exposures.size()); ++k) {
+    run.check();
+    const std::size_t view = exposures[k].view;
+    const std::size_t index = index_in_scan(scan, measured.stations[view].name);
+    if (index == scan.views.size()) continue;
+    Run quiet = run;
+    quiet.on_note = nullptr;
+    quiet.on_warning = nullptr;
+    add_samples(decode_view(read_frames(scan, index, run), scan.rig, rays, options, quiet),
+                measured.views.load_points(view),
+                *lit,
+                rays,
+                samples);
+  }
+  return estimate_albedo(samples, lit->patterns());
+}
+
 }  // namespace
 
 std::optional<IndirectPart> indirect_part(const Scan& scan,
@@ -182,7 +211,6 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
                                           const Image<Eigen::Vector2f>& rays,
                                           const DecodeOptions& decode,
                                           const Run& run) {
-  constexpr std::size_t kDecoded = 3;  // views
   constexpr double kMaterial = 0.005;  // share of the points of a view
   const auto patterns = fringes_in(scan.patterns, measured.coarsest.direction);
   if (patterns.empty() || surface.empty()) return std::nullopt;
@@ -203,24 +231,7 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
     return a.indirect > b.indirect;
   });
 
-  DecodeOptions options = decode;
-  options.keep_maps = true;
-  std::vector<AlbedoSample> samples;
-  for (std::size_t k = 0; k < std::min(kDecoded, exposures.size()); ++k) {
-    run.check();
-    const std::size_t view = exposures[k].view;
-    const std::size_t index = index_in_scan(scan, measured.stations[view].name);
-    if (index == scan.views.size()) continue;
-    Run quiet = run;
-    quiet.on_note = nullptr;
-    quiet.on_warning = nullptr;
-    add_samples(decode_view(read_frames(scan, index, run), scan.rig, rays, options, quiet),
-                measured.views.load_points(view),
-                *lit,
-                rays,
-                samples);
-  }
-  const AlbedoEstimate found = estimate_albedo(samples, patterns);
+  const AlbedoEstimate found = find_albedo(scan, measured, exposures, lit, rays, decode, run);
   if (!found.significant) return std::nullopt;
   const bool one_direction = decode.directions == DirectionChoice::Vertical ||
                              decode.directions == DirectionChoice::Horizontal ||
@@ -234,7 +245,11 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
   IndirectPart out;
   out.report = report_of(
       measured.views.load_points(exposures.front().view), *lit, *correction, found.albedo, rays);
+  out.unexplained = found.unexplained;
   out.correct = [correction](View& view) { correction->correct(view); };
+  out.largest_shifts_mm = [correction](const View& view) {
+    return correction->largest_shifts_mm(view);
+  };
   out.add = [correction](View& view) { correction->add(view); };
   return out;
 }
