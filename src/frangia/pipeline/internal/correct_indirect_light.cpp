@@ -31,30 +31,35 @@ std::optional<IndirectPart> predict(const MeasuredViews& measured,
   const Mesh continued =
       continued_surface(measured, *first, scan.rig.camera.model, rays, coarse, run);
   auto second = indirect_part(scan, measured, continued, rays, decode, run);
-  // The frames decide which surface predicts what they show.
-  const bool better = second && second->unexplained < first->unexplained;
+  // The frames decide which surface predicts what they show; alike, the one without gaps.
+  constexpr double kAlike = 1.1;
+  const bool better = second && second->unexplained < kAlike * first->unexplained;
   return better ? second : first;
 }
 
 }  // namespace
 
-void correct_before_registration(MeasuredViews& measured,
+bool correct_before_registration(MeasuredViews& measured,
                                  const Scan& scan,
                                  const Image<Eigen::Vector2f>& rays,
                                  const DecodeOptions& decode,
                                  FusionOptions coarse,
                                  const Run& run) {
   constexpr int kPasses = 2;
-  if (measured.points == 0) return;
+  if (measured.points == 0) return false;
   coarse = coarse_fusion(measured, rays, std::move(coarse));
   Run quiet;
   quiet.stop = run.stop;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Mesh surface = fuse_views(measured.views, scan.rig.camera.model, coarse, quiet);
+    // A coarser surface finds out whether there is anything to correct.
+    FusionOptions fusion = coarse;
+    if (pass == 0) fusion.voxel_mm *= 2.0;
+    const Mesh surface = fuse_views(measured.views, scan.rig.camera.model, fusion, quiet);
     const auto indirect = predict(measured, surface, scan, rays, decode, coarse, quiet);
-    if (!indirect) return;
+    if (!indirect) return pass > 0;
     correct_all(measured, *indirect, run);
   }
+  return true;
 }
 
 std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
