@@ -206,5 +206,53 @@ TEST(EstimateAlbedo, FindsNothingWithoutIndirectLight) {
   EXPECT_FALSE(estimate_albedo({}, patterns_with({16.0})).significant);
 }
 
+TEST(DirectPhase, IsSolvedWhereverThePointWasAssumed) {
+  const auto patterns = patterns_with({160.0, 20.0});
+  constexpr double kAlbedo = 0.8;
+  constexpr double kTrue_rad = 40.0;
+  for (const double indirect_rad : {38.0, 40.5, 43.0}) {
+    const auto share_at = [&](double phase_rad) {
+      IndirectShare share;
+      share.mean = 0.9;
+      for (const double ratio : {0.125, 1.0})
+        share.fringes.push_back(std::polar(0.8, ratio * (indirect_rad - phase_rad)));
+      return share;
+    };
+    const double measured =
+        kTrue_rad +
+        indirect_phase(share_at(kTrue_rad), kAlbedo, patterns, PhaseSource::Finest).error_rad;
+    for (const double assumed : {39.2, 40.0, 41.0}) {
+      const SolvedPhase found = direct_phase(
+          share_at(assumed), assumed, measured, kAlbedo, patterns, PhaseSource::Finest);
+      EXPECT_NEAR(found.phase_rad, kTrue_rad, 1e-4) << indirect_rad << ' ' << assumed;
+    }
+  }
+}
+
+TEST(LitSurface, CountsDirectionsThroughHolesAsUnknown) {
+  Mesh walls = right_angle();
+  std::erase_if(walls.triangles, [&](const Mesh::Triangle& triangle) {
+    return walls.vertices_mm[triangle[0]].x() >= 0.0F && walls.vertices_mm[triangle[0]].x() < 5.0F;
+  });
+  // The back of the part, whose outside is away from the projector.
+  const auto first = static_cast<std::uint32_t>(walls.vertices_mm.size());
+  for (const auto& [x, y] : {std::pair{-500.0F, -500.0F}, {500.0F, -500.0F}, {0.0F, 900.0F}})
+    walls.vertices_mm.emplace_back(x, y, static_cast<float>(kFar_mm) + 50.0F);
+  walls.triangles.push_back({first, first + 1, first + 2});
+  const auto patterns = patterns_with({200.0});
+  const LitSurface surface(walls, far_projector(), patterns);
+  const LitSurface whole(right_angle(), far_projector(), patterns);
+  double distance = 0.0;
+  const Eigen::Vector3d near_crease(-2.0 / kFar_mm, 0.0, 1.0);
+  const auto at = [&](const LitSurface& lit) {
+    return lit.light_along(
+        Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), near_crease, distance);
+  };
+  const PointLight holed = at(surface);
+  ASSERT_GT(holed.direct, 0.0);
+  EXPECT_GT(holed.unknown, 0.02 * holed.direct);
+  EXPECT_EQ(at(whole).unknown, 0.0);
+}
+
 }  // namespace
 }  // namespace frangia

@@ -105,6 +105,7 @@ AlbedoEstimate estimate_albedo(std::span<const AlbedoSample> samples,
       }));
   const double least = sums.at(static_cast<std::size_t>(best));
   if (affected == 0.0) return out;
+  out.unexplained = sums.front() > 0.0 ? least / sums.front() : 1.0;
   out.improvement = (sums.front() - least) / affected;
   // Neighbouring samples share their errors: a sum that falls by a small share says nothing.
   constexpr double kMaterial = 0.2;

@@ -30,6 +30,8 @@ struct AlbedoEstimate {
   /// Sum of squared residuals over their expectation, per sample that sees lit surface: of no
   /// indirect light, less that of `albedo`.
   double improvement = 0.0;
+  /// Share of the squared residuals of no indirect light that remains with `albedo`.
+  double unexplained = 1.0;
 };
 
 /// Estimates the reflectance of a surface from what indirect light does to its frames: it lowers

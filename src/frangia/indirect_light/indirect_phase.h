@@ -24,9 +24,9 @@ struct IndirectPhase {
 /// Predicts the phase error of a surface with this reflectance: what the sequence makes of the
 /// errors arg(1 + f) of its patterns.
 ///
-/// The uncertainty is the error itself and half of the share of indirect fringes: at a crease the
-/// measured surface is distorted by the error that it predicts, and further bounces, shine, and
-/// surface that was not measured are not predicted.
+/// The uncertainty is the error itself, half of the share of indirect fringes, and all of the share
+/// that surface which was not measured may add: at a crease the measured surface is distorted by
+/// the error that it predicts, and further bounces and shine are not predicted.
 ///
 /// @shape    `patterns` and `share.fringes` coarse to fine
 /// @units    rad
@@ -34,5 +34,24 @@ struct IndirectPhase {
                                            double albedo,
                                            std::span<const Pattern> patterns,
                                            PhaseSource source);
+
+/// The phase of the direct light.
+struct SolvedPhase {
+  double phase_rad = 0.0;
+  bool wrong_order = false;  ///< as in IndirectPhase
+};
+
+/// Solves for the phase that, together with the indirect light, gives the measured one. The
+/// indirect light stays as it is while the point moves, so the solution does not depend on where
+/// the point was assumed.
+///
+/// @param share      as predicted for a point with the phase `assumed_rad`
+/// @units    rad, of the finest pattern
+[[nodiscard]] SolvedPhase direct_phase(const IndirectShare& share,
+                                       double assumed_rad,
+                                       double measured_rad,
+                                       double albedo,
+                                       std::span<const Pattern> patterns,
+                                       PhaseSource source);
 
 }  // namespace frangia

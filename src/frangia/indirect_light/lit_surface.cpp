@@ -116,9 +116,18 @@ PointLight LitSurface::light_along(const Eigen::Isometry3d& rig_from_object,
     if (slope >= -1e-6) return Vector3d::Constant(kMissing);
     return origin + hit.normal.dot(at - origin) / slope * other;
   };
+  constexpr double kUsualCosine = 0.5;
+  const double unknown =
+      kUsualCosine / (kRings * kSectors) /
+      (rig_from_object.inverse() * projector_.position_mm - to.point_mm).squaredNorm();
   for (const CosineCell& cell : cosine_cells(to.normal, kRings, kSectors, 0.5)) {
     const auto hit = scene_.first_hit(origin, cell.center);
-    if (!hit || hit->normal.dot(cell.center) >= 0.0) continue;
+    if (!hit) continue;
+    if (hit->normal.dot(cell.center) >= 0.0) {
+      // Through a hole of the surface: what was not measured there may be lit.
+      if (hit->distance > 8.0 * step_off_mm_) out.unknown += unknown;
+      continue;
+    }
     const Hit from{origin + hit->distance * cell.center, normal_at(*hit)};
     const double light = direct_light(rig_from_object, from) / (kRings * kSectors);
     if (light <= 0.0) continue;

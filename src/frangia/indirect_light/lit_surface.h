@@ -18,6 +18,8 @@ struct PointLight {
   double direct = 0.0;  ///< from the projector; 0 in shadow
   /// From other parts of the surface, if they reflect all their light diffusely: the mean light ...
   double indirect = 0.0;
+  /// ... what may come from directions in which the surface was not measured ...
+  double unknown = 0.0;
   /// ... and, for each pattern, the amplitude and the absolute phase of the fringes in it.
   std::vector<std::complex<double>> fringes;
 };

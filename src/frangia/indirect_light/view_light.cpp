@@ -82,6 +82,7 @@ ViewLight::Node ViewLight::interpolate(int x, int y, double depth_mm) const {
     weights += weight;
     sum.light.direct += weight * node.light.direct;
     sum.light.indirect += weight * node.light.indirect;
+    sum.light.unknown += weight * node.light.unknown;
     for (std::size_t m = 0; m < sum.light.fringes.size(); ++m)
       sum.light.fringes[m] += weight * node.light.fringes[m];
   }
@@ -115,6 +116,7 @@ IndirectShare ViewLight::at(int x, int y, double depth_mm) const {
   const Eigen::Vector3d point = depth_mm * rays_(x, y).cast<double>().homogeneous();
   const double phase = phase_at(point, surface_.patterns().back(), surface_.projector());
   out.mean = light.indirect / light.direct;
+  out.unknown = light.unknown / light.direct;
   for (std::size_t m = 0; m < out.fringes.size(); ++m) {
     const double ratio =
         surface_.patterns()[m].fringes_per_unit() / surface_.patterns().back().fringes_per_unit();

@@ -13,7 +13,8 @@ namespace frangia {
 
 /// Indirect light of one pixel relative to its direct light, if the surface reflects all light.
 struct IndirectShare {
-  double mean = 0.0;  ///< of the mean light
+  double mean = 0.0;     ///< of the mean light
+  double unknown = 0.0;  ///< what may come from where the surface was not measured
   /// Of the fringes of each pattern: share and phase relative to the direct fringes. A share f
   /// shifts the phase by arg(1 + f).
   std::vector<std::complex<double>> fringes;

@@ -55,8 +55,9 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
 }
 
 /// Removes what is not the part from the views of one setup, corrects them for indirect light, and
-/// registers them on the turntable.
-void register_setup(MeasuredSetup& setup,
+/// registers them on the turntable. False where no indirect light was found before the
+/// registration.
+bool register_setup(MeasuredSetup& setup,
                     const Scan& scan,
                     const Image<Eigen::Vector2f>& rays,
                     const ReconstructOptions& options,
@@ -64,15 +65,17 @@ void register_setup(MeasuredSetup& setup,
                     const Run& run) {
   MeasuredViews& measured = setup.measured;
   const CameraModel& camera = scan.rig.camera.model;
-  if (measured.points == 0) return;
+  bool indirect_light = true;
+  if (measured.points == 0) return true;
   clip_to_volume(measured, scan.rig, options, run);
-  if (!scan.rig.turntable) return;
+  if (!scan.rig.turntable) return true;
   if (!options.keep_turntable_top) {
     turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
   }
   if (options.register_views) {
     if (options.indirect_light)
-      correct_before_registration(measured, scan, rays, options.decode, options.fusion, run);
+      indirect_light =
+          correct_before_registration(measured, scan, rays, options.decode, options.fusion, run);
     setup.registration = register_views(measured.views,
                                         camera,
                                         {*scan.rig.turntable, measured.stations},
@@ -80,6 +83,7 @@ void register_setup(MeasuredSetup& setup,
                                         run);
     clear_outliers_of_cameras(setup);
   }
+  return indirect_light;
 }
 
 MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
@@ -132,10 +136,11 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
   std::set<std::string> outliers;
+  bool indirect_light = false;
   for (MeasuredSetup& setup : setups) {
     resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
-    register_setup(setup, scan, rays, options, out.turntable_top_height_mm, run);
+    indirect_light |= register_setup(setup, scan, rays, options, out.turntable_top_height_mm, run);
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
@@ -162,7 +167,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   Mesh fused = fuse_views(cameras, fusion, run);
-  if (options.indirect_light && cameras.size() == 1) {
+  if (options.indirect_light && indirect_light && cameras.size() == 1) {
     out.indirect_light =
         correct_indirect_light(fused, joined.measured, scan, rays, options.decode, fusion, run);
   }

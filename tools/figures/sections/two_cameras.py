@@ -40,10 +40,11 @@ METHODS = (("one camera and the projector", lambda text: RIG_CAMERAS.sub("", tex
            ("two cameras, projector as a label", lambda text: text.replace('model = "pinhole"', 'model = "label"')))
 
 
-def measured(study, scan, *options):
+def measured(study, scan, true_scan, *options):
+    """The answer, and the comparison over the surface that the true rig can measure: a label lights nothing."""
     mesh = study.work / "two-cameras.ply"
     answer = study.run("reconstruct", scan, "-o", mesh, *options)
-    return answer, study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan)
+    return answer, study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", true_scan)
 
 
 def measure(study):
@@ -55,7 +56,7 @@ def measure(study):
         scan = study.made(name, "simulate", PART, "--rig", "binocular", "--samples", 4, "--views", VIEWS, *options)
         p95 = {}
         for method, change in METHODS:
-            answer, error = measured(study, changed(study, scan, "two-cameras", change), "--accept-inconsistent")
+            answer, error = measured(study, changed(study, scan, "two-cameras", change), scan, "--accept-inconsistent")
             cameras = answer.get("cameras", {})
             apart, over = cameras.get("disagreement_mm"), cameras.get("over_noise")
             p95[method] = error["p95_mm"]
@@ -74,7 +75,7 @@ def measure(study):
     study.table("method", "RMS mm", "error over sigma", "cameras apart, mm", "over their noise")
     scan = study.work / "two-cameras-none"
     for method, change in METHODS[1:2]:
-        answer, error = measured(study, changed(study, scan, "two-cameras", lambda text: turned(change(text), 0.2)))
+        answer, error = measured(study, changed(study, scan, "two-cameras", lambda text: turned(change(text), 0.2)), scan)
         cameras = answer["cameras"]
         study.row(method, f"{error['rms_mm']:.4f}", f"{error['sigma_ratio']:.2f}", f"{cameras['disagreement_mm']:.4f}", f"{cameras['over_noise']:.1f}")
         if cameras["over_noise"] < 2:

@@ -1,12 +1,9 @@
 #include "frangia/pipeline/internal/correct_indirect_light.h"
 
-#include <cmath>
 #include <functional>
-#include <span>
 #include <utility>
-#include <vector>
 
-#include "frangia/core/median.h"
+#include "frangia/pipeline/internal/continued_surface.h"
 #include "frangia/pipeline/internal/indirect_part.h"
 
 namespace frangia {
@@ -21,27 +18,48 @@ void correct_all(MeasuredViews& measured, const IndirectPart& indirect, const Ru
   }
 }
 
+/// The prediction of a surface, made better by the surface that continues its reliable faces.
+std::optional<IndirectPart> predict(const MeasuredViews& measured,
+                                    const Mesh& surface,
+                                    const Scan& scan,
+                                    const Image<Eigen::Vector2f>& rays,
+                                    const DecodeOptions& decode,
+                                    const FusionOptions& coarse,
+                                    const Run& run) {
+  auto first = indirect_part(scan, measured, surface, rays, decode, run);
+  if (!first) return first;
+  const Mesh continued =
+      continued_surface(measured, *first, scan.rig.camera.model, rays, coarse, run);
+  auto second = indirect_part(scan, measured, continued, rays, decode, run);
+  // The frames decide which surface predicts what they show; alike, the one without gaps.
+  constexpr double kAlike = 1.1;
+  const bool better = second && second->unexplained < kAlike * first->unexplained;
+  return better ? second : first;
+}
+
 }  // namespace
 
-void correct_before_registration(MeasuredViews& measured,
+bool correct_before_registration(MeasuredViews& measured,
                                  const Scan& scan,
                                  const Image<Eigen::Vector2f>& rays,
                                  const DecodeOptions& decode,
                                  FusionOptions coarse,
                                  const Run& run) {
-  constexpr double kVoxel_px = 3.0;
-  std::vector<float> depths_mm;
-  const Image<float> first_mm = measured.views.load_depth_mm(0);
-  for (const float depth : first_mm.pixels())
-    if (!std::isnan(depth)) depths_mm.push_back(depth);
-  if (depths_mm.empty()) return;
-  const auto px = static_cast<double>((rays(1, 0) - rays(0, 0)).norm());
-  coarse.voxel_mm = kVoxel_px * px * static_cast<double>(median_in_place(std::span(depths_mm)));
+  constexpr int kPasses = 2;
+  if (measured.points == 0) return false;
+  coarse = coarse_fusion(measured, rays, std::move(coarse));
   Run quiet;
   quiet.stop = run.stop;
-  const Mesh surface = fuse_views(measured.views, scan.rig.camera.model, coarse, quiet);
-  const auto indirect = indirect_part(scan, measured, surface, rays, decode, quiet);
-  if (indirect) correct_all(measured, *indirect, run);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    // A coarser surface finds out whether there is anything to correct.
+    FusionOptions fusion = coarse;
+    if (pass == 0) fusion.voxel_mm *= 2.0;
+    const Mesh surface = fuse_views(measured.views, scan.rig.camera.model, fusion, quiet);
+    const auto indirect = predict(measured, surface, scan, rays, decode, coarse, quiet);
+    if (!indirect) return pass > 0;
+    correct_all(measured, *indirect, run);
+  }
+  return true;
 }
 
 std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
@@ -55,7 +73,8 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
   const std::function<void(View&)> others = fusion.add_systematic;
   std::optional<IndirectLightReport> report;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const auto indirect = indirect_part(scan, measured, fused, rays, decode, run);
+    const auto indirect =
+        predict(measured, fused, scan, rays, decode, coarse_fusion(measured, rays, fusion), run);
     if (!indirect) break;
     correct_all(measured, *indirect, run);
     report = indirect->report;

@@ -16,10 +16,10 @@
 namespace frangia {
 
 /// Corrects views that are not registered yet by the indirect light that a coarse surface predicts.
-/// Otherwise views of a concave part contradict the others.
+/// Otherwise views of a concave part contradict the others. Returns whether there is any.
 ///
 /// @errors   as fuse_views and indirect_part
-void correct_before_registration(MeasuredViews& measured,
+bool correct_before_registration(MeasuredViews& measured,
                                  const Scan& scan,
                                  const Image<Eigen::Vector2f>& rays,
                                  const DecodeOptions& decode,

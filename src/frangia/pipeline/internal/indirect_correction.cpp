@@ -1,8 +1,10 @@
 #include "frangia/pipeline/internal/indirect_correction.h"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
+#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/range/fringe_ray.h"
@@ -43,31 +45,65 @@ void IndirectCorrection::add(View& view) const {
   });
 }
 
+Image<float> IndirectCorrection::largest_shifts_mm(const View& view) const {
+  constexpr double kMatters = 2.0;  // sigma of noise
+  const ViewLight light(*surface_, view, rays_);
+  const Image<float>& depth_mm = view.range.depth_mm;
+  Image<float> out(depth_mm.width(), depth_mm.height(), kMissing);
+  std::vector<float> sigmas_mm;
+  for (const float sigma : view.range.sigma_mm.pixels())
+    if (!std::isnan(sigma)) sigmas_mm.push_back(sigma);
+  if (sigmas_mm.empty()) return out;
+  // Indirect light lowers the contrast, too: noise at its place says little.
+  const auto typical_mm = static_cast<double>(median_in_place(std::span(sigmas_mm)));
+  parallel_rows(depth_mm.height(), [&](int y) {
+    for (int x = 0; x < depth_mm.width(); ++x) {
+      const RangePixel at = view.range.pixel(x, y);
+      if (std::isnan(at.depth_mm)) continue;
+      if (sigma_mm(light, at) < kMatters * std::min(typical_mm, static_cast<double>(at.sigma_mm))) {
+        out(x, y) = 0.0F;
+        continue;
+      }
+      constexpr double kMost_rad = 2.0;  // the indirect fringes may be the stronger ones
+      out(x, y) = static_cast<float>(kMost_rad * ray_mm_per_rad(at));
+    }
+  });
+  return out;
+}
+
+/// Change of a point along its ray with the phase.
+double IndirectCorrection::ray_mm_per_rad(const RangePixel& at) const {
+  const Eigen::Vector2d ray = rays_(at.x, at.y).cast<double>();
+  const Pattern& finest = surface_->patterns().back();
+  const double phase =
+      phase_at(static_cast<double>(at.depth_mm) * ray.homogeneous(), finest, surface_->projector());
+  const RayDepth slope = intersect_fringe(ray, phase, finest, surface_->projector());
+  return std::abs(slope.mm_per_rad) * std::sqrt(1.0 + ray.squaredNorm());
+}
+
 double IndirectCorrection::sigma_mm(const ViewLight& light, const RangePixel& at) const {
   const auto depth = static_cast<double>(at.depth_mm);
   const IndirectShare share = light.at(at.x, at.y, depth);
-  if (share.mean <= 0.0) return 0.0;
+  if (share.mean + share.unknown <= 0.0) return 0.0;
   const IndirectPhase found = indirect_phase(share, albedo_, surface_->patterns(), source_);
   const double sigma_rad =
       moves_points_ ? found.sigma_rad : std::hypot(found.sigma_rad, found.error_rad);
-  const Eigen::Vector2d ray = rays_(at.x, at.y).cast<double>();
-  const Pattern& finest = surface_->patterns().back();
-  const double phase = phase_at(depth * ray.homogeneous(), finest, surface_->projector());
-  const RayDepth slope = intersect_fringe(ray, phase, finest, surface_->projector());
-  const double mm = std::abs(slope.mm_per_rad) * sigma_rad * std::sqrt(1.0 + ray.squaredNorm());
+  const double mm = ray_mm_per_rad(at) * sigma_rad;
   return std::isfinite(mm) ? mm : 0.0;
 }
 
 /// Sets the depth that the phase without its predicted error has; false for a wrong order.
 bool IndirectCorrection::move(const ViewLight& light, RangePixel& at) const {
-  const IndirectShare share = light.at(at.x, at.y, static_cast<double>(at.depth_mm));
+  IndirectShare share = light.at(at.x, at.y, static_cast<double>(at.depth_mm));
   if (share.mean <= 0.0 || std::isnan(at.phase_rad)) return true;
-  const IndirectPhase found = indirect_phase(share, albedo_, surface_->patterns(), source_);
-  if (found.wrong_order) return false;
-  const RayDepth moved = intersect_fringe(rays_(at.x, at.y).cast<double>(),
-                                          static_cast<double>(at.phase_rad) - found.error_rad,
-                                          surface_->patterns().back(),
-                                          surface_->projector());
+  const Pattern& finest = surface_->patterns().back();
+  const Eigen::Vector2d ray = rays_(at.x, at.y).cast<double>();
+  const double phase =
+      phase_at(static_cast<double>(at.depth_mm) * ray.homogeneous(), finest, surface_->projector());
+  const SolvedPhase solved = direct_phase(
+      share, phase, static_cast<double>(at.phase_rad), albedo_, surface_->patterns(), source_);
+  if (solved.wrong_order) return false;
+  const RayDepth moved = intersect_fringe(ray, solved.phase_rad, finest, surface_->projector());
   if (!std::isnan(moved.depth_mm)) at.depth_mm = static_cast<float>(moved.depth_mm);
   return true;
 }

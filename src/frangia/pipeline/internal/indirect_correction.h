@@ -35,10 +35,14 @@ class IndirectCorrection {
   void correct(View& view) const;
   /// Adds the uncertainty of the prediction to the systematic parts of the points.
   void add(View& view) const;
+  /// Largest shift of each point's depth that indirect light can cause, where it matters; 0 where
+  /// it is small beside the noise, NaN where there is no point.
+  [[nodiscard]] Image<float> largest_shifts_mm(const View& view) const;
   /// Uncertainty along its ray that indirect light adds to a point of the view of `light`.
   [[nodiscard]] double sigma_mm(const ViewLight& light, const RangePixel& at) const;
 
  private:
+  [[nodiscard]] double ray_mm_per_rad(const RangePixel& at) const;
   [[nodiscard]] bool move(const ViewLight& light, RangePixel& at) const;
 
   std::shared_ptr<const LitSurface> surface_;

@@ -16,6 +16,7 @@
 #include "frangia/indirect_light/view_light.h"
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/pipeline/internal/indirect_correction.h"
+#include "frangia/range/fringe_ray.h"
 #include "frangia/rig/phase_range.h"
 
 namespace frangia {
@@ -54,34 +55,48 @@ std::vector<Eigen::Vector2i> sampled_pixels(const Image<float>& depth_mm, std::s
 struct ViewExposure {
   std::size_t view = 0;   ///< in the store
   double indirect = 0.0;  ///< mean share of indirect light over the points
-  double affected = 0.0;  ///< share of the points with more than 3 % of indirect light
+  double affected = 0.0;  ///< share of the points whose phase it may shift by more than the noise
 };
+
+/// Noise of a point as one of the phase.
+double noise_rad(const RangePixel& at, const LitSurface& surface, const Eigen::Vector2d& ray) {
+  const Pattern& finest = surface.patterns().back();
+  const Eigen::Vector3d point = static_cast<double>(at.depth_mm) * ray.homogeneous();
+  const double phase = phase_at(point, finest, surface.projector());
+  const RayDepth slope = intersect_fringe(ray, phase, finest, surface.projector());
+  return static_cast<double>(at.sigma_mm) /
+         (std::abs(slope.mm_per_rad) * std::sqrt(1.0 + ray.squaredNorm()));
+}
 
 ViewExposure exposure_of(std::size_t index,
                          const ViewStore& views,
                          const LitSurface& surface,
                          const Image<Eigen::Vector2f>& rays) {
-  constexpr std::size_t kSamples = 300;
-  constexpr double kSeesSurface = 0.03;
-  const Image<float> depth_mm = views.load_depth_mm(index);
-  const auto pixels = sampled_pixels(depth_mm, kSamples);
+  constexpr std::size_t kSamples = 150;
+  const View view = views.load_points(index);
+  const auto pixels = sampled_pixels(view.range.depth_mm, kSamples);
   const Eigen::Isometry3d pose = views.rig_from_object(index);
   const Eigen::Isometry3d object_from_rig = pose.inverse();
   std::vector<double> shares(pixels.size());
+  std::vector<char> matters(pixels.size());
   parallel_chunks(pixels.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d ray = rays(pixels[i].x(), pixels[i].y()).cast<double>().homogeneous();
       double distance = 0.0;
       const PointLight light = surface.light_along(
           pose, object_from_rig.translation(), object_from_rig.linear() * ray, distance);
-      shares[i] = light.direct > 0.0 ? std::min(1.0, light.indirect / light.direct) : 0.0;
+      if (!(light.direct > 0.0)) continue;
+      shares[i] = std::min(1.0, light.indirect / light.direct);
+      const RangePixel at = view.range.pixel(pixels[i].x(), pixels[i].y());
+      const double fringes = std::abs(light.fringes.back()) / light.direct;
+      matters[i] = fringes > noise_rad(at, surface, ray.head<2>()) ? 1 : 0;
     }
   });
   ViewExposure out{index};
-  for (const double share : shares) {
-    out.indirect += share / static_cast<double>(shares.size());
-    out.affected += (share > kSeesSurface ? 1.0 : 0.0) / static_cast<double>(shares.size());
-  }
+  const auto count = static_cast<double>(std::max<std::size_t>(1, pixels.size()));
+  for (const double share : shares)
+    out.indirect += share / count;
+  out.affected = static_cast<double>(std::count(matters.begin(), matters.end(), 1)) / count;
   return out;
 }
 
@@ -174,35 +189,15 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
   return scan.views.size();
 }
 
-}  // namespace
-
-std::optional<IndirectPart> indirect_part(const Scan& scan,
-                                          const MeasuredViews& measured,
-                                          const Mesh& surface,
-                                          const Image<Eigen::Vector2f>& rays,
-                                          const DecodeOptions& decode,
-                                          const Run& run) {
+/// Estimates the reflectance from the frames of the views that see most indirect light.
+AlbedoEstimate find_albedo(const Scan& scan,
+                           const MeasuredViews& measured,
+                           std::span<const ViewExposure> exposures,
+                           const std::shared_ptr<const LitSurface>& lit,
+                           const Image<Eigen::Vector2f>& rays,
+                           const DecodeOptions& decode,
+                           const Run& run) {
   constexpr std::size_t kDecoded = 3;  // views
-  constexpr double kMaterial = 0.005;  // share of the points of a view
-  const auto patterns = fringes_in(scan.patterns, measured.coarsest.direction);
-  if (patterns.empty() || surface.empty()) return std::nullopt;
-  Mesh shape;
-  shape.vertices_mm = surface.vertices_mm;
-  shape.triangles = surface.triangles;
-  shape.normals = surface.normals;
-  const auto lit =
-      std::make_shared<const LitSurface>(std::move(shape), scan.rig.projector, patterns);
-  std::vector<ViewExposure> exposures;
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
-    run.check();
-    exposures.push_back(exposure_of(i, measured.views, *lit, rays));
-  }
-  std::erase_if(exposures, [](const ViewExposure& one) { return one.affected < kMaterial; });
-  if (exposures.empty()) return std::nullopt;
-  std::stable_sort(exposures.begin(), exposures.end(), [](const auto& a, const auto& b) {
-    return a.indirect > b.indirect;
-  });
-
   DecodeOptions options = decode;
   options.keep_maps = true;
   std::vector<AlbedoSample> samples;
@@ -222,7 +217,38 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
         rays,
         samples);
   }
-  const AlbedoEstimate found = estimate_albedo(samples, patterns);
+  return estimate_albedo(samples, lit->patterns());
+}
+
+}  // namespace
+
+std::optional<IndirectPart> indirect_part(const Scan& scan,
+                                          const MeasuredViews& measured,
+                                          const Mesh& surface,
+                                          const Image<Eigen::Vector2f>& rays,
+                                          const DecodeOptions& decode,
+                                          const Run& run) {
+  constexpr double kMaterial = 0.01;  // share of the points of a view
+  const auto patterns = fringes_in(scan.patterns, measured.coarsest.direction);
+  if (patterns.empty() || surface.empty()) return std::nullopt;
+  Mesh shape;
+  shape.vertices_mm = surface.vertices_mm;
+  shape.triangles = surface.triangles;
+  shape.normals = surface.normals;
+  const auto lit =
+      std::make_shared<const LitSurface>(std::move(shape), scan.rig.projector, patterns);
+  std::vector<ViewExposure> exposures;
+  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+    run.check();
+    exposures.push_back(exposure_of(i, measured.views, *lit, rays));
+  }
+  std::erase_if(exposures, [](const ViewExposure& one) { return one.affected < kMaterial; });
+  if (exposures.empty()) return std::nullopt;
+  std::stable_sort(exposures.begin(), exposures.end(), [](const auto& a, const auto& b) {
+    return a.indirect > b.indirect;
+  });
+
+  const AlbedoEstimate found = find_albedo(scan, measured, exposures, lit, rays, decode, run);
   if (!found.significant) return std::nullopt;
   const bool one_direction = decode.directions == DirectionChoice::Vertical ||
                              decode.directions == DirectionChoice::Horizontal ||
@@ -236,7 +262,11 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
   IndirectPart out;
   out.report = report_of(
       measured.views.load_points(exposures.front().view), *lit, *correction, found.albedo, rays);
+  out.unexplained = found.unexplained;
   out.correct = [correction](View& view) { correction->correct(view); };
+  out.largest_shifts_mm = [correction](const View& view) {
+    return correction->largest_shifts_mm(view);
+  };
   out.add = [correction](View& view) { correction->add(view); };
   return out;
 }

@@ -23,6 +23,9 @@ struct IndirectPart {
   std::function<void(View&)> correct;
   /// Adds the uncertainty of the prediction to the systematic parts of a view's points.
   std::function<void(View&)> add;
+  /// Largest shift of each point's depth that indirect light can cause; see IndirectCorrection.
+  std::function<Image<float>(const View&)> largest_shifts_mm;
+  double unexplained = 1.0;  ///< of the frames' indirect light; see AlbedoEstimate
   IndirectLightReport report;
 };
 
