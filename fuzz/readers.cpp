@@ -127,7 +127,7 @@ void read_names(const Path& path) {
   static_cast<void>(NameTemplate(guess_name_template(files)));
 }
 
-constexpr std::array<FuzzReader, 26> kReaders{{
+constexpr std::array<FuzzReader, 27> kReaders{{
     {"3mf", "input.3mf", read_mesh_file},
     {"bmp", "input.bmp", read_image},
     {"conf", "input.conf", [](const Path& path) { static_cast<void>(read_posed_scans(path)); }},
