@@ -19,7 +19,7 @@ namespace {
 
 using testing::error_of;
 
-std::string complaint(const std::filesystem::path& folder) {
+std::string refusal(const std::filesystem::path& folder) {
   return error_of([&] { const FolderLock lock(folder); });
 }
 
@@ -62,7 +62,7 @@ class LockingProcess {
 TEST(FolderLock, RefusesASecondWriterAndNamesFolderAndProcess) {
   const testing::TemporaryFolder folder;
   const LockingProcess other(folder.path());
-  const std::string sentence = complaint(folder.path());
+  const std::string sentence = refusal(folder.path());
   EXPECT_NE(sentence.find(folder.path().string()), std::string::npos) << sentence;
   EXPECT_NE(sentence.find(fmt::format("process {} on ", other.id())), std::string::npos)
       << sentence;
@@ -73,8 +73,8 @@ TEST(FolderLock, RefusesASecondWriterInTheSameProcessAndOverALink) {
   std::filesystem::create_directory(folder.path() / "scan");
   std::filesystem::create_directory_symlink(folder.path() / "scan", folder.path() / "link");
   const FolderLock lock(folder.path() / "scan/");
-  EXPECT_FALSE(complaint(folder.path() / "link").empty());
-  EXPECT_TRUE(complaint(folder.path() / "other").empty());
+  EXPECT_FALSE(refusal(folder.path() / "link").empty());
+  EXPECT_TRUE(refusal(folder.path() / "other").empty());
 }
 
 TEST(FolderLock, OfAKilledProcessIsTakenOver) {
@@ -82,7 +82,7 @@ TEST(FolderLock, OfAKilledProcessIsTakenOver) {
   LockingProcess other(folder.path());
   other.kill();
   EXPECT_TRUE(std::filesystem::exists(folder.path() / FolderLock::kFileName));
-  EXPECT_EQ(complaint(folder.path()), "");
+  EXPECT_EQ(refusal(folder.path()), "");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / FolderLock::kFileName));
 }
 

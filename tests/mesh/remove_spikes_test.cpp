@@ -11,12 +11,12 @@ namespace frangia {
 namespace {
 
 TEST(RemoveSpikes, FlattensATipAndKeepsTheRest) {
-  constexpr float kBallRadius = 20.0F;
-  Mesh mesh = testing::sphere(Eigen::Vector3d::Zero(), kBallRadius, 40);
+  constexpr float kSphereRadius = 20.0F;
+  Mesh mesh = testing::sphere(Eigen::Vector3d::Zero(), kSphereRadius, 40);
   mesh.vertices_mm[1000] *= 2.0F;
   const Mesh flat = remove_spikes(mesh);
   for (const auto& vertex : flat.vertices_mm)
-    ASSERT_NEAR(vertex.norm(), kBallRadius, 0.2F);
+    ASSERT_NEAR(vertex.norm(), kSphereRadius, 0.2F);
   EXPECT_EQ(flat.vertex_marks[1000], Mark::Displaced);
 }
 

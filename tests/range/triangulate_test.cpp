@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-const Pattern kFringe{.name = "fringe", .fringes_per_degree = 1.0};
+const Pattern kAngularFringe{.name = "fringe", .fringes_per_degree = 1.0};
 
 struct Wall {
   Rig rig = make_paper_rig({.columns = 64, .rows = 48});
@@ -22,14 +22,14 @@ struct Wall {
   /// The phase of a plane across the view at `z_mm`.
   [[nodiscard]] AbsolutePhase phase(double z_mm, float sigma_rad) const {
     AbsolutePhase out{
-        .pattern = kFringe,
+        .pattern = kAngularFringe,
         .phase_rad = Image<float>(rays.width(), rays.height()),
         .sigma_rad = Image<float>(rays.width(), rays.height(), sigma_rad),
         .status = Image<PixelStatus>(rays.width(), rays.height(), PixelStatus::Measured)};
     for (std::size_t i = 0; i < rays.pixels().size(); ++i) {
       const Eigen::Vector2d ray = rays.pixels()[i].cast<double>();
       out.phase_rad.pixels()[i] = static_cast<float>(
-          phase_at(z_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0), kFringe, rig.projector));
+          phase_at(z_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0), kAngularFringe, rig.projector));
     }
     return out;
   }

@@ -189,7 +189,7 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
   return scan.views.size();
 }
 
-/// Estimates the reflectance from the frames of the views that see most indirect light.
+/// Estimates the reflectance from the frames of some views.
 AlbedoEstimate find_albedo(const Scan& scan,
                            const MeasuredViews& measured,
                            std::span<const ViewExposure> exposures,
@@ -197,13 +197,12 @@ AlbedoEstimate find_albedo(const Scan& scan,
                            const Image<Eigen::Vector2f>& rays,
                            const DecodeOptions& decode,
                            const Run& run) {
-  constexpr std::size_t kDecoded = 3;  // views
   DecodeOptions options = decode;
   options.keep_maps = true;
   std::vector<AlbedoSample> samples;
-  for (std::size_t k = 0; k < std::min(kDecoded, exposures.size()); ++k) {
+  for (const ViewExposure& exposure : exposures) {
     run.check();
-    const std::size_t view = exposures[k].view;
+    const std::size_t view = exposure.view;
     const std::size_t index = index_in_scan(scan, measured.stations[view].name);
     if (index == scan.views.size()) continue;
     Run quiet = run;
@@ -228,7 +227,8 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
                                           const Image<Eigen::Vector2f>& rays,
                                           const DecodeOptions& decode,
                                           const Run& run) {
-  constexpr double kMaterial = 0.01;  // share of the points of a view
+  constexpr double kMaterial = 0.01;   // share of the points of a view
+  constexpr std::size_t kDecoded = 3;  // views whose frames determine the reflectance
   const auto patterns = fringes_in(scan.patterns, measured.coarsest.direction);
   if (patterns.empty() || surface.empty()) return std::nullopt;
   Mesh shape;
@@ -248,7 +248,13 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
     return a.indirect > b.indirect;
   });
 
-  const AlbedoEstimate found = find_albedo(scan, measured, exposures, lit, rays, decode, run);
+  // The view that sees most of it decides whether to look further, which most parts do not need.
+  const auto look = [&](std::size_t views) {
+    const auto chosen = std::span(exposures).first(std::min(views, exposures.size()));
+    return find_albedo(scan, measured, chosen, lit, rays, decode, run);
+  };
+  if (!look(1).significant) return std::nullopt;
+  const AlbedoEstimate found = look(kDecoded);
   if (!found.significant) return std::nullopt;
   const bool one_direction = decode.directions == DirectionChoice::Vertical ||
                              decode.directions == DirectionChoice::Horizontal ||
