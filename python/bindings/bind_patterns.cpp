@@ -130,7 +130,7 @@ void bind_patterns(py::module_& module) {
       "read_algorithm",
       [](const std::filesystem::path& path) { return read_algorithm(path); },
       py::arg("path"),
-      "Reads an algorithm of yours, as examples/my-algorithm.toml.");
+      "Reads an algorithm of yours, as examples/algorithms/my-algorithm.toml.");
   module.def(
       "algorithm_errors",
       &row_of,

@@ -12,6 +12,7 @@ requireChromium();
 const home = newHome();
 fs.mkdirSync(shots, { recursive: true });
 const STATIONS = 4;
+const EXPOSURE_MS = 250;  // in real time: the scan takes a quarter of a minute, and leaves the processor to the browsers
 let server = await startServer(program, home);
 let browser;
 let code = 1;
@@ -21,7 +22,7 @@ async function waitFor(page, wanted, timeout = 60_000) {
   for (;;) {
     const state = await stateOf(page);
     if (wanted(state)) return state;
-    expect(Date.now() < end, `the state does not come: ${wanted}`);
+    expect(Date.now() < end, `the state does not come: ${wanted}; it is ${JSON.stringify(state.jobs)}`);
     await page.waitForTimeout(50);
   }
 }
@@ -44,6 +45,16 @@ try {
   await page.fill('input[name=stations]', String(STATIONS));
   await page.getByText('Create', { exact: true }).click();
   await page.waitForSelector('#scan:not([disabled])');
+  const project = path.join(home, 'projects', 'Plate');
+  const rig = path.join(project, 'rig.toml');
+  fs.writeFileSync(rig, fs.readFileSync(rig, 'utf8').replace('[devices.camera]\n', `[devices.camera]\nreal_time = true\nreference_exposure_ms = ${EXPOSURE_MS}\n`));
+  await page.evaluate(async (exposure) => {
+    const body = JSON.stringify({ exposure_ms: exposure, gain_db: 0, black_level_counts: 0, shifts: 4, algorithm: 'auto' });
+    const answer = await fetch('/api/commands/set-capture', {
+      method: 'POST', body, headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` },
+    });
+    if (!answer.ok) throw new Error(await answer.text());
+  }, EXPOSURE_MS);
   await page.click('#scan');
   await waitFor(page, (state) => share(state) > 0.1);
   await page.context().close();
@@ -79,8 +90,7 @@ try {
   await page.click('#scan');
   const done = await waitFor(page, (state) => state.project.scan_complete && state.jobs.every((job) => job.state !== 'running'));
   expect(done.project.stations.every((station) => station.state === 'done'), 'a station is missing');
-  const project = path.join(home, 'projects', 'Plate');
-  const whole = spawnSync(program, ['scan', path.join(project, 'rig.toml'), '-o', path.join(home, 'whole'), '--views', String(STATIONS)], { encoding: 'utf8' });
+  const whole = spawnSync(program, ['scan', path.join(project, 'rig.toml'), '-o', path.join(home, 'whole'), '--views', String(STATIONS), '--exposure', String(EXPOSURE_MS)], { encoding: 'utf8' });
   expect(whole.status === 0, `frangia scan fails: ${whole.stderr}`);
   const [resumed, once] = [framesOf(path.join(project, 'scan')), framesOf(path.join(home, 'whole'))];
   expect(once.size > 0 && resumed.size === once.size, `${resumed.size} frames instead of ${once.size}`);

@@ -59,7 +59,7 @@ TEST_F(BatchProgram, AFailingScanIsOneRow) {
   EXPECT_EQ(rows[1]["state"], "done") << rows;
   EXPECT_EQ(rows[2]["state"], "failed");
   EXPECT_EQ(rows[2]["exit_code"], 3);
-  EXPECT_NE(rows[2]["message"].get<std::string>().find("scan.toml"), std::string::npos) << rows[2];
+  EXPECT_NE(rows[2]["message"].get<std::string>().find("rig.toml"), std::string::npos) << rows[2];
   EXPECT_GT(rows[0]["triangles"].get<int>(), 100);
   EXPECT_GT(rows[0]["memory_mb"].get<double>(), 10.0);
   EXPECT_GT(fs::file_size(out("all") / "b" / "mesh.ply"), 1000U);

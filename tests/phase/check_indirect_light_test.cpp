@@ -69,7 +69,7 @@ TEST(CheckIndirectLight, CountsADisagreementWhereItIs) {
   ASSERT_FALSE(maps.absolute.systematic_rad.empty());
   EXPECT_NEAR(maps.absolute.systematic_rad(10, 30), 0.08 / std::sqrt(8.0), 0.005);
   EXPECT_EQ(maps.absolute.systematic_rad(60, 30), 0.0F);
-  EXPECT_NE(describe(check).find("plan --indirect"), std::string::npos);
+  EXPECT_NE(describe(check).find("a plan for indirect light"), std::string::npos);
 }
 
 TEST(CheckIndirectLight, FindsNothingInNoiseAndAtSteps) {

@@ -30,7 +30,7 @@ std::vector<double> counts_of(double phase, const std::vector<double>& shifts) {
 TEST(LinearAlgorithm, EqualsThePublishedOne) {
   const LinearAlgorithm own =
       linear_algorithm("mine", kFiveSteps, {0, -2, 0, 2, 0}, {1, 0, -2, 0, 1});
-  const PhaseAlgorithm published = make_algorithm("schwider", kFiveSteps);
+  const PhaseAlgorithm published = make_algorithm("hariharan", kFiveSteps);
   EXPECT_NEAR(own.algorithm.noise_gain, published.noise_gain, 1e-9);
   for (double phase = -3.0; phase < 3.1; phase += 0.37) {
     EXPECT_NEAR(phase_of(own.algorithm, counts_of(phase, kFiveSteps)), phase, 1e-9);
@@ -68,8 +68,8 @@ TEST(LinearAlgorithm, FitsFramesUpToWholeTurns) {
 }
 
 TEST(LinearAlgorithm, IsReadFromTheExample) {
-  const LinearAlgorithm own =
-      read_algorithm(std::filesystem::path(FRANGIA_SOURCE_DIR) / "examples" / "my-algorithm.toml");
+  const LinearAlgorithm own = read_algorithm(std::filesystem::path(FRANGIA_SOURCE_DIR) /
+                                             "examples" / "algorithms" / "my-algorithm.toml");
   EXPECT_EQ(own.algorithm.name, "my-5-step");
   EXPECT_NEAR(phase_of(own.algorithm, counts_of(1.2, own.shifts_rad)), 1.2, 1e-9);
 }

@@ -1,9 +1,13 @@
 // Indirect light from the frames to the mesh.
 #include <algorithm>
+#include <filesystem>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/pipeline/reconstruct.h"
+#include "frangia/rig/read_rig.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
@@ -53,6 +57,20 @@ TEST(IndirectLight, OfAGrooveIsFoundAndCountedInSigma) {
   const Reconstruction ignored = reconstruct(scan, {.indirect_light = false});
   EXPECT_FALSE(ignored.indirect_light);
   EXPECT_TRUE(ignored.mesh.sigma_systematic_mm.empty());
+}
+
+TEST(IndirectLight, DoesNotStopAScanOfFewPixels) {
+  const testing::TemporaryFolder folder;
+  Scan plan;
+  plan.folder = folder.path() / "scan";
+  plan.name = "bust";
+  plan.rig = read_rig(std::filesystem::path(FRANGIA_SOURCE_DIR) / "tests" / "data" /
+                      "small-interferometer.toml");
+  plan.patterns = default_patterns(plan.rig);
+  for (int i = 0; i < 4; ++i)
+    plan.views.push_back({kTwoPi * i / 4, "views/" + std::to_string(i)});
+  const Scan scan = simulate_scan(make_part("bust"), plan, {.samples_per_px = 4});
+  EXPECT_GT(reconstruct(scan).mesh.triangles.size(), 1000U);
 }
 
 TEST(IndirectLight, IsNotFoundWhereThereIsNone) {

@@ -15,7 +15,9 @@ namespace frangia {
 /// several meet, a concave edge takes the nearer one, a convex edge the farther one. A pixel
 /// without a flat neighbourhood in reach keeps its depth.
 ///
+/// @param range    of one view
 /// @param most_mm  largest shift of a pixel's depth that is plausible; 0: reliable; NaN: no point
+/// @param rays     of the camera
 /// @shape    `most_mm` and `rays` as the grid
 /// @units    mm
 [[nodiscard]] Image<float> extrapolate_faces(const RangeGrid& range,

@@ -37,7 +37,7 @@ struct IndirectPhase {
 
 /// The phase of the direct light.
 struct SolvedPhase {
-  double phase_rad = 0.0;
+  double phase_rad = 0.0;    ///< of the finest pattern
   bool wrong_order = false;  ///< as in IndirectPhase
 };
 
@@ -45,7 +45,12 @@ struct SolvedPhase {
 /// indirect light stays as it is while the point moves, so the solution does not depend on where
 /// the point was assumed.
 ///
-/// @param share      as predicted for a point with the phase `assumed_rad`
+/// @param share         as predicted for a point with the phase `assumed_rad`
+/// @param assumed_rad   phase at which the point was predicted
+/// @param measured_rad  phase of the frames
+/// @param albedo        reflectance of the surface, 0 to 1
+/// @param patterns      of one direction, coarse to fine
+/// @param source        which maps the phase was computed from
 /// @units    rad, of the finest pattern
 [[nodiscard]] SolvedPhase direct_phase(const IndirectShare& share,
                                        double assumed_rad,

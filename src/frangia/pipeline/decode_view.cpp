@@ -190,11 +190,11 @@ DecodedView decode_code_alone(std::span<const FrameStack> stacks,
 AbsolutePhase own_unwrapped(std::span<const WrappedPhase> maps, const DecodeOptions& options) {
   AbsolutePhase phase = options.own.unwrap(maps);
   const Image<float>& size = maps.back().phase_rad;
-  require(
-      same_size(phase.phase_rad, size) && same_size(phase.sigma_rad, size) &&
-          same_size(phase.status, size),
-      "the phase of your own `unwrap` has another size than its maps; return images of the size "
-      "of the frames");
+  require(same_size(phase.phase_rad, size) && same_size(phase.sigma_rad, size) &&
+              same_size(phase.status, size),
+          "the phase of your own unwrapping function has another size than its maps; return images "
+          "of the size "
+          "of the frames");
   phase.pattern = maps.back().pattern;
   if (phase.systematic_rad.empty()) phase.systematic_rad = maps.back().systematic_rad;
   return phase;
@@ -206,7 +206,7 @@ RelativePhase own_unwrapped_spatially(const WrappedPhase& map, const DecodeOptio
   require(
       same_size(phase.phase_rad, map.phase_rad) && same_size(phase.sigma_rad, map.phase_rad) &&
           same_size(phase.region, map.phase_rad) && same_size(phase.status, map.phase_rad),
-      "the phase of your own `unwrap_spatially` has another size than its map; return images of "
+      "the phase of your own spatial unwrapping has another size than its map; return images of "
       "the size of the frames");
   phase.pattern = map.pattern;
   if (phase.systematic_rad.empty()) phase.systematic_rad = map.systematic_rad;

@@ -33,23 +33,22 @@ Rig arrange_rig(Rig rig, const RigArrangement& wanted) {
   const Rig before = rig;
   if (wanted.camera_focal_px)
     set_focal(rig.camera.model,
-              positive(wanted.camera_focal_px, "`camera_focal_px` must be above 0"));
+              positive(wanted.camera_focal_px, "camera_focal_px must be above 0"));
   if (wanted.projector_focal_px) {
     auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
     require(pinhole != nullptr,
-            "`projector_focal_px` is of a digital projector; this rig has an interferometer");
-    set_focal(*pinhole,
-              positive(wanted.projector_focal_px, "`projector_focal_px` must be above 0"));
+            "projector_focal_px is of a digital projector; this rig has an interferometer");
+    set_focal(*pinhole, positive(wanted.projector_focal_px, "projector_focal_px must be above 0"));
   }
   if (wanted.distance_mm) {
-    const double distance = positive(wanted.distance_mm, "`distance_mm` must be above 0");
-    require(rig.turntable.has_value(), "`distance_mm` is to the turntable; this rig has none");
+    const double distance = positive(wanted.distance_mm, "distance_mm must be above 0");
+    require(rig.turntable.has_value(), "distance_mm is to the turntable; this rig has none");
     rig.turntable->point_mm = distance * before.turntable->point_mm.normalized();
   }
   if (wanted.baseline_mm) {
-    const double baseline = positive(wanted.baseline_mm, "`baseline_mm` must be above 0");
+    const double baseline = positive(wanted.baseline_mm, "baseline_mm must be above 0");
     require(before.projector.position_mm.norm() > 0.0,
-            "`baseline_mm`: the projector stands at the camera, so that its direction is open");
+            "baseline_mm: the projector stands at the camera, so that its direction is open");
     rig.projector.position_mm = baseline * before.projector.position_mm.normalized();
   }
   if (rig.turntable && (wanted.distance_mm || wanted.baseline_mm)) {

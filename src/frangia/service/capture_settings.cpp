@@ -15,8 +15,8 @@ namespace frangia {
 
 void CaptureSettings::check() const {
   require(camera.exposure_ms > 0.0, "`exposure_ms` must be above 0");
-  require(camera.gain_db >= 0.0, "`gain_db` must be 0 or more");
-  require(camera.black_level_counts >= 0.0, "`black_level_counts` must be 0 or more");
+  require(camera.gain_db >= 0.0, "gain_db must be 0 or more");
+  require(camera.black_level_counts >= 0.0, "black_level_counts must be 0 or more");
   require(shifts >= kFewestShifts && shifts <= kMostShifts,
           fmt::format("`shifts` must be from {} to {}", kFewestShifts, kMostShifts).c_str());
   const auto& known = published_algorithms();

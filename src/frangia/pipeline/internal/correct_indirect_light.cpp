@@ -3,6 +3,7 @@
 #include <functional>
 #include <utility>
 
+#include "frangia/core/error.h"
 #include "frangia/pipeline/internal/continued_surface.h"
 #include "frangia/pipeline/internal/indirect_part.h"
 
@@ -18,6 +19,18 @@ void correct_all(MeasuredViews& measured, const IndirectPart& indirect, const Ru
   }
 }
 
+/// The surface that `make` fuses; empty where the views have too few points for one, which then
+/// says nothing about indirect light.
+template <typename Make>
+Mesh surface_or_none(const Make& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Cancelled) throw;
+    return {};
+  }
+}
+
 /// The prediction of a surface, made better by the surface that continues its reliable faces.
 std::optional<IndirectPart> predict(const MeasuredViews& measured,
                                     const Mesh& surface,
@@ -28,8 +41,9 @@ std::optional<IndirectPart> predict(const MeasuredViews& measured,
                                     const Run& run) {
   auto first = indirect_part(scan, measured, surface, rays, decode, run);
   if (!first) return first;
-  const Mesh continued =
-      continued_surface(measured, *first, scan.rig.camera.model, rays, coarse, run);
+  const Mesh continued = surface_or_none([&] {
+    return continued_surface(measured, *first, scan.rig.camera.model, rays, coarse, run);
+  });
   auto second = indirect_part(scan, measured, continued, rays, decode, run);
   // The frames decide which surface predicts what they show; alike, the one without gaps.
   constexpr double kAlike = 1.1;
@@ -54,7 +68,8 @@ bool correct_before_registration(MeasuredViews& measured,
     // A coarser surface finds out whether there is anything to correct.
     FusionOptions fusion = coarse;
     if (pass == 0) fusion.voxel_mm *= 2.0;
-    const Mesh surface = fuse_views(measured.views, scan.rig.camera.model, fusion, quiet);
+    const Mesh surface = surface_or_none(
+        [&] { return fuse_views(measured.views, scan.rig.camera.model, fusion, quiet); });
     const auto indirect = predict(measured, surface, scan, rays, decode, coarse, quiet);
     if (!indirect) return pass > 0;
     correct_all(measured, *indirect, run);

@@ -71,14 +71,16 @@ WrappedPhase own_wrapped(const FrameStack& stack,
   };
   if (!fits(map.phase_rad) || !fits(map.sigma_rad) || !fits(map.modulation_counts) ||
       !fits(map.mean_counts) || !fits(map.status)) {
-    throw Error(ErrorKind::Input,
-                fmt::format("your own `wrap` returned images of {} x {} pixels for pattern \"{}\"; "
-                            "return them in the size of the frames, {} x {}",
-                            map.phase_rad.width(),
-                            map.phase_rad.height(),
-                            stack.pattern.name,
-                            width,
-                            height));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format(
+            "your own wrapping function returned images of {} x {} pixels for pattern \"{}\"; "
+            "return them in the size of the frames, {} x {}",
+            map.phase_rad.width(),
+            map.phase_rad.height(),
+            stack.pattern.name,
+            width,
+            height));
   }
   map.pattern = stack.pattern;
   return map;
