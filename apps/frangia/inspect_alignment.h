@@ -14,7 +14,7 @@ namespace frangia {
 
 /// Options of the alignment of a mesh to its reference.
 struct AlignmentArguments {
-  std::string align;                 ///< empty: as it stands, and nothing is said of it
+  std::string align;                 ///< empty: as it stands, without a word about the alignment
   std::size_t start = 0;             ///< of poses that fit alike, counted from 1; 0: none chosen
   std::vector<double> tolerance_mm;  ///< one: plus and minus; two: lower and upper; none: chosen
 

@@ -31,8 +31,8 @@ struct InspectedPart {
 /// Adds `characteristics` and `sections`.
 void add_results(InspectAnswer& answer, const InspectedPart& part);
 
-/// Writes the report, and beside it the JSON, the characteristics as CSV and each section as DXF
-/// and SVG. Returns the paths that were written.
+/// Writes the report, and in the same folder the JSON, the characteristics as CSV and each section
+/// as DXF and SVG. Returns the paths that were written.
 [[nodiscard]] std::vector<std::string> write_report(const InspectArguments& arguments,
                                                     const InspectionPlan& plan,
                                                     const InspectedPart& part,

@@ -212,7 +212,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
                    "part");
   verb->add_option("--report",
                    arguments->report,
-                   "write a report as one page, .html, and JSON and CSV beside it");
+                   "write a report as one .html page, and .json and .csv files of the same name");
   verb->add_option("--batch",
                    arguments->batch,
                    "inspect several meshes by the plan and write a table with mean, Cp and Cpk: "

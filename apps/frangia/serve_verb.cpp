@@ -183,9 +183,10 @@ void add_serve_verb(CLI::App& program, Terminal& terminal) {
   verb->add_flag("--behind-proxy",
                  arguments->access.behind_proxy,
                  "browsers come through a reverse proxy that adds TLS");
-  verb->add_flag("--plain-lan",
-                 arguments->access.plain_lan,
-                 "answer other machines without encryption; whoever listens sees all");
+  verb->add_flag(
+      "--plain-lan",
+      arguments->access.plain_lan,
+      "answer other machines without encryption; anyone on the network can read the traffic");
   verb->add_option("--allowed-host",
                    arguments->access.allowed_hosts,
                    "name, and port if not the usual one, by which browsers reach the server");

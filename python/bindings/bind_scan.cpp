@@ -131,7 +131,7 @@ void bind_scan(py::module_& module) {
       py::arg("step_error") = 0.0,
       py::arg("progress") = py::none(),
       "Renders a scan of a part (a name or a Mesh) with a rig (a preset or a Rig) into a new "
-      "folder, with the true surface beside it as truth.ply.");
+      "folder, with the true surface as truth.ply in the same folder.");
 }
 
 }  // namespace frangia::python

@@ -114,8 +114,9 @@ TEST_F(BatchProgram, NamesWhatIsWrongWithAPlan) {
 }
 
 TEST_F(BatchProgram, SaysThatSlurmIsMissing) {
-  if (std::system("command -v sbatch >/dev/null") == 0) GTEST_SKIP() << "there is a Slurm here";
-  const Answer answer = batch(scans(), out("slurm"), "--slurm --memory 100 --minutes 5");
+  const Answer answer =
+      testing::run_shell("PATH=/nonexistent " FRANGIA_PROGRAM " --json batch " + word_of(scans()) +
+                         " -o " + word_of(out("slurm")) + " --slurm --memory 100 --minutes 5");
   EXPECT_EQ(answer.exit_code, 3);
   EXPECT_NE(answer.output.find("sbatch"), std::string::npos) << answer.output;
 }

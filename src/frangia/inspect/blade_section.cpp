@@ -61,7 +61,7 @@ Profile resampled(const SectionCurve& curve) {
   return profile;
 }
 
-/// A circle within a profile, and the point that it touches beside its own.
+/// A circle within a profile, and the point that it touches apart from its own.
 struct InscribedCircle {
   Vector2d center_mm = Vector2d::Zero();
   double radius_mm = std::numeric_limits<double>::infinity();

@@ -34,7 +34,7 @@ struct SectionCurve {
 /// Synthesized triangles are left out, so that curves are open at filled holes.
 ///
 /// @shape    the longest curve first
-/// @missing  a value is NaN where that of a vertex beside it is
+/// @missing  a value is NaN where that of a neighboring vertex is
 /// @errors   Error(Input) when `values` is neither empty nor one for each vertex
 [[nodiscard]] std::vector<SectionCurve> section_curves(const Mesh& mesh,
                                                        const SectionPlane& plane,

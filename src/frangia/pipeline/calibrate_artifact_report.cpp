@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/html_escaped.h"
 #include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/pipeline/internal/calibrate_artifact_distances.h"
 #include "frangia/pipeline/internal/calibrate_report_page.h"
@@ -26,7 +27,7 @@ std::string signed_color(double share) {
 void add_rig_summary(const ArtifactCalibration& result, std::string& html) {
   const Calibration& calibration = *result.rig.calibration;
   html += fmt::format("<h1>Calibration</h1><p>By {}, {}, in {} views.</p>\n",
-                      escaped(calibration.board),
+                      html_escaped(calibration.board),
                       calibration.date,
                       calibration.poses);
   if (result.table) {
@@ -65,7 +66,7 @@ void add_screen(const ArtifactCalibration& result, std::string& html) {
     const ResidualSummary& summary = camera.by_view[view];
     html += fmt::format(
         "<tr><td>{}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:.3f}</td><td>{:.0f}</td></tr>\n",
-        escaped(result.screens[view].name),
+        html_escaped(result.screens[view].name),
         summary.rms_px,
         summary.rms_px * distance_mm / camera.camera.focal_px.x(),
         summary.max_px,
@@ -123,7 +124,7 @@ void add_views(const ArtifactCalibration& result, std::string& html) {
       html += fmt::format(
           "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:.3f}</td>"
           "<td>{:.4f}</td></tr>\n",
-          escaped(capture.views[v].name),
+          html_escaped(capture.views[v].name),
           name_of(capture.artifact),
           distances.size(),
           rms_mm(distances),
@@ -171,7 +172,7 @@ void write_artifact_report(const std::filesystem::path& path,
   std::string html = report_head();
   add_rig_summary(result, html);
   for (const std::string& warning : warnings)
-    html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(warning));
+    html += fmt::format("<p class=\"warning\">{}</p>\n", html_escaped(warning));
   if (result.camera) add_screen(result, html);
   if (result.table) add_table(result, html);
   html += "</body></html>\n";

@@ -16,7 +16,7 @@ struct CheckRigOptions {
   /// Deviation that is allowed, mm. 0: three standard deviations of the measurement and of the
   /// calibration's covariance, and `floor_share` of the distance.
   double tolerance_mm = 0.0;
-  /// Share of the distance that a sound rig may deviate by beside its covariance: an excellent
+  /// Share of the distance that a sound rig may deviate by on top of its covariance: an excellent
   /// calibration, 0.025 mm at half a metre.
   double floor_share = 5e-5;
   /// Distance up to which points of two views are taken as the same place, as a share of their

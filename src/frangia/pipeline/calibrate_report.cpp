@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/html_escaped.h"
 #include "frangia/pipeline/internal/calibrate_report_page.h"
 
 namespace frangia {
@@ -80,7 +81,7 @@ void add_summary(const RigCalibration& result, const Board& board, std::string& 
         "projector", "projector", solution.projector, solution.projector_residuals, solution, html);
   }
   for (const FurtherCameraSolution& camera : solution.more_cameras) {
-    add_device(escaped("camera \"" + camera.name + "\""),
+    add_device(html_escaped("camera \"" + camera.name + "\""),
                "camera-" + camera.name,
                camera.model,
                camera.residuals,
@@ -90,7 +91,7 @@ void add_summary(const RigCalibration& result, const Board& board, std::string& 
   html += "</table>\n";
   if (solution.has_projector) html += place_of("The projector", solution.projector_from_camera);
   for (const FurtherCameraSolution& camera : solution.more_cameras)
-    html += place_of(escaped("Camera \"" + camera.name + "\""), camera.camera_from_rig);
+    html += place_of(html_escaped("Camera \"" + camera.name + "\""), camera.camera_from_rig);
   html += fmt::format(
       "<p>Estimated beyond one focal length, principal point and k1: {}.<br>Held, because the "
       "poses "
@@ -114,7 +115,7 @@ std::vector<PoseColumn> pose_columns(const RigSolution& solution) {
         {"projector", &solution.projector_by_view, solution.projector_residuals.rms_px});
   }
   for (const FurtherCameraSolution& camera : solution.more_cameras)
-    columns.push_back({escaped(camera.name), &camera.by_view, camera.residuals.rms_px});
+    columns.push_back({html_escaped(camera.name), &camera.by_view, camera.residuals.rms_px});
   return columns;
 }
 
@@ -129,7 +130,7 @@ void add_poses(const RigCalibration& result, std::string& html) {
     const Eigen::Isometry3d& pose = solution.camera_from_board[i];
     const double tilt_rad =
         std::acos(std::min(1.0, std::abs(pose.linear().col(2).dot(Eigen::Vector3d::UnitZ()))));
-    html += fmt::format("<tr><td>{}</td>", escaped(result.views[i].name));
+    html += fmt::format("<tr><td>{}</td>", html_escaped(result.views[i].name));
     for (const PoseColumn& column : columns) {
       const double rms_px = (*column.by_view)[i].rms_px;
       const bool bad = rms_px > 3.0 * column.typical_px;
@@ -250,7 +251,7 @@ void add_boards(const RigCalibration& result, std::string& html) {
                       color_of(error_px / large_px));
     }
     html += fmt::format("</svg><figcaption>{}</figcaption></figure>\n",
-                        escaped(result.views[view].name));
+                        html_escaped(result.views[view].name));
   }
   html += "</div>\n";
 }
@@ -264,7 +265,7 @@ void write_calibration_report(const std::filesystem::path& path,
   std::string html = report_head();
   add_summary(result, board, html);
   for (const std::string& warning : warnings)
-    html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(warning));
+    html += fmt::format("<p class=\"warning\">{}</p>\n", html_escaped(warning));
   add_poses(result, html);
   const RigSolution& solution = result.solution;
   html += "<h2>Residuals and coverage</h2><div class=\"row\">\n";

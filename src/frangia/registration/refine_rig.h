@@ -31,7 +31,7 @@ struct RefineRigOptions {
   double relative_principal_sigma = 5e-4;  ///< of both principal points, as a share of the width:
                                            ///< chips shift in their sockets by some micrometres
   RegisterOptions table;                   ///< prior of axis and angles, reach and iterations
-  int max_rounds = 6;                      ///< each triangulates all points anew
+  int max_rounds = 6;                      ///< each triangulates all points again
   double min_gain = 1.0;  ///< information of the surfaces in units of the prior's, below which a
                           ///< direction of the parameters is held
   /// Known distance of the centers of the two balls of a ball bar in the scan: it fixes the scale.

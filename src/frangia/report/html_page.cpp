@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/html_escaped.h"
 #include "frangia/frames/encode_picture.h"
 
 namespace frangia {
@@ -50,24 +51,6 @@ std::string cell_of(const std::string& text) {
 }
 
 }  // namespace
-
-std::string html_escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 HtmlPage::HtmlPage(std::string_view title) : title_(html_escaped(title)) {
   body_ = fmt::format("<h1>{}</h1>\n", title_);

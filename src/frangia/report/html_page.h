@@ -9,9 +9,6 @@
 
 namespace frangia {
 
-/// Replaces the characters that have a meaning in HTML.
-[[nodiscard]] std::string html_escaped(std::string_view text);
-
 /// A page of HTML without references to other files. Texts are escaped.
 class HtmlPage {
  public:

@@ -6,7 +6,7 @@
 namespace frangia {
 
 /// Takes the covariance of the start as a prior. That of the pose of an angular projector is left
-/// out: it is estimated anew.
+/// out: it is estimated again.
 void set_artifact_prior(const Rig& start, ArtifactProblem& problem);
 
 }  // namespace frangia

@@ -39,7 +39,7 @@ void check_part_of(const Scan& scan,
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
     run.check();
-    // A part that was set up anew is another part.
+    // In another setup the part lies elsewhere on the table.
     if (scan.views[i].setup != scan.views.front().setup) continue;
     const std::vector<LightSite> sites = measure_light(read_frames(scan, i, run), rig, light, run);
     views.push_back({site_points(sites, rig), table_turn(rig, scan.views[i].angle_rad)});

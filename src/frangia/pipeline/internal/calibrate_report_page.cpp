@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/atomic_file.h"
+#include "frangia/core/html_escaped.h"
 #include "frangia/frames/png.h"
 
 namespace frangia {
@@ -43,24 +44,6 @@ std::string report_head() {
   return kHead;
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string picture_data(const Image<std::uint8_t>& picture) {
   return "data:image/png;base64," + base64_of(encode_png(picture));
 }
@@ -93,7 +76,7 @@ std::string residual_figure(const ResidualMap& map) {
                     "{:.3f} {}, the RMS. Red is three times that or more. Arrows of neighbors that "
                     "agree are a fault of the model; a random pattern is noise.</figcaption>"
                     "</figure>\n",
-                    escaped(map.title),
+                    html_escaped(map.title),
                     kArrow * map.width,
                     map.rms,
                     map.unit);

@@ -14,9 +14,6 @@ namespace frangia {
 /// The beginning of a page that stands alone, up to the body.
 [[nodiscard]] std::string report_head();
 
-/// Text for HTML.
-[[nodiscard]] std::string escaped(std::string_view text);
-
 /// A grey picture for the attribute href of an image.
 [[nodiscard]] std::string picture_data(const Image<std::uint8_t>& picture);
 

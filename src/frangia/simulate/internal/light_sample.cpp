@@ -79,7 +79,7 @@ Vector3d shading_normal(const SimulatedScene& scene, const RayHit& hit) {
   return normal.squaredNorm() > 0.0 ? normal.normalized() : hit.normal;
 }
 
-/// The light of a monitor, which shines evenly in all directions; none beside its pixels.
+/// The light of a monitor, which shines evenly in all directions; none outside its pixels.
 LightSample screen_light(const Screen& screen, const Vector3d& point) {
   constexpr double kFace_mm = 0.01;
   LightSample sample;
