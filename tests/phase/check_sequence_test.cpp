@@ -36,8 +36,11 @@ double column_at(int x, int y) {
   return 60.0 + 1.6 * x + bulge + (x > 200 ? 25.0 : 0.0);
 }
 
-/// The frames that a projector shows with `shown`, declared as `declared`.
-FrameStack shown_frames(const Pattern& shown, const Pattern& declared, unsigned seed) {
+/// The frames that a projector of a display gamma shows with `shown`, declared as `declared`.
+FrameStack shown_frames(const Pattern& shown,
+                        const Pattern& declared,
+                        unsigned seed,
+                        double gamma = 1.0) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> noise(0.0, 1.5);
   FrameStack stack{.pattern = declared, .frames = {}, .white_level = 255};
@@ -46,8 +49,9 @@ FrameStack shown_frames(const Pattern& shown, const Pattern& declared, unsigned 
     for (int y = 0; y < kViewHeight; ++y) {
       for (int x = 0; x < kViewWidth; ++x) {
         const double phase = kTwoPi * column_at(x, y) / shown.period_px;
-        image(x, y) = static_cast<std::uint8_t>(
-            std::lround(120.0 + 80.0 * std::cos(phase + shift) + noise(generator)));
+        const double light = std::pow(0.5 + 0.5 * std::cos(phase + shift), gamma);
+        image(x, y) =
+            static_cast<std::uint8_t>(std::lround(40.0 + 160.0 * light + noise(generator)));
       }
     }
     stack.frames.emplace_back(std::move(image));
@@ -67,11 +71,12 @@ std::vector<Pattern> whole_counts(const std::vector<double>& fringes, int frames
 
 SequenceCheck checked(const std::vector<Pattern>& shown,
                       const std::vector<Pattern>& declared,
-                      unsigned seed = 1) {
+                      unsigned seed = 1,
+                      double gamma = 1.0) {
   const NoiseModel noise{1.5 * 1.5 + 1.0 / 12.0, 0.0};
   std::vector<FrameStack> stacks;
   for (std::size_t m = 0; m < shown.size(); ++m)
-    stacks.push_back(shown_frames(shown[m], declared[m], seed + static_cast<unsigned>(m)));
+    stacks.push_back(shown_frames(shown[m], declared[m], seed + static_cast<unsigned>(m), gamma));
   std::vector<SequenceFrames> maps;
   for (const FrameStack& stack : stacks)
     maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
@@ -84,6 +89,20 @@ void expect_only(const SequenceCheck& found, const std::string& pattern, const s
   ASSERT_EQ(found.fits.size(), 1U) << describe(found);
   EXPECT_EQ(found.fits.front().patterns, std::vector{pattern}) << describe(found);
   EXPECT_EQ(found.fits.front().keys, keys) << describe(found);
+}
+
+TEST(CheckSequence, BlamesNoSoundSequenceOfADisplayThatIsNotLinear) {
+  for (const double gamma : {1.8, 2.2, 2.6}) {
+    for (const int frames : {3, 4, 5, 6, 8, 12}) {
+      for (const auto& fringes :
+           std::vector<std::vector<double>>{{1, 8, 64}, {1, 4, 16}, {64, 58, 53}}) {
+        const std::vector<Pattern> patterns = whole_counts(fringes, frames);
+        const SequenceCheck check = checked(patterns, patterns, 1, gamma);
+        EXPECT_TRUE(check.consistent) << "gamma " << gamma << ", " << frames << " frames, up to "
+                                      << fringes.back() << " fringes: " << describe(check);
+      }
+    }
+  }
 }
 
 TEST(CheckSequence, BlamesNoSoundSequence) {

@@ -12,14 +12,24 @@
 namespace frangia {
 namespace {
 
+/// Residual of the fringe fit over the modulation above which the frames are in another order
+/// though no order fits: a display of gamma 2.2, whose second harmonic is 0.29, leaves 0.4 of four
+/// frames.
+constexpr double kNoFringes = 0.6;
+
 /// Systematic phase error, rad, that a sound map may have: harmonics of a display, errors of steps.
-constexpr double kSystematic_rad = 0.05;
+/// Three frames are blind to the second harmonic, which is 0.29 of the first for gamma 2.2.
+double systematic_rad(const Pattern& pattern) {
+  constexpr double kThreeFrames_rad = 0.2;
+  constexpr double kMoreFrames_rad = 0.05;
+  return pattern.shifts_rad.size() <= 3 ? kThreeFrames_rad : kMoreFrames_rad;
+}
 
 /// Largest expected misfit of a sound sequence, over chance, for which the check decides.
 constexpr double kMaxExpected = 0.4;
 
-/// Residual of the fringe fit over the modulation: frames of another order have 0.5 and more,
-/// harmonics of 10 % leave 0.1.
+/// Residual of the fringe fit over the modulation above which other orders are tried: frames of
+/// another order have 0.5 and more, harmonics of 10 % leave 0.1.
 constexpr double kMaxFitResidual = 0.3;
 constexpr double kFittedResidual = 0.4;  ///< of a declaration that fits, over that of scan.toml
 
@@ -63,6 +73,30 @@ SequenceCheck with_fits(SequenceCheck check, std::vector<RankedTrial> found) {
   return check;
 }
 
+/// The result for a pattern whose frames have one of the orders, or none that is known.
+SequenceCheck misordered(const SequenceSample& sample,
+                         std::size_t map,
+                         const std::vector<SequenceTrial>& orders,
+                         SequenceCheck out,
+                         const SequenceCheckOptions& options,
+                         bool absolute) {
+  std::vector<RankedTrial> found;
+  if (out.decided) {
+    found = plausible(sample,
+                      fitting(sample, orders, options.max_misfit * out.chance_rad, options),
+                      options,
+                      absolute);
+  }
+  if (found.empty()) {
+    for (const SequenceTrial& trial : orders)
+      found.push_back({trial, 0.0});
+  }
+  out.decided = true;
+  out.consistent = false;
+  out.patterns = {sample.patterns()[map].name};
+  return with_fits(std::move(out), std::move(found));
+}
+
 }  // namespace
 
 SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
@@ -80,27 +114,15 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
     out.misfit_rad = sample.misfit();
     out.chance_rad = sample.chance();
     out.decided = out.misfit_rad <= options.max_misfit * out.chance_rad ||
-                  sample.expected_misfit(kSystematic_rad) <= kMaxExpected * out.chance_rad;
+                  sample.expected_misfit(systematic_rad) <= kMaxExpected * out.chance_rad;
   }
   const bool absolute = determine_absolute_phase(sample.patterns(), projector);
-  std::vector<RankedTrial> found;
   double residual = 0.0;
   if (const auto map = misordered_map(sample, residual)) {
-    std::vector<SequenceTrial> orders = fitting_orders(sample, *map, residual);
-    if (out.decided) {
-      found = plausible(sample,
-                        fitting(sample, orders, options.max_misfit * out.chance_rad, options),
-                        options,
-                        absolute);
-    }
-    if (found.empty()) {
-      for (SequenceTrial& trial : orders)
-        found.push_back({std::move(trial), 0.0});
-    }
-    out.decided = true;
-    out.consistent = false;
-    out.patterns = {sample.patterns()[*map].name};
-    return with_fits(std::move(out), std::move(found));
+    const std::vector<SequenceTrial> orders = fitting_orders(sample, *map, residual);
+    // Without an order that fits, harmonics explain what is left of the frames.
+    if (!orders.empty() || residual > kNoFringes)
+      return misordered(sample, *map, orders, std::move(out), options, absolute);
   }
   const bool disagree = out.decided && out.misfit_rad > options.max_misfit * out.chance_rad;
   if (out.decided && !disagree && absolute) out.split_rows = sample.split_lines();
@@ -110,8 +132,7 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);
   std::vector<RankedTrial> fits = fitting(sample, all_trials(sample), limit, options);
   if (disagree) fits = ranked(sample, with_free_starts(sample, std::move(fits)), limit, options);
-  found = plausible(sample, std::move(fits), options, absolute);
-  return with_fits(std::move(out), std::move(found));
+  return with_fits(std::move(out), plausible(sample, std::move(fits), options, absolute));
 }
 
 }  // namespace frangia

@@ -157,10 +157,11 @@ double SequenceSample::chance(const SequenceTrial& trial) const {
   return least;
 }
 
-double SequenceSample::expected_misfit(double systematic_rad) const {
+double SequenceSample::expected_misfit(double (&systematic)(const Pattern&)) const {
   const std::vector<double> per_unit = frequencies_of({});
   Phases phases(maps_.size());
   for (std::size_t m = 0; m < maps_.size(); ++m) {
+    const double systematic_rad = systematic(patterns_[m]);
     for (std::size_t i = 0; i < compared_.size(); ++i) {
       const double unit = first_ + (last_ - first_) * uniform_from(hash(7, i));
       const double noise = std::hypot(maps_[m].sigma_rad.pixels()[compared_[i]], systematic_rad);
