@@ -81,7 +81,8 @@ class LightOfAScan : public testing::PseudoTerminalTest {
                                               double delay_s,
                                               int& exit_code) {
     StartedProgram program(command(), output());
-    if (wait_until([&] { return is_lit(); }, 20.0) < 0.0) return -1.0;
+    static_cast<void>(wait_until([&] { return is_lit() || program.has_ended(); }, 20.0));
+    if (!is_lit()) ADD_FAILURE() << "the light did not go on: " << testing::text_of(output());
     std::this_thread::sleep_for(std::chrono::duration<double>(delay_s));
     for (const int signal : signals)
       program.send(signal);

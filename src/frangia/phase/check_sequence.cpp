@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "frangia/phase/internal/rank_trials.h"
 #include "frangia/phase/internal/sequence_sample.h"
@@ -17,12 +18,16 @@ namespace {
 /// frames.
 constexpr double kNoFringes = 0.6;
 
-/// Systematic phase error, rad, that a sound map may have: harmonics of a display, errors of steps.
-/// Three frames are blind to the second harmonic, which is 0.29 of the first for gamma 2.2.
-double systematic_rad(const Pattern& pattern) {
+/// Systematic phase error of each pattern, rad RMS, that a sound sequence may have: harmonics of a
+/// display, errors of steps. Three frames are blind to the second harmonic, which is 0.29 of the
+/// first for gamma 2.2.
+std::vector<double> largest_systematic(const std::vector<Pattern>& patterns) {
   constexpr double kThreeFrames_rad = 0.2;
   constexpr double kMoreFrames_rad = 0.05;
-  return pattern.shifts_rad.size() <= 3 ? kThreeFrames_rad : kMoreFrames_rad;
+  std::vector<double> out;
+  for (const Pattern& pattern : patterns)
+    out.push_back(pattern.shifts_rad.size() <= 3 ? kThreeFrames_rad : kMoreFrames_rad);
+  return out;
 }
 
 /// Largest expected misfit of a sound sequence, over chance, for which the check decides.
@@ -114,7 +119,8 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
     out.misfit_rad = sample.misfit();
     out.chance_rad = sample.chance();
     out.decided = out.misfit_rad <= options.max_misfit * out.chance_rad ||
-                  sample.expected_misfit(systematic_rad) <= kMaxExpected * out.chance_rad;
+                  sample.expected_misfit(largest_systematic(sample.patterns())) <=
+                      kMaxExpected * out.chance_rad;
   }
   const bool absolute = determine_absolute_phase(sample.patterns(), projector);
   double residual = 0.0;

@@ -129,7 +129,7 @@ std::vector<RankedTrial> with_free_starts(const SequenceSample& sample,
   constexpr double kNoise = 1.3;   // times the misfit of noise alone
   constexpr double kBetter = 0.8;  // misfit of a free start over the best of the others
   const double best = found.empty() ? std::numeric_limits<double>::max() : found.front().misfit_rad;
-  if (best <= kNoise * sample.expected_misfit(0.0)) return found;
+  if (best <= kNoise * sample.expected_misfit()) return found;
   for (std::size_t map = 0; map < sample.patterns().size(); ++map) {
     SequenceTrial trial = free_start(sample, map);
     const double misfit = sample.misfit(trial);
@@ -155,7 +155,7 @@ std::vector<RankedTrial> plausible(const SequenceSample& sample,
   }
   if (fitting.empty()) return fitting;
   const double best = fitting.front().misfit_rad;
-  const bool noise_alone = best <= kNoise * sample.expected_misfit(0.0);
+  const bool noise_alone = best <= kNoise * sample.expected_misfit();
   const double tie = noise_alone ? options.noise_tie : options.tie;
   std::erase_if(fitting, [&](const RankedTrial& one) { return one.misfit_rad > tie * best; });
   const auto is_compound = [](const RankedTrial& one) { return one.trial.fault.is_compound; };

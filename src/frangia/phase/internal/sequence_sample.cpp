@@ -157,14 +157,14 @@ double SequenceSample::chance(const SequenceTrial& trial) const {
   return least;
 }
 
-double SequenceSample::expected_misfit(double (&systematic)(const Pattern&)) const {
+double SequenceSample::expected_misfit(std::span<const double> systematic_rad) const {
   const std::vector<double> per_unit = frequencies_of({});
   Phases phases(maps_.size());
   for (std::size_t m = 0; m < maps_.size(); ++m) {
-    const double systematic_rad = systematic(patterns_[m]);
+    const double systematic = systematic_rad.empty() ? 0.0 : systematic_rad[m];
     for (std::size_t i = 0; i < compared_.size(); ++i) {
       const double unit = first_ + (last_ - first_) * uniform_from(hash(7, i));
-      const double noise = std::hypot(maps_[m].sigma_rad.pixels()[compared_[i]], systematic_rad);
+      const double noise = std::hypot(maps_[m].sigma_rad.pixels()[compared_[i]], systematic);
       const double phase = kTwoPi * per_unit[m] * unit + noise * normal_from(hash(hash(m), i));
       phases[m].push_back(static_cast<float>(wrap_rad(phase)));
     }

@@ -29,9 +29,9 @@ class SequenceSample {
   /// The least misfit over the changed maps, or over all if none is changed, if the phase of one of
   /// them is unrelated to those of the others.
   [[nodiscard]] double chance(const SequenceTrial& trial = {}) const;
-  /// The misfit of a sound sequence with the noise of the frames and the systematic error, rad RMS,
-  /// that `systematic` returns for each pattern.
-  [[nodiscard]] double expected_misfit(double (&systematic)(const Pattern&)) const;
+  /// The misfit of a sound sequence with the noise of the frames and a systematic error of each
+  /// map, rad RMS; none if `systematic_rad` is empty.
+  [[nodiscard]] double expected_misfit(std::span<const double> systematic_rad = {}) const;
   /// Share of the lines in which the ends of the field meet on a surface.
   [[nodiscard]] double split_lines(const SequenceTrial& trial = {}) const;
   /// Median over the pixels of the residual of the fringe fit, per frame, over the modulation; 0
