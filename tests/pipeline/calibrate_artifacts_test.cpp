@@ -50,8 +50,8 @@ class CalibrateArtifacts : public ::testing::Test {
       plan.turn_rad = turn_rad;
       static_cast<void>(simulate_artifact(plan));
     };
-    render("screen", Screen{1920, 1080, 0.25}, 5, 0.0);
-    render("plate", Plate{}, 9, 2.1);
+    render("screen", Screen{1920, 1080, 0.25}, 4, 0.0);
+    render("plate", Plate{}, 6, 2.1);
     render("ball-bar", Balls{40.0, 70.0}, 4, 1.0);
   }
   static void TearDownTestSuite() {

@@ -33,19 +33,33 @@ class CalibrateCameras : public ::testing::Test {
     plan.poses = 6;
     static_cast<void>(simulate_calibration(plan, {.samples_per_px = 4}));
   }
-  static void TearDownTestSuite() { delete folder_; }  // NOLINT(*-owning-memory)
+  static void TearDownTestSuite() {
+    delete folder_;  // NOLINT(*-owning-memory)
+    delete found_;   // NOLINT(*-owning-memory)
+  }
 
   [[nodiscard]] static std::filesystem::path poses() { return folder_->path() / "poses"; }
   [[nodiscard]] static Scan scan() { return read_scan(poses(), {}, RigContent::StartValues); }
+  /// What the poses give, with the pictures for a report, calibrated once.
+  [[nodiscard]] static const RigCalibration& found() {
+    if (found_ == nullptr) {
+      CalibrateRigOptions options;
+      options.pose.keep_picture = true;
+      found_ = new RigCalibration(calibrate_rig(scan(), options));  // NOLINT(*-owning-memory)
+    }
+    return *found_;
+  }
   [[nodiscard]] static PosedCamera true_camera() {
     return read_rig(poses() / "truth-rig.toml").more_cameras.at(0);
   }
 
  private:
   static testing::TemporaryFolder* folder_;
+  static RigCalibration* found_;
 };
 
 testing::TemporaryFolder* CalibrateCameras::folder_ = nullptr;
+RigCalibration* CalibrateCameras::found_ = nullptr;
 
 /// Expects the second camera within three standard deviations.
 void expect_near_truth(const RigCalibration& found, const PosedCamera& truth) {
@@ -85,7 +99,7 @@ void expect_near_truth(const RigCalibration& found, const PosedCamera& truth) {
 }
 
 TEST_F(CalibrateCameras, FindTheSecondCameraWithinItsStandardDeviations) {
-  const RigCalibration found = calibrate_rig(scan());
+  const RigCalibration& found = CalibrateCameras::found();
   EXPECT_EQ(found.views.size(), 6U);
   expect_near_truth(found, true_camera());
   const testing::TemporaryFolder folder;
@@ -110,9 +124,7 @@ TEST_F(CalibrateCameras, FindEachOtherByAProjectorThatLabelsPoints) {
 }
 
 TEST_F(CalibrateCameras, AreInTheReport) {
-  CalibrateRigOptions options;
-  options.pose.keep_picture = true;
-  const RigCalibration found = calibrate_rig(scan(), options);
+  const RigCalibration& found = CalibrateCameras::found();
   const testing::TemporaryFolder folder;
   write_calibration_report(folder.path() / "report.html", found, *scan().board);
   const std::string html = testing::text_of(folder.path() / "report.html");
