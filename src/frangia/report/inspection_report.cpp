@@ -1,5 +1,6 @@
 #include "frangia/report/inspection_report.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -66,11 +67,20 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
               {"mean, mm", fmt::format("{:+.4f}", d.mean_mm)},
               {"RMS, mm", number_text(d.rms_mm, 4)},
               {"median standard uncertainty, mm", number_text(d.median_u_mm, 4)}});
-  Rows left_out;
-  for (std::size_t i = 0; i < kDeviationStatuses; ++i)
-    left_out.push_back(
-        {std::string(name_of(static_cast<DeviationStatus>(i))), fmt::format("{}", d.count.at(i))});
-  page.table({"vertices", "number"}, left_out);
+  constexpr std::array<const char*, kDeviationStatuses> kReasons{
+      "compared",
+      "left out: synthesized",
+      "left out: at the edge of the mesh",
+      "left out: at the edge of the reference",
+      "left out: the nearest surface faces the other way",
+      "left out: too far from the reference",
+      "left out: without a triangle"};
+  Rows vertices;
+  for (std::size_t i = 0; i < kDeviationStatuses; ++i) {
+    if (i == 0 || d.count.at(i) > 0)
+      vertices.push_back({kReasons.at(i), fmt::format("{}", d.count.at(i))});
+  }
+  page.table({"vertices", "number"}, vertices);
 }
 
 void add_characteristics(HtmlPage& page, const std::vector<MeasuredCharacteristic>& list) {
