@@ -86,6 +86,25 @@ TEST(CheckOrientation, NamesRowsThatAreExchangedWithColumns) {
   EXPECT_NE(horizontal.fits.find("direction = \"vertical\" fits"), std::string::npos);
 }
 
+TEST(CheckOrientation, DecidesForANarrowPart) {
+  Rig rig = crossed_rig();
+  rig.camera.model.width_px = 640;
+  rig.camera.model.height_px = 480;
+  const auto rays = rays_of(rig.camera.model);
+  const AbsolutePhase whole = bumpy(crossed_rig(), FringeDirection::Vertical, -1.0);
+  AbsolutePhase narrow{.pattern = whole.pattern,
+                       .phase_rad = Image<float>(640, 480, std::nanf("")),
+                       .sigma_rad = Image<float>(640, 480, 0.02F),
+                       .status = Image<PixelStatus>(640, 480, PixelStatus::Unmodulated)};
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 70; x < 90; ++x)
+      narrow.phase_rad(x, y) = whole.phase_rad(x, y);
+  }
+  const OrientationCheck found = check_orientation(narrow, rig, rays);
+  EXPECT_TRUE(found.decided);
+  EXPECT_FALSE(found.consistent);
+}
+
 TEST(CheckOrientation, DecidesNothingForAnEmptyPhase) {
   const Rig rig = crossed_rig();
   AbsolutePhase phase = bumpy(rig, FringeDirection::Vertical);

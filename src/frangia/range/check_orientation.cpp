@@ -15,7 +15,7 @@ namespace frangia {
 namespace {
 
 constexpr int kStep = 2;                 // px between the pixels that are compared
-constexpr std::size_t kSamples = 5'000;  // of the image
+constexpr std::size_t kSamples = 5'000;  // of the measured pixels
 constexpr std::size_t kMinPixels = 200;  // fewer decide nothing
 constexpr double kMajority = 0.8;
 constexpr double kExchanged = 3.0;  // change across over change along; expected: below 1
@@ -59,9 +59,12 @@ OrientationCheck check_orientation(const AbsolutePhase& phase,
     return phase_at(
         distance * Eigen::Vector3d(ray.x(), ray.y(), 1.0), phase.pattern, rig.projector);
   };
-  const std::size_t pixels = phase.phase_rad.pixels().size();
-  const int stride = std::max(
-      1, static_cast<int>(std::sqrt(static_cast<double>(pixels) / static_cast<double>(kSamples))));
+  const auto& phases = phase.phase_rad.pixels();
+  const auto measured_pixels =
+      std::count_if(phases.begin(), phases.end(), [](float value) { return !std::isnan(value); });
+  const int stride = std::max(1,
+                              static_cast<int>(std::sqrt(static_cast<double>(measured_pixels) /
+                                                         static_cast<double>(kSamples))));
   std::size_t rising = 0;
   std::size_t voting = 0;
   std::vector<float> along;
