@@ -1,8 +1,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -143,8 +143,12 @@ Scan plan_of(const ScanArguments& arguments, const Run& run) {
 }
 
 /// The command to continue with. The turntable has moved since its angle was stated.
-std::string command_to_continue(const std::string& command_line) {
-  return std::regex_replace(command_line, std::regex(" --table-at[= ][^ ]+"), "");
+std::string command_to_continue(std::string command_line) {
+  constexpr std::string_view kOption = " --table-at";
+  const std::size_t begin = command_line.find(kOption);
+  if (begin == std::string::npos) return command_line;
+  const std::size_t end = command_line.find(' ', begin + kOption.size() + 1);
+  return command_line.erase(begin, end == std::string::npos ? end : end - begin);
 }
 
 void scan(const ScanArguments& arguments, Terminal& terminal) {
