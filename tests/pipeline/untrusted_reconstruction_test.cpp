@@ -9,6 +9,7 @@
 #include "frangia/pipeline/reconstruct.h"
 
 #include "support/displaced_views.h"
+#include "support/error_of.h"
 #include "support/small_scan.h"
 #include "support/temporary_folder.h"
 
@@ -37,6 +38,25 @@ TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
                           [](float sigma) { return std::isnan(sigma); }));
   for (const std::string& note : notes)
     EXPECT_EQ(note.find("agree"), std::string::npos) << note;
+}
+
+TEST(Reconstruct, IsAnErrorWhereThePointsFormNoSurface) {
+  const TemporaryFolder folder;
+  Scan plan;
+  plan.folder = folder.path();
+  plan.rig = testing::small_rig("digital");
+  // Three frames of a display of gamma 2.6, and beats that their harmonics make useless.
+  plan.patterns =
+      default_patterns(plan.rig, {.periods_px = {20.0, 1280.0 / 58.0, 1280.0 / 53.0}, .shifts = 3});
+  plan.views.push_back({0.0, "views/0"});
+  SimulateOptions options{.samples_per_px = 1};
+  options.display_gamma = 2.6;
+  const Scan scan = simulate_scan(make_part("bust"), plan, options);
+  const std::string error = testing::error_of([&] { static_cast<void>(reconstruct(scan)); });
+  EXPECT_NE(error.find("points do not form a surface: the fringe orders of most lit pixels are "
+                       "uncertain or jump from pixel to pixel"),
+            std::string::npos)
+      << error;
 }
 
 TEST(Reconstruct, RemovesTheRimOfATurntableTopSeenEdgeOn) {

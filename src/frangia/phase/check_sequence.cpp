@@ -14,9 +14,8 @@ namespace frangia {
 namespace {
 
 /// Residual of the fringe fit over the modulation above which the frames are in another order
-/// though no order fits: a display of gamma 2.2, whose second harmonic is 0.29, leaves 0.4 of four
-/// frames.
-constexpr double kNoFringes = 0.6;
+/// though no order fits: a second harmonic of 0.35 (gamma 2.6) leaves up to 0.7 of four frames.
+constexpr double kNoFringes = 0.8;
 
 /// Systematic phase error of each pattern, rad RMS, that a sound sequence may have: harmonics of a
 /// display, errors of steps. Three frames are blind to the second harmonic, which is 0.29 of the

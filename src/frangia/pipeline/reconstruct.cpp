@@ -14,7 +14,7 @@
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/internal/calibration_part.h"
 #include "frangia/pipeline/internal/correct_indirect_light.h"
-#include "frangia/pipeline/internal/explain_no_points.h"
+#include "frangia/pipeline/internal/explain_no_surface.h"
 #include "frangia/pipeline/internal/mark_left_out.h"
 #include "frangia/pipeline/internal/measure_views.h"
 #include "frangia/pipeline/internal/register_setups.h"
@@ -145,7 +145,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     add_outliers(outliers, setup);
   }
   if (out.points == 0) {
-    throw Error(ErrorKind::Input, explain_no_points(scan, rays, options.decode, run));
+    throw Error(ErrorKind::Input, explain_no_surface(scan, rays, options.decode, 0, run));
   }
 
   // All setups in the frame of the first one.
@@ -175,6 +175,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
   color_vertices(fused, cameras, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
+  if (out.mesh.triangles.empty()) {
+    throw Error(ErrorKind::Input, explain_no_surface(scan, rays, options.decode, out.points, run));
+  }
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);

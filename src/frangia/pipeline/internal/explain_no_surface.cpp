@@ -1,0 +1,71 @@
+#include "frangia/pipeline/internal/explain_no_surface.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "frangia/dataset/read_frames.h"
+
+namespace frangia {
+namespace {
+
+/// Statuses of the pixels of the first view, decoded with the default limit of sigma.
+class FirstView {
+ public:
+  FirstView(const Scan& scan,
+            const Image<Eigen::Vector2f>& rays,
+            DecodeOptions options,
+            const Run& run) {
+    options.wrap = {};
+    Run silent;
+    silent.stop = run.stop;
+    status_ =
+        decode_view(read_frames(scan, 0, silent), scan.rig, rays, options, silent).phase.status;
+  }
+  [[nodiscard]] std::ptrdiff_t count(PixelStatus status) const {
+    const auto pixels = status_.pixels();
+    return std::count(pixels.begin(), pixels.end(), status);
+  }
+  /// Number of pixels with a phase, whether or not their fringe order is certain.
+  [[nodiscard]] std::ptrdiff_t lit() const {
+    return count(PixelStatus::UncertainOrder) + count(PixelStatus::Measured);
+  }
+
+ private:
+  Image<PixelStatus> status_;
+};
+
+}  // namespace
+
+std::string explain_no_surface(const Scan& scan,
+                               const Image<Eigen::Vector2f>& rays,
+                               const DecodeOptions& options,
+                               std::size_t points,
+                               const Run& run) {
+  constexpr double kMostly = 0.5;
+  const FirstView view(scan, rays, options, run);
+  const WrapOptions usual;
+  if (options.wrap.max_sigma_rad < usual.max_sigma_rad && view.count(PixelStatus::Measured) > 0) {
+    return fmt::format(
+        "{}: the phase of {} pixel is less certain than `max_sigma`, {:g} rad; "
+        "set a larger one, such as the default of {:g} rad",
+        scan.folder.string(),
+        points == 0 ? "every" : "nearly every",
+        options.wrap.max_sigma_rad,
+        usual.max_sigma_rad);
+  }
+  const std::string what = points == 0 ? std::string("no view has a measured pixel")
+                                       : fmt::format("its {} points do not form a surface", points);
+  // Points are discarded where neighbouring pixels contradict each other.
+  const double lit = static_cast<double>(view.lit()) * static_cast<double>(scan.views.size());
+  if (lit > 0.0 && static_cast<double>(points) < kMostly * lit) {
+    return fmt::format(
+        "{}: {}: the fringe orders of most lit pixels are uncertain or jump from pixel to pixel; "
+        "see the warnings about the patterns, or capture more frames or coarser fringes",
+        scan.folder.string(),
+        what);
+  }
+  return fmt::format("{}: {}; check light, exposure and white_level", scan.folder.string(), what);
+}
+
+}  // namespace frangia
