@@ -13,6 +13,8 @@ export const fail = (sentence) => problems.push(sentence);
 export const expect = (condition, sentence) => {
   if (!condition) throw new Error(sentence);
 };
+/** How much slower the server may be, as a factor of limits of time: with sanitizers above 1. */
+export const slowdown = Number(process.env.FRANGIA_SLOWDOWN ?? 1);
 const begin = Date.now();
 export const passed = (what) => console.log(`${((Date.now() - begin) / 1000).toFixed(1).padStart(6)} s  ${what}`);
 
@@ -81,6 +83,7 @@ export const launch = () =>
 export async function openPage(browser, url, viewport = { width: 1440, height: 900 }) {
   const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB' });
   const page = await context.newPage();
+  page.setDefaultTimeout(30_000 * slowdown);
   // Not by the page's own policy, which forbids it.
   await page.addInitScript(fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8'));
   page.on('pageerror', (error) => fail(`the page: ${error.message}`));

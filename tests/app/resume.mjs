@@ -5,7 +5,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, startServer, stateOf } from './harness.mjs';
+import { expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -17,7 +17,7 @@ let server = await startServer(program, home);
 let browser;
 let code = 1;
 
-async function waitFor(page, wanted, timeout = 60_000) {
+async function waitFor(page, wanted, timeout = 60_000 * slowdown) {
   const end = Date.now() + timeout;
   for (;;) {
     const state = await stateOf(page);
@@ -78,7 +78,7 @@ try {
   // SIGKILL in mid-scan. The server finds the project on the disk and goes on with the first missing frame.
   await waitFor(page, (state) => share(state) > 0.4);
   await server.end('SIGKILL');
-  await page.waitForSelector('.notice.warn[role=alert]', { timeout: 30_000 });
+  await page.waitForSelector('.notice.warn[role=alert]', { timeout: 30_000 * slowdown });
   await look(page, shots, 'lost');
   await page.context().close();
   server = await startServer(program, home);

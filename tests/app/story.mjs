@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, fail, launch, look as lookAt, newHome, openPage, passed, problems, requireChromium, startServer, stateOf } from './harness.mjs';
+import { check, expect, fail, launch, look as lookAt, newHome, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -22,14 +22,14 @@ try {
   const page = await openPage(browser, url);
   const context = page.context();
   const look = (name) => lookAt(page, shots, name);
-  const waitForState = async (which, wanted, timeout = 30_000) => {
+  const waitForState = async (which, wanted, timeout = 30_000 * slowdown) => {
     const end = Date.now() + timeout;
     while (!wanted(await stateOf(which))) {
       expect(Date.now() < end, `the state does not come: ${wanted}`);
       await which.waitForTimeout(100);
     }
   };
-  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 90_000 });
+  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 90_000 * slowdown });
   const text = (selector) => page.locator(selector).first().innerText();
 
   await page.waitForSelector('#try');
@@ -43,26 +43,26 @@ try {
   await page.keyboard.press('2');
   await page.waitForSelector('#test-devices');
   await page.click('#test-devices');
-  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 30_000 });
+  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 30_000 * slowdown });
   await idle();
   await look('rig');
   const poses = 3;
   await page.fill('input[name=poses]', String(poses));
   await page.click('#calibrate');
   for (let pose = 0; pose < poses; pose++) {
-    await page.waitForSelector('#pose:not([disabled])', { timeout: 60_000 });
+    await page.waitForSelector('#pose:not([disabled])', { timeout: 60_000 * slowdown });
     await waitForState(page, (state) => state.project.calibration.found === 70);
     if (pose === poses - 1) await look('calibrate');
     await page.keyboard.press('Enter');
     await waitForState(page, (state) => state.project.calibration.poses.length === pose + 1, 60_000);
   }
-  await page.waitForSelector('.verdict', { timeout: 60_000 });
+  await page.waitForSelector('.verdict', { timeout: 60_000 * slowdown });
   await idle();
   await look('calibrated');
 
   // Live: the camera, and what is decoded from its frames as they come.
   await page.keyboard.press('3');
-  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000, null, { timeout: 60_000 });
+  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000, null, { timeout: 60_000 * slowdown });
   await look('live');
   const layer = async (name) => {
     await page.locator('.layers').getByText(name, { exact: true }).click();
@@ -81,13 +81,13 @@ try {
   await page.setViewportSize({ width: 1440, height: 900 });
 
   await page.keyboard.press('4');
-  await page.waitForSelector('#scan:not([disabled])', { timeout: 30_000 });
+  await page.waitForSelector('#scan:not([disabled])', { timeout: 30_000 * slowdown });
   await page.click('#scan');
-  await page.waitForFunction(() => document.querySelectorAll('.dial-station.done, .dial-station.poor').length >= 5, null, { timeout: 90_000 });
+  await page.waitForFunction(() => document.querySelectorAll('.dial-station.done, .dial-station.poor').length >= 5, null, { timeout: 90_000 * slowdown });
   await look('scan');
-  await page.waitForSelector('#build:not([disabled])', { timeout: 90_000 });
+  await page.waitForSelector('#build:not([disabled])', { timeout: 90_000 * slowdown });
   await page.click('#build');
-  await page.waitForSelector('.figures', { timeout: 90_000 });
+  await page.waitForSelector('.figures', { timeout: 90_000 * slowdown });
   await idle();
   await page.waitForTimeout(600);
   await page.getByText('Sigma', { exact: true }).click();
@@ -177,7 +177,7 @@ try {
   await page.waitForSelector('#export');
   await page.getByText('50,000', { exact: true }).click();
   await page.click('#export');
-  await page.waitForSelector('.file', { timeout: 60_000 });
+  await page.waitForSelector('.file', { timeout: 60_000 * slowdown });
   await idle();
   await look('export');
   const saving = page.waitForEvent('download');

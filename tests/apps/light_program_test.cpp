@@ -20,6 +20,7 @@
 #include "support/misbehaving_device.h"
 #include "support/pseudo_terminal_test.h"
 #include "support/run_program.h"
+#include "support/slowdown.h"
 #include "support/started_program.h"
 #include "support/temporary_folder.h"
 #include "support/text_of.h"
@@ -35,7 +36,7 @@ using testing::MisbehavingDevice;
 using testing::StartedProgram;
 using testing::wait_until;
 
-constexpr double kOff_s = 0.5;
+constexpr double kOff_s = 0.5 * testing::kSlowdown;
 
 /// A scan whose light and table are on a GRBL board and whose other light is an instrument.
 class LightOfAScan : public testing::PseudoTerminalTest {
@@ -43,6 +44,7 @@ class LightOfAScan : public testing::PseudoTerminalTest {
   LightOfAScan()
       : board_(std::make_unique<MisbehavingDevice>(std::make_unique<EmulatedGrbl>())),
         supply_(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp) {
+    ::setenv("ASAN_OPTIONS", "handle_segv=0", 1);  // the program dies of the signal, as without
     std::ifstream in(std::string(FRANGIA_SOURCE_DIR) + "/tests/data/small-interferometer.toml");
     std::string text{std::istreambuf_iterator<char>(in), {}};
     text.replace(text.find("[devices.line]"), std::string::npos, "");
@@ -89,7 +91,7 @@ class LightOfAScan : public testing::PseudoTerminalTest {
     // Between two lights there is a moment without any; the light is off when it stays off.
     const auto begin = Deadline::Clock::now();
     double seconds = 0.0;
-    for (double dark_s = 0.0; dark_s < 0.3 && seconds < 10.0;) {
+    for (double dark_s = 0.0; dark_s < 0.3 * testing::kSlowdown && seconds < 10.0;) {
       const double now_s = std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
       if (is_lit()) seconds = now_s;
       dark_s = now_s - seconds;
@@ -152,7 +154,7 @@ TEST_F(LightOfAScan, GoesOffOnABoardThatStopsAnsweringWhileTheOtherDevicesAreMad
   });
   program.send(SIGINT);
   program.send(SIGINT);
-  EXPECT_GE(wait_until([&] { return program.has_ended(); }, 5.0), 0.0);
+  EXPECT_GE(wait_until([&] { return program.has_ended(); }, 5.0 * testing::kSlowdown), 0.0);
   EXPECT_GE(wait_until([&] { return !is_lit(); }, kOff_s), 0.0);
 }
 
