@@ -1,3 +1,4 @@
+// Above 250 lines: the contents of the report in their order.
 #include "inspect_report.h"
 
 #include <algorithm>

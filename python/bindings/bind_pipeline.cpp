@@ -1,3 +1,4 @@
+// Above 250 lines: the arguments and docstrings of the functions of one module.
 #include <filesystem>
 #include <limits>
 #include <optional>

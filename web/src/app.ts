@@ -1,3 +1,4 @@
+// Above 250 lines: the state of the page and its commands are one class, which lit draws.
 import { html, LitElement, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 

@@ -1,3 +1,4 @@
+// Above 250 lines: the texts of both languages in one table.
 /** The message catalogue. Another language is one more column of these rows. */
 const CATALOGUE = {
   'step.project': ['Project', 'Projekt'],

@@ -1,3 +1,4 @@
+// Above 250 lines: one scene, whose camera, lights, tools and pictures share their state.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { acceleratedRaycast, computeBoundsTree, disposeBoundsTree } from 'three-mesh-bvh';

@@ -1,3 +1,4 @@
+// Above 250 lines: the routes of the app, side by side.
 #include "app_routes.h"
 
 #include <algorithm>

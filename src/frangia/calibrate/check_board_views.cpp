@@ -1,3 +1,4 @@
+// Above 250 lines: the faults that are told apart, side by side.
 // Over 250 lines: the checks in the order in which one fault hides another.
 #include "frangia/calibrate/check_board_views.h"
 

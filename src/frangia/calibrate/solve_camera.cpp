@@ -1,3 +1,4 @@
+// Above 250 lines: one solution, from the start by homographies to the covariance.
 #include "frangia/calibrate/solve_camera.h"
 
 #include <algorithm>

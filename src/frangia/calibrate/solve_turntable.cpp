@@ -1,3 +1,4 @@
+// Above 250 lines: one optimization problem: parameters, residuals, covariance.
 #include "frangia/calibrate/solve_turntable.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: each way in which a frame can be wrong has its message.
 #include "frangia/dataset/read_frames.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: one class around the handles of a library.
 #include "frangia/geometry/ray_scene.h"
 
 #include <algorithm>

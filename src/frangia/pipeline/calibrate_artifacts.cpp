@@ -1,3 +1,4 @@
+// Above 250 lines: the steps of the calibration in their order.
 #include "frangia/pipeline/calibrate_artifacts.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: the sections of the page in their order.
 #include "frangia/pipeline/calibrate_report.h"
 
 #include <algorithm>

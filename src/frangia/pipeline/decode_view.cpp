@@ -1,3 +1,4 @@
+// Above 250 lines: the ways from frames to an absolute phase, side by side.
 #include "frangia/pipeline/decode_view.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: the sections of the page in their order.
 #include "frangia/report/inspection_report.h"
 
 #include <array>

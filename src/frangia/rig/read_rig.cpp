@@ -1,3 +1,4 @@
+// Above 250 lines: the keys of rig.toml in their order.
 #include "frangia/rig/read_rig.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: one file format, written and read side by side.
 #include "frangia/views/view_store.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: one optimization problem: parameters, residuals, what is held.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,3 +1,4 @@
+// Above 250 lines: one device, whose settings, buffers and stream share their state.
 // Over 250 lines: all that one class of devices needs; its states depend on each other.
 #ifdef FRANGIA_WITH_ARAVIS
 

@@ -1,3 +1,4 @@
+// Above 250 lines: the operations of one kind, side by side.
 #include <string>
 #include <utility>
 

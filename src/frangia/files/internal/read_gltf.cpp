@@ -1,3 +1,4 @@
+// Above 250 lines: each element of the format, and what may be wrong with it.
 #include <algorithm>
 #include <cstdint>
 #include <set>

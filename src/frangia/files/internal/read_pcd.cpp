@@ -1,3 +1,4 @@
+// Above 250 lines: each way in which a file can be wrong has its message.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,3 +1,4 @@
+// Above 250 lines: a template, whose steps work on the same lines of pixels.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: one sample, and what is measured on it.
 #include "frangia/phase/internal/sequence_sample.h"
 
 #include <algorithm>

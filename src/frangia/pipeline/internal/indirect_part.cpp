@@ -1,3 +1,4 @@
+// Above 250 lines: one decision, from the exposure of the views to their correction.
 #include "frangia/pipeline/internal/indirect_part.h"
 
 #include <algorithm>

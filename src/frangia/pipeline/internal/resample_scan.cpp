@@ -1,3 +1,4 @@
+// Above 250 lines: one way back from a mesh to the phases of its scan.
 #include "frangia/pipeline/internal/resample_scan.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Above 250 lines: one equation system, its derivatives and its covariance.
 #include "frangia/range/internal/common_point.h"
 
 #include <algorithm>
