@@ -120,8 +120,8 @@ TEST(ViewLight, InterpolatesBetweenItsNodes) {
   const LitSurface surface(right_angle(), far_projector(), patterns_with({200.0, 16.0}));
   const auto rays = row_of_rays();
   const View view = view_of_right_angle(rays);
-  const ViewLight every(surface, view, rays, 1);
-  const ViewLight coarse(surface, view, rays, 6);
+  const ViewLight every(surface, view, rays, LightUse::FewPixels);
+  const ViewLight coarse(surface, view, rays, LightUse::Correction);
   for (int x = 4; x < 97; ++x) {
     const auto depth = static_cast<double>(view.range.depth_mm(x, 1));
     const IndirectShare exact = every.at(x, 1, depth);
@@ -156,7 +156,7 @@ std::vector<AlbedoSample> samples_of(std::span<const Pattern> patterns, double a
       right_angle(), far_projector(), std::vector<Pattern>(patterns.begin(), patterns.end()));
   const auto rays = row_of_rays();
   const View view = view_of_right_angle(rays);
-  const ViewLight light(surface, view, rays, 2);
+  const ViewLight light(surface, view, rays, LightUse::FewPixels);
   std::vector<AlbedoSample> out;
   for (std::uint64_t i = 0; i < 303; ++i) {
     const int x = static_cast<int>(i % 101);

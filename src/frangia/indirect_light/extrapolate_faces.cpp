@@ -72,6 +72,35 @@ struct ExtrapolatedFace {
   int distance_px = 0;
 };
 
+/// Blocks of an image around which something was measured.
+class MeasuredBlocks {
+ public:
+  MeasuredBlocks(const Image<float>& depth_mm, int size_px)
+      : size_px_(size_px),
+        blocks_((depth_mm.width() - 1) / size_px + 1, (depth_mm.height() - 1) / size_px + 1, 0) {
+    for (int y = 0; y < depth_mm.height(); ++y) {
+      for (int x = 0; x < depth_mm.width(); ++x) {
+        if (!std::isnan(depth_mm(x, y))) blocks_(x / size_px, y / size_px) = 1;
+      }
+    }
+  }
+
+  /// False where nothing was measured within the size of a block.
+  [[nodiscard]] bool may_be_near(int x, int y) const {
+    const int column = x / size_px_;
+    const int row = y / size_px_;
+    for (int v = std::max(0, row - 1); v <= std::min(blocks_.height() - 1, row + 1); ++v) {
+      for (int u = std::max(0, column - 1); u <= std::min(blocks_.width() - 1, column + 1); ++u)
+        if (blocks_(u, v) != 0) return true;
+    }
+    return false;
+  }
+
+ private:
+  int size_px_;
+  Image<std::uint8_t> blocks_;
+};
+
 class FaceExtrapolation {
  public:
   FaceExtrapolation(const RangeGrid& range,
@@ -85,6 +114,7 @@ class FaceExtrapolation {
         window_(std::max(5, static_cast<int>(kWindow * width_))),
         reach_(std::max(16, static_cast<int>(kReach * width_))),
         gap_(std::max(4, static_cast<int>(kGap * width_))),
+        near_(range.depth_mm, gap_),
         reliable_(width_, height_, 0),
         stride_(std::max(1, window_ / 4)),
         columns_((width_ - 1) / stride_ + 1) {
@@ -108,7 +138,7 @@ class FaceExtrapolation {
     Image<float> out = range_.depth_mm;
     parallel_rows(height_, [&](int y) {
       for (int x = 0; x < width_; ++x) {
-        if (is_reliable(x, y)) continue;
+        if (is_reliable(x, y) || !near_.may_be_near(x, y)) continue;
         if (const auto depth = depth_at(x, y)) out(x, y) = static_cast<float>(*depth);
       }
     });
@@ -273,6 +303,7 @@ class FaceExtrapolation {
   int window_;
   int reach_;
   int gap_;
+  MeasuredBlocks near_;
   Image<std::uint8_t> reliable_;
   int stride_;  ///< of the windows
   int columns_;

@@ -110,6 +110,7 @@ PointLight LitSurface::light_along(const Eigen::Isometry3d& rig_from_object,
   if (!seen || seen->normal.dot(direction) >= 0.0) return out;
   const Hit to{origin_mm + seen->distance * direction, normal_at(*seen)};
   out.direct = direct_light(rig_from_object, to);
+  if (!(out.direct > 0.0)) return out;
   const Vector3d origin = to.point_mm + step_off_mm_ * to.normal;
   const auto meets = [&](const Vector3d& other, const RayHit& hit, const Vector3d& at) -> Vector3d {
     const double slope = hit.normal.dot(other);

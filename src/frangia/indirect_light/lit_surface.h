@@ -34,7 +34,7 @@ class LitSurface {
   LitSurface(Mesh mesh, Projector projector, std::vector<Pattern> patterns);
 
   /// The light on the point that a ray of the object frame meets first, and the ray's parameter
-  /// there. The light is zero where the ray meets nothing, or the inside of the surface.
+  /// there. The light is zero where the ray meets nothing, the inside of the surface, or a shadow.
   ///
   /// The integral over the hemisphere is a sum over 192 cells, over each of which the fringes are
   /// averaged. The same arguments give the same result.

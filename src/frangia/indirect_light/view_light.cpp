@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 #include "frangia/core/parallel.h"
 #include "frangia/range/fringe_ray.h"
@@ -29,26 +31,64 @@ bool is_measured_near(const Image<float>& depth_mm, int x, int y, int radius) {
 ViewLight::ViewLight(const LitSurface& surface,
                      const View& view,
                      const Image<Eigen::Vector2f>& rays,
-                     int step_px)
+                     LightUse use)
     : surface_(surface),
       rig_from_object_(view.rig_from_object),
       object_from_rig_(view.rig_from_object.inverse()),
       rays_(rays),
-      step_px_(step_px),
-      columns_((rays.width() - 1) / step_px + 2) {
+      relative_(use == LightUse::Uncertainty ? 0.25 : 0.1) {
   constexpr double kSteepest = 3.7;  // tangent of 75 degrees
   const double px = rays.width() > 1 ? static_cast<double>((rays(1, 0) - rays(0, 0)).norm()) : 0.0;
   slope_per_px_ = kSteepest * px;
-  const int rows = (rays.height() - 1) / step_px + 2;
-  nodes_.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns_));
-  parallel_rows(rows, [&](int row) {
-    for (int column = 0; column < columns_; ++column) {
-      const int x = std::min(column * step_px_, rays.width() - 1);
-      const int y = std::min(row * step_px_, rays.height() - 1);
-      if (is_measured_near(view.range.depth_mm, x, y, step_px_))
-        nodes_[static_cast<std::size_t>(row * columns_ + column)] = trace(x, y);
+  if (use == LightUse::FewPixels) return;
+  for (const int step_px : {8, 4, 2})
+    grids_.push_back(grid(step_px, view));
+}
+
+/// The nodes of a grid in the cells where the coarser grid varies.
+ViewLight::Grid ViewLight::grid(int step_px, const View& view) const {
+  Grid out{step_px, (rays_.width() - 1) / step_px + 2, (rays_.height() - 1) / step_px + 2, {}, {}};
+  const std::size_t count =
+      static_cast<std::size_t>(out.rows) * static_cast<std::size_t>(out.columns);
+  out.nodes.resize(count);
+  out.varies.resize(count);
+  parallel_rows(out.rows, [&](int row) {
+    for (int column = 0; column < out.columns; ++column) {
+      const int x = std::min(column * step_px, rays_.width() - 1);
+      const int y = std::min(row * step_px, rays_.height() - 1);
+      if (!grids_.empty() && !grids_.back().touches_varying(x, y)) continue;
+      if (!is_measured_near(view.range.depth_mm, x, y, step_px)) continue;
+      out.nodes[static_cast<std::size_t>(row * out.columns + column)] = trace(x, y);
     }
   });
+  parallel_rows(out.rows - 1, [&](int row) {
+    for (int column = 0; column + 1 < out.columns; ++column) {
+      const auto cell = static_cast<std::size_t>(row * out.columns + column);
+      const bool within_smooth =
+          !grids_.empty() &&
+          grids_.back().varies[grids_.back().cell_of(column * step_px, row * step_px)] == 0;
+      out.varies[cell] = !within_smooth && differ(out, cell) ? 1 : 0;
+    }
+  });
+  return out;
+}
+
+std::size_t ViewLight::Grid::cell_of(int x, int y) const {
+  return static_cast<std::size_t>((y / step_px) * columns + x / step_px);
+}
+
+const ViewLight::Node& ViewLight::Grid::corner(std::size_t cell, int number) const {
+  return nodes[cell + static_cast<std::size_t>((number / 2) * columns + number % 2)];
+}
+
+/// Whether a cell varies that contains a pixel or meets another one there.
+bool ViewLight::Grid::touches_varying(int x, int y) const {
+  for (const int v : {y - 1, y}) {
+    for (const int u : {x - 1, x}) {
+      if (u >= 0 && v >= 0 && varies[cell_of(u, v)] != 0) return true;
+    }
+  }
+  return false;
 }
 
 ViewLight::Node ViewLight::trace(int x, int y) const {
@@ -62,23 +102,22 @@ ViewLight::Node ViewLight::trace(int x, int y) const {
 }
 
 ViewLight::Node ViewLight::interpolate(int x, int y, double depth_mm) const {
-  const int column = x / step_px_;
-  const int row = y / step_px_;
-  const double s = static_cast<double>(x - column * step_px_) / step_px_;
-  const double t = static_cast<double>(y - row * step_px_) / step_px_;
+  const auto smooth = std::find_if(grids_.begin(), grids_.end(), [&](const Grid& grid) {
+    return grid.varies[grid.cell_of(x, y)] == 0;
+  });
+  if (smooth == grids_.end()) return trace(x, y);
+  const std::size_t cell = smooth->cell_of(x, y);
+  const double s = static_cast<double>(x % smooth->step_px) / smooth->step_px;
+  const double t = static_cast<double>(y % smooth->step_px) / smooth->step_px;
   // A node on another surface is farther away than the steepest slope that is measured.
-  const double near_mm = slope_per_px_ * 1.5 * step_px_ * depth_mm;
+  const double near_mm = slope_per_px_ * 1.5 * smooth->step_px * depth_mm;
   Node sum;
   sum.light.fringes.assign(surface_.patterns().size(), 0.0);
   double weights = 0.0;
   for (int corner = 0; corner < 4; ++corner) {
-    const int right = corner % 2;
-    const int down = corner / 2;
-    const Node& node = nodes_[static_cast<std::size_t>((row + down) * columns_ + column + right)];
-    const double weight = (right == 1 ? s : 1.0 - s) * (down == 1 ? t : 1.0 - t);
-    const bool same = node.depth_mm > 0.0 && node.light.direct > 0.0 &&
-                      std::abs(node.depth_mm - depth_mm) < near_mm;
-    if (!same || weight <= 0.0) continue;
+    const Node& node = smooth->corner(cell, corner);
+    const double weight = (corner % 2 == 1 ? s : 1.0 - s) * (corner / 2 == 1 ? t : 1.0 - t);
+    if (!node.is_lit() || std::abs(node.depth_mm - depth_mm) >= near_mm || weight <= 0.0) continue;
     weights += weight;
     sum.light.direct += weight * node.light.direct;
     sum.light.indirect += weight * node.light.indirect;
@@ -86,26 +125,37 @@ ViewLight::Node ViewLight::interpolate(int x, int y, double depth_mm) const {
     for (std::size_t m = 0; m < sum.light.fringes.size(); ++m)
       sum.light.fringes[m] += weight * node.light.fringes[m];
   }
-  if (weights <= 0.0 || !varies_little(sum.light, weights, column, row)) return trace(x, y);
+  if (weights <= 0.0) return trace(x, y);
   return sum;
 }
 
-/// Whether the four nodes around a pixel have nearly the same light as their mean, `sum` over
-/// `weights`. At a crease it changes from node to node.
-bool ViewLight::varies_little(const PointLight& sum, double weights, int column, int row) const {
-  constexpr double kMostDifference = 0.02;  // of the direct light
-  for (int corner = 0; corner < 4; ++corner) {
-    const Node& node =
-        nodes_[static_cast<std::size_t>((row + corner / 2) * columns_ + column + corner % 2)];
-    if (!(node.depth_mm > 0.0 && node.light.direct > 0.0)) return false;
-    for (std::size_t m = 0; m < sum.fringes.size(); ++m) {
-      if (std::abs(node.light.fringes[m] / node.light.direct - sum.fringes[m] / sum.direct) >
-          kMostDifference)
-        return false;
-    }
-    if (std::abs(node.light.direct * weights / sum.direct - 1.0) > 0.5) return false;
+/// Whether the light at the corners of a cell differs too much to be interpolated, or is unknown.
+/// At a crease it changes from node to node. Corners in shadow or in gaps of the surface say
+/// nothing.
+bool ViewLight::differ(const Grid& grid, std::size_t cell) const {
+  constexpr double kMostDifference = 0.03;  // of the direct light
+  const std::size_t patterns = surface_.patterns().size();
+  std::vector<const PointLight*> lit;
+  std::vector<std::complex<double>> mean(patterns, 0.0);
+  double direct = 0.0;
+  for (int number = 0; number < 4; ++number) {
+    const Node& node = grid.corner(cell, number);
+    if (!node.is_lit()) continue;
+    lit.push_back(&node.light);
+    direct += node.light.direct;
+    for (std::size_t m = 0; m < patterns; ++m)
+      mean[m] += node.light.fringes[m] / node.light.direct;
   }
-  return true;
+  const auto count = static_cast<double>(lit.size());
+  for (const PointLight* light : lit) {
+    if (std::abs(light->direct * count / direct - 1.0) > 0.5) return true;
+    for (std::size_t m = 0; m < patterns; ++m) {
+      const std::complex<double> usual = mean[m] / count;
+      const double allowed = std::max(kMostDifference, relative_ * std::abs(usual));
+      if (std::abs(light->fringes[m] / light->direct - usual) > allowed) return true;
+    }
+  }
+  return lit.empty();
 }
 
 IndirectShare ViewLight::at(int x, int y, double depth_mm) const {

@@ -20,17 +20,27 @@ struct IndirectShare {
   std::vector<std::complex<double>> fringes;
 };
 
-/// The indirect light that one view sees, predicted at the nodes of a grid of pixels and
-/// interpolated where neighbouring nodes have similar light; elsewhere each pixel is traced. The
-/// absolute phase of indirect fringes varies slowly, so the nodes may be farther apart than a
-/// fringe.
+/// What the prediction for the pixels of a view is for. Interpolated light differs from the nodes
+/// around it by at most 3 % of the direct light, or by the stated share of itself.
+enum class LightUse {
+  FewPixels,    ///< each is traced
+  Correction,   ///< of all pixels: a tenth
+  Uncertainty,  ///< of all pixels: a quarter
+};
+
+/// The indirect light that one view sees, predicted at the nodes of grids of pixels and
+/// interpolated between them. Where neighbouring nodes differ, as at a crease, a finer grid
+/// follows; where the finest differs too, each pixel is traced. The absolute phase of indirect
+/// fringes varies slowly, so the nodes may be farther apart than a fringe.
 class ViewLight {
  public:
+  /// `surface` and `rays` must outlive it.
+  ///
   /// @shape    `view.range` and `rays` w x h
   ViewLight(const LitSurface& surface,
             const View& view,
             const Image<Eigen::Vector2f>& rays,
-            int step_px = 6);
+            LightUse use);
 
   /// The indirect light of the point of a pixel at this depth.
   ///
@@ -41,22 +51,33 @@ class ViewLight {
   struct Node {
     double depth_mm = 0.0;  ///< 0: no surface, or not needed
     PointLight light;
+
+    [[nodiscard]] bool is_lit() const { return depth_mm > 0.0 && light.direct > 0.0; }
+  };
+  struct Grid {
+    int step_px = 1;
+    int columns = 0;  ///< of nodes
+    int rows = 0;
+    std::vector<Node> nodes;  ///< row by row
+    /// Whether the nodes around a cell differ; a cell has the index of its upper left node.
+    std::vector<char> varies;
+
+    [[nodiscard]] std::size_t cell_of(int x, int y) const;
+    [[nodiscard]] const Node& corner(std::size_t cell, int number) const;
+    [[nodiscard]] bool touches_varying(int x, int y) const;
   };
   [[nodiscard]] Node trace(int x, int y) const;
   [[nodiscard]] Node interpolate(int x, int y, double depth_mm) const;
-  [[nodiscard]] bool varies_little(const PointLight& sum,
-                                   double weights,
-                                   int column,
-                                   int row) const;
+  [[nodiscard]] Grid grid(int step_px, const View& view) const;
+  [[nodiscard]] bool differ(const Grid& grid, std::size_t cell) const;
 
   const LitSurface& surface_;
   Eigen::Isometry3d rig_from_object_;
   Eigen::Isometry3d object_from_rig_;
   const Image<Eigen::Vector2f>& rays_;
-  int step_px_;
   double slope_per_px_;      ///< depth over distance of one pixel at 75 degrees of incidence
-  int columns_;              ///< of nodes
-  std::vector<Node> nodes_;  ///< row by row
+  double relative_;          ///< difference of neighbouring nodes that is allowed, of their light
+  std::vector<Grid> grids_;  ///< coarse to fine
 };
 
 }  // namespace frangia

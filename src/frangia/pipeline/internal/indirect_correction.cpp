@@ -14,7 +14,7 @@ namespace frangia {
 
 void IndirectCorrection::correct(View& view) const {
   if (!moves_points_ || view.range.phase_rad.empty()) return;
-  const ViewLight light(*surface_, view, rays_);
+  const ViewLight light(*surface_, view, rays_, LightUse::Correction);
   parallel_rows(view.range.depth_mm.height(), [&](int y) {
     for (int x = 0; x < view.range.depth_mm.width(); ++x) {
       RangePixel at = view.range.pixel(x, y);
@@ -30,7 +30,7 @@ void IndirectCorrection::correct(View& view) const {
 }
 
 void IndirectCorrection::add(View& view) const {
-  const ViewLight light(*surface_, view, rays_);
+  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty);
   RangeGrid& range = view.range;
   if (range.systematic_mm.empty())
     range.systematic_mm = Image<float>(range.depth_mm.width(), range.depth_mm.height(), kMissing);
@@ -47,7 +47,7 @@ void IndirectCorrection::add(View& view) const {
 
 Image<float> IndirectCorrection::largest_shifts_mm(const View& view) const {
   constexpr double kMatters = 2.0;  // sigma of noise
-  const ViewLight light(*surface_, view, rays_);
+  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty);
   const Image<float>& depth_mm = view.range.depth_mm;
   Image<float> out(depth_mm.width(), depth_mm.height(), kMissing);
   std::vector<float> sigmas_mm;

@@ -118,7 +118,7 @@ void add_samples(const DecodedView& decoded,
   const bool first = decoded.phase.pattern.direction == surface.patterns().back().direction;
   if (!first && !decoded.second_phase) return;
   const AbsolutePhase& absolute = first ? decoded.phase : *decoded.second_phase;
-  const ViewLight light(surface, view, rays);
+  const ViewLight light(surface, view, rays, LightUse::FewPixels);
   for (const Eigen::Vector2i& at : sampled_pixels(view.range.depth_mm, kSamples)) {
     const int x = at.x();
     const int y = at.y();
@@ -163,7 +163,7 @@ IndirectLightReport report_of(const View& view,
                               double albedo,
                               const Image<Eigen::Vector2f>& rays) {
   constexpr std::size_t kSamples = 4000;
-  const ViewLight light(surface, view, rays);
+  const ViewLight light(surface, view, rays, LightUse::FewPixels);
   std::vector<float> added;
   std::vector<float> noise;
   double affected = 0.0;
@@ -190,34 +190,29 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
   return scan.views.size();
 }
 
-/// Estimates the reflectance from the frames of some views.
-AlbedoEstimate find_albedo(const Scan& scan,
-                           const MeasuredViews& measured,
-                           std::span<const ViewExposure> exposures,
-                           const std::shared_ptr<const LitSurface>& lit,
-                           const Image<Eigen::Vector2f>& rays,
-                           const DecodeOptions& decode,
-                           const Run& run) {
+/// Adds what the frames of some views show.
+void add_views(const Scan& scan,
+               const MeasuredViews& measured,
+               std::span<const ViewExposure> exposures,
+               const LitSurface& lit,
+               const Image<Eigen::Vector2f>& rays,
+               const DecodeOptions& decode,
+               const Run& run,
+               std::vector<AlbedoSample>& samples) {
   DecodeOptions options = decode;
   options.keep_maps = true;
-  std::vector<AlbedoSample> samples;
+  Run quiet = run;
+  quiet.on_note = nullptr;
+  quiet.on_warning = nullptr;
   for (const ViewExposure& exposure : exposures) {
     run.check();
     const std::size_t view = exposure.view;
     const std::size_t index = index_in_scan(scan, measured.stations[view].name);
     if (index == scan.views.size()) continue;
-    Run quiet = run;
-    quiet.on_note = nullptr;
-    quiet.on_warning = nullptr;
-    add_samples(
-        decode_view(
-            read_frames(scan, index, run), scan.rig, rays, options_of_view(options, index), quiet),
-        measured.views.load_points(view),
-        *lit,
-        rays,
-        samples);
+    const DecodedView decoded = decode_view(
+        read_frames(scan, index, run), scan.rig, rays, options_of_view(options, index), quiet);
+    add_samples(decoded, measured.views.load_points(view), lit, rays, samples);
   }
-  return estimate_albedo(samples, lit->patterns());
 }
 
 }  // namespace
@@ -250,13 +245,16 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
   });
 
   // The view that sees most of it decides whether to look further, which most parts do not need.
-  const auto look = [&](std::size_t views) {
-    const auto chosen = std::span(exposures).first(std::min(views, exposures.size()));
-    return find_albedo(scan, measured, chosen, lit, rays, decode, run);
-  };
-  if (!look(1).significant) return std::nullopt;
-  const AlbedoEstimate found = look(kDecoded);
-  if (!found.significant) return std::nullopt;
+  std::vector<AlbedoSample> samples;
+  AlbedoEstimate found;
+  const std::size_t most = std::min(kDecoded, exposures.size());
+  for (const auto& [begin, end] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, most}}) {
+    if (begin == end) break;
+    const auto views = std::span(exposures).subspan(begin, end - begin);
+    add_views(scan, measured, views, *lit, rays, decode, run, samples);
+    found = estimate_albedo(samples, patterns);
+    if (!found.significant) return std::nullopt;
+  }
   const bool one_direction = decode.directions == DirectionChoice::Vertical ||
                              decode.directions == DirectionChoice::Horizontal ||
                              fringes_in(scan.patterns,
