@@ -158,9 +158,11 @@ std::string frame_file_name(const Pattern& pattern, int frame, int exposure) {
 
 Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent content) {
   if (!std::filesystem::is_directory(folder)) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: is not a folder; name a scan, a folder that holds scan.toml",
-                            folder.string()));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: {}; name a scan, a folder that holds scan.toml",
+                    folder.string(),
+                    std::filesystem::exists(folder) ? "is not a folder" : "does not exist"));
   }
   require_complete(folder);
   const std::filesystem::path file = folder / "scan.toml";
