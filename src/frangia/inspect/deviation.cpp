@@ -85,10 +85,11 @@ class DeviationFinder {
         continue;
       }
       last = near;
-      out.status[i] = status_of(i, point, *near);
+      const ExactPoint foot = exact_foot(point, *near);
+      out.status[i] = status_of(i, point, foot);
       if (out.status[i] != DeviationStatus::Compared) continue;
-      out.deviation_mm[i] = static_cast<float>(near->signed_distance_mm);
-      if (!out.u_mm.empty()) out.u_mm[i] = static_cast<float>(uncertainty(i, point, *near));
+      out.deviation_mm[i] = static_cast<float>(foot.signed_distance_mm);
+      if (!out.u_mm.empty()) out.u_mm[i] = static_cast<float>(uncertainty(i, point, foot));
     }
   }
 
@@ -119,6 +120,16 @@ class DeviationFinder {
     return (at[b].cast<double>() - p).cross(at[c].cast<double>() - p).normalized();
   }
 
+  /// The foot on the surface that the reference approximates, or on its triangles.
+  [[nodiscard]] ExactPoint exact_foot(const Vector3d& point, const NearestPoint& near) const {
+    if (options_.exact != nullptr) return options_.exact->nearest(point, near);
+    return {.point_mm = near.point_mm,
+            .normal = reference_normal(near.triangle),
+            .distance_mm = near.distance_mm,
+            .signed_distance_mm = near.signed_distance_mm,
+            .on_boundary = reference_is_open_ && is_on_boundary(near)};
+  }
+
   /// Whether a point of a triangle is on the boundary of the reference.
   [[nodiscard]] bool is_on_boundary(const NearestPoint& near) const {
     const auto& triangle = reference_.mesh().triangles[near.triangle];
@@ -139,29 +150,26 @@ class DeviationFinder {
 
   [[nodiscard]] DeviationStatus status_of(std::size_t vertex,
                                           const Vector3d& point,
-                                          const NearestPoint& near) const {
-    const Vector3d normal = reference_normal(near.triangle);
+                                          const ExactPoint& foot) const {
+    if (foot.distance_mm > options_.max_distance_mm) return DeviationStatus::TooFar;
+    const double height = std::abs((point - foot.point_mm).dot(foot.normal));
     constexpr double kSquare = 0.999;  // a foot on the boundary may still be below its point
-    if (reference_is_open_ &&
-        std::abs((point - near.point_mm).dot(normal)) < kSquare * near.distance_mm &&
-        is_on_boundary(near))
+    if (foot.on_boundary && height < kSquare * foot.distance_mm)
       return DeviationStatus::ReferenceEdge;
     // At an edge of the reference any normal between those of its faces is right.
     const bool inside_of_face =
-        near.distance_mm < 1e-9 * size_mm_ ||
-        std::abs((point - near.point_mm).dot(normal)) > kSquare * near.distance_mm;
+        foot.distance_mm < 1e-9 * size_mm_ || height > kSquare * foot.distance_mm;
     const Vector3d own = normals_[vertex].cast<double>();
-    if (inside_of_face && own.dot(normal) < kLeastCosine) return DeviationStatus::OtherSide;
+    if (inside_of_face && own.dot(foot.normal) < kLeastCosine) return DeviationStatus::OtherSide;
     return DeviationStatus::Compared;
   }
 
   [[nodiscard]] double uncertainty(std::size_t vertex,
                                    const Vector3d& point,
-                                   const NearestPoint& near) const {
-    const Vector3d way = point - near.point_mm;
-    const bool apart = near.distance_mm > 1e-6 * size_mm_;
-    const Vector3d direction =
-        apart ? Vector3d(way / near.distance_mm) : reference_normal(near.triangle);
+                                   const ExactPoint& foot) const {
+    const Vector3d way = point - foot.point_mm;
+    const bool apart = foot.distance_mm > 1e-6 * size_mm_;
+    const Vector3d direction = apart ? Vector3d(way / foot.distance_mm) : foot.normal;
     const double own = static_cast<double>(mesh_.sigma_mm[vertex]);
     const double pose = options_.pose ? options_.pose->along(point, direction) : 0.0;
     const double temperature = temperature_u_mm(point, direction);

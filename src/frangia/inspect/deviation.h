@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frangia/core/run.h"
+#include "frangia/geometry/exact_surface.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/uncertainty/pose_uncertainty.h"
@@ -36,6 +37,8 @@ struct DeviationOptions {
   std::optional<PoseUncertainty> pose;  ///< of the mesh on the reference; none: known exactly
   double expansion_per_k = 0.0;         ///< coefficient of thermal expansion of the part, 1/K
   double temperature_u_k = 0.0;         ///< standard uncertainty of its temperature, K
+  /// Surface that the reference approximates, such as a CAD model; null: the reference is exact.
+  const ExactSurface* exact = nullptr;
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;

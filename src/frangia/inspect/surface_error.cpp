@@ -11,6 +11,7 @@ namespace {
 
 std::vector<float> signed_distances(const std::vector<Eigen::Vector3d>& points,
                                     const RayScene& reference,
+                                    const ExactSurface* exact,
                                     const Run& run) {
   require(!reference.mesh().empty(),
           "the reference has no triangles, only points; give a mesh with triangles");
@@ -21,7 +22,11 @@ std::vector<float> signed_distances(const std::vector<Eigen::Vector3d>& points,
     const std::size_t size = std::min(kBlock, points.size() - done);
     interruptible_chunks(size, kChunk, run, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = done + begin; i < done + end; ++i) {
-        distances[i] = static_cast<float>(reference.nearest(points[i])->signed_distance_mm);
+        const NearestPoint near = *reference.nearest(points[i]);
+        const double distance = exact == nullptr
+                                    ? near.signed_distance_mm
+                                    : exact->nearest(points[i], near).signed_distance_mm;
+        distances[i] = static_cast<float>(distance);
       }
     });
     run.report(static_cast<double>(done + size) / static_cast<double>(points.size()));
@@ -62,7 +67,7 @@ SurfaceError surface_error(const Mesh& mesh,
                            const Run& run) {
   const std::vector<Eigen::Vector3d> points = points_of(mesh, options);
   require(!points.empty(), "the mesh has no triangles, only points; give a mesh with triangles");
-  std::vector<float> distances = signed_distances(points, reference, run);
+  std::vector<float> distances = signed_distances(points, reference, options.exact, run);
 
   SurfaceError error;
   error.count = distances.size();
@@ -98,7 +103,7 @@ std::vector<float> vertex_errors_mm(const Mesh& mesh, const RayScene& reference,
   points.reserve(mesh.vertices_mm.size());
   for (const auto& vertex : mesh.vertices_mm)
     points.emplace_back(vertex.cast<double>());
-  return signed_distances(points, reference, run);
+  return signed_distances(points, reference, nullptr, run);
 }
 
 }  // namespace frangia

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frangia/core/run.h"
+#include "frangia/geometry/exact_surface.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
 
@@ -18,6 +19,8 @@ struct SurfaceErrorOptions {
   /// Points beyond it count as outliers in share_beyond; all other statistics but rms_within_mm
   /// include them.
   double max_distance_mm = std::numeric_limits<double>::infinity();
+  /// Surface that the reference approximates, such as a CAD model; null: the reference is exact.
+  const ExactSurface* exact = nullptr;
 };
 
 /// Statistics of the distances of a mesh from a reference. All but `bias_mm` are of absolute

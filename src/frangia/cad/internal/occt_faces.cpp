@@ -1,0 +1,501 @@
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <limits>
+#include <mutex>
+
+#include <BRepTopAdaptor_FClass2d.hxx>
+#include <BRep_Tool.hxx>
+#include <BinTools.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_ConicalSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Geom_Line.hxx>
+#include <Geom_Plane.hxx>
+#include <Geom_SphericalSurface.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_ToroidalSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <gp_Pln.hxx>
+
+#include "frangia/cad/internal/faces.h"
+#include "frangia/cad/internal/occt_foot.h"
+#include "frangia/geometry/aabb_tree.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// One face for queries.
+struct FaceData {
+  TopoDS_Face face;
+  FootSurface surface;
+  double side = 1.0;  ///< -1: outward is against the normal of the parametrization
+  Eigen::AlignedBox3d box;
+  double margin_mm = 0.0;  ///< between the face and its triangles, at most
+  std::vector<std::uint32_t> edges;
+  std::uint32_t first_triangle = 0;
+  std::vector<std::array<Vector2d, 3>> uvs;  ///< of its triangles, where the surface needs a start
+  std::unique_ptr<RayScene> triangles;       ///< likewise
+};
+
+/// The classifiers of one thread; each is made when it is needed.
+using Classifiers = std::vector<std::unique_ptr<BRepTopAdaptor_FClass2d>>;
+
+/// The nearest point so far.
+struct Best {
+  double distance = std::numeric_limits<double>::infinity();
+  Vector3d point;
+  Vector3d normal;
+  std::uint32_t face = 0;
+  const FootEdge* edge = nullptr;
+};
+
+Vector3d weights_in(const Mesh& mesh, std::uint32_t triangle, const Vector3d& point) {
+  const auto& [i, j, k] = mesh.triangles[triangle];
+  const Vector3d a = mesh.vertices_mm[i].cast<double>();
+  const Vector3d ab = mesh.vertices_mm[j].cast<double>() - a;
+  const Vector3d ac = mesh.vertices_mm[k].cast<double>() - a;
+  const Vector3d normal = ab.cross(ac);
+  const double area2 = normal.squaredNorm();
+  if (!(area2 > 0.0)) return Vector3d::Constant(1.0 / 3.0);
+  const double v = (point - a).cross(ac).dot(normal) / area2;
+  const double w = ab.cross(point - a).dot(normal) / area2;
+  return {1.0 - v - w, v, w};
+}
+
+/// The nominal shape of a face; its center is moved amid the face.
+std::optional<Shape> shape_of(const FootSurface& surface, double side, const Vector3d& amid) {
+  Shape shape;
+  const Handle(Geom_Surface)& geometry = surface.surface();
+  const auto set_axis = [&](const gp_Ax3& place) {
+    shape.center_mm = vector_from(place.Location());
+    shape.axis = vector_from(place.Direction());
+  };
+  const auto move_along_axis = [&] {
+    const double along = (amid - shape.center_mm).dot(shape.axis);
+    shape.center_mm += along * shape.axis;
+    return along;
+  };
+  switch (surface.type()) {
+    case GeomAbs_Plane: {
+      const gp_Pln plane = Handle(Geom_Plane)::DownCast(geometry)->Pln();
+      set_axis(plane.Position());
+      if (!plane.Position().Direct()) shape.axis = -shape.axis;
+      shape.axis *= side;
+      shape.center_mm = amid - (amid - shape.center_mm).dot(shape.axis) * shape.axis;
+      return shape;
+    }
+    case GeomAbs_Cylinder: {
+      const auto cylinder = Handle(Geom_CylindricalSurface)::DownCast(geometry);
+      shape.kind = ShapeKind::Cylinder;
+      set_axis(cylinder->Position());
+      move_along_axis();
+      shape.radius_mm = cylinder->Radius();
+      return shape;
+    }
+    case GeomAbs_Cone: {
+      const auto cone = Handle(Geom_ConicalSurface)::DownCast(geometry);
+      shape.kind = ShapeKind::Cone;
+      set_axis(cone->Position());
+      shape.half_angle_rad = cone->SemiAngle();
+      shape.radius_mm = cone->RefRadius() + std::tan(shape.half_angle_rad) * move_along_axis();
+      const bool beyond_apex = shape.radius_mm < 0.0;
+      if (beyond_apex) shape.radius_mm = -shape.radius_mm;
+      if (beyond_apex != (shape.half_angle_rad < 0.0)) shape.axis = -shape.axis;
+      shape.half_angle_rad = std::abs(shape.half_angle_rad);
+      return shape;
+    }
+    case GeomAbs_Sphere: {
+      const auto sphere = Handle(Geom_SphericalSurface)::DownCast(geometry);
+      shape.kind = ShapeKind::Sphere;
+      set_axis(sphere->Position());
+      shape.radius_mm = sphere->Radius();
+      return shape;
+    }
+    case GeomAbs_Torus: {
+      const auto torus = Handle(Geom_ToroidalSurface)::DownCast(geometry);
+      shape.kind = ShapeKind::Torus;
+      set_axis(torus->Position());
+      shape.radius_mm = torus->MajorRadius();
+      shape.tube_radius_mm = torus->MinorRadius();
+      return shape;
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+/// The nominal shape of a line or a circle swept along or about an axis, as IGES states them.
+std::optional<Shape> swept_shape_of(const FootSurface& surface, const Vector3d& amid) {
+  constexpr double kParallel = 1e-9;
+  Shape shape;
+  const auto extrusion = Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(surface.surface());
+  const auto revolution = Handle(Geom_SurfaceOfRevolution)::DownCast(surface.surface());
+  if (extrusion.IsNull() && revolution.IsNull()) return std::nullopt;
+  Handle(Geom_Curve) curve =
+      extrusion.IsNull() ? revolution->BasisCurve() : extrusion->BasisCurve();
+  if (curve->IsKind(STANDARD_TYPE(Geom_TrimmedCurve)))
+    curve = Handle(Geom_TrimmedCurve)::DownCast(curve)->BasisCurve();
+  const auto circle = Handle(Geom_Circle)::DownCast(curve);
+  const auto line = Handle(Geom_Line)::DownCast(curve);
+  if (!extrusion.IsNull() && !circle.IsNull()) {
+    shape.axis = vector_from(extrusion->Direction());
+    shape.center_mm = vector_from(circle->Location());
+    shape.radius_mm = circle->Radius();
+    const Vector3d normal = vector_from(circle->Axis().Direction());
+    if (shape.axis.cross(normal).norm() > kParallel) return std::nullopt;
+  } else if (!revolution.IsNull() && !line.IsNull()) {
+    shape.axis = vector_from(revolution->Direction());
+    shape.center_mm = vector_from(revolution->Location());
+    const Vector3d at = vector_from(line->Lin().Location()) - shape.center_mm;
+    shape.radius_mm = (at - at.dot(shape.axis) * shape.axis).norm();
+    const Vector3d direction = vector_from(line->Lin().Direction());
+    if (shape.axis.cross(direction).norm() > kParallel) return std::nullopt;
+  } else {
+    return std::nullopt;
+  }
+  shape.kind = ShapeKind::Cylinder;
+  shape.center_mm += (amid - shape.center_mm).dot(shape.axis) * shape.axis;
+  return shape;
+}
+
+/// Gives the nodes on shared edges and vertices one number in all faces.
+class SharedNodes {
+ public:
+  SharedNodes(const TopoDS_Shape& shape, Mesh& mesh) : mesh_(mesh) {
+    TopExp::MapShapes(shape, TopAbs_EDGE, edges_);
+    TopExp::MapShapes(shape, TopAbs_VERTEX, vertices_);
+    of_edge_.resize(static_cast<std::size_t>(edges_.Extent()) + 1);
+    of_vertex_.resize(static_cast<std::size_t>(vertices_.Extent()) + 1, kNone);
+  }
+
+  /// The numbers of the nodes of a face.
+  std::vector<std::uint32_t> numbers_of(const TopoDS_Face& face,
+                                        const Handle(Poly_Triangulation) & triangles,
+                                        const TopLoc_Location& place) {
+    std::vector<std::uint32_t> numbers(static_cast<std::size_t>(triangles->NbNodes()), kNone);
+    const auto point_of = [&](std::size_t node) {
+      const gp_Pnt at = triangles->Node(static_cast<int>(node) + 1).Transformed(place);
+      return Eigen::Vector3f(vector_from(at).cast<float>());
+    };
+    for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(at.Current());
+      const auto polygon = BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
+      if (polygon.IsNull()) continue;
+      const int count = polygon->NbNodes();
+      auto& inner = of_edge_[static_cast<std::size_t>(edges_.FindIndex(edge))];
+      if (inner.empty()) inner.assign(static_cast<std::size_t>(count), kNone);
+      if (inner.size() != static_cast<std::size_t>(count)) continue;
+      const bool point = BRep_Tool::Degenerated(edge);
+      for (int i = 0; i < count; ++i) {
+        const auto node = static_cast<std::size_t>(polygon->Node(i + 1)) - 1;
+        std::uint32_t* number = &inner[static_cast<std::size_t>(i)];
+        if (i == 0 || point) number = number_of(TopExp::FirstVertex(edge));
+        if (i == count - 1 && !point) number = number_of(TopExp::LastVertex(edge));
+        if (number == nullptr) continue;
+        if (*number == kNone) *number = added(point_of(node));
+        numbers[node] = *number;
+      }
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (numbers[i] == kNone) numbers[i] = added(point_of(i));
+    return numbers;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t added(const Eigen::Vector3f& point) {
+    mesh_.vertices_mm.push_back(point);
+    return static_cast<std::uint32_t>(mesh_.vertices_mm.size() - 1);
+  }
+  std::uint32_t* number_of(const TopoDS_Vertex& vertex) {
+    if (vertex.IsNull()) return nullptr;
+    return &of_vertex_[static_cast<std::size_t>(vertices_.FindIndex(vertex))];
+  }
+
+  Mesh& mesh_;
+  TopTools_IndexedMapOfShape edges_;
+  TopTools_IndexedMapOfShape vertices_;
+  std::vector<std::vector<std::uint32_t>> of_edge_;
+  std::vector<std::uint32_t> of_vertex_;
+};
+
+class OcctFaces final : public CadModel::Faces {
+ public:
+  OcctFaces(const TopoDS_Shape& shape, const Run& run) {
+    SharedNodes shared(shape, mesh);
+    TopTools_IndexedMapOfShape all;
+    TopExp::MapShapes(shape, TopAbs_FACE, all);
+    for (int i = 1; i <= all.Extent(); ++i) {
+      run.check();
+      add_face(TopoDS::Face(all(i)), shared);
+    }
+    add_edges(shape, all, run);
+    Mesh boxes;  // one triangle spans the box of a face
+    for (const FaceData& data : faces_) {
+      const auto at = static_cast<std::uint32_t>(boxes.vertices_mm.size());
+      boxes.vertices_mm.emplace_back(data.box.min().cast<float>());
+      boxes.vertices_mm.emplace_back(data.box.max().cast<float>());
+      boxes.triangles.push_back({at, at + 1, at});
+    }
+    tree_ = std::make_unique<AabbTree>(boxes);
+  }
+
+  [[nodiscard]] ExactPoint nearest(const Vector3d& point,
+                                   const NearestPoint& start) const override {
+    std::unique_ptr<Classifiers> classifiers = taken();
+    Best best;
+    const std::uint32_t first = face_of_triangle[start.triangle];
+    try_face(first, point, &start, *classifiers, best);
+    // The edges of the first face bound the distance also where its foot lies beyond them.
+    const double reach = std::isfinite(best.distance) ? best.distance : start.distance_mm * 2.0;
+    const auto radius = static_cast<float>(reach * (1.0 + 1e-5) + 1e-5);
+    const Eigen::Vector3f at = point.cast<float>();
+    const Eigen::AlignedBox3f around(at.array() - radius, at.array() + radius);
+    tree_->overlapping(around, [&](std::uint32_t face) {
+      if (face == first ||
+          faces_[face].box.squaredExteriorDistance(point) >= best.distance * best.distance)
+        return;
+      try_face(face, point, nullptr, *classifiers, best);
+    });
+    give_back(std::move(classifiers));
+    return answer(point, start, best);
+  }
+
+ private:
+  void add_face(const TopoDS_Face& face, SharedNodes& shared) {
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
+    const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face);
+    CadFace found;
+    FaceData data{face, FootSurface(geometry)};
+    data.side = face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
+    data.first_triangle = static_cast<std::uint32_t>(mesh.triangles.size());
+    Vector3d center = Vector3d::Zero();
+    const auto number = static_cast<std::uint32_t>(faces_.size());
+    if (!triangles.IsNull()) {
+      const auto numbers = shared.numbers_of(face, triangles, place);
+      for (int t = 1; t <= triangles->NbTriangles(); ++t) {
+        std::array<int, 3> nodes{};
+        triangles->Triangle(t).Get(nodes[0], nodes[1], nodes[2]);
+        if (data.side < 0.0) std::swap(nodes[1], nodes[2]);
+        Mesh::Triangle corner{};
+        std::array<Vector2d, 3> uv;
+        for (std::size_t k = 0; k < 3; ++k) {
+          corner.at(k) = numbers[static_cast<std::size_t>(nodes.at(k)) - 1];
+          if (triangles->HasUVNodes()) {
+            const gp_Pnt2d at = triangles->UVNode(nodes.at(k));
+            uv.at(k) = {at.X(), at.Y()};
+          }
+        }
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+        mesh.triangles.push_back(corner);
+        face_of_triangle.push_back(number);
+        if (!data.surface.is_elementary()) data.uvs.push_back(uv);
+        std::array<Vector3d, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) {
+          p.at(k) = mesh.vertices_mm[corner.at(k)].cast<double>();
+          data.box.extend(p.at(k));
+        }
+        const double area = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+        found.area_mm2 += area;
+        center += area / 3.0 * (p[0] + p[1] + p[2]);
+      }
+      constexpr double kSlack = 3.0;
+      data.margin_mm = kSlack * triangles->Deflection();
+      data.box.min().array() -= data.margin_mm;
+      data.box.max().array() += data.margin_mm;
+    }
+    if (found.area_mm2 > 0.0)
+      found.shape = shape_of(data.surface, data.side, center / found.area_mm2);
+    if (found.area_mm2 > 0.0 && !found.shape)
+      found.shape = swept_shape_of(data.surface, center / found.area_mm2);
+    if (!data.uvs.empty()) {
+      Mesh own;
+      own.vertices_mm.reserve(3 * data.uvs.size());
+      for (std::size_t t = data.first_triangle; t < mesh.triangles.size(); ++t) {
+        const auto at = static_cast<std::uint32_t>(own.vertices_mm.size());
+        for (const std::uint32_t v : mesh.triangles[t])
+          own.vertices_mm.push_back(mesh.vertices_mm[v]);
+        own.triangles.push_back({at, at + 1, at + 2});
+      }
+      data.triangles = std::make_unique<RayScene>(std::move(own));
+    }
+    list.push_back(found);
+    faces_.push_back(std::move(data));
+  }
+
+  void add_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& all, const Run& run) {
+    TopTools_IndexedDataMapOfShapeListOfShape parents;
+    TopExp::MapShapesAndUniqueAncestors(shape, TopAbs_EDGE, TopAbs_FACE, parents);
+    for (int i = 1; i <= parents.Extent(); ++i) {
+      run.check();
+      const TopoDS_Edge edge = TopoDS::Edge(parents.FindKey(i));
+      if (BRep_Tool::Degenerated(edge)) continue;
+      FootEdge data;
+      data.curve = BRep_Tool::Curve(edge, data.first, data.last);
+      if (data.curve.IsNull()) continue;
+      double deflection = Precision::Infinite();
+      bool seam = false;
+      for (const TopoDS_Shape& face : parents(i)) {
+        const auto number = static_cast<std::uint32_t>(all.FindIndex(face)) - 1;
+        data.faces.push_back(number);
+        faces_[number].edges.push_back(static_cast<std::uint32_t>(edges_.size()));
+        deflection = std::min(deflection, faces_[number].margin_mm);
+        seam = seam || BRep_Tool::IsClosed(edge, TopoDS::Face(face));
+      }
+      if (data.faces.empty()) continue;
+      data.is_free = data.faces.size() == 1 && !seam;
+      sample_edge(data, std::max(deflection, Precision::Confusion()));
+      edges_.push_back(std::move(data));
+    }
+  }
+
+  [[nodiscard]] bool contains(std::uint32_t face,
+                              const Vector2d& uv,
+                              Classifiers& classifiers) const {
+    auto& classifier = classifiers[face];
+    if (!classifier) {
+      const std::scoped_lock lock(mutex_);  // its making may compute what faces share
+      classifier =
+          std::make_unique<BRepTopAdaptor_FClass2d>(faces_[face].face, Precision::PConfusion());
+    }
+    const TopAbs_State state = classifier->Perform(gp_Pnt2d(uv.x(), uv.y()));
+    return state == TopAbs_IN || state == TopAbs_ON;
+  }
+
+  /// The parameters of the triangle's point nearest to `point`, within a distance.
+  [[nodiscard]] std::optional<Vector2d> start_on(const FaceData& data,
+                                                 const Vector3d& point,
+                                                 const NearestPoint* start,
+                                                 double reach) const {
+    if (data.surface.is_elementary()) return Vector2d::Zero();
+    std::uint32_t triangle = 0;
+    Vector3d weights;
+    if (start != nullptr) {
+      triangle = start->triangle - data.first_triangle;
+      weights = weights_in(mesh, start->triangle, start->point_mm);
+    } else {
+      if (!data.triangles) return std::nullopt;
+      const auto near = data.triangles->nearest(point, reach + data.margin_mm);
+      if (!near) return std::nullopt;
+      triangle = near->triangle;
+      weights = weights_in(data.triangles->mesh(), near->triangle, near->point_mm);
+    }
+    const auto& uv = data.uvs[triangle];
+    return weights[0] * uv[0] + weights[1] * uv[1] + weights[2] * uv[2];
+  }
+
+  void try_face(std::uint32_t face,
+                const Vector3d& point,
+                const NearestPoint* start,
+                Classifiers& classifiers,
+                Best& best) const {
+    const FaceData& data = faces_[face];
+    const auto uv = start_on(data, point, start, best.distance);
+    if (!uv) return;
+    const SurfaceFoot foot = data.surface.foot(point, *uv);
+    const double distance = (foot.point_mm - point).norm();
+    if (!(distance < best.distance)) return;
+    if (contains(face, foot.uv, classifiers)) {
+      best = {distance, foot.point_mm, data.side * foot.normal, face, nullptr};
+      if (foot.inside) return;
+    }
+    for (const std::uint32_t number : data.edges) {
+      const FootEdge& edge = edges_[number];
+      if (edge.box.squaredExteriorDistance(point) >= best.distance * best.distance) continue;
+      const Vector3d at = foot_on_edge(edge, point);
+      const double from_edge = (at - point).norm();
+      if (from_edge < best.distance) best = {from_edge, at, Vector3d::Zero(), face, &edge};
+    }
+  }
+
+  [[nodiscard]] ExactPoint answer(const Vector3d& point,
+                                  const NearestPoint& start,
+                                  Best best) const {
+    if (!std::isfinite(best.distance)) {  // a face without valid edges: what its triangles say
+      best.distance = start.distance_mm;
+      best.point = start.point_mm;
+      best.face = face_of_triangle[start.triangle];
+      best.normal =
+          std::copysign(1.0, start.signed_distance_mm) * (point - start.point_mm).normalized();
+    }
+    const Vector3d way = point - best.point;
+    if (best.edge != nullptr) {
+      double largest = -1.0;
+      for (const std::uint32_t face : best.edge->faces) {
+        const FaceData& data = faces_[face];
+        const auto uv =
+            start_on(data, best.point, nullptr, std::numeric_limits<double>::infinity());
+        if (!uv) continue;
+        const Vector3d normal = data.side * data.surface.foot(best.point, *uv).normal;
+        const double along = std::abs(way.dot(normal));
+        if (!(along > largest)) continue;
+        largest = along;
+        best.normal = normal;
+        best.face = face;
+      }
+    }
+    ExactPoint found;
+    found.point_mm = best.point;
+    found.normal = best.normal;
+    found.distance_mm = best.distance;
+    found.signed_distance_mm = std::copysign(best.distance, way.dot(best.normal));
+    found.face = best.face;
+    found.on_boundary = best.edge != nullptr && best.edge->is_free;
+    return found;
+  }
+
+  [[nodiscard]] std::unique_ptr<Classifiers> taken() const {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Classifiers>(faces_.size());
+    auto last = std::move(idle_.back());
+    idle_.pop_back();
+    return last;
+  }
+  void give_back(std::unique_ptr<Classifiers> classifiers) const {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(classifiers));
+  }
+
+  std::vector<FaceData> faces_;
+  std::vector<FootEdge> edges_;
+  std::unique_ptr<AabbTree> tree_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Classifiers>> idle_;
+};
+
+}  // namespace
+
+std::unique_ptr<CadModel::Faces> load_faces(std::istream& stream, const Run& run) {
+  try {
+    Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+    TopoDS_Shape shape;
+    BinTools::Read(shape, stream);
+    return std::make_unique<OcctFaces>(shape, run);
+  } catch (const Standard_Failure&) {
+    throw Error(ErrorKind::Input, "its shape is not valid; export it again");
+  }
+}
+
+}  // namespace frangia
