@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct InspectArguments {
   double expansion_ppm_per_k = 0.0;
   double temperature_u_k = 0.0;
   std::vector<std::filesystem::path> outputs;
-  double unit_mm = 1.0;
+  std::optional<double> unit_mm;  ///< of the reference; none: not stated
   int width_px = RenderOptions{}.width_px;
   int height_px = RenderOptions{}.height_px;
   ReadOptions read;

@@ -62,7 +62,7 @@ std::string left_out_text(const DeviationSummary& summary) {
 
 Comparison compare_with(const InspectArguments& arguments,
                         const Mesh& mesh,
-                        const RayScene& reference,
+                        const Reference& reference,
                         const std::optional<Alignment>& alignment,
                         const Run& run) {
   constexpr double kPerMillion = 1e-6;
@@ -70,8 +70,9 @@ Comparison compare_with(const InspectArguments& arguments,
   if (alignment) options.pose = alignment->pose.uncertainty;
   options.expansion_per_k = kPerMillion * arguments.expansion_ppm_per_k;
   options.temperature_u_k = arguments.temperature_u_k;
+  options.exact = reference.cad.get();
   Comparison comparison;
-  comparison.deviations = deviations_of(mesh, reference, options, run);
+  comparison.deviations = deviations_of(mesh, reference.scene, options, run);
   comparison.summary = summarize(mesh, comparison.deviations, arguments.alignment.band());
   return comparison;
 }
@@ -118,13 +119,16 @@ void add_deviations(InspectAnswer& answer, const Comparison& comparison) {
 void add_statistics(InspectAnswer& answer,
                     const InspectArguments& arguments,
                     const Mesh& mesh,
-                    const RayScene& reference,
+                    const Reference& reference,
                     const Run& run) {
   run.stage("statistics");
   const RayScene mesh_scene(mesh, run);
-  const SurfaceError error = surface_error(mesh, reference, {}, run);
-  const SurfaceCompleteness completeness = completeness_of(arguments, reference, mesh_scene, run);
-  const SurfaceValidity validity = surface_validity(mesh, reference, run);
+  const SurfaceError error =
+      surface_error(mesh, reference.scene, {.exact = reference.cad.get()}, run);
+  const SurfaceCompleteness completeness =
+      completeness_of(arguments, reference.scene, mesh_scene, run);
+  const SurfaceValidity validity =
+      surface_validity(mesh, reference.scene, run, reference.cad.get());
   answer.json.update(Json{{"vertices", error.count},
                           {"rms_mm", error.rms_mm},
                           {"mean_mm", error.mean_mm},

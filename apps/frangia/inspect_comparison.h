@@ -6,6 +6,7 @@
 #include "frangia/inspect/deviation_summary.h"
 
 #include "inspect_arguments.h"
+#include "inspect_reference.h"
 
 namespace frangia {
 
@@ -18,7 +19,7 @@ struct Comparison {
 /// Measures the deviations of the aligned mesh from its reference.
 [[nodiscard]] Comparison compare_with(const InspectArguments& arguments,
                                       const Mesh& mesh,
-                                      const RayScene& reference,
+                                      const Reference& reference,
                                       const std::optional<Alignment>& alignment,
                                       const Run& run);
 
@@ -29,7 +30,7 @@ void add_deviations(InspectAnswer& answer, const Comparison& comparison);
 void add_statistics(InspectAnswer& answer,
                     const InspectArguments& arguments,
                     const Mesh& mesh,
-                    const RayScene& reference,
+                    const Reference& reference,
                     const Run& run);
 
 /// The largest deviation on a color scale: that of the arguments, or 1.5 times the tolerance.

@@ -16,6 +16,7 @@ namespace frangia {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Nominals = std::vector<std::optional<NominalFace>>;
 
 Json json_of_vector(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
@@ -54,6 +55,16 @@ Json json_of_details(const Feature& feature) {
           {"axis_u95_deg", number_or_null(deg_from_rad(u.axis_u95_rad))}};
 }
 
+Json json_of_nominal(const Feature& feature, const std::optional<NominalFace>& nominal) {
+  if (!nominal) return {};
+  Json json{{"face", nominal->number}, {"diameter_mm", Json()}, {"difference_mm", Json()}};
+  if (has_diameter(nominal->shape.kind)) {
+    json["diameter_mm"] = 2.0 * nominal->shape.radius_mm;
+    json["difference_mm"] = 2.0 * (feature.fit.shape.radius_mm - nominal->shape.radius_mm);
+  }
+  return json;
+}
+
 std::string vector_text(const Eigen::Vector3d& vector, int decimals) {
   return fixed_text(vector.x(), decimals) + " " + fixed_text(vector.y(), decimals) + " " +
          fixed_text(vector.z(), decimals);
@@ -65,16 +76,20 @@ std::string cell_text(double value, int decimals) {
 
 }  // namespace
 
-void add_features(nlohmann::ordered_json& json, const std::vector<Feature>& features) {
+void add_features(nlohmann::ordered_json& json,
+                  const std::vector<Feature>& features,
+                  const Nominals& nominals) {
   json["features"] = Json::array();
   json["feature_details"] = Json::array();
-  for (const Feature& feature : features) {
-    json["features"].push_back(json_of_feature(feature));
-    json["feature_details"].push_back(json_of_details(feature));
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    json["features"].push_back(json_of_feature(features[i]));
+    Json details = json_of_details(features[i]);
+    if (!nominals.empty()) details["nominal"] = json_of_nominal(features[i], nominals[i]);
+    json["feature_details"].push_back(details);
   }
 }
 
-std::string feature_table(const std::vector<Feature>& features) {
+std::string feature_table(const std::vector<Feature>& features, const Nominals& nominals) {
   TextColumn kind{"feature", {}, false};
   TextColumn diameter{"diameter mm", {}};
   TextColumn u95{"U95 mm", {}};
@@ -97,7 +112,20 @@ std::string feature_table(const std::vector<Feature>& features) {
     axis.values.push_back(shape.kind == ShapeKind::Sphere ? "" : vector_text(a, 4));
     points.values.push_back(fmt::format("{}", feature.fit.points));
   }
-  return text_table({kind, diameter, u95, form, center, axis, points});
+  if (nominals.empty()) return text_table({kind, diameter, u95, form, center, axis, points});
+  TextColumn face{"CAD face", {}};
+  TextColumn size{"nominal mm", {}};
+  TextColumn difference{"difference mm", {}};
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const auto& nominal = nominals[i];
+    const bool sized = nominal && has_diameter(nominal->shape.kind);
+    face.values.push_back(nominal ? fmt::format("{}", nominal->number) : "");
+    size.values.push_back(sized ? fixed_text(2.0 * nominal->shape.radius_mm, 4) : "");
+    difference.values.push_back(
+        sized ? signed_text(2.0 * (features[i].fit.shape.radius_mm - nominal->shape.radius_mm), 4)
+              : "");
+  }
+  return text_table({kind, diameter, face, size, difference, u95, form, center, axis, points});
 }
 
 }  // namespace frangia

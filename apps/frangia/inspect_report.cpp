@@ -284,6 +284,7 @@ std::vector<std::string> write_report(const InspectArguments& arguments,
   report.pictures = pictures_of(arguments, part, run);
   report.characteristics = part.characteristics;
   report.features = part.features;
+  report.nominals = part.nominals;
   report.sections = part.sections;
   report.uncertainty_mm = uncertainty_terms_of(part);
   report.correlation_known = !part.mesh.sigma_systematic_mm.empty();

@@ -13,10 +13,11 @@ namespace frangia {
 
 /// What one inspection found, as the report needs it.
 struct InspectedPart {
-  Mesh mesh;                             ///< aligned
-  std::optional<Alignment> alignment;    ///< of the mesh on the reference
-  std::optional<Comparison> comparison;  ///< with the reference
-  std::vector<Feature> features;         ///< that were found
+  Mesh mesh;                                         ///< aligned
+  std::optional<Alignment> alignment;                ///< of the mesh on the reference
+  std::optional<Comparison> comparison;              ///< with the reference
+  std::vector<Feature> features;                     ///< that were found
+  std::vector<std::optional<NominalFace>> nominals;  ///< of the features, by a CAD reference
   std::vector<MeasuredCharacteristic> characteristics;
   std::vector<SectionResult> sections;
 };

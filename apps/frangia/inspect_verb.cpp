@@ -14,6 +14,7 @@
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/report/batch.h"
+#include "frangia/report/planned_nominals.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"
@@ -24,6 +25,7 @@
 #include "inspect_features.h"
 #include "inspect_picture.h"
 #include "inspect_plan.h"
+#include "inspect_reference.h"
 #include "inspect_report.h"
 #include "json_number.h"
 #include "option_values.h"
@@ -52,14 +54,6 @@ void check_alignment(const InspectArguments& arguments) {
   }
 }
 
-Mesh read_reference(const InspectArguments& arguments, const Run& run) {
-  Mesh reference = read_surface(arguments.reference, run, arguments.read);
-  if (arguments.unit_mm == 1.0) return reference;
-  for (auto& vertex : reference.vertices_mm)
-    vertex *= static_cast<float>(arguments.unit_mm);
-  return reference;
-}
-
 /// Checks before the work what can be checked.
 void check_arguments(const InspectArguments& arguments, const InspectionPlan& plan) {
   const bool drawn = !arguments.picture.empty();
@@ -78,6 +72,30 @@ void check_arguments(const InspectArguments& arguments, const InspectionPlan& pl
   check_alignment(arguments);
 }
 
+/// Finds the features of the mesh and measures those of the plan.
+void inspect_features(const InspectArguments& arguments,
+                      InspectionPlan plan,
+                      const std::optional<Reference>& reference,
+                      InspectedPart& part,
+                      InspectAnswer& answer,
+                      const Run& run) {
+  if (reference && reference->cad) {
+    state_nominals(plan.features, reference->cad->faces(), arguments.plan);
+  } else {
+    check_without_cad(plan.features, arguments.plan);
+  }
+  if (!arguments.features && plan.features.empty()) return;
+  run.stage("features");
+  part.features = find_features(part.mesh, {}, run);
+  std::vector<MeasuredFeature> measured;
+  if (!plan.features.empty() || (reference && reference->cad))
+    measured = with_points(part.mesh, part.features, run);
+  if (reference) part.nominals = nominal_faces(*reference, measured);
+  add_features(answer.json, part.features, part.nominals);
+  if (arguments.features) answer.text += feature_table(part.features, part.nominals);
+  if (!plan.features.empty()) part.characteristics = measure_characteristics(plan, measured, run);
+}
+
 /// Inspects one mesh.
 InspectedPart inspect_mesh(const InspectArguments& arguments,
                            const InspectionPlan& plan,
@@ -86,31 +104,22 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   InspectedPart part;
   part.mesh = read_surface(arguments.mesh, run, arguments.read);
   if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
-  std::optional<RayScene> reference;
-  if (!arguments.reference.empty()) reference.emplace(read_reference(arguments, run), run);
+  const std::optional<Reference> reference = read_reference(arguments, run);
+  if (reference) add_reference(answer, *reference);
   if (!arguments.alignment.align.empty()) {
-    part.alignment = align(part.mesh, *reference, arguments.alignment, run);
+    part.alignment = align(part.mesh, reference->scene, arguments.alignment, run);
     add_alignment(answer.json, *part.alignment);
     answer.text += alignment_text(*part.alignment);
     part.mesh = transform_mesh(std::move(part.mesh), part.alignment->pose.reference_from_mesh);
   }
-  if (arguments.features || !plan.features.empty()) {
-    run.stage("features");
-    part.features = find_features(part.mesh, {}, run);
-    add_features(answer.json, part.features);
-    if (arguments.features) answer.text += feature_table(part.features);
-    if (!plan.features.empty()) {
-      part.characteristics =
-          measure_characteristics(plan, with_points(part.mesh, part.features, run), run);
-    }
-  }
+  inspect_features(arguments, plan, reference, part, answer, run);
   if (reference) {
     part.comparison = compare_with(arguments, part.mesh, *reference, part.alignment, run);
     add_statistics(answer, arguments, part.mesh, *reference, run);
     add_deviations(answer, *part.comparison);
   }
   part.sections =
-      cut_sections(plan, part.mesh, reference ? &*reference : nullptr, part.comparison, run);
+      cut_sections(plan, part.mesh, reference ? &reference->scene : nullptr, part.comparison, run);
   add_results(answer, part);
   return part;
 }
@@ -203,6 +212,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia inspect bust.ply --reference bust-scan/truth.ply --scan bust-scan "
       "--picture bust.png\n"
       "  frangia inspect blade.ply --reference nominal.stl --align best-fit -o aligned.ply\n"
+      "  frangia inspect blade.ply --reference nominal.step --align best-fit --features\n"
       "  frangia inspect shaft.ply --features\n"
       "  frangia inspect shaft.ply --plan inspection.toml --report report.html\n"
       "  frangia inspect a.ply b.ply --plan inspection.toml --batch batch.html");
@@ -226,12 +236,16 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   verb->add_flag("--blade",
                  arguments->blade,
                  "the sections are profiles of a blade: chord, thickness, edge radii, stagger");
-  verb->add_option("--reference",
-                   arguments->reference,
-                   "the reference mesh, in the frame of the mesh unless --align finds its pose");
-  verb->add_option("--units",
-                   arguments->unit_mm,
-                   "unit of the reference: um, mm (default), cm, m, in, ft, or its length")
+  verb->add_option(
+      "--reference",
+      arguments->reference,
+      "the reference, in the frame of the mesh unless --align finds its pose: a mesh, or a "
+      "CAD model (.step, .iges), to whose faces deviations are measured");
+  verb->add_option(
+          "--units",
+          arguments->unit_mm,
+          "unit of the reference: um, mm (default), cm, m, in, ft, or its length; CAD files "
+          "state theirs")
       ->transform(unit_length());
   add_alignment_options(*verb, arguments->alignment);
   verb->add_option("-o,--output",

@@ -98,12 +98,15 @@ SurfaceError surface_error(const Mesh& mesh,
   return error;
 }
 
-std::vector<float> vertex_errors_mm(const Mesh& mesh, const RayScene& reference, const Run& run) {
+std::vector<float> vertex_errors_mm(const Mesh& mesh,
+                                    const RayScene& reference,
+                                    const Run& run,
+                                    const ExactSurface* exact) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(mesh.vertices_mm.size());
   for (const auto& vertex : mesh.vertices_mm)
     points.emplace_back(vertex.cast<double>());
-  return signed_distances(points, reference, nullptr, run);
+  return signed_distances(points, reference, exact, run);
 }
 
 }  // namespace frangia

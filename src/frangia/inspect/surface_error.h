@@ -47,12 +47,14 @@ struct SurfaceError {
                                          const SurfaceErrorOptions& options = {},
                                          const Run& run = {});
 
-/// The signed distance of each vertex from a reference, positive outside.
+/// The signed distance of each vertex from a reference, positive outside. `exact` is the surface
+/// that the reference approximates; null: the reference is exact.
 ///
 /// @units    mm
 /// @errors   Error(Input) when the reference has no triangles
 [[nodiscard]] std::vector<float> vertex_errors_mm(const Mesh& mesh,
                                                   const RayScene& reference,
-                                                  const Run& run = {});
+                                                  const Run& run = {},
+                                                  const ExactSurface* exact = nullptr);
 
 }  // namespace frangia

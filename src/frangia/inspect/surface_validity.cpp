@@ -14,9 +14,12 @@
 namespace frangia {
 namespace {
 
-double sigma_ratio(const Mesh& mesh, const RayScene& reference, const Run& run) {
+double sigma_ratio(const Mesh& mesh,
+                   const RayScene& reference,
+                   const Run& run,
+                   const ExactSurface* exact) {
   if (mesh.sigma_mm.empty()) return kMissing;
-  const std::vector<float> errors = vertex_errors_mm(mesh, reference, run);
+  const std::vector<float> errors = vertex_errors_mm(mesh, reference, run, exact);
   double squares = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -48,13 +51,16 @@ bool is_inward(const Mesh& mesh, const Mesh::Triangle& triangle, const RayScene&
 
 }  // namespace
 
-SurfaceValidity surface_validity(const Mesh& mesh, const RayScene& reference, const Run& run) {
+SurfaceValidity surface_validity(const Mesh& mesh,
+                                 const RayScene& reference,
+                                 const Run& run,
+                                 const ExactSurface* exact) {
   std::vector<std::uint8_t> inward(mesh.triangles.size());
   interruptible_chunks(inward.size(), 1024, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       inward[i] = is_inward(mesh, mesh.triangles[i], reference) ? 1 : 0;
   });
-  return {sigma_ratio(mesh, reference, run),
+  return {sigma_ratio(mesh, reference, run, exact),
           count_non_manifold_edges(mesh),
           static_cast<std::size_t>(std::count(inward.begin(), inward.end(), 1))};
 }

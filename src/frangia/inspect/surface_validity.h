@@ -4,6 +4,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/run.h"
+#include "frangia/geometry/exact_surface.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
 
@@ -18,11 +19,13 @@ struct SurfaceValidity {
   std::size_t inward_triangles = 0;  ///< that face against the nearest reference surface
 };
 
-/// Compares a mesh with a reference whose triangles face outward.
+/// Compares a mesh with a reference whose triangles face outward. `exact` is the surface that the
+/// reference approximates; null: the reference is exact.
 ///
 /// @missing  `sigma_ratio` is NaN for a mesh without sigma
 [[nodiscard]] SurfaceValidity surface_validity(const Mesh& mesh,
                                                const RayScene& reference,
-                                               const Run& run = {});
+                                               const Run& run = {},
+                                               const ExactSurface* exact = nullptr);
 
 }  // namespace frangia

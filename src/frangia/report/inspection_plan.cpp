@@ -54,12 +54,20 @@ Characteristic characteristic_of(TomlReader& reader) {
 PlannedFeature feature_of(TomlReader& reader) {
   PlannedFeature feature;
   feature.name = reader.text("name");
-  feature.kind = shape_kind_of(reader);
-  feature.near_mm = vector_of(reader, "near_mm");
+  // A face of the CAD reference states what is not stated here.
+  if (reader.has("face"))
+    feature.face = static_cast<std::size_t>(reader.integer("face", 1, 1'000'000));
+  if (feature.face == 0) {
+    feature.kind = shape_kind_of(reader);
+    feature.near_mm = vector_of(reader, "near_mm");
+  } else {
+    for (const char* key : {"kind", "near_mm"}) {
+      if (reader.has(key))
+        reader.fail(key, "is stated by the face of the CAD reference; leave it out");
+    }
+  }
   if (reader.has("diameter_mm")) feature.diameter_mm = reader.positive("diameter_mm");
   feature.tolerance_mm = limits_of(reader, "tolerance_mm");
-  if (feature.tolerance_mm && !feature.diameter_mm)
-    reader.fail("tolerance_mm", "is of the diameter; state diameter_mm, the nominal size");
   for (const Characteristic form :
        {Characteristic::Flatness, Characteristic::Roundness, Characteristic::Cylindricity}) {
     const std::string key = std::string(name_of(form)) + "_mm";

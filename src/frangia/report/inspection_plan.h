@@ -20,6 +20,7 @@ struct PlannedFeature {
   std::string name;                                   ///< unique in the plan
   ShapeKind kind = ShapeKind::Plane;                  ///< of the feature
   Eigen::Vector3d near_mm = Eigen::Vector3d::Zero();  ///< near its center, frame of the reference
+  std::size_t face = 0;                               ///< of the CAD reference, from 1; 0: none
   std::optional<double> diameter_mm;                  ///< nominal
   std::optional<ToleranceLimits> tolerance_mm;        ///< of the difference from the nominal
   std::map<Characteristic, double> forms_mm;          ///< upper limits of its own form

@@ -102,11 +102,12 @@ void add_characteristics(HtmlPage& page, const std::vector<MeasuredCharacteristi
              rows);
 }
 
-void add_found_features(HtmlPage& page, const std::vector<Feature>& features) {
-  if (features.empty()) return;
+void add_found_features(HtmlPage& page, const InspectionReport& report) {
+  if (report.features.empty()) return;
   page.heading("Features that were found");
   Rows rows;
-  for (const Feature& feature : features) {
+  for (std::size_t i = 0; i < report.features.size(); ++i) {
+    const Feature& feature = report.features[i];
     const Shape& shape = feature.fit.shape;
     const bool round = shape.kind != ShapeKind::Plane && shape.kind != ShapeKind::Line;
     const bool fitted = is_surface(shape.kind);
@@ -121,9 +122,21 @@ void add_found_features(HtmlPage& page, const std::vector<Feature>& features) {
                         ? ""
                         : fmt::format("{:.4f} {:.4f} {:.4f}", a.x(), a.y(), a.z()),
                     fmt::format("{}", feature.fit.points)});
+    if (report.nominals.empty()) continue;
+    const std::optional<NominalFace>& nominal = report.nominals[i];
+    const double size =
+        nominal && round ? 2.0 * nominal->shape.radius_mm : static_cast<double>(kMissing);
+    const std::vector<std::string> cells{
+        nominal ? fmt::format("{}", nominal->number) : "",
+        number_text(size, 4),
+        std::isfinite(size) ? fmt::format("{:+.4f}", 2.0 * shape.radius_mm - size) : ""};
+    rows.back().insert(rows.back().begin() + 2, cells.begin(), cells.end());
   }
-  page.table({"feature", "diameter, mm", "U95, mm", "form, mm", "center, mm", "axis", "points"},
-             rows);
+  std::vector<std::string> names{
+      "feature", "diameter, mm", "U95, mm", "form, mm", "center, mm", "axis", "points"};
+  if (!report.nominals.empty())
+    names.insert(names.begin() + 2, {"CAD face", "nominal, mm", "difference, mm"});
+  page.table(names, rows);
 }
 
 void add_blades(HtmlPage& page, const std::vector<SectionResult>& sections) {
@@ -253,7 +266,7 @@ std::string html_of(const InspectionReport& report) {
   add_characteristics(page, report.characteristics);
   add_blades(page, report.sections);
   add_sections(page, report);
-  add_found_features(page, report.features);
+  add_found_features(page, report);
   add_uncertainty(page, report);
   return page.text();
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/cad/nominal_face.h"
 #include "frangia/core/image.h"
 #include "frangia/features/find_features.h"
 #include "frangia/frames/png.h"
@@ -34,7 +35,9 @@ struct InspectionReport {
   std::vector<ReportPicture> pictures;                         ///< of the deviations
   std::vector<MeasuredCharacteristic> characteristics;         ///< that a plan asked for
   std::vector<Feature> features;                               ///< all that were found
-  std::vector<SectionResult> sections;                         ///< that a plan asked for
+  /// The face of the CAD reference of each feature; empty without such a reference.
+  std::vector<std::optional<NominalFace>> nominals;
+  std::vector<SectionResult> sections;  ///< that a plan asked for
   /// Largest or typical standard uncertainty of each known source, mm.
   std::vector<std::pair<std::string, double>> uncertainty_mm;
   bool correlation_known = false;     ///< the systematic part of sigma holds the calibration

@@ -6,30 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "frangia/report/internal/shape_mismatch.h"
+
 namespace frangia {
 namespace {
 
 constexpr double k95 = 1.959964;
 using FeatureByName = std::map<std::string, const MeasuredFeature*>;
-
-/// How far a feature is from a planned one: of its place and of its size.
-double mismatch_mm(const PlannedFeature& planned, const Shape& shape) {
-  const Eigen::Vector3d offset = planned.near_mm - shape.center_mm;
-  const bool flat = shape.kind == ShapeKind::Plane;
-  // Along a plane or an axis the place is less certain than across it.
-  const double along = offset.dot(shape.axis);
-  const double across = (offset - along * shape.axis).norm();
-  constexpr double kLoose = 0.2;
-  const bool point = shape.kind == ShapeKind::Sphere || shape.kind == ShapeKind::Circle ||
-                     shape.kind == ShapeKind::Torus;
-  double place = offset.norm();
-  if (!point) {
-    place = flat ? std::abs(along) + kLoose * across : across + kLoose * std::abs(along);
-  }
-  const double size =
-      planned.diameter_mm ? std::abs(2.0 * shape.radius_mm - *planned.diameter_mm) : 0.0;
-  return place + size;
-}
 
 const MeasuredFeature* match(const PlannedFeature& planned,
                              const std::vector<MeasuredFeature>& features) {
@@ -39,7 +22,7 @@ const MeasuredFeature* match(const PlannedFeature& planned,
   for (const MeasuredFeature& feature : features) {
     const Shape& shape = feature.feature.fit.shape;
     if (shape.kind != planned.kind) continue;
-    const double mismatch = mismatch_mm(planned, shape);
+    const double mismatch = shape_mismatch_mm(planned, shape);
     if (mismatch >= least) continue;
     least = mismatch;
     best = &feature;
