@@ -1,3 +1,4 @@
+// Above 250 lines: one class around the handles of a library.
 #include <algorithm>
 #include <cmath>
 #include <istream>

@@ -1,3 +1,4 @@
+// Above 250 lines: the feet on each kind of surface and edge.
 #include "frangia/cad/internal/occt_foot.h"
 
 #include <algorithm>
