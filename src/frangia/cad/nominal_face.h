@@ -19,7 +19,7 @@ struct NominalFace {
 /// Finds the face of a model that a feature of an aligned mesh was made by: the one of its kind to
 /// which most of its points are nearest.
 ///
-/// @param scene   of `model.mesh()`
+/// `scene` is of `model.mesh()`.
 /// @missing       none where no face of that kind is nearest to a quarter of the points, as for
 ///                lines and circles
 [[nodiscard]] std::optional<NominalFace> nominal_face(const CadModel& model,

@@ -12,7 +12,7 @@ namespace frangia {
 /// of a feature that names its face; the diameter of one that states none, from the face of its
 /// kind whose center, or axis, comes nearest.
 ///
-/// @param path   of the plan, for messages
+/// `path` is that of the plan, for messages.
 /// @units    mm
 /// @errors   Error(Input) that names the plan and the feature, where its face does not exist or is
 ///           a free-form surface, or where a tolerance has no diameter to refer to
