@@ -81,6 +81,9 @@ target_compile_options(frangia_build_flags INTERFACE
 if(FRANGIA_SANITIZE)
   add_compile_options(-fsanitize=${FRANGIA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FRANGIA_SANITIZE})
+  # With the address sanitizer Eigen allocates by functions of its own, and would free what Eigen's code in Debian's
+  # libceres.a has allocated, or the other way round.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
   if(FRANGIA_SANITIZE STREQUAL "thread" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Asio has fences, which the sanitizer does not see; its locks, which it does, are enough.
     add_compile_options(-Wno-tsan)

@@ -22,7 +22,8 @@ std::vector<T> array_in(const std::string& packed, const std::string& name) {
     std::vector<T> values(array.at("length").get<std::size_t>());
     const auto offset = array.at("offset").get<std::size_t>();
     EXPECT_LE(offset + values.size() * sizeof(T), packed.size()) << name;
-    std::memcpy(values.data(), packed.data() + offset, values.size() * sizeof(T));
+    if (!values.empty())
+      std::memcpy(values.data(), packed.data() + offset, values.size() * sizeof(T));
     return values;
   }
   return {};

@@ -41,8 +41,9 @@ TEST_F(LiveServiceTest, DecodesFramesAsTheyComeAndFollowsTheSettings) {
   command("test-devices");  // the preview gives way
   EXPECT_TRUE(wait([&] { return !busy(); }));
   EXPECT_TRUE(project().at("live").is_null());
-  ASSERT_EQ(project().at("devices").size(), 3U);
-  for (const Json& device : project().at("devices"))
+  const Json devices = project().at("devices");
+  ASSERT_EQ(devices.size(), 3U);
+  for (const Json& device : devices)
     EXPECT_NE(device.at("answer"), "") << device;
 }
 
