@@ -6,7 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/angles.h"
+#include "frangia/geometry/ray_scene.h"
+#include "frangia/inspect/surface_error.h"
 #include "frangia/pipeline/reconstruct.h"
+#include "frangia/rig/read_rig.h"
 
 #include "support/displaced_views.h"
 #include "support/error_of.h"
@@ -38,6 +42,20 @@ TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
                           [](float sigma) { return std::isnan(sigma); }));
   for (const std::string& note : notes)
     EXPECT_EQ(note.find("agree"), std::string::npos) << note;
+}
+
+TEST(Reconstruct, KeepsARightRigWhereFewViewsOverlapTooLittleToRefineIt) {
+  const TemporaryFolder folder;
+  Scan plan;
+  plan.folder = folder.path();
+  plan.rig = read_rig(FRANGIA_SOURCE_DIR "/examples/python/small-rig.toml");
+  plan.patterns = default_patterns(plan.rig, {.periods_px = {640.0, 80.0, 20.0}});
+  for (int i = 0; i < 4; ++i)
+    plan.views.push_back({rad_from_deg(90.0 * i), "views/" + std::to_string(i)});
+  const Reconstruction result = reconstruct(simulate_scan(make_part("bracket"), plan));
+  EXPECT_EQ(result.untrusted_reason, "");
+  const RayScene truth(make_part("bracket"));
+  EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 0.05);  // 2.1 mm with the refined axis
 }
 
 TEST(Reconstruct, IsAnErrorWhereThePointsFormNoSurface) {

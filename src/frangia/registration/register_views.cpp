@@ -42,6 +42,18 @@ bool fits_as_well(const Bundle& bundle,
              factor * static_cast<double>(median(found.distances_mm));
 }
 
+/// Whether views at the given state contradict each other less than they may, other than at the
+/// refined one: a rig that is right is not given up for poses that contradict the views.
+bool contradicts_less(const Bundle& bundle,
+                      const SurfelLists& surfels,
+                      const RegistrationReport& found,
+                      double max_contradiction) {
+  if (found.trustworthy) return false;
+  Bundle as_given = bundle;
+  as_given.state = bundle.given;
+  return contradiction_of(sum(as_given, surfels), surfels) <= max_contradiction;
+}
+
 /// A registration in progress.
 struct Registration {
   Bundle bundle;
@@ -204,12 +216,14 @@ RegistrationReport register_views(ViewStore& views,
   report_fit(report, after);
   report.overlap = overlap_of(after, surfels);
   report.iterations = bundle.iterations;
-  report.kept_rig = fits_as_well(bundle, surfels, after, options.as_good_as_given);
+  report.kept_rig = fits_as_well(bundle, surfels, after, options.as_good_as_given) ||
+                    contradicts_less(bundle, surfels, report, options.max_contradiction);
   if (report.kept_rig) {
     bundle.state = bundle.given;
     const BundleSums kept = sum(bundle, surfels);
     assess_contradiction(report, kept, work);
     report_fit(report, kept);
+    report.overlap = overlap_of(kept, surfels);
   }
   if (!report.trustworthy) run.warn(report.untrusted_reason());
   const PartScale scale = measure_part_scale(bundle, surfels, camera);
