@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include "frangia/core/error.h"
@@ -47,16 +49,50 @@ int fail(const std::string& message, int code) {
   return code;
 }
 
-/// Prints the error that ended a verb. A reader of the output that has ended stops the program
-/// without a message, as it does other programs.
-int print_error(Terminal& terminal, const std::string& sentence, int code) {
+const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::Input:
+      return "input";
+    case ErrorKind::File:
+      return "file";
+    case ErrorKind::Device:
+      return "device";
+    case ErrorKind::Numeric:
+      return "numeric";
+    case ErrorKind::Cancelled:
+      return "interrupted";
+  }
+  return "numeric";
+}
+
+/// Whether `--json` is among the arguments. CLI11 sets no flag when it refuses the command line.
+bool asks_for_json(int argc, char** argv) {
+  return std::any_of(argv + 1, argv + argc, [](const char* argument) {
+    return std::string_view(argument) == "--json";
+  });
+}
+
+/// Prints the error that ended a verb: a sentence, and JSON where that was asked for. A reader of
+/// the output that has ended stops the program without a message, as it does other programs.
+int print_error(Terminal& terminal, const std::string& sentence, int code, const char* kind) {
   if (reader_has_ended()) end_by_sigpipe();
   try {
     terminal.release();
     terminal.finish();
   } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch) of standard error
   }
-  return fail(with_flags(sentence), code);
+  const std::string message = with_flags(sentence);
+  try {
+    if (terminal.json) {
+      nlohmann::ordered_json json;
+      json["error"]["message"] = message;
+      json["error"]["exit_code"] = code;
+      json["error"]["kind"] = kind;
+      print_json(json);
+    }
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch) of standard output; the end states it
+  }
+  return fail(message, code);
 }
 
 int run_program(int argc, char** argv) {
@@ -108,17 +144,19 @@ int run_program(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help and --version
-    return print_error(terminal, usage_sentence(program, error), Usage);
+    terminal.json = asks_for_json(argc, argv);
+    return print_error(terminal, usage_sentence(program, error), Usage, "usage");
   } catch (const Error& error) {
-    return print_error(terminal, error.what(), exit_code_of(error.kind()));
+    return print_error(terminal, error.what(), exit_code_of(error.kind()), name_of(error.kind()));
   } catch (const std::bad_alloc&) {
     return print_error(terminal,
                        "this does not fit into the memory of the machine; set a larger `voxel`",
-                       NumericFault);
+                       NumericFault,
+                       "memory");
   } catch (const std::system_error& error) {  // of std::filesystem, or of output to standard error
-    return print_error(terminal, error.what(), BadInput);
+    return print_error(terminal, error.what(), BadInput, "file");
   } catch (const std::exception& error) {
-    return print_error(terminal, error.what(), NumericFault);
+    return print_error(terminal, error.what(), NumericFault, "numeric");
   }
   terminal.finish();
   return terminal.exit_code;

@@ -29,7 +29,7 @@ inline std::shared_ptr<const void> keep(const py::object& object) {
 
 /// A view of an image, which belongs to `owner`. Enumerations appear as their numbers.
 template <typename Number, typename Pixel>
-py::array view_of(const Image<Pixel>& image, const py::handle& owner) {
+py::array_t<Number> view_of(const Image<Pixel>& image, const py::handle& owner) {
   if (image.empty()) return py::array_t<Number>(std::vector<py::ssize_t>{0, 0});
   constexpr py::ssize_t kChannels = sizeof(Pixel) / sizeof(Number);
   std::vector<py::ssize_t> shape{image.height(), image.width()};
@@ -41,7 +41,7 @@ py::array view_of(const Image<Pixel>& image, const py::handle& owner) {
 
 /// A view of a vector of numbers or of small fixed vectors, which belongs to `owner`.
 template <typename Number, typename Element>
-py::array view_of(const std::vector<Element>& values, const py::handle& owner) {
+py::array_t<Number> view_of(const std::vector<Element>& values, const py::handle& owner) {
   constexpr py::ssize_t kColumns = sizeof(Element) / sizeof(Number);
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(values.size())};
   if (kColumns > 1) shape.push_back(kColumns);
@@ -52,7 +52,7 @@ py::array view_of(const std::vector<Element>& values, const py::handle& owner) {
 
 /// An array that takes over an image.
 template <typename Number, typename Pixel>
-py::array array_of(Image<Pixel>&& image) {
+py::array_t<Number> array_of(Image<Pixel>&& image) {
   auto* held = new Image<Pixel>(std::move(image));  // NOLINT(*-owning-memory) the capsule owns it
   const py::capsule owner(held, [](void* pointer) { delete static_cast<Image<Pixel>*>(pointer); });
   return view_of<Number>(*held, owner);

@@ -96,7 +96,7 @@ py::dict compare(const Mesh& mesh, const Mesh& reference, const py::object& prog
   return out;
 }
 
-py::array deviations(const Mesh& mesh, const Mesh& reference, const py::object& progress) {
+py::array_t<float> deviations(const Mesh& mesh, const Mesh& reference, const py::object& progress) {
   auto* values = new std::vector<float>(  // NOLINT(*-owning-memory) the capsule owns it
       result_of(progress, [&](const Run& run) {
         return vertex_errors_mm(mesh, RayScene(reference, run), run);
@@ -106,13 +106,13 @@ py::array deviations(const Mesh& mesh, const Mesh& reference, const py::object& 
   return view_of<float>(*values, owner);
 }
 
-py::array render(const Mesh& mesh,
-                 int width_px,
-                 int height_px,
-                 double azimuth_deg,
-                 double elevation_deg,
-                 const py::object& values,
-                 const std::string& label) {
+py::array_t<std::uint8_t> render(const Mesh& mesh,
+                                 int width_px,
+                                 int height_px,
+                                 double azimuth_deg,
+                                 double elevation_deg,
+                                 const py::object& values,
+                                 const std::string& label) {
   RenderOptions options;
   options.width_px = width_px;
   options.height_px = height_px;

@@ -64,7 +64,7 @@ DecodeOptions decode_options(const py::object& algorithm,
 
 /// Fringe order of the finest fringes: whole turns between absolute and wrapped phase; -1 where not
 /// measured.
-py::array order_of(const DecodedView& view) {
+py::array_t<std::int32_t> order_of(const DecodedView& view) {
   if (view.wrapped.empty()) throw Error(ErrorKind::Input, "the view holds no wrapped phase");
   const Image<float>& wrapped = view.wrapped.back().phase_rad;
   const Image<float>& absolute = view.phase.phase_rad;

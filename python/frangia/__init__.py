@@ -16,6 +16,12 @@ Each stage works on plain arrays, without a scan folder:
     wrapped = frangia.wrap_phase(stack)                     # wrapped.phase, .sigma, .modulation
     relative = frangia.unwrap_spatial(wrapped, "reliability-sorted")
 
+Rigs are calibrated and captured with:
+
+    calibration = frangia.calibrate(frangia.read_scan("poses", rig="start-values"))
+    frangia.write_rig("rig.toml", calibration.rig)
+    frangia.capture("rig.toml", "part-scan", views=8)
+
 A stage of `decode` and `reconstruct` can be a function of yours:
 
     wrap(stack, algorithm, noise) -> phase, sigma, modulation, mean      or a WrappedPhase
@@ -29,8 +35,30 @@ Errors are `frangia.Error`: InputError (also a ValueError), FileError (OSError),
 (RuntimeError) and NumericError (ArithmeticError). Their text says what to do.
 """
 
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from ._frangia import *  # noqa: F401,F403
 from ._frangia import __version__  # noqa: F401
-from ._convert import from_trimesh, to_meshio, to_open3d, to_trimesh  # noqa: F401
+from ._convert import from_meshio, from_open3d, from_trimesh, to_meshio, to_open3d, to_trimesh  # noqa: F401
 from ._progress import progress_bar  # noqa: F401
 from . import _notebook  # noqa: F401  adds Mesh.show
+
+if _TYPE_CHECKING:
+    from ._acquisition import Calibration, CalibrationView, CaptureReport, calibrate, capture  # noqa: F401
+
+_LATER = ("Calibration", "CalibrationView", "CaptureReport", "calibrate", "capture")
+
+
+def __getattr__(name: str) -> object:
+    """Loads calibration and capture, with OpenCV and Ceres, when they are used."""
+    if name not in _LATER:
+        raise AttributeError(f"module 'frangia' has no attribute '{name}'")
+    try:
+        from . import _acquisition
+    except ImportError as error:
+        raise ImportError(f"frangia.{name} is not available: {error}") from error
+    return getattr(_acquisition, name)
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_LATER])

@@ -1,11 +1,20 @@
 """Meshes from and to other packages, each imported when it is used."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy
 
-from ._frangia import Mesh
+from ._frangia import InputError, Mesh
+
+if TYPE_CHECKING:
+    import meshio
+    import open3d
+    import trimesh
 
 
-def to_trimesh(mesh):
+def to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
     """A trimesh.Trimesh with the uncertainty of each vertex as `vertex_attributes["sigma_mm"]`."""
     import trimesh
 
@@ -16,12 +25,12 @@ def to_trimesh(mesh):
     return out
 
 
-def from_trimesh(mesh):
+def from_trimesh(mesh: trimesh.Trimesh) -> Mesh:
     """A Mesh with the vertices and faces of a trimesh.Trimesh, in millimetres."""
     return Mesh(mesh.vertices, mesh.faces)
 
 
-def to_open3d(mesh):
+def to_open3d(mesh: Mesh) -> open3d.geometry.TriangleMesh:
     """An open3d.geometry.TriangleMesh."""
     import open3d
 
@@ -36,13 +45,27 @@ def to_open3d(mesh):
     return out
 
 
-def to_meshio(mesh):
+def to_meshio(mesh: Mesh) -> meshio.Mesh:
     """A meshio.Mesh with sigma_mm and views as point data."""
     import meshio
 
-    data = {}
+    data: dict[str, Any] = {}
     for name in ("sigma_mm", "views"):
         values = getattr(mesh, name)
         if len(values):
             data[name] = numpy.array(values)
     return meshio.Mesh(mesh.vertices, [("triangle", mesh.triangles)], point_data=data)
+
+
+def from_open3d(mesh: open3d.geometry.TriangleMesh) -> Mesh:
+    """A Mesh with the vertices and triangles of an open3d.geometry.TriangleMesh, in millimetres."""
+    return Mesh(numpy.asarray(mesh.vertices), numpy.asarray(mesh.triangles))
+
+
+def from_meshio(mesh: meshio.Mesh) -> Mesh:
+    """A Mesh with the points and the triangles of a meshio.Mesh, in millimetres."""
+    triangles = [block.data for block in mesh.cells if block.type == "triangle"]
+    if not triangles:
+        kinds = ", ".join(sorted({block.type for block in mesh.cells})) or "none"
+        raise InputError(f"the mesh of meshio has no cells of the type triangle; its cells are: {kinds}")
+    return Mesh(mesh.points, numpy.concatenate(triangles))

@@ -1,16 +1,23 @@
 """Pictures of meshes in notebooks."""
 
+from __future__ import annotations
+
+import os
 import struct
 import zlib
+from typing import TYPE_CHECKING, Any
 
 from ._frangia import Mesh
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
-def png_bytes(picture):
+
+def png_bytes(picture: NDArray[Any]) -> bytes:
     """A PNG of an array, height x width x 3 of uint8."""
     height, width, _ = picture.shape
 
-    def chunk(kind, data):
+    def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     rows = b"".join(b"\0" + picture[y].tobytes() for y in range(height))
@@ -25,18 +32,18 @@ def png_bytes(picture):
 class Picture:
     """A picture that a notebook shows; `save` writes it as PNG."""
 
-    def __init__(self, pixels):
+    def __init__(self, pixels: NDArray[Any]) -> None:
         self.pixels = pixels
 
-    def _repr_png_(self):
+    def _repr_png_(self) -> bytes:
         return png_bytes(self.pixels)
 
-    def save(self, path):
+    def save(self, path: str | os.PathLike[str]) -> None:
         with open(path, "wb") as file:
             file.write(png_bytes(self.pixels))
 
 
-def show(self, **options):
+def show(self: Mesh, **options: Any) -> Picture:
     """A picture of the mesh for a notebook; options as `render`. values="sigma_mm" colours by it."""
     values = options.get("values")
     if isinstance(values, str):
@@ -45,4 +52,4 @@ def show(self, **options):
     return Picture(self.render(**options))
 
 
-Mesh.show = show
+Mesh.show = show  # type: ignore[method-assign]
