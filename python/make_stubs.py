@@ -13,7 +13,8 @@ import pathlib
 import re
 import sys
 
-import frangia  # noqa: F401  adds methods to Mesh
+sys.path.remove(str(pathlib.Path(__file__).resolve().parent))  # the sources, which have no modules beside them
+import frangia  # noqa: E402,F401  adds methods to Mesh
 
 FOLDER = pathlib.Path(__file__).parent / "frangia"
 
@@ -81,6 +82,7 @@ def type_of(text, returned=False):
         text = text[: found.start()] + found.group(1) + " | None" + text[found.end() :]
     for old, new in (("List[", "list["), ("Dict[", "dict["), ("Tuple[", "tuple[")):
         text = text.replace(old, new)
+    text = re.sub(r"\b(list|dict|tuple|Iterable)\b(?!\[)", lambda kind: kind[0] + ("[Any, Any]" if kind[0] == "dict" else "[Any, ...]" if kind[0] == "tuple" else "[Any]"), text)
     if not returned:  # NumPy's arrays are taken from whatever they can be made of
         text = re.sub(r"NDArray\[.*?\]\]?", "ArrayLike", text) if "NDArray" in text else text
         text = re.sub(r"\blist\[(?=[^\]]*\])", "Iterable[", text) if text.startswith("list[") else text

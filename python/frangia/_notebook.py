@@ -52,4 +52,4 @@ def show(self: Mesh, **options: Any) -> Picture:
     return Picture(self.render(**options))
 
 
-Mesh.show = show  # type: ignore[method-assign]
+setattr(Mesh, "show", show)

@@ -1,0 +1,594 @@
+"""Types of the extension module; python/make_stubs.py writes this file."""
+
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any, ClassVar, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._notebook import Picture
+
+__version__: str
+
+class Error(Exception):
+    """Base of the errors of this package. The text names the file, key or value and what to do."""
+
+class DeviceError(Error, RuntimeError):
+    """A device fails or does not answer."""
+
+class FileError(Error, OSError):
+    """A file cannot be read or written."""
+
+class InputError(Error, ValueError):
+    """A file, value or option is wrong."""
+
+class NumericError(Error, ArithmeticError):
+    """A computation has no trustworthy result."""
+
+class AbsolutePhase:
+    """Relative to the projector."""
+    def __init__(self, phase: ArrayLike, sigma: ArrayLike | None = None, pattern: Pattern = ...) -> None:
+        """A phase made elsewhere; NaN where nothing was measured."""
+        ...
+    @property
+    def pattern(self) -> Pattern:
+        """Pattern that was decoded."""
+        ...
+    @property
+    def phase(self) -> NDArray[np.float32]:
+        """Radians, height x width; NaN: not measured."""
+        ...
+    @property
+    def sigma(self) -> NDArray[np.float32]:
+        """Standard deviation of the phase, radians."""
+        ...
+    @property
+    def status(self) -> NDArray[np.uint8]:
+        """Number of a PixelStatus for each pixel."""
+        ...
+    @property
+    def systematic(self) -> NDArray[np.float32]:
+        """Systematic standard uncertainty, radians; 0 x 0: none is known."""
+        ...
+
+class CameraModel:
+    """A pinhole camera with lens distortion."""
+    @property
+    def focal_px(self) -> NDArray[np.float64]:
+        """Focal lengths in x and y, px."""
+        ...
+    @property
+    def height_px(self) -> int:
+        """Rows."""
+        ...
+    @property
+    def principal_point_px(self) -> NDArray[np.float64]:
+        """Principal point; the centre of the first pixel is (0, 0)."""
+        ...
+    @property
+    def width_px(self) -> int:
+        """Columns."""
+        ...
+
+class DecodedView:
+    """The phase of one view and intermediate results."""
+    @property
+    def findings(self) -> list[str]:
+        """What the frames show, in sentences."""
+        ...
+    @property
+    def noise(self) -> NoiseModel:
+        """Noise of the camera."""
+        ...
+    @property
+    def order(self) -> NDArray[np.int32]:
+        """Fringe order; -1: not measured."""
+        ...
+    @property
+    def phase(self) -> AbsolutePhase:
+        """Absolute phase of the finest fringes."""
+        ...
+    @property
+    def relative(self) -> RelativePhase | None:
+        """Spatially unwrapped phase, or None."""
+        ...
+    @property
+    def second_phase(self) -> AbsolutePhase | None:
+        """That of horizontal fringes, where both directions were decoded; else None."""
+        ...
+    @property
+    def wrapped(self) -> list[WrappedPhase]:
+        """Wrapped maps, coarse to fine."""
+        ...
+
+class FrameStack:
+    """The frames of one pattern, in the order of shifts."""
+    def __init__(self, frames: Iterable[ArrayLike], pattern: Pattern, white_level: int = 0) -> None:
+        """Arrays of uint8 or uint16, height x width, one for each shift; contiguous ones are not copied. A white level of 0 is the largest value of their type."""
+        ...
+    @property
+    def frames(self) -> list[Any]:
+        """The frames as arrays, without a copy."""
+        ...
+    @property
+    def pattern(self) -> Pattern:
+        """Pattern that the frames show."""
+        ...
+    @property
+    def white_level(self) -> int:
+        """Counts from which it is saturated."""
+        ...
+
+class FringeDirection:
+    """Orientation of the fringes."""
+    VERTICAL: ClassVar[FringeDirection]
+    HORIZONTAL: ClassVar[FringeDirection]
+    __members__: ClassVar[dict[str, FringeDirection]]
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class LinearAlgorithm:
+    """An algorithm of yours and its frames."""
+    def __init__(self, name: str, shifts_rad: Iterable[float], numerator: Iterable[float], denominator: Iterable[float]) -> None:
+        """phase = atan2(numerator . frames, denominator . frames)."""
+        ...
+    @property
+    def algorithm(self) -> PhaseAlgorithm:
+        """As the other algorithms."""
+        ...
+    @property
+    def shifts_rad(self) -> list[float]:
+        """Shifts of its frames, radians."""
+        ...
+
+class Mesh:
+    """A triangle mesh, object frame, mm."""
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike) -> None:
+        """Vertices N x 3 in mm; triangles M x 3, counter-clockwise seen from outside."""
+        ...
+    @property
+    def colors(self) -> NDArray[np.uint8]:
+        """Red, green, blue, N x 3; or empty."""
+        ...
+    @property
+    def normals(self) -> NDArray[np.float32]:
+        """Unit vectors, N x 3; empty: none."""
+        ...
+    def render(self, *, width_px: int = 800, height_px: int = 600, azimuth_deg: float = 35.0, elevation_deg: float = 20.0, values: ArrayLike | None = None, label: str = '') -> NDArray[np.uint8]:
+        """A picture, height x width x 3 of uint8; with values, one per vertex, as colours with a scale."""
+        ...
+    def show(self: Mesh, **options: Any) -> Picture:
+        """A picture of the mesh for a notebook; options as `render`. values="sigma_mm" colours by it."""
+        ...
+    @property
+    def sigma_mm(self) -> NDArray[np.float32]:
+        """Combined standard uncertainty; or empty."""
+        ...
+    @property
+    def sigma_noise_mm(self) -> NDArray[np.float32]:
+        """Its noise; empty: all of it."""
+        ...
+    @property
+    def sigma_systematic_mm(self) -> NDArray[np.float32]:
+        """Or empty."""
+        ...
+    @property
+    def triangle_marks(self) -> NDArray[np.uint8]:
+        """0 measured, 1 displaced, 2 made; or empty."""
+        ...
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """Indices of vertices, M x 3."""
+        ...
+    @property
+    def vertex_marks(self) -> NDArray[np.uint8]:
+        """0 measured, 1 displaced, 2 made; empty: all 0."""
+        ...
+    @property
+    def vertices(self) -> NDArray[np.float32]:
+        """Positions, N x 3, mm."""
+        ...
+    @property
+    def views(self) -> NDArray[np.uint16]:
+        """Number of views of each vertex; or empty."""
+        ...
+
+class NoiseModel:
+    """Variance of a pixel: floor + slope * counts."""
+    def __init__(self, floor_counts2: float, slope_counts: float) -> None:
+        ...
+    @property
+    def floor_counts2(self) -> float:
+        """Variance of a dark pixel."""
+        ...
+    @property
+    def slope_counts(self) -> float:
+        """Its increase per count."""
+        ...
+    def variance(self, counts: float) -> float:
+        """Counts squared."""
+        ...
+
+class Pattern:
+    """A pattern that the projector shows in several frames."""
+    @property
+    def bits(self) -> int:
+        """Number of bits of a Gray code."""
+        ...
+    @property
+    def direction(self) -> FringeDirection:
+        """Orientation of fringes and stripes."""
+        ...
+    @property
+    def frame_count(self) -> int:
+        """Number of frames."""
+        ...
+    @staticmethod
+    def fringes(shifts_rad: Iterable[float], *, period_px: float | None = None, fringes_per_degree: float | None = None, direction: FringeDirection = ..., name: str = 'fringes') -> Pattern:
+        """Sinusoidal fringes: one frame for each of shifts_rad (radians), with a period in projector pixels or in fringes per degree."""
+        ...
+    @property
+    def fringes_per_degree(self) -> float:
+        """Pitch of an interferometer; 0: none."""
+        ...
+    @property
+    def kind(self) -> PatternKind:
+        """What the frames show."""
+        ...
+    @property
+    def name(self) -> str:
+        """Name, and prefix of the frames' file names."""
+        ...
+    @property
+    def period_px(self) -> float:
+        """Period in projector pixels; 0: angular."""
+        ...
+    @property
+    def shifts_rad(self) -> list[float]:
+        """Shift of each frame, radians."""
+        ...
+
+class PatternKind:
+    """What the frames of a pattern show."""
+    FRINGE: ClassVar[PatternKind]
+    LINE: ClassVar[PatternKind]
+    GRAY: ClassVar[PatternKind]
+    RAMP: ClassVar[PatternKind]
+    WHITE: ClassVar[PatternKind]
+    AMBIENT: ClassVar[PatternKind]
+    __members__: ClassVar[dict[str, PatternKind]]
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class PhaseAlgorithm:
+    """B sin(phi) = sum sine[k] I[k], B cos(phi) = sum cosine[k] I[k]."""
+    @property
+    def cosine(self) -> list[float]:
+        """Weights of the frames for B cos(phi)."""
+        ...
+    @property
+    def name(self) -> str:
+        """Name."""
+        ...
+    @property
+    def noise_gain(self) -> float:
+        """c in sigma_phi = c sigma_I / B."""
+        ...
+    @property
+    def sine(self) -> list[float]:
+        """Weights of the frames for B sin(phi)."""
+        ...
+
+class PixelStatus:
+    """Why a pixel has no phase."""
+    MEASURED: ClassVar[PixelStatus]
+    FILLED: ClassVar[PixelStatus]
+    UNMODULATED: ClassVar[PixelStatus]
+    SATURATED: ClassVar[PixelStatus]
+    RESIDUE: ClassVar[PixelStatus]
+    UNCERTAIN_ORDER: ClassVar[PixelStatus]
+    UNRESOLVED: ClassVar[PixelStatus]
+    MIXED_PIXEL: ClassVar[PixelStatus]
+    OUT_OF_FIELD: ClassVar[PixelStatus]
+    __members__: ClassVar[dict[str, PixelStatus]]
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class RangeGrid:
+    """A point for each pixel, rig frame."""
+    @property
+    def depth_mm(self) -> NDArray[np.float32]:
+        """z in mm; NaN: no point."""
+        ...
+    @property
+    def sigma_mm(self) -> NDArray[np.float32]:
+        """Noise along the viewing ray, mm."""
+        ...
+    @property
+    def systematic_mm(self) -> NDArray[np.float32]:
+        """0 x 0: none is known."""
+        ...
+
+class Reconstruction:
+    """A surface and what the stages report."""
+    @property
+    def mesh(self) -> Mesh:
+        """Fused surface, object frame."""
+        ...
+    @property
+    def points(self) -> int:
+        """Points of all views."""
+        ...
+    @property
+    def reason(self) -> str:
+        """Empty: it can be trusted."""
+        ...
+    @property
+    def trustworthy(self) -> bool:
+        """False: `reason` says why the mesh must not be trusted."""
+        ...
+    @property
+    def views(self) -> int:
+        """Views that hold points."""
+        ...
+
+class RelativePhase:
+    """Continuous in each region, up to a whole number of fringes."""
+    @property
+    def pattern(self) -> Pattern:
+        """Pattern that was decoded."""
+        ...
+    @property
+    def phase(self) -> NDArray[np.float32]:
+        """Radians, height x width; NaN: not measured."""
+        ...
+    @property
+    def region(self) -> NDArray[np.int32]:
+        """0, 1, ...; -1: not measured."""
+        ...
+    @property
+    def region_count(self) -> int:
+        """Number of regions."""
+        ...
+    @property
+    def sigma(self) -> NDArray[np.float32]:
+        """Standard deviation of the phase, radians."""
+        ...
+    @property
+    def status(self) -> NDArray[np.uint8]:
+        """Number of a PixelStatus for each pixel."""
+        ...
+    @property
+    def systematic(self) -> NDArray[np.float32]:
+        """Systematic standard uncertainty, radians; 0 x 0: none is known."""
+        ...
+
+class Rig:
+    """A calibrated scanner; its frame is that of the camera, in mm."""
+    @property
+    def camera(self) -> CameraModel:
+        """Model of the reference camera."""
+        ...
+    @property
+    def is_angular(self) -> bool:
+        """Whether the projector is an interferometer."""
+        ...
+    @property
+    def projector_position_mm(self) -> NDArray[np.float64]:
+        """mm."""
+        ...
+    @property
+    def projector_rotation(self) -> NDArray[np.float64]:
+        """projector_from_rig, 3 x 3."""
+        ...
+    def rays(self) -> NDArray[np.float32]:
+        """Direction (x / z, y / z) of each pixel, height x width x 2."""
+        ...
+    def rig_from_object(self, angle_rad: float) -> NDArray[np.float64]:
+        """Pose of the object at a table angle, 4 x 4, mm."""
+        ...
+    @property
+    def white_level(self) -> int:
+        """Counts."""
+        ...
+
+class Scan:
+    """What scan.toml and rig.toml hold."""
+    @property
+    def folder(self) -> Path:
+        """Folder of scan.toml."""
+        ...
+    def frames(self, view: int) -> list[FrameStack]:
+        """The frames of a view: a FrameStack for each pattern and exposure."""
+        ...
+    @property
+    def name(self) -> str:
+        """Name of the scan."""
+        ...
+    @property
+    def patterns(self) -> list[Pattern]:
+        """In the order of capture."""
+        ...
+    @property
+    def rig(self) -> Rig:
+        """Calibrated rig."""
+        ...
+    @property
+    def views(self) -> list[ScanView]:
+        """In the order of capture."""
+        ...
+
+class ScanView:
+    """One view of a scan."""
+    @property
+    def angle_deg(self) -> float:
+        """Angle of the turntable."""
+        ...
+    @property
+    def folder(self) -> Path:
+        """Folder of its frames, in the scan's."""
+        ...
+    @property
+    def setup(self) -> int:
+        """Views of one setup share a pose of the part."""
+        ...
+
+class ViewSummary:
+    """A view after reconstruction."""
+
+class WrappedPhase:
+    """A phase modulo 2 pi, in (-pi, pi]."""
+    def __init__(self, phase: ArrayLike, sigma: ArrayLike | None = None, modulation: ArrayLike | None = None, mean: ArrayLike | None = None, pattern: Pattern = ...) -> None:
+        """A map made elsewhere; NaN where nothing was measured."""
+        ...
+    @property
+    def mean(self) -> NDArray[np.float32]:
+        """Mean intensity, counts."""
+        ...
+    @property
+    def modulation(self) -> NDArray[np.float32]:
+        """Amplitude, counts."""
+        ...
+    @property
+    def pattern(self) -> Pattern:
+        """Pattern that was decoded."""
+        ...
+    @property
+    def phase(self) -> NDArray[np.float32]:
+        """Radians, height x width; NaN: not measured."""
+        ...
+    @property
+    def sigma(self) -> NDArray[np.float32]:
+        """Standard deviation of the phase, radians."""
+        ...
+    @property
+    def status(self) -> NDArray[np.uint8]:
+        """Number of a PixelStatus for each pixel."""
+        ...
+    @property
+    def systematic(self) -> NDArray[np.float32]:
+        """Systematic standard uncertainty, radians; 0 x 0: none is known."""
+        ...
+
+def algorithm_errors(algorithm: PhaseAlgorithm, shifts_rad: Iterable[float]) -> dict[Any, Any]:
+    """Ripple at a step error of 5 %, noise gain and sensitivity to harmonics, as in the table of `frangia algorithms`."""
+    ...
+
+def algorithms() -> list[str]:
+    """Names of the published phase-shift algorithms."""
+    ...
+
+def decode(scan: Scan, view: int = 0, *, algorithm: str | LinearAlgorithm = 'auto', directions: str = 'fused', max_sigma_rad: float = 0.10000000149011612, undo_response: bool = False, accept_inconsistent: bool = False, wrap: Callable[[FrameStack, PhaseAlgorithm, NoiseModel], Any] | None = None, unwrap_spatially: Callable[[WrappedPhase], Any] | None = None, unwrap: Callable[[list[WrappedPhase]], Any] | None = None, progress: Callable[[float, str], object] | None = None) -> DecodedView:
+    """Decodes a view of a scan. wrap, unwrap_spatially and unwrap are functions of yours in place of a stage, see the package's help."""
+    ...
+
+def decode_frames(stacks: Iterable[FrameStack], rig: Rig, *, algorithm: str = 'auto') -> DecodedView:
+    """Decodes the frames of one view that are in memory."""
+    ...
+
+def decode_gray_code(gray: FrameStack, fringes: WrappedPhase, noise: NoiseModel | None = None) -> AbsolutePhase:
+    """Absolute phase of fringes whose orders a Gray code gives."""
+    ...
+
+def deviations(mesh: Mesh, reference: Mesh, *, progress: Callable[[float, str], object] | None = None) -> NDArray[np.float32]:
+    """Signed distance of each vertex from a reference, mm, positive outside."""
+    ...
+
+def edit(mesh: Mesh, steps: Iterable[Any], *, progress: Callable[[float, str], object] | None = None) -> Mesh:
+    """Applies steps of `frangia edit`: names, or pairs of a name and a value, such as [('fill-holes', '10mm'), 'remove-spikes']."""
+    ...
+
+def least_squares(shifts_rad: Iterable[float]) -> PhaseAlgorithm:
+    """The least-squares algorithm for arbitrary shifts, radians (Greivenkamp 1984)."""
+    ...
+
+def make_part(name: str) -> Mesh:
+    """A built-in part of the simulator: shaft, blade, bust, ball-bar, plate, bracket, groove."""
+    ...
+
+def merge(paths: Iterable[str | os.PathLike[str]], *, voxel_mm: float = 0.0, progress: Callable[[float, str], object] | None = None) -> tuple[Any, ...]:
+    """Registers range scans of other scanners and fuses them: the mesh, the pose of each scan (4 x 4), and why the mesh must not be trusted (empty: it can be)."""
+    ...
+
+def phase_algorithm(name: str, shifts_rad: Iterable[float], gain_error: float = 0.0) -> PhaseAlgorithm:
+    """A published algorithm for these nominal shifts, radians."""
+    ...
+
+def read_algorithm(path: str | os.PathLike[str]) -> LinearAlgorithm:
+    """Reads an algorithm of yours, as examples/algorithms/my-algorithm.toml."""
+    ...
+
+def read_mesh(path: str | os.PathLike[str]) -> Mesh:
+    """Reads DXF, STL, PLY, OBJ, glTF, 3MF, OFF, XYZ or PCD by the file's extension; mm."""
+    ...
+
+def read_rig(path: str | os.PathLike[str]) -> Rig:
+    """Reads a rig.toml."""
+    ...
+
+def read_scan(folder: str | os.PathLike[str], *, rig: str = 'complete') -> Scan:
+    """Reads scan.toml and rig.toml of a folder. rig: complete; start-values, before a calibration; phase-only, to decode without geometry."""
+    ...
+
+def reconstruct(scan: Scan, *, algorithm: str | LinearAlgorithm = 'auto', directions: str = 'fused', max_sigma_rad: float = 0.10000000149011612, undo_response: bool = False, accept_inconsistent: bool = False, wrap: Callable[[FrameStack, PhaseAlgorithm, NoiseModel], Any] | None = None, unwrap_spatially: Callable[[WrappedPhase], Any] | None = None, unwrap: Callable[[list[WrappedPhase]], Any] | None = None, voxel_mm: float = 0.0, register_views: bool = True, indirect_light: bool = True, watertight: bool = False, clip_below_mm: float = ..., progress: Callable[[float, str], object] | None = None) -> Reconstruction:
+    """Frames to one surface, as `frangia reconstruct`. A voxel of 0 mm is derived from the scan."""
+    ...
+
+def rig_preset(name: str) -> Rig:
+    """A built-in rig: digital, binocular, angular or carducci."""
+    ...
+
+def simulate(folder: str | os.PathLike[str], part: str | Mesh = 'bust', rig: str | Rig = 'digital', *, views: int = 8, seed: int = 1, samples_per_px: int = 4, shifts: int = 4, periods_px: Iterable[float] = [], progress: Callable[[float, str], object] | None = None, **faults: float) -> Scan:
+    """Renders a scan of a part (a name or a Mesh) with a rig (a preset or a Rig) into a new folder, with the true surface as truth.ply in the same folder. Without periods_px: the projector's width, an eighth and a 64th of it. Faults: exposure, ambient, contrast, step_error, step_jitter_deg, display_gamma, flicker, projector_blur_px, texture, gloss, bounces, subsurface_mm, speckle, angle_error_deg, axis_offset_mm, axis_tilt_deg."""
+    ...
+
+def simulate_poses(folder: str | os.PathLike[str], rig: str | Rig = 'digital', *, poses: int = 12, seed: int = 1, samples_per_px: int = 4, periods_px: Iterable[float] = [], progress: Callable[[float, str], object] | None = None, **faults: float) -> Scan:
+    """Renders poses of a checkerboard for `calibrate` into a new folder, whose rig.toml holds the sizes of camera and projector only; truth-rig.toml is the true rig. Faults as those of `simulate`."""
+    ...
+
+def surface_error(mesh: Mesh, reference: Mesh, *, progress: Callable[[float, str], object] | None = None) -> dict[Any, Any]:
+    """Statistics of the distances of the vertices from a reference in the same frame, mm."""
+    ...
+
+def triangulate(phase: AbsolutePhase, rig: Rig) -> RangeGrid:
+    """A point in mm, rig frame, for each pixel that has a phase."""
+    ...
+
+def unwrap_spatial(map: WrappedPhase, method: str = 'run-merging') -> RelativePhase:
+    """A phase that is continuous in each region. Methods: run-merging, quality-guided (the 1997 paper's), reliability-sorted (Herraez 2002)."""
+    ...
+
+@overload
+def unwrap_temporal(maps: Iterable[WrappedPhase], rig: Rig) -> AbsolutePhase:
+    """Absolute phase of the finest fringes from maps, coarse to fine."""
+    ...
+@overload
+def unwrap_temporal(maps: Iterable[WrappedPhase], projector_px: tuple[int, int]) -> AbsolutePhase:
+    """The same for a projector of which only its width and height in pixels are known."""
+    ...
+
+def wrap_phase(stack: FrameStack, *, algorithm: PhaseAlgorithm | None = None, noise: NoiseModel | None = None, max_sigma_rad: float = 0.10000000149011612) -> WrappedPhase:
+    """Phase, modulation, mean and noise of each pixel. Without an algorithm: least squares; without a noise model: estimated from the frames."""
+    ...
+
+def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
+    """Writes a mesh; the extension chooses the format."""
+    ...
+
+def write_rig(path: str | os.PathLike[str], rig: Rig) -> None:
+    """Writes a rig.toml."""
+    ...
