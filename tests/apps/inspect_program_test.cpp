@@ -50,6 +50,16 @@ TEST_F(InspectProgram, StatesTheFieldsOfEachFeature) {
   EXPECT_GE(ball.at("form_mm").get<double>(), 0.0);
 }
 
+TEST_F(InspectProgram, StatesAnErrorAsJsonToo) {
+  for (const char* rest : {"/nowhere.ply --features", "/nowhere.ply --bogus"}) {
+    const Answer answer = run_program("--json inspect " + at("") + rest + " 2> /dev/null");
+    const auto error = nlohmann::json::parse(answer.output).at("error");
+    EXPECT_EQ(error.at("exit_code"), answer.exit_code);
+    EXPECT_FALSE(error.at("message").get<std::string>().empty());
+    EXPECT_EQ(error.at("kind"), answer.exit_code == 2 ? "usage" : "input");
+  }
+}
+
 TEST_F(InspectProgram, WritesTheAlignedMeshAndStatesItsPose) {
   Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
   moved.linear() =

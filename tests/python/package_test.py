@@ -162,6 +162,23 @@ class Scans(unittest.TestCase):
             frangia.read_scan("nowhere")
 
 
+class Capture(unittest.TestCase):
+    def test_captures_on_simulated_devices_and_continues(self):
+        rig = pathlib.Path(__file__).resolve().parents[2] / "examples" / "simulated-digital.toml"
+        with tempfile.TemporaryDirectory() as folder:
+            scan = pathlib.Path(folder) / "scan"
+            first = frangia.capture(rig, scan, views=1, periods_px=[1280, 160], shifts=3)
+            self.assertEqual((first.captured, first.resumed, first.skipped), (6, 0, []))
+            again = frangia.capture(rig, scan, views=1, periods_px=[1280, 160], shifts=3)
+            self.assertEqual((again.captured, again.resumed), (0, 6))
+            phase = frangia.decode(frangia.read_scan(scan), 0).phase.phase
+            self.assertGreater(np.isfinite(phase).sum(), 1000)
+            with self.assertRaisesRegex(frangia.InputError, r"scan\.toml: \[board\] is missing"):
+                frangia.calibrate(frangia.read_scan(scan))
+        with self.assertRaisesRegex(frangia.InputError, "nowhere.toml"):
+            frangia.capture("nowhere.toml", "scan")
+
+
 class Meshes(unittest.TestCase):
     def test_arrays_in_and_out(self):
         vertices = np.array([[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]], np.float64)
