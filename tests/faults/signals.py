@@ -1,4 +1,5 @@
 """Every signal at random moments of a scan over a board: the light is off soon after, also when the program dies at once."""
+import os
 import signal
 import subprocess
 import time
@@ -7,8 +8,9 @@ from boards import GrblBoard, rig_with
 from campaign import RIG, Answer
 
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGPIPE", "SIGSEGV", "SIGABRT", "SIGKILL", "SIGINT twice", "reader ends")
-MAX_DARK_S = 0.5
-MAX_END_S = 5.0
+SLOWDOWN = float(os.environ.get("FRANGIA_SLOWDOWN", "1"))  # of programs with sanitizers
+MAX_DARK_S = 0.5 * SLOWDOWN
+MAX_END_S = 5.0 * SLOWDOWN
 
 
 def interrupt(process, name):
