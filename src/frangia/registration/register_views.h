@@ -33,7 +33,8 @@ struct RegisterOptions {
                                       ///< surface, beyond which the result is not trustworthy: 15
                                       ///< times what edges and stray points cause
   double as_good_as_given = 1.02;     ///< the given axis and angles stay unless they fit worse
-                                      ///< than the refined ones by this factor
+                                      ///< than the refined ones by this factor, or by more than
+                                      ///< noise explains where few points overlap
   double max_axis_sigma_px = 0.1;     ///< of the axis, in distances of neighbouring pixels' points,
                                       ///< beyond which a warning is given
   int max_iterations = 30;            ///< each linearizes once
