@@ -34,8 +34,8 @@ bool fits_as_well(const Bundle& bundle,
                   const SurfelLists& surfels,
                   const BundleSums& found,
                   double factor) {
-  // Relative standard error of a median, of points of which about 16 neighbours have like errors.
-  constexpr double kErrorOfMedian = 5.0;
+  // Relative standard error of a median of points of which about 10 neighbours have like errors.
+  constexpr double kErrorOfMedian = 4.0;
   Bundle as_given = bundle;
   as_given.state = bundle.given;
   const BundleSums given = sum(as_given, surfels);
