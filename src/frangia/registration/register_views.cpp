@@ -41,9 +41,15 @@ bool fits_as_well(const Bundle& bundle,
   const BundleSums given = sum(as_given, surfels);
   const auto count = static_cast<double>(std::max<std::size_t>(1, found.distances_mm.size()));
   const double allowed = std::max(factor, 1.0 + kErrorOfMedian / std::sqrt(count));
-  return given.distances_mm.size() >= found.distances_mm.size() / 100 * 99 &&
-         static_cast<double>(median(given.distances_mm)) <
-             allowed * static_cast<double>(median(found.distances_mm));
+  const double ratio = static_cast<double>(median(given.distances_mm)) /
+                       static_cast<double>(median(found.distances_mm));
+  const auto has_fewer = [](const BundleSums& one, const BundleSums& other) {
+    return one.distances_mm.size() < other.distances_mm.size() / 100 * 99;
+  };
+  if (has_fewer(given, found)) return false;
+  // A better axis brings more points together, not fewer.
+  constexpr double kNearly = 1.1;
+  return ratio < (has_fewer(found, given) ? std::max(allowed, kNearly) : allowed);
 }
 
 /// Whether the refined state makes views contradict each other that do not at the given one. It
