@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/geometry/fit_plane.h"
 #include "frangia/registration/internal/find_turntable_rim.h"
 #include "frangia/registration/internal/table_cloud.h"
 
@@ -30,16 +30,9 @@ std::vector<Eigen::Vector3d> near(const std::vector<Eigen::Vector3d>& points,
 
 /// The least-squares plane of points; its normal points up.
 Plane fit(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  for (const auto& point : points)
-    centroid += point;
-  centroid /= static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const auto& point : points)
-    spread += (point - centroid) * (point - centroid).transpose();
-  Eigen::Vector3d normal = symmetric_eigen(spread).vectors.col(0);
-  if (normal.z() < 0.0) normal = -normal;
-  return {normal, centroid};
+  Plane plane = fit_plane(points);
+  if (plane.normal().z() < 0.0) plane.coeffs() *= -1.0;
+  return plane;
 }
 
 /// The lowest layer of `band_mm` that holds `enough` points: its median height.

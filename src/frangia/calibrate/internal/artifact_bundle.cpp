@@ -11,6 +11,7 @@
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/artifact_residuals.h"
 #include "frangia/calibrate/internal/rig_prior.h"
+#include "frangia/calibrate/internal/stop_callback.h"
 
 namespace frangia {
 namespace {
@@ -193,17 +194,6 @@ std::vector<FreeBlock> compose(const ArtifactProblem& problem,
   return blocks;
 }
 
-class StopArtifacts final : public ceres::IterationCallback {
- public:
-  explicit StopArtifacts(const Run& run) : run_(run) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
-    return run_.stop.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const Run& run_;
-};
-
 }  // namespace
 
 bool adjust_artifacts(const ArtifactProblem& problem,
@@ -212,7 +202,7 @@ bool adjust_artifacts(const ArtifactProblem& problem,
                       const Run& run) {
   ceres::Problem composed;
   static_cast<void>(compose(problem, noise, parameters, composed));
-  StopArtifacts stop(run);
+  StopCallback stop(run);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.max_num_iterations = problem.options.max_iterations;

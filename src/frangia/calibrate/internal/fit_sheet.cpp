@@ -8,20 +8,14 @@
 
 #include "frangia/core/median.h"
 #include "frangia/core/random.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/geometry/fit_plane.h"
 
 namespace frangia {
 namespace {
 
 LaserSheet sheet_through(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points)
-    center += point / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : points)
-    spread += (point - center) * (point - center).transpose();
-  const Eigen::Vector3d normal = symmetric_eigen(spread).vectors.col(0);
-  return {normal, normal.dot(center)};
+  const auto plane = fit_plane(points);
+  return {plane.normal(), -plane.offset()};
 }
 
 double distance_from(const LaserSheet& sheet, const Eigen::Vector3d& point) {

@@ -6,6 +6,7 @@
 #include <ceres/ceres.h>
 
 #include "frangia/calibrate/internal/rig_residuals.h"
+#include "frangia/calibrate/internal/stop_callback.h"
 
 namespace frangia {
 namespace {
@@ -22,18 +23,6 @@ void fix(ceres::Problem& problem, double* block, int size, const RigFreedom& fre
     problem.SetManifold(block, new ceres::SubsetManifold(size, constant));  // NOLINT owned
   }
 }
-
-/// Lets a stop request end the solver.
-class StopCallback final : public ceres::IterationCallback {
- public:
-  explicit StopCallback(const Run& run) : run_(run) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
-    return run_.stop.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const Run& run_;
-};
 
 template <int... sizes, typename Residual>
 ceres::CostFunction* cost_of(const Residual& residual) {

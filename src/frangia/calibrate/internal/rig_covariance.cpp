@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/calibrate/internal/invert_normal.h"
 
 namespace frangia {
 namespace {
@@ -43,29 +43,13 @@ void add_covariance(std::span<const RigObservation> observations,
   if (layout.has_projector) add_priors(freedom, layout.projector(), normal);
   for (std::size_t i = 0; i < layout.more; ++i)
     add_priors(freedom, layout.camera(i), normal);
-  const Eigen::VectorXd scale =
-      normal.diagonal().cwiseSqrt().unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
-  const auto eigen =
-      symmetric_eigen(Eigen::MatrixXd(scale.asDiagonal() * normal * scale.asDiagonal()));
-  const double least = kOpen * eigen.values.tail<1>()[0];
-
+  const NormalInverse inverse = invert_normal(normal, kOpen);
   solution.parameters = names;
   const auto kept = static_cast<Eigen::Index>(solution.parameters.size());
-  Eigen::VectorXd open = Eigen::VectorXd::Zero(normal.rows());
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(normal.rows(), normal.rows());
-  for (Eigen::Index i = 0; i < eigen.values.size(); ++i) {
-    const Eigen::VectorXd direction = eigen.vectors.col(i);
-    if (eigen.values[i] > least) {
-      inverse += direction * direction.transpose() / eigen.values[i];
-    } else {
-      open += direction.cwiseAbs2();
-    }
-  }
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * inverse * scale.asDiagonal();
-  solution.covariance = scaled.topLeftCorner(kept, kept);
+  solution.covariance = inverse.covariance.topLeftCorner(kept, kept);
   constexpr double kMuch = 0.1;  // share of a parameter that lies in open directions
   for (Eigen::Index i = 0; i < kept; ++i) {
-    if (open[i] < kMuch) continue;
+    if (inverse.open[i] < kMuch) continue;
     solution.undetermined.push_back(solution.parameters[static_cast<std::size_t>(i)]);
     solution.covariance(i, i) = std::numeric_limits<double>::infinity();
   }

@@ -9,7 +9,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/geometry/fit_plane.h"
 #include "frangia/pipeline/internal/calibrate_artifact_sites.h"
 #include "frangia/pipeline/internal/calibrate_check_kinds.h"
 #include "frangia/pipeline/internal/calibrate_check_limits.h"
@@ -25,21 +25,13 @@ std::vector<double> heights_of(const std::vector<Eigen::Vector3d>& points) {
   std::vector<bool> used(points.size(), true);
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();
-    double count = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!used[i]) continue;
-      center += points[i];
-      count += 1.0;
-    }
-    center /= count;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    std::vector<Eigen::Vector3d> inliers;
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (used[i]) spread += (points[i] - center) * (points[i] - center).transpose();
-    const Eigen::Vector3d normal = symmetric_eigen(spread).vectors.col(0);
+      if (used[i]) inliers.push_back(points[i]);
+    const auto plane = fit_plane(inliers);
     std::vector<double> magnitudes;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      heights[i] = normal.dot(points[i] - center);
+      heights[i] = plane.signedDistance(points[i]);
       magnitudes.push_back(std::abs(heights[i]));
     }
     constexpr double kGate = 5.0 * 1.4826;  // medians: edges of the plate

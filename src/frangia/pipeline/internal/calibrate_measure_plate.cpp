@@ -7,9 +7,9 @@
 
 #include "frangia/calibrate/board_image.h"
 #include "frangia/calibrate/select_plane.h"
-#include "frangia/core/symmetric_eigen.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/frames/noise_model.h"
+#include "frangia/geometry/fit_plane.h"
 #include "frangia/pipeline/internal/calibrate_artifact_sites.h"
 #include "frangia/pipeline/internal/calibrate_measure_sites.h"
 #include "frangia/range/laser_profile.h"
@@ -52,15 +52,9 @@ void remove_static(std::vector<std::vector<LightSite>>& views) {
 
 /// Normal and distance of the plane through points, the normal towards the camera.
 Eigen::Vector4d plane_through(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points)
-    center += point / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : points)
-    spread += (point - center) * (point - center).transpose();
-  Eigen::Vector3d normal = symmetric_eigen(spread).vectors.col(0);
-  if (normal.dot(center) > 0.0) normal = -normal;
-  return {normal.x(), normal.y(), normal.z(), normal.dot(center)};
+  const auto plane = fit_plane(points);
+  const double sign = plane.offset() < 0.0 ? -1.0 : 1.0;
+  return (Eigen::Vector4d() << sign * plane.normal(), -sign * plane.offset()).finished();
 }
 
 /// Pixels of the laser line that lie among sites of the artifact.
