@@ -12,7 +12,8 @@
 #include <Eigen/LU>
 
 #include "frangia/core/median.h"
-#include "frangia/phase/internal/combined_harmonics.h"
+#include "frangia/phase/internal/noise_row_gatherer.h"
+#include "frangia/phase/internal/row_rounds.h"
 #include "frangia/phase/phase_algorithm.h"
 
 namespace frangia {
@@ -22,13 +23,14 @@ constexpr int kBins = NoiseSamples::kBins;
 constexpr double kMinSigma = 0.3;  ///< counts: quantization, 1 / sqrt(12)
 constexpr std::size_t kMinSamples =
     200;  ///< fewest samples of a bin; the variance then has a standard error of 10 %
-constexpr std::size_t kRowSamples = 400'000;  ///< approximate number of pixels sampled per stack
+/// Pixels of a stack that are sampled in the first round; the variance of one bin of them has a
+/// standard error of 1 %. More rounds follow until the bins are filled, up to the second number.
+constexpr double kFirstSamples = 32'768;
+constexpr double kMostSamples = 400'000;
 
 /// Three frames: their mean is preferred if its apparent variance is below this share of that of
 /// the single frames. Without fine fringes and texture both are equal within a few percent.
 constexpr double kFineFringes = 0.8;
-
-using Bins = std::array<std::vector<float>, kBins>;
 
 using Weights = std::vector<double>;
 
@@ -79,45 +81,6 @@ Weights noise_combination(const std::vector<double>& shifts_rad) {
   return best;
 }
 
-/// Absolute second differences along one row, binned by brightness.
-void gather_row(const FrameStack& stack,
-                const Weights& weights,
-                const CombinedHarmonics& harmonics,
-                int y,
-                Bins& bins) {
-  const int width = width_of(stack.frames.front());
-  std::vector<double> sum(static_cast<std::size_t>(width), 0.0);
-  std::vector<double> mean(sum);
-  std::vector<int> brightest(sum.size(), 0);
-  std::vector<int> darkest(sum.size(), stack.white_level);
-  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
-    std::visit(
-        [&](const auto& image) {
-          for (int x = 0; x < width; ++x) {
-            const auto i = static_cast<std::size_t>(x);
-            sum[i] += weights[k] * image(x, y);
-            mean[i] += image(x, y) / static_cast<double>(stack.frames.size());
-            brightest[i] = std::max(brightest[i], static_cast<int>(image(x, y)));
-            darkest[i] = std::min(darkest[i], static_cast<int>(image(x, y)));
-          }
-        },
-        stack.frames[k]);
-  }
-  if (harmonics.found()) {
-    for (int x = 0; x < width; ++x)
-      sum[static_cast<std::size_t>(x)] -= harmonics.value_at(stack, x, y);
-  }
-  for (std::size_t i = 1; i + 1 < sum.size(); ++i) {
-    if (std::max({brightest[i - 1], brightest[i], brightest[i + 1]}) >= stack.white_level) continue;
-    // Clipping at 0 counts would reduce the apparent noise.
-    if (std::min({darkest[i - 1], darkest[i], darkest[i + 1]}) <= 0) continue;
-    const double difference = (sum[i - 1] - 2.0 * sum[i] + sum[i + 1]) / std::sqrt(6.0);
-    const double share = mean[i] / stack.white_level;
-    const auto bin = std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(share * kBins));
-    bins[bin].push_back(static_cast<float>(std::abs(difference)));
-  }
-}
-
 /// Robust variance of Gaussian noise from absolute values: a median, refined by three rounds of
 /// 3-sigma clipping because the median of whole counts moves in steps.
 double robust_variance(std::vector<float> magnitudes) {
@@ -136,7 +99,28 @@ double robust_variance(std::vector<float> magnitudes) {
   return sigma * sigma;
 }
 
-double pooled_variance(const Bins& bins) {
+/// Whether nearly all samples outside of the fullest bin, the background's, lie in bins that are
+/// full enough to be used. A small part needs more rows than a large one.
+bool are_filled(const NoiseBins& bins) {
+  constexpr double kNearlyAll = 0.9;
+  std::size_t all = 0;
+  std::size_t used = 0;
+  std::size_t fullest = 0;
+  for (const std::vector<float>& bin : bins) {
+    all += bin.size();
+    used += bin.size() < kMinSamples ? 0 : bin.size();
+    fullest = std::max(fullest, bin.size());
+  }
+  return fullest >= kMinSamples &&
+         static_cast<double>(used - fullest) >= kNearlyAll * static_cast<double>(all - fullest);
+}
+
+void append(const NoiseBins& from, NoiseBins& to) {
+  for (std::size_t bin = 0; bin < to.size(); ++bin)
+    to[bin].insert(to[bin].end(), from[bin].begin(), from[bin].end());
+}
+
+double pooled_variance(const NoiseBins& bins) {
   std::vector<float> all;
   for (const std::vector<float>& bin : bins)
     all.insert(all.end(), bin.begin(), bin.end());
@@ -148,31 +132,32 @@ double pooled_variance(const Bins& bins) {
 void NoiseSamples::add(const FrameStack& stack) {
   if (stack.pattern.kind != PatternKind::Fringe || stack.frames.size() < 3) return;
   white_ = stack.white_level;
-  const int height = height_of(stack.frames.front());
-  const int width = width_of(stack.frames.front());
-  const int stride =
-      std::max(1, static_cast<int>(static_cast<double>(width) * height / kRowSamples));
   const std::vector<double>& shifts = stack.pattern.shifts_rad;
-  const auto gather = [&](const Weights& weights, Bins& bins) {
-    const CombinedHarmonics harmonics(stack, weights);
-    for (int y = stride / 2; y < height; y += stride)
-      gather_row(stack, weights, harmonics, y, bins);
-  };
+  const RowRounds rounds(
+      width_of(stack.frames.front()), height_of(stack.frames.front()), kFirstSamples, kMostSamples);
   if (shifts.size() > 3) {
-    gather(noise_combination(shifts), bins_);
+    const NoiseRowGatherer gatherer(stack, noise_combination(shifts));
+    NoiseBins bins;
+    for (int round = 0; round < rounds.count() && !are_filled(bins); ++round)
+      rounds.for_each_row(round, [&](int y) { gatherer.gather(y, bins); });
+    append(bins, bins_);
     return;
   }
   // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
-  Bins single;
-  Bins mean;
+  std::vector<NoiseRowGatherer> frames;
   for (const Weights& weights : single_frames(shifts.size()))
-    gather(weights, single);
-  gather(mean_of_frames(shifts), mean);
-  const bool fine = pooled_variance(mean) < kFineFringes * pooled_variance(single);
-  for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
-    const std::vector<float>& from = fine ? mean[bin] : single[bin];
-    bins_[bin].insert(bins_[bin].end(), from.begin(), from.end());
+    frames.emplace_back(stack, weights);
+  const NoiseRowGatherer mean_frame(stack, mean_of_frames(shifts));
+  NoiseBins single;
+  NoiseBins mean;
+  for (int round = 0; round < rounds.count() && !are_filled(mean); ++round) {
+    rounds.for_each_row(round, [&](int y) {
+      for (const NoiseRowGatherer& frame : frames)
+        frame.gather(y, single);
+      mean_frame.gather(y, mean);
+    });
   }
+  append(pooled_variance(mean) < kFineFringes * pooled_variance(single) ? mean : single, bins_);
 }
 
 NoiseModel NoiseSamples::model() const {
