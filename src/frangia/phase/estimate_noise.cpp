@@ -102,17 +102,19 @@ double robust_variance(std::vector<float> magnitudes) {
 /// Whether nearly all samples outside of the fullest bin, the background's, lie in bins that are
 /// full enough to be used. A small part needs more rows than a large one.
 bool are_filled(const NoiseBins& bins) {
-  constexpr double kNearlyAll = 0.9;
-  std::size_t all = 0;
-  std::size_t used = 0;
-  std::size_t fullest = 0;
+  constexpr double kFew = 0.1;
+  constexpr double kStray = 1e-3;  // of all samples: a part that small fills no bin in any case
+  double all = 0.0;
+  double unused = 0.0;
+  double fullest = 0.0;
   for (const std::vector<float>& bin : bins) {
-    all += bin.size();
-    used += bin.size() < kMinSamples ? 0 : bin.size();
-    fullest = std::max(fullest, bin.size());
+    const auto size = static_cast<double>(bin.size());
+    all += size;
+    unused += bin.size() < kMinSamples ? size : 0.0;
+    fullest = std::max(fullest, size);
   }
-  return fullest >= kMinSamples &&
-         static_cast<double>(used - fullest) >= kNearlyAll * static_cast<double>(all - fullest);
+  return fullest >= static_cast<double>(kMinSamples) &&
+         unused <= std::max(kFew * (all - fullest), kStray * all);
 }
 
 void append(const NoiseBins& from, NoiseBins& to) {

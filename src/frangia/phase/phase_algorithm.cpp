@@ -153,7 +153,12 @@ PhaseAlgorithm least_squares(const std::vector<double>& shifts_rad) {
     algorithm.cosine.push_back(weights(1));
     algorithm.sine.push_back(weights(2));
   }
-  algorithm.noise_gain = noise_gain(algorithm, shifts_rad);
+  // The mean of (sine_k cos phi - cosine_k sin phi)^2 over phi, since the fit of a sinusoid is
+  // exact.
+  double square = 0.0;
+  for (std::size_t k = 0; k < shifts_rad.size(); ++k)
+    square += 0.5 * (std::pow(algorithm.sine[k], 2) + std::pow(algorithm.cosine[k], 2));
+  algorithm.noise_gain = std::sqrt(square);
   return algorithm;
 }
 
