@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -215,7 +216,7 @@ class PcdReader {
   static std::uint32_t packed_color(const Field& field, float value) {
     if (field.type == 'F') return std::bit_cast<std::uint32_t>(value);
     constexpr float kMost = 16'777'215.0F;  // 24 bits, which a float holds exactly
-    return static_cast<std::uint32_t>(std::clamp(value, 0.0F, kMost));
+    return std::isnan(value) ? 0U : static_cast<std::uint32_t>(std::clamp(value, 0.0F, kMost));
   }
 
   float ascii(const Field& field) {
