@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <string>
@@ -153,7 +154,14 @@ int run_program(int argc, char** argv) {
                        "this does not fit into the memory of the machine; set a larger `voxel`",
                        NumericFault,
                        "memory");
-  } catch (const std::system_error& error) {  // of std::filesystem, or of output to standard error
+  } catch (const std::filesystem::filesystem_error& error) {
+    return print_error(terminal,
+                       fmt::format("{}: {}; check the name and its permissions",
+                                   error.path1().string(),
+                                   error.code().message()),
+                       BadInput,
+                       "file");
+  } catch (const std::system_error& error) {  // of output to standard error
     return print_error(terminal, error.what(), BadInput, "file");
   } catch (const std::exception& error) {
     return print_error(terminal, error.what(), NumericFault, "numeric");

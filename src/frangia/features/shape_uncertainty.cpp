@@ -74,6 +74,34 @@ Eigen::MatrixXd block_covariance(const FeaturePoints& points,
   return factor * factor * static_cast<double>(blocks) / free * inverse * spread * inverse;
 }
 
+/// The covariance from 2^levels blocks, and the square root of their number: the share of errors
+/// that reach across a border and are missed is in proportion to it.
+struct BlockCovariance {
+  Eigen::MatrixXd covariance;
+  double borders = 0.0;
+};
+
+/// The covariance for blocks without borders, from few, many and very many blocks. Many blocks give
+/// the result; few where errors of longer reach show in them.
+Eigen::MatrixXd without_borders(const BlockCovariance& few,
+                                const BlockCovariance& many,
+                                const BlockCovariance& most,
+                                Eigen::Index size) {
+  constexpr double kBeyondChance = 1.5;  // 32 blocks have a standard error of 27 %
+  constexpr double kMostMissed = 0.5;
+  // The mean over all parameters is more certain than one. Points that lie exactly on the shape
+  // have no gradients.
+  const double ratio = many.covariance.diagonal().cwiseQuotient(most.covariance.diagonal()).mean();
+  const double finer = most.borders / many.borders;
+  // (1 - m) / (1 - finer m) = ratio, where m is the share that many blocks miss.
+  const double missed = std::isfinite(ratio) && ratio > 1.0 && finer > 1.0
+                            ? std::min(kMostMissed, (ratio - 1.0) / (finer * ratio - 1.0))
+                            : 0.0;
+  const Eigen::MatrixXd by_many = many.covariance / (1.0 - missed);
+  const Eigen::MatrixXd by_few = few.covariance / (1.0 - missed * few.borders / many.borders);
+  return by_few(size, size) > kBeyondChance * by_many(size, size) ? by_few : by_many;
+}
+
 /// The inverse of the normal equations, by equations with a unit diagonal; empty when singular.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& hessian) {
   const Eigen::VectorXd scale = hessian.diagonal().cwiseSqrt().cwiseInverse();
@@ -127,24 +155,21 @@ ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
   if (inverse.size() == 0) return result;
 
   constexpr double k95 = 1.959964;
-  constexpr double kMostGrowth = 2.0;
   const int most =
       static_cast<int>(std::floor(std::log2(std::max(1.0, 0.5 * static_cast<double>(sums.count)))));
-  const int fine = std::min(7, most);
-  const int coarse = std::min(5, most);
-  if ((1 << coarse) <= count) return result;  // too few points to see their spread
+  constexpr int kFew = 5;
+  constexpr int kMany = 7;
+  constexpr int kMost = 9;
+  if ((1 << std::min(kFew, most)) <= count) return result;  // too few points to see their spread
   const auto size = static_cast<Eigen::Index>(size_parameter(fit.shape.kind));
-  // Errors that reach across the borders of blocks are missed, in proportion to the blocks' number
-  // along a side. Blocks of half the side show how much that is.
-  const Eigen::MatrixXd small = block_covariance(points, chosen, fit, weights, inverse, fine);
-  const Eigen::MatrixXd large = block_covariance(points, chosen, fit, weights, inverse, coarse);
-  // The mean over all parameters is more certain than the growth of one.
-  const double ratio = large.diagonal().cwiseQuotient(small.diagonal()).mean();
-  // Points that lie exactly on the shape have no gradients.
-  const double growth = std::isfinite(ratio) ? std::clamp(ratio, 1.0, kMostGrowth) : 1.0;
-  Eigen::MatrixXd covariance = growth * large;
-  // A growth by chance below 1 leaves the finer estimate, which is the more certain one.
-  if (small(size, size) > covariance(size, size)) covariance = small;
+  const Eigen::MatrixXd response = sums.robust_factor() * inverse;
+  const auto in_blocks = [&](int wanted) {
+    const int levels = std::min(wanted, most);
+    return BlockCovariance{block_covariance(points, chosen, fit, weights, response, levels),
+                           std::exp2(0.5 * levels)};
+  };
+  Eigen::MatrixXd covariance =
+      without_borders(in_blocks(kFew), in_blocks(kMany), in_blocks(kMost), size);
   const Eigen::MatrixXd stated =
       k95 * k95 * inverse * sums.noise.topLeftCorner(count, count) * inverse;
   if (stated(size, size) > covariance(size, size)) covariance = stated;

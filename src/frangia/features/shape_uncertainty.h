@@ -24,13 +24,14 @@ struct ShapeUncertainty {
 /// Estimates the uncertainty of a fit from its own residuals.
 ///
 /// Residuals of neighbouring points are alike, so the points are split into compact blocks and the
-/// spread of the blocks' gradients is propagated: the larger result of about 32 and 128 blocks,
-/// with Student's factor. It is never smaller than the stated noise of the points propagates to.
-/// The systematic part of sigma is propagated as one error that is alike in all points.
+/// spread of the blocks' gradients is propagated, with Student's factor. What reaches across the
+/// borders of 128 blocks is estimated from that of 512; 32 blocks count where their spread is
+/// larger than chance allows. It is never smaller than the stated noise of the points propagates
+/// to. The systematic part of sigma is propagated as one error that is alike in all points.
 ///
 /// @units    mm, rad
 /// @missing  NaN when the points do not determine the shape
-/// @source   Liang & Zeger 1986 (clustered errors); GUM (JCGM 100:2008), 5.2.2
+/// @source   Liang & Zeger 1986 (clustered errors); Huber 1981, 7.6; GUM (JCGM 100:2008), 5.2.2
 [[nodiscard]] ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
                                                  std::span<const std::uint32_t> chosen,
                                                  const ShapeFit& fit);

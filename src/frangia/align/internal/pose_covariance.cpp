@@ -66,11 +66,15 @@ PoseUncertainty pose_covariance(std::span<const MeasuredSample> samples,
   order_blocks(residuals, kLevels);
   TwistMatrix hessian = TwistMatrix::Zero();
   TwistMatrix spread = TwistMatrix::Zero();
+  double weight = 0.0;
+  double slope = 0.0;
   for (std::size_t block = 0; block < kBlocks; ++block) {
     Twist gradient = Twist::Zero();
     const std::size_t end = (block + 1) * residuals.size() / kBlocks;
     for (std::size_t i = block * residuals.size() / kBlocks; i < end; ++i) {
       const PoseResidual& one = residuals[i];
+      weight += one.weight;
+      slope += tukey_slope(one.value, fit.gate_mm);
       hessian += one.weight * one.row * one.row.transpose();
       gradient += one.weight * one.value * one.row;
     }
@@ -83,10 +87,14 @@ PoseUncertainty pose_covariance(std::span<const MeasuredSample> samples,
     if (eigen.values[i] > kHeld * eigen.values[5]) inverse[i] = 1.0 / eigen.values[i];
   const TwistMatrix pseudo = eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
   constexpr double kFree = static_cast<double>(kBlocks) / static_cast<double>(kBlocks - 6);
+  // The robust weights understate it, see `tukey_slope`.
+  constexpr double kMostRobust = 2.0;
+  const double robust = slope > 0.0 ? std::clamp(weight / slope, 1.0, kMostRobust) : kMostRobust;
   Twist scale = Twist::Ones();  // the rotations of the fit are times the lever
   scale.head<3>() /= fit.lever_mm;
-  uncertainty.covariance =
-      scale.asDiagonal() * (kFree * pseudo * spread * pseudo) * scale.asDiagonal();
+  uncertainty.covariance = scale.asDiagonal() *
+                           (kFree * robust * robust * pseudo * spread * pseudo) *
+                           scale.asDiagonal();
   return uncertainty;
 }
 

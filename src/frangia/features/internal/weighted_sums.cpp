@@ -29,8 +29,15 @@ void ShapeSums::add(const ShapeSums& other) {
   gradient += other.gradient;
   shared += other.shared;
   noise += other.noise;
+  weight += other.weight;
+  slope += other.slope;
   count += other.count;
   squares += other.squares;
+}
+
+double ShapeSums::robust_factor() const {
+  constexpr double kMost = 2.0;  // residuals that are not those of one shape
+  return slope > 0.0 ? std::clamp(weight / slope, 1.0, kMost) : kMost;
 }
 
 void add_point(ShapeSums& sums,
@@ -43,8 +50,10 @@ void add_point(ShapeSums& sums,
   const ShapeDistance at = distance_to(shape, points.points_mm[point]);
   const double r = at.distance_mm;
   if (!(std::abs(r) < gate_mm) || !at.derivatives.allFinite()) return;
-  double weight = weights.of(point);
-  if (robust) weight *= tukey_weight(r, gate_mm);
+  const double certain = weights.of(point);
+  const double weight = robust ? certain * tukey_weight(r, gate_mm) : certain;
+  sums.weight += weight;
+  sums.slope += robust ? certain * tukey_slope(r, gate_mm) : certain;
   sums.low = sums.count > 0 ? std::min(sums.low, r) : r;
   sums.high = sums.count > 0 ? std::max(sums.high, r) : r;
   ++sums.count;

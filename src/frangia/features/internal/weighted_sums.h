@@ -38,12 +38,16 @@ struct ShapeSums {
   ParameterVector gradient = ParameterVector::Zero();  ///< of w J r
   ParameterVector shared = ParameterVector::Zero();    ///< of w J s, s the systematic part
   ParameterMatrix noise = ParameterMatrix::Zero();     ///< of w^2 n^2 J J^T, n the noise
-  std::size_t count = 0;                               ///< of points within the gate
-  double squares = 0.0;                                ///< of their residuals
-  double low = 0.0;                                    ///< smallest residual within the gate
-  double high = 0.0;                                   ///< largest
+  double weight = 0.0;                                 ///< of w
+  double slope = 0.0;     ///< of the derivative of w r, see `tukey_slope`
+  std::size_t count = 0;  ///< of points within the gate
+  double squares = 0.0;   ///< of their residuals
+  double low = 0.0;       ///< smallest residual within the gate
+  double high = 0.0;      ///< largest
 
   void add(const ShapeSums& other);
+  /// By how much the robust weights understate a standard uncertainty; 1 without them.
+  [[nodiscard]] double robust_factor() const;
 };
 
 /// Whether a point has a weight above 0, and its terms. A gate of infinity weights all points
