@@ -123,6 +123,47 @@ TEST(FindFeatures, FindsTheEdgesOfABox) {
   EXPECT_EQ(features.size(), 18U);
 }
 
+/// A turned end: a cylinder of 18 mm, a chamfer of 1.4 mm at 45 degrees and the end face, whose
+/// edges are rounded by 0.8 mm as a measurement does.
+Mesh chamfered_end() {
+  std::vector<Eigen::Vector2d> outline;  // radius and height
+  constexpr double kStep = 0.28;
+  constexpr double kRounding = 0.8;
+  Eigen::Vector2d at(18.0, 0.0);
+  double heading = kPi / 2.0;
+  const auto go = [&](double length, double turn) {
+    const int steps = std::max(1, static_cast<int>(std::lround(length / kStep)));
+    for (int i = 0; i < steps; ++i) {
+      heading += 0.5 * turn / steps;
+      at += length / steps * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+      heading += 0.5 * turn / steps;
+      outline.push_back(at);
+    }
+  };
+  go(15.0, 0.0);
+  go(kRounding * kPi / 4.0, kPi / 4.0);
+  go(0.8, 0.0);
+  go(kRounding * kPi / 4.0, kPi / 4.0);
+  go(8.0, 0.0);
+  Mesh mesh;
+  add_patch(mesh, 400, static_cast<int>(outline.size()), 0.003, 7, [&](double u, double v) {
+    const Eigen::Vector2d& point =
+        outline[static_cast<std::size_t>(std::lround(v * static_cast<double>(outline.size() - 1)))];
+    return Eigen::Vector3d(
+        point.x() * std::cos(kTwoPi * u), point.x() * std::sin(kTwoPi * u), point.y());
+  });
+  return mesh;
+}
+
+TEST(FindFeatures, TakesANarrowChamferWithRoundedEdgesForACone) {
+  const std::vector<Feature> features = find_features(chamfered_end());
+  EXPECT_EQ(find(features, ShapeKind::Sphere), nullptr);
+  const Feature* chamfer = find(features, ShapeKind::Cone);
+  ASSERT_NE(chamfer, nullptr);
+  EXPECT_NEAR(chamfer->fit.shape.half_angle_rad, kPi / 4.0, 0.02);
+  EXPECT_NEAR(std::abs(chamfer->fit.shape.axis.z()), 1.0, 1e-4);
+}
+
 TEST(FindFeatures, IgnoresSynthesizedTriangles) {
   Mesh mesh = noisy_cylinder(8, 20, 0.005, 1);
   mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Synthesized);

@@ -2,15 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "frangia/features/internal/shapes_from_normals.h"
 
 namespace frangia {
 namespace {
 
+/// Points of a region.
+struct RegionPoints {
+  std::vector<std::uint32_t> chosen;  ///< ascending
+  bool with_edges = false;            ///< whether those of cells beside the border are among them
+};
+
 /// Points of the region's cells. Those of cells beside the border are left out where enough remain:
 /// the measurement rounds off edges.
-std::vector<std::uint32_t> inner_points(const SurfaceCells& cells, const ShapeRegion& region) {
+RegionPoints inner_points(const SurfaceCells& cells, const ShapeRegion& region) {
   std::vector<std::uint32_t> inner;
   std::vector<std::uint32_t> all;
   for (const std::uint32_t cell : region.cells) {
@@ -28,9 +36,9 @@ std::vector<std::uint32_t> inner_points(const SurfaceCells& cells, const ShapeRe
   constexpr double kLeastInner = 0.3;
   const bool enough =
       static_cast<double>(inner.size()) >= kLeastInner * static_cast<double>(all.size());
-  std::vector<std::uint32_t>& chosen = enough ? inner : all;
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
+  RegionPoints points{enough ? std::move(inner) : std::move(all), !enough};
+  std::sort(points.chosen.begin(), points.chosen.end());
+  return points;
 }
 
 /// The fits that compete for some points: of the region's kind and of all others.
@@ -63,6 +71,12 @@ std::vector<ShapeFit> competing_fits(const FeaturePoints& points,
   return fits;
 }
 
+/// In how many directions a surface is curved.
+double curved_directions(ShapeKind kind) {
+  if (kind == ShapeKind::Plane) return 0.0;
+  return kind == ShapeKind::Cylinder || kind == ShapeKind::Cone ? 1.0 : 2.0;
+}
+
 /// Whether the points determine the shape: a patch of another surface may look like part of a
 /// sphere, but of one of any size.
 bool is_determined(const ShapeFit& fit, const ShapeUncertainty& uncertainty) {
@@ -78,7 +92,11 @@ std::optional<Feature> refine_feature(const FeaturePoints& points,
                                       const ShapeRegion& region,
                                       double gate_mm,
                                       const Run& run) {
-  const std::vector<std::uint32_t> chosen = inner_points(cells, region);
+  // The rounded edges of a narrow chamfer look like the curvature of a sphere: a further curvature
+  // must make the sum of squares smaller by a third.
+  constexpr double kRoundedEdges = 0.4;
+  const RegionPoints inner = inner_points(cells, region);
+  const std::vector<std::uint32_t>& chosen = inner.chosen;
   const std::vector<ShapeFit> fits =
       competing_fits(points, chosen, region.shape, {.gate_mm = gate_mm}, run);
   if (fits.empty()) return std::nullopt;
@@ -96,7 +114,8 @@ std::optional<Feature> refine_feature(const FeaturePoints& points,
       const double r = distance_to(fit.shape, points.points_mm[point]).distance_mm;
       squares += std::min(r * r, gate_mm * gate_mm);
     }
-    return independent * std::log(squares) +
+    const double curved = inner.with_edges ? curved_directions(fit.shape.kind) : 0.0;
+    return independent * (std::log(squares) + curved * kRoundedEdges) +
            parameter_count(fit.shape.kind) * std::log(independent);
   };
   const ShapeFit* best = &fits.front();
