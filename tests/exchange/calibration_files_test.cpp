@@ -162,6 +162,12 @@ TEST(CalibrationFiles, RefuseNonsenseInOneSentence) {
   EXPECT_NE(fault_of("%YAML:1.0\n---\na: [1, 2\n").find("OpenCV cannot read it"),
             std::string::npos);
   EXPECT_NE(fault_of(std::string(100'000, '[')), "");
+  for (const std::string level : {"a: ", "a:", "- "}) {
+    std::string deep = "%YAML:1.0\n---\na: ";
+    for (int i = 0; i < 100'000; ++i)
+      deep += level;
+    EXPECT_NE(fault_of(deep + "1\n").find("nests values more than 64 deep"), std::string::npos);
+  }
   EXPECT_NE(fault_of(
                 "<?xml version=\"1.0\"?>\n<opencv_storage>" + std::string("<a>") +
                     [] {

@@ -1,4 +1,5 @@
 // OpenCV is expensive to compile: its FileStorage stays in this source and in opencv_text.cpp.
+#include <algorithm>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -16,10 +17,20 @@ namespace frangia {
 namespace {
 
 constexpr std::uint64_t kMaxStorageBytes = 1'000'000;  // a calibration has some kilobytes
-constexpr int kMaxStorageDepth = 64;                   // FileStorage recurses, with 4 kB a level
+constexpr std::size_t kMaxStorageDepth = 64;           // FileStorage recurses, with 4 kB a level
 constexpr std::size_t kMaxStorageNumbers = 1000;       // of a matrix that is kept
 
-void check_indentation(std::string_view text, const std::filesystem::path& file) {
+/// Values within values on one line, "a: b: c: 1" or "- - - 1", are levels, too. Brackets are
+/// counted by `check_json_nesting`.
+std::size_t levels_of(std::string_view line) {
+  line = line.substr(0, line.find_first_of("[{\"'"));
+  std::size_t levels = 0;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    levels += line[i] == ':' || line.substr(i, 2) == "- " ? 1 : 0;
+  return levels;
+}
+
+void check_lines(std::string_view text, const std::filesystem::path& file) {
   std::size_t start = 0;
   while (start < text.size()) {
     const std::size_t first = text.find_first_not_of(" -", start);
@@ -30,8 +41,13 @@ void check_indentation(std::string_view text, const std::filesystem::path& file)
                       file.string(),
                       4 * kMaxStorageDepth));
     }
-    const std::size_t end = text.find('\n', start);
-    if (end == std::string_view::npos) break;
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    if (levels_of(text.substr(start, end - start)) > kMaxStorageDepth) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: a line nests values more than {} deep; it is no calibration",
+                              file.string(),
+                              kMaxStorageDepth));
+    }
     start = end + 1;
   }
 }
@@ -63,7 +79,7 @@ Eigen::MatrixXd storage_matrix_of(const cv::FileNode& node) {
 /// FileStorage reads YAML only, see read_opencv_xml.cpp.
 NamedValues read_opencv_yaml(std::string text, const std::filesystem::path& file) {
   check_json_nesting(text, file);
-  check_indentation(text, file);
+  check_lines(text, file);
   // FileStorage asks for the directive; ROS does not write it.
   if (text.rfind("%YAML", 0) != 0) text.insert(0, "%YAML:1.0\n---\n");
   NamedValues values;
