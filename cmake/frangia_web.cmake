@@ -2,7 +2,23 @@
 #
 # The packages of package-lock.json are installed once, by `npm ci`; later builds need no network. node_modules and the
 # built files are in the build tree, so that the source tree stays clean.
+# FRANGIA_WEB_DIST names a front end that is built already, as the source distribution for pip holds it; then node and npm
+# are not needed.
+set(FRANGIA_WEB_DIST "" CACHE PATH "Folder of a front end that is built already")
 function(frangia_web folder output)
+  if(FRANGIA_WEB_DIST)
+    find_package(Python3 COMPONENTS Interpreter REQUIRED)
+    file(GLOB_RECURSE built CONFIGURE_DEPENDS ${FRANGIA_WEB_DIST}/*)
+    if(NOT built)
+      message(FATAL_ERROR "FRANGIA_WEB_DIST is ${FRANGIA_WEB_DIST}, which holds no files")
+    endif()
+    add_custom_command(OUTPUT ${output}
+      COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/embed_web.py embed ${FRANGIA_WEB_DIST} ${output}
+      DEPENDS ${built} ${PROJECT_SOURCE_DIR}/cmake/embed_web.py
+      COMMENT "Embedding the front end" VERBATIM)
+    add_custom_target(frangia_web DEPENDS ${output})
+    return()
+  endif()
   find_program(NPM npm)
   find_program(NODE node)
   if(NOT NPM OR NOT NODE)

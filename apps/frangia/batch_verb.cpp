@@ -217,7 +217,11 @@ void batch_verb(const BatchArguments& arguments, const CLI::App& program, Termin
       row = run_task(scan, plan, arguments.out, command, run.stop);
     run.check();
     terminal.finish();
-    if (!terminal.quiet && !terminal.json) write_output(table_of({row}));
+    if (terminal.json) {
+      print_json(json_of(std::vector{row}));
+    } else if (!terminal.quiet) {
+      write_output(table_of({row}));
+    }
     return;
   }
   std::vector<BatchRow> rows = rows_of(plan, arguments.out);

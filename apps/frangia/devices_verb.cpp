@@ -10,6 +10,7 @@
 #include "frangia/rig/read_rig.h"
 
 #include "drivers.h"
+#include "exit_codes.h"
 #include "print_text.h"
 #include "verbs.h"
 
@@ -133,13 +134,15 @@ void list(const std::filesystem::path& rig, bool search, Terminal& terminal) {
   int faults = 0;
   for (const Json& device : tested)
     faults += device.contains("fault") ? 1 : 0;
-  if (faults > 0) {
-    throw Error(ErrorKind::Device,
-                fmt::format("{} of the {} devices of {} failed; see the faults above",
-                            faults,
-                            tested.size(),
-                            rig.string()));
-  }
+  if (faults == 0) return;
+  const std::string sentence =
+      fmt::format("{} of the {} devices of {} failed; see the faults above",
+                  faults,
+                  tested.size(),
+                  rig.string());
+  if (!terminal.json) throw Error(ErrorKind::Device, sentence);
+  run.warn(sentence);  // the answer is one JSON document, and it names the faults
+  terminal.exit_code = DeviceFault;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
@@ -18,6 +19,7 @@
 #include "allow_memory.h"
 #include "option_values.h"
 #include "picture_file.h"
+#include "print_text.h"
 #include "read_surface.h"
 #include "verbs.h"
 
@@ -81,6 +83,11 @@ void draw(PictureArguments arguments, Terminal& terminal) {
     write_png(arguments.output, pictures.front());
   } else {
     write_png(arguments.output, contact_sheet({pictures}, arguments.shade.height_px));
+  }
+  if (terminal.json) {
+    print_json({{"picture", arguments.output.string()},
+                {"meshes", pictures.size()},
+                {"warnings", terminal.warnings()}});
   }
   terminal.print_written(arguments.output.string());
 }

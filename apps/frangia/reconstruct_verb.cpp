@@ -22,6 +22,7 @@
 #include "mesh_result.h"
 #include "option_values.h"
 #include "print_text.h"
+#include "quality_json.h"
 #include "reconstruct_options.h"
 #include "refinement_text.h"
 #include "text_table.h"
@@ -83,6 +84,7 @@ nlohmann::ordered_json json_of(const std::vector<ViewSummary>& views) {
                     {"points", view.points},
                     {"sigma_mm", view.sigma_mm},  // NaN is written as null
                     {"left_out", view.left_out}});
+    json.back().update(json_of_quality(view.quality, view.left_out));
   }
   return json;
 }

@@ -137,18 +137,27 @@ void write_relative(const RelativePhase& relative, StageWriter& out) {
                           relative.region_count));
 }
 
+/// Noise and systematic part of the points together.
+Image<float> combine_parts(const RangeGrid& range) {
+  if (range.systematic_mm.empty()) return range.sigma_mm;
+  Image<float> combined(range.sigma_mm.width(), range.sigma_mm.height(), Uninitialized{});
+  const auto noise = range.sigma_mm.pixels();
+  const auto systematic = range.systematic_mm.pixels();
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    combined.pixels()[i] = combined_sigma(noise[i], systematic[i]);
+  return combined;
+}
+
 /// The uncertainty of the points along their rays: combined, and its parts where both are known.
 void write_sigma(const RangeGrid& range, StageWriter& out) {
   if (range.systematic_mm.empty()) {
     out.map("sigma", range.sigma_mm, "standard uncertainty of the point along its ray", "mm");
     return;
   }
-  Image<float> combined(range.sigma_mm.width(), range.sigma_mm.height(), Uninitialized{});
-  const auto noise = range.sigma_mm.pixels();
-  const auto systematic = range.systematic_mm.pixels();
-  for (std::size_t i = 0; i < noise.size(); ++i)
-    combined.pixels()[i] = combined_sigma(noise[i], systematic[i]);
-  out.map("sigma", combined, "combined standard uncertainty of the point along its ray", "mm");
+  out.map("sigma",
+          combine_parts(range),
+          "combined standard uncertainty of the point along its ray",
+          "mm");
   out.map("sigma-noise", range.sigma_mm, "part of sigma that is noise", "mm");
   out.map("sigma-systematic", range.systematic_mm, "systematic part of sigma", "mm");
 }
@@ -171,6 +180,13 @@ void write_coordinate(const AbsolutePhase& phase, StageWriter& out) {
           coordinate,
           columns ? "column of the projector" : "row of the projector",
           "px");
+}
+
+/// The final phase and its noise, without the systematic part.
+void write_phase(const AbsolutePhase& phase, StageWriter& out) {
+  const std::string& name = phase.pattern.name;
+  out.numbers(name + "-phase", phase.phase_rad, "final phase, rad");
+  out.numbers(name + "-sigma", phase.sigma_rad, "noise of the final phase, rad");
 }
 
 }  // namespace
@@ -208,6 +224,21 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
   }
   write_page(folder / "index.html", out.written);
   out.written.push_back({"index.html", "all pictures on one page"});
+  return std::move(out.written);
+}
+
+std::vector<StageFile> write_maps(const DecodedView& decoded,
+                                  const RangeGrid& range,
+                                  const std::filesystem::path& folder,
+                                  const Run& run) {
+  StageWriter out(folder, run);
+  write_phase(decoded.phase, out);
+  if (decoded.second_phase) write_phase(*decoded.second_phase, out);
+  out.picture("mask", status_picture(decoded.phase.status), mask_caption(decoded.phase.status));
+  if (!range.depth_mm.empty()) {
+    out.numbers("depth", range.depth_mm, "depth along the camera's axis, mm");
+    out.numbers("depth-sigma", combine_parts(range), "standard uncertainty along the ray, mm");
+  }
   return std::move(out.written);
 }
 

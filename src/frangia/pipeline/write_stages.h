@@ -32,4 +32,16 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
                                     const std::filesystem::path& folder,
                                     const Run& run = {});
 
+/// Writes the maps of one view into `folder`, named as `stages_from_files` reads the phase: for
+/// each decoded direction of fringes the final phase, PATTERN-phase, and its noise, PATTERN-sigma;
+/// mask.png; depth and sigma of the points unless `range` is empty.
+///
+/// @units    rad, mm; 32-bit floating point
+/// @missing  NaN
+/// @errors   Error(File) when the folder cannot be created or written
+std::vector<StageFile> write_maps(const DecodedView& decoded,
+                                  const RangeGrid& range,
+                                  const std::filesystem::path& folder,
+                                  const Run& run = {});
+
 }  // namespace frangia

@@ -15,6 +15,7 @@
 #include "frangia/pipeline/internal/fuse_view_cameras.h"
 #include "frangia/pipeline/internal/view_decoder.h"
 #include "frangia/pipeline/survey_scan.h"
+#include "frangia/pipeline/view_quality.h"
 #include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
@@ -197,6 +198,7 @@ MeasuredViews measure_views(const Scan& scan,
     ViewSummary summary{
         scan.views[i].folder.string(), scan.views[i].angle_rad, scan.views[i].setup};
     DecodedView& reference = decoded.front().decoded;
+    summary.quality = view_quality(reference.assessments);
     if (!decoded.front().used) {
       summary.left_out = true;
       all.summaries.push_back(summary);
