@@ -26,7 +26,7 @@ std::size_t levels_of(std::string_view line) {
   line = line.substr(0, line.find_first_of("[{\"'"));
   std::size_t levels = 0;
   for (std::size_t i = 0; i < line.size(); ++i)
-    levels += line[i] == ':' || line.substr(i, 2) == "- " ? 1 : 0;
+    levels += line[i] == ':' || line.substr(i, 2) == "- " ? 1U : 0U;
   return levels;
 }
 
