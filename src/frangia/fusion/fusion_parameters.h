@@ -69,8 +69,9 @@ struct HermiteParameters {
   /// Variance of a bilinearly interpolated value over that of a smoothed pixel. Measured, see
   /// docs/parameters.md.
   double interpolated_variance = 0.73;
-  /// Error of pixel response and of what a lens model leaves within the image, px. What is uncertain
-  /// of its coefficients enters by the covariance of the calibration. See docs/parameters.md.
+  /// Error of pixel response and of what a lens model leaves within the image, px. What is
+  /// uncertain of its coefficients enters by the covariance of the calibration. See
+  /// docs/parameters.md.
   double lateral_px = 0.01;
   /// RMS error of the position of a pixel at the boundary of the data, px: the part fills a share
   /// of its square between 1 and 1/2, so the centroid of that share is off by 0 to 1/4, evenly
