@@ -12,7 +12,7 @@ requireChromium();
 const home = newHome();
 fs.mkdirSync(shots, { recursive: true });
 const STATIONS = 4;
-const EXPOSURE_MS = 250;  // in real time: the scan takes a quarter of a minute, and leaves the processor to the browsers
+const EXPOSURE_MS = 400;  // in real time: the scan takes half a minute, and leaves the processor to the browsers
 let server = await startServer(program, home);
 let browser;
 let code = 1;
