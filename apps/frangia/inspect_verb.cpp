@@ -153,7 +153,8 @@ void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Termi
                                          {"mean", number_or_null(one.mean)},
                                          {"standard_deviation", number_or_null(one.deviation)},
                                          {"cp", number_or_null(one.cp)},
-                                         {"cpk", number_or_null(one.cpk)}});
+                                         {"cpk", number_or_null(one.cpk)},
+                                         {"cpk_lower_95", number_or_null(one.cpk_lower_95)}});
     }
     json["batch"] = arguments.batch.string();
     print_json(json);

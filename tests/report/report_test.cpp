@@ -138,6 +138,8 @@ TEST(Batch, StatesTheCapabilityOfTheProcess) {
   EXPECT_NEAR(all[0].deviation, 0.02, 1e-12);
   EXPECT_NEAR(all[0].cp, 0.2 / 0.12, 1e-9);
   EXPECT_NEAR(all[0].cpk, 0.08 / 0.06, 1e-9);
+  // Three parts prove nothing: 1.333 - 1.645 sqrt(1 / 27 + 1.333^2 / 4).
+  EXPECT_NEAR(all[0].cpk_lower_95, 0.1919, 1e-4);
   const std::string csv = batch_csv(parts, all);
   EXPECT_NE(csv.find("Cpk,1.33"), std::string::npos) << csv;
   EXPECT_NE(batch_html("<batch>", parts, all).find("&lt;batch&gt;"), std::string::npos);
@@ -169,6 +171,16 @@ TEST(InspectionReport, IsOnePageWithEscapedTexts) {
             "name,unit,nominal,lower,upper,value,u95,conformity\n"
             "\"d\",mm,,9.9,10.1,10,0.002,in\n"
             "\"d\",mm,,9.9,10.1,10.2,0.002,out\n");
+}
+
+TEST(InspectionReport, ClaimsNoUncertaintyForAMeshWithoutSigma) {
+  InspectionReport report;
+  report.deviation.emplace();
+  report.deviation->verdict = Conformity::In;
+  report.deviation->limits = {-0.1, 0.1};
+  EXPECT_NE(html_of(report).find("In tolerance, but without an uncertainty"), std::string::npos);
+  report.deviation->median_u_mm = 0.01;
+  EXPECT_NE(html_of(report).find("In tolerance, the uncertainty counted"), std::string::npos);
 }
 
 TEST(SectionResult, IsWrittenAsDxfAndSvg) {

@@ -37,6 +37,9 @@ void add_statistics_of(BatchCharacteristic& one) {
   if (has_lower && has_upper)
     one.cp = (one.limits->upper - one.limits->lower) / (6.0 * one.deviation);
   one.cpk = std::fmin(upper, lower) / (3.0 * one.deviation);
+  constexpr double k95 = 1.645;  // one-sided
+  one.cpk_lower_95 =
+      one.cpk - k95 * std::sqrt(1.0 / (9.0 * count) + one.cpk * one.cpk / (2.0 * (count - 1.0)));
 }
 
 std::string value_text(double value, int decimals = 4) {
@@ -126,7 +129,9 @@ const std::vector<std::pair<const char*, TextOf>>& statistics_lines() {
       {"standard deviation",
        [](const BatchCharacteristic& one) { return value_text(one.deviation, 5); }},
       {"Cp", [](const BatchCharacteristic& one) { return value_text(one.cp, 2); }},
-      {"Cpk", [](const BatchCharacteristic& one) { return value_text(one.cpk, 2); }}};
+      {"Cpk", [](const BatchCharacteristic& one) { return value_text(one.cpk, 2); }},
+      {"Cpk exceeds, 95 %",
+       [](const BatchCharacteristic& one) { return value_text(one.cpk_lower_95, 2); }}};
   return lines;
 }
 
@@ -214,7 +219,9 @@ std::string batch_html(const std::string& title,
   page.table(columns, rows);
   page.paragraph(
       "Cp and Cpk are computed from the standard deviation of the measured values, which contains "
-      "the uncertainty of the measurement.");
+      "the uncertainty of the measurement. Few parts say little about a process: the last line "
+      "states "
+      "the Cpk that it exceeds with a probability of 95 %.");
   page.heading("Trends");
   page.begin_figures();
   for (const BatchCharacteristic& one : characteristics)

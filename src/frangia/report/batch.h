@@ -28,12 +28,15 @@ struct BatchCharacteristic {
   /// over 3 s. NaN without the limits that they need, or below two values.
   double cp = kMissing;
   double cpk = kMissing;  ///< see `cp`; of one-sided limits, too
+  /// The Cpk that the process exceeds with a probability of 95 %: of few parts it lies far below.
+  double cpk_lower_95 = kMissing;
 };
 
 /// Gathers the characteristics of a batch.
 ///
 /// @errors   Error(Input) when the parts do not have the same characteristics
-/// @source   ISO 22514-2; the standard deviation contains the uncertainty of the measurement
+/// @source   ISO 22514-2; Bissell 1990 for the lower limit of Cpk; the standard deviation contains
+/// the uncertainty of the measurement
 [[nodiscard]] std::vector<BatchCharacteristic> batch_characteristics(
     const std::vector<BatchPart>& parts);
 

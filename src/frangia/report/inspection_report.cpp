@@ -37,10 +37,14 @@ void add_verdict(HtmlPage& page, const InspectionReport& report) {
     decided = decided || row.limits.has_value();
   if (!decided) return;
   const Conformity verdict = verdict_of(report);
+  // Sizes of features have an uncertainty by their points, deviations only by the mesh's sigma.
+  const bool unknown = report.deviation && !std::isfinite(report.deviation->median_u_mm);
+  const char* const counted =
+      unknown ? "but without an uncertainty: the mesh holds no sigma." : "the uncertainty counted.";
   if (verdict == Conformity::In) {
-    page.verdict("good", "In tolerance, the uncertainty counted.");
+    page.verdict(unknown ? "open" : "good", fmt::format("In tolerance, {}", counted));
   } else if (verdict == Conformity::Out) {
-    page.verdict("bad", "Out of tolerance, the uncertainty counted.");
+    page.verdict("bad", fmt::format("Out of tolerance, {}", counted));
   } else {
     page.verdict("open",
                  "Undecided: neither conformity nor nonconformity is proven, because a value lies "
