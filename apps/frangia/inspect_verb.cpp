@@ -99,12 +99,12 @@ void inspect_features(const InspectArguments& arguments,
 /// Inspects one mesh.
 InspectedPart inspect_mesh(const InspectArguments& arguments,
                            const InspectionPlan& plan,
+                           const std::optional<Reference>& reference,
                            InspectAnswer& answer,
                            const Run& run) {
   InspectedPart part;
   part.mesh = read_surface(arguments.mesh, run, arguments.read);
   if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
-  const std::optional<Reference> reference = read_reference(arguments, run);
   if (reference) add_reference(answer, *reference);
   if (!arguments.alignment.align.empty()) {
     part.alignment = align(part.mesh, reference->scene, arguments.alignment, run);
@@ -129,12 +129,13 @@ void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Termi
   const Run run = terminal.run();
   require(!plan.features.empty(),
           "--batch compares the characteristics of a --plan; give one with [[features]]");
+  const std::optional<Reference> reference = read_reference(arguments, run);
   std::vector<BatchPart> parts;
   bool out = false;
   for (const auto& mesh : arguments.meshes) {
     arguments.mesh = mesh;
     InspectAnswer answer;
-    const InspectedPart part = inspect_mesh(arguments, plan, answer, run);
+    const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);
     out = out || answer.verdict == Conformity::Out;
     parts.push_back({mesh.filename().string(), part.characteristics});
   }
@@ -177,7 +178,8 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
   require(arguments.meshes.size() == 1,
           "several meshes are inspected by --plan and --batch; name one mesh, or add these");
   InspectAnswer answer;
-  const InspectedPart part = inspect_mesh(arguments, plan, answer, run);
+  const std::optional<Reference> reference = read_reference(arguments, run);
+  const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);
   const bool drawn = !arguments.picture.empty();
   if (drawn) draw_picture(arguments, part.mesh, part.comparison, run);
   for (const auto& path : arguments.outputs)
