@@ -35,9 +35,9 @@ Json json_of_pose(const AlignmentPose& pose) {
 void add_alignment_options(CLI::App& verb, AlignmentArguments& arguments) {
   verb.add_option("--align",
                   arguments.align,
-                  "move the mesh onto the reference first: best-fit, from any start; none, as it "
-                  "stands, with its overlap")
-      ->check(one_of({"best-fit", "none"}));
+                  "move the mesh onto the reference first: best-fit, from any start; datum, by the "
+                  "datums of the --plan; none, as it stands, with its overlap")
+      ->check(one_of({"best-fit", "datum", "none"}));
   verb.add_option(
           "--start",
           arguments.start,

@@ -50,7 +50,8 @@ void apply_plan(const InspectionPlan& plan, InspectArguments& arguments) {
     }
   }
   if (alignment.align.empty() && !arguments.reference.empty()) alignment.align = plan.align;
-  if (alignment.start == 0 && alignment.align == "best-fit") alignment.start = plan.start;
+  if (alignment.start == 0 && (alignment.align == "best-fit" || alignment.align == "datum"))
+    alignment.start = plan.start;
   if (alignment.tolerance_mm.empty() && plan.tolerance_mm)
     alignment.tolerance_mm = {plan.tolerance_mm->lower, plan.tolerance_mm->upper};
   if (arguments.expansion_ppm_per_k == 0.0)

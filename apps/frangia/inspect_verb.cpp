@@ -22,6 +22,7 @@
 #include "inspect_alignment.h"
 #include "inspect_arguments.h"
 #include "inspect_comparison.h"
+#include "inspect_datums.h"
 #include "inspect_features.h"
 #include "inspect_picture.h"
 #include "inspect_plan.h"
@@ -47,7 +48,7 @@ void check_alignment(const InspectArguments& arguments) {
   require(!arguments.fail_out_of_tolerance || !arguments.reference.empty(),
           "--fail-out-of-tolerance needs a --reference to measure against; give one");
   static_cast<void>(alignment.band());
-  require(alignment.start == 0 || alignment.align == "best-fit",
+  require(alignment.start == 0 || alignment.align == "best-fit" || alignment.align == "datum",
           "--start chooses a pose of --align best-fit; add it");
   for (const auto& path : arguments.outputs) {
     check_deviation_output(path);
@@ -70,6 +71,8 @@ void check_arguments(const InspectArguments& arguments, const InspectionPlan& pl
                             arguments.report.string()));
   }
   check_alignment(arguments);
+  require(arguments.alignment.align != "datum" || !plan.datums.empty(),
+          "--align datum needs a --plan whose `datums` name one to three of its [[features]]");
 }
 
 /// Finds the features of the mesh and measures those of the plan.
@@ -107,9 +110,17 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
   if (reference) add_reference(answer, *reference);
   if (!arguments.alignment.align.empty()) {
-    part.alignment = align(part.mesh, reference->scene, arguments.alignment, run);
+    DatumFit fit;
+    if (arguments.alignment.align == "datum") {
+      fit = align_by_datums(arguments, plan, part.mesh, *reference, run);
+    } else {
+      fit.alignment = align(part.mesh, reference->scene, arguments.alignment, run);
+    }
+    part.alignment = std::move(fit.alignment);
     add_alignment(answer.json, *part.alignment);
     answer.text += alignment_text(*part.alignment);
+    if (!fit.residuals.empty()) add_datums(answer.json, fit.residuals);
+    answer.text += datum_text(fit.residuals);
     part.mesh = transform_mesh(std::move(part.mesh), part.alignment->pose.reference_from_mesh);
   }
   inspect_features(arguments, plan, reference, part, answer, run);

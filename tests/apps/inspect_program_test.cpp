@@ -1,4 +1,5 @@
 // Features and alignment by `frangia inspect`.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -58,6 +59,67 @@ TEST_F(InspectProgram, StatesAnErrorAsJsonToo) {
     EXPECT_FALSE(error.at("message").get<std::string>().empty());
     EXPECT_EQ(error.at("kind"), answer.exit_code == 2 ? "usage" : "input");
   }
+}
+
+TEST_F(InspectProgram, AlignsByTheDatumsOfAPlan) {
+  Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+  moved.linear() =
+      Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  moved.translation() = Eigen::Vector3d(300, -400, 50);
+  // The foot, z < 8 mm, is 0.2 mm thicker above: its upper face is the first datum.
+  Mesh bracket = make_bracket();
+  write_mesh(at("reference.stl"), bracket);
+  for (Eigen::Vector3f& vertex : bracket.vertices_mm)
+    if (std::abs(vertex.z() - 8.0F) < 1e-3F) vertex.z() += 0.2F;
+  write_mesh(at("moved.ply"), transform_mesh(bracket, moved));
+  const auto plan = [&](const std::string& datums) {
+    std::ofstream(at("plan.toml")) << "format = \"frangia-inspection\"\nversion = 1\n"
+                                      "reference = \"reference.stl\"\nalign = \"datum\"\n"
+                                      "datums = " +
+                                          datums + R"(
+[[features]]
+name = "foot"
+kind = "plane"
+near_mm = [4, 0, 8]
+[[features]]
+name = "bore"
+kind = "cylinder"
+near_mm = [-6, 0, 66]
+diameter_mm = 14
+[[features]]
+name = "side"
+kind = "plane"
+near_mm = [-12, 25, 31]
+)";
+    return run_program("--json inspect " + at("moved.ply") + " --plan " + at("plan.toml") +
+                       " 2> /dev/null");
+  };
+  const Answer answer = plan(R"(["foot", "bore", "side"])");
+  ASSERT_EQ(answer.exit_code, 0) << answer.output;
+  const auto json = nlohmann::json::parse(answer.output);
+  Eigen::Isometry3d found = Eigen::Isometry3d::Identity();
+  for (Eigen::Index row = 0; row < 4; ++row)
+    for (Eigen::Index column = 0; column < 4; ++column)
+      found.matrix()(row, column) =
+          json.at("alignment")
+              .at("matrix")[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
+              .get<double>();
+  const Eigen::Isometry3d left = found * moved;
+  EXPECT_NEAR((left.translation() - Eigen::Vector3d(0, 0, -0.2)).norm(), 0.0, 0.005);
+  EXPECT_NEAR(Eigen::AngleAxisd(left.linear()).angle(), 0.0, 1e-4);
+  ASSERT_EQ(json.at("alignment_details").at("datums").size(), 3U);
+  for (const auto& datum : json.at("alignment_details").at("datums"))
+    EXPECT_NEAR(datum.at("distance_mm").get<double>(), 0.0, 0.002);
+  EXPECT_TRUE(json.at("alignment_details").at("free_directions").empty());
+
+  EXPECT_EQ(nlohmann::json::parse(plan(R"(["foot"])").output)
+                .at("alignment_details")
+                .at("free_directions")
+                .size(),
+            3U);
+  const auto refused = nlohmann::json::parse(plan(R"(["foot", "top"])").output);
+  EXPECT_NE(refused.at("error").at("message").get<std::string>().find("no name of [[features]]"),
+            std::string::npos);
 }
 
 TEST_F(InspectProgram, WritesTheAlignedMeshAndStatesItsPose) {

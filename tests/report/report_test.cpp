@@ -105,7 +105,9 @@ TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
   const auto expect = [&](const std::string& text, const std::string& part) {
     EXPECT_NE(message(text).find(part), std::string::npos) << message(text);
   };
-  expect("align = \"datum\"\n", "align is \"datum\"");
+  expect("align = \"roughly\"\n", "align is \"roughly\"");
+  expect("align = \"datum\"\n", "datums must name one to three of [[features]]");
+  expect("datums = [\"A\"]\n", "datums names \"A\", which is no name of [[features]]");
   expect("tolerance_mm = [0.1, -0.1]\n", "tolerance_mm must be [LOWER, UPPER]");
   expect("[[features]]\nname = \"A\"\nkind = \"ball\"\nnear_mm = [0, 0, 0]\n",
          "features[0].kind is \"ball\"");

@@ -130,8 +130,9 @@ void read_surface_keys(TomlReader& top, InspectionPlan& plan) {
   if (top.has("reference")) plan.reference = top.text("reference");
   if (top.has("units")) plan.units = top.text("units");
   if (top.has("align")) plan.align = top.text("align");
-  if (!plan.align.empty() && plan.align != "best-fit" && plan.align != "none")
-    top.fail("align", fmt::format("is \"{}\"; it must be best-fit or none", plan.align));
+  if (!plan.align.empty() && plan.align != "best-fit" && plan.align != "datum" &&
+      plan.align != "none")
+    top.fail("align", fmt::format("is \"{}\"; it must be best-fit, datum or none", plan.align));
   if (top.has("start")) plan.start = static_cast<std::size_t>(top.integer("start", 1, 1000));
   plan.tolerance_mm = limits_of(top, "tolerance_mm");
   plan.expansion_ppm_per_k = top.number_or("expansion_ppm_per_k", 0.0);
@@ -160,6 +161,13 @@ InspectionPlan read_inspection_plan(const std::filesystem::path& path, const Run
       return feature.name == name;
     });
   };
+  if (top.has("datums")) plan.datums = top.texts("datums");
+  if ((plan.align == "datum" && plan.datums.empty()) || plan.datums.size() > 3)
+    top.fail("datums", "must name one to three of [[features]], in their order");
+  for (const std::string& name : plan.datums) {
+    if (!is_named(name))
+      top.fail("datums", fmt::format("names \"{}\", which is no name of [[features]]", name));
+  }
   for (const PlannedCharacteristic& planned : plan.characteristics) {
     for (const std::string& name : {planned.feature, planned.datum}) {
       if (name.empty() || is_named(name)) continue;

@@ -51,7 +51,8 @@ struct InspectionPlan {
   std::string part;                             ///< name of the part
   std::filesystem::path reference;              ///< relative to the file of the plan; may be empty
   std::string units;                            ///< of the reference; empty: mm
-  std::string align;                            ///< best-fit, none, or empty
+  std::string align;                            ///< best-fit, datum, none, or empty
+  std::vector<std::string> datums;              ///< names of features, in their order; of `datum`
   std::size_t start = 0;                        ///< of poses that fit alike; 0: none
   std::optional<ToleranceLimits> tolerance_mm;  ///< of the deviations from the reference
   double expansion_ppm_per_k = 0.0;             ///< coefficient of thermal expansion, 1e-6/K

@@ -14,13 +14,20 @@ namespace {
 constexpr double k95 = 1.959964;
 using FeatureByName = std::map<std::string, const MeasuredFeature*>;
 
-const MeasuredFeature* match(const PlannedFeature& planned,
-                             const std::vector<MeasuredFeature>& features) {
-  const MeasuredFeature* best = nullptr;
+const Shape& shape_of(const Feature& feature) {
+  return feature.fit.shape;
+}
+const Shape& shape_of(const MeasuredFeature& feature) {
+  return feature.feature.fit.shape;
+}
+
+template <typename Item>
+const Item* nearest_of(const PlannedFeature& planned, const std::vector<Item>& features) {
+  const Item* best = nullptr;
   constexpr double kFarthest = 10.0;  // mm
   double least = kFarthest;
-  for (const MeasuredFeature& feature : features) {
-    const Shape& shape = feature.feature.fit.shape;
+  for (const Item& feature : features) {
+    const Shape& shape = shape_of(feature);
     if (shape.kind != planned.kind) continue;
     const double mismatch = shape_mismatch_mm(planned, shape);
     if (mismatch >= least) continue;
@@ -94,12 +101,17 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
 
 }  // namespace
 
+const Feature* nearest_feature(const PlannedFeature& planned,
+                               const std::vector<Feature>& features) {
+  return nearest_of(planned, features);
+}
+
 std::vector<MeasuredCharacteristic> measure_characteristics(
     const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run) {
   std::vector<MeasuredCharacteristic> rows;
   FeatureByName found;
   for (const PlannedFeature& planned : plan.features) {
-    const MeasuredFeature* feature = match(planned, features);
+    const MeasuredFeature* feature = nearest_of(planned, features);
     found[planned.name] = feature;
     if (feature == nullptr) {
       run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",

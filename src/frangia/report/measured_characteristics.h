@@ -23,6 +23,11 @@ struct MeasuredCharacteristic {
   Conformity conformity = Conformity::Undecided;
 };
 
+/// The feature of the planned kind whose center, or axis, and diameter come nearest to those of the
+/// plan; null where none lies within 10 mm.
+[[nodiscard]] const Feature* nearest_feature(const PlannedFeature& planned,
+                                             const std::vector<Feature>& features);
+
 /// Measures what a plan asks for on a mesh in the frame of its reference. A planned feature is the
 /// one of its kind whose center, or axis, and diameter come nearest.
 ///
