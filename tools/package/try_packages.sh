@@ -13,7 +13,7 @@ cp /etc/apt/sources.list "$root/etc/apt/" 2>/dev/null || true
 cp -r /etc/apt/sources.list.d /etc/apt/apt.conf.d "$root/etc/apt/" 2>/dev/null || true
 cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
 mkdir "$root/packages"
-cp "$packages"/* "$root/packages"
+cp "$packages"/*.deb "$packages"/*.whl "$root/packages"
 mount -t proc proc "$root/proc"
 inside() { chroot "$root" env DEBIAN_FRONTEND=noninteractive HOME=/root LC_ALL=C.UTF-8 sh -euc "$1"; }
 
