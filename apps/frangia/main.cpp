@@ -124,6 +124,7 @@ int run_program(int argc, char** argv) {
   add_import_verb(program, terminal);
   add_decode_verb(program, terminal);
   add_inspect_verb(program, terminal);
+  add_accept_verb(program, terminal);
   add_algorithms_verb(program, terminal);
   add_plan_verb(program, terminal);
   add_response_verb(program, terminal);

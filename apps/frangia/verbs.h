@@ -13,6 +13,7 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal);
 void add_reconstruct_verb(CLI::App& program, Terminal& terminal);
 void add_decode_verb(CLI::App& program, Terminal& terminal);
 void add_inspect_verb(CLI::App& program, Terminal& terminal);
+void add_accept_verb(CLI::App& program, Terminal& terminal);
 void add_algorithms_verb(CLI::App& program, Terminal& terminal);
 void add_batch_verb(CLI::App& program, Terminal& terminal);
 void add_plan_verb(CLI::App& program, Terminal& terminal);

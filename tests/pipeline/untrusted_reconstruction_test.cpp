@@ -83,6 +83,19 @@ TEST(Reconstruct, IsAnErrorWhereThePointsFormNoSurface) {
       << error;
 }
 
+TEST(Reconstruct, SaysThatNothingDeterminesTheFringeOrders) {
+  const TemporaryFolder folder;
+  Scan plan;
+  plan.folder = folder.path();
+  plan.rig = read_rig(FRANGIA_SOURCE_DIR "/tests/data/small-interferometer.toml");
+  plan.patterns = default_patterns(plan.rig);
+  for (int i = 0; i < 2; ++i)
+    plan.views.push_back({kTwoPi * i / 2, "views/" + std::to_string(i)});
+  const Scan scan = simulate_scan(make_part("shaft"), plan, {.samples_per_px = 1});
+  const std::string error = testing::error_of([&] { static_cast<void>(reconstruct(scan)); });
+  EXPECT_NE(error.find("points is unknown; capture a laser sheet"), std::string::npos) << error;
+}
+
 TEST(Reconstruct, RemovesTheRimOfATurntableTopSeenEdgeOn) {
   const TemporaryFolder folder;
   Scan plan;

@@ -132,6 +132,16 @@ class Answers(unittest.TestCase):
         self.answer("reconstruct", "other", "-o", "other.ply")
         self.answer("import", "scan/views/000", "-o", "imported", "--patterns", "scan/scan.toml", "--rig", "rig.toml", "--yes")
 
+    def test_acceptance(self):
+        (self.folder / "ball-rig.toml").write_text(rig_text("ball-bar"))
+        (self.folder / "acceptance.toml").write_text(
+            'format = "frangia-acceptance"\nversion = 1\nsource = "devices"\nrig = "ball-rig.toml"\nviews = 3\n'
+            '[artifact]\ndiameters_mm = [40.0]\nu95_mm = 0.001\n[limits]\nprobing_size_mm = 0.0001\n')
+        test = ("accept", "acceptance.toml", "-o", "acceptance", "--fail-out-of-tolerance")
+        self.answer(*test, code=1, input="\n\n\n")  # a limit that this rig does not keep
+        self.assertTrue((self.folder / "acceptance" / "certificate.html").exists())
+        subprocess.run(["sha256sum", "--quiet", "-c", "acceptance/frames.sha256"], cwd=self.folder, check=True)
+
     def test_scans_with_directions_and_without_geometry(self):
         self.run_quietly("simulate", "bust", "--rig", SMALL, "--views", "4", "--samples", "4", "-o", "laser")
         self.answer("reconstruct", "laser", "-o", "laser.ply")

@@ -137,15 +137,17 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   correction.mixed_pixels = options.mixed_pixels;
   std::set<std::string> outliers;
   bool indirect_light = false;
+  std::size_t unresolved = 0;
   for (MeasuredSetup& setup : setups) {
-    resolve_fringe_orders(
+    unresolved += resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
     indirect_light |= register_setup(setup, scan, rays, options, out.turntable_top_height_mm, run);
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
   if (out.points == 0) {
-    throw Error(ErrorKind::Input, explain_no_surface(scan, rays, options.decode, 0, run));
+    throw Error(ErrorKind::Input,
+                explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
   }
 
   // All setups in the frame of the first one.
@@ -176,7 +178,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   color_vertices(fused, cameras, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.mesh.triangles.empty()) {
-    throw Error(ErrorKind::Input, explain_no_surface(scan, rays, options.decode, out.points, run));
+    throw Error(ErrorKind::Input,
+                explain_no_surface(scan, rays, options.decode, {out.points, unresolved}, run));
   }
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);

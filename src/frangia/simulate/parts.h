@@ -36,4 +36,11 @@ namespace frangia {
 [[nodiscard]] Mesh make_bracket();   ///< the part "bracket" of `make_part`
 [[nodiscard]] Mesh make_groove();    ///< the part "groove" of `make_part`
 
+/// A ball bar for acceptance tests: balls along z, on a thin rod, with the middle of their centers
+/// at the origin; or one ball, with its center there, on a stem below it.
+///
+/// @units    mm
+/// @errors   Error(Input) for another number of balls
+[[nodiscard]] Mesh make_dumbbell(const std::vector<double>& diameters_mm, double spacing_mm);
+
 }  // namespace frangia

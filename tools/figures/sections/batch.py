@@ -10,6 +10,7 @@ import time
 from study import ROOT
 
 sys.path.insert(0, str(ROOT / "tools"))
+from half_rig import half_rig  # noqa: E402
 from slurm_node import SlurmNode, is_installed  # noqa: E402
 
 TITLE = "Many scans"
@@ -20,7 +21,7 @@ PARTS = ["plate", "shaft", "bracket", "ball-bar"]
 def make_scans(study):
     """Sixty folders of four small scans: copies share their frames by hard links."""
     folder = study.work / "batch-scans"
-    rig = ROOT / "tests" / "data" / "small-interferometer.toml"
+    rig = half_rig(study.program, study.work)
     made = [study.made(f"batch-{part}", "simulate", part, "--rig", rig, "--views", 6) for part in PARTS]
     if not folder.exists():
         unfinished = folder.with_name("unfinished-batch-scans")
@@ -64,7 +65,7 @@ def measure(study):
     one, rows = timed(study, folder, "batch-one", "--jobs", "1", "--threads", "1")
     two, _ = timed(study, folder, "batch-two", "--jobs", "2", "--threads", "1")
     wide, _ = timed(study, folder, "batch-wide", "--jobs", "1", "--threads", "2")
-    study.add(f"`frangia batch` on {SCANS} small scans (160 x 160 pixels, 6 views).\n")
+    study.add(f"`frangia batch` on {SCANS} small scans (480 x 384 pixels, 6 views).\n")
     study.table("", "measured", "wanted")
     study.row("scans done", sum(row["state"] == "done" for row in rows), SCANS)
     study.row("`--jobs 1 --threads 1`, seconds", f"{one:.1f}", "")

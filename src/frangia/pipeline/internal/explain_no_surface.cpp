@@ -40,9 +40,18 @@ class FirstView {
 std::string explain_no_surface(const Scan& scan,
                                const Image<Eigen::Vector2f>& rays,
                                const DecodeOptions& options,
-                               std::size_t points,
+                               PointCounts counts,
                                const Run& run) {
   constexpr double kMostly = 0.5;
+  const std::size_t points = counts.measured;
+  if (counts.unresolved > points) {
+    return fmt::format(
+        "{}: the fringe order of {} of {} points is unknown; capture a laser sheet, a coarse or "
+        "Gray-code pattern, or more views that see the same surface",
+        scan.folder.string(),
+        counts.unresolved,
+        points + counts.unresolved);
+  }
   const FirstView view(scan, rays, options, run);
   const WrapOptions usual;
   if (options.wrap.max_sigma_rad < usual.max_sigma_rad && view.count(PixelStatus::Measured) > 0) {

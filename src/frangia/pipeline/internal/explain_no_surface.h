@@ -12,14 +12,20 @@
 
 namespace frangia {
 
-/// The message for a scan whose `points` points form no surface: `max_sigma` rejects the pixels of
-/// the first view, their fringe orders are uncertain, or the light is at fault.
+/// Points of a scan that form no surface.
+struct PointCounts {
+  std::size_t measured = 0;
+  std::size_t unresolved = 0;  ///< removed because nothing determines their fringe order
+};
+
+/// The message for a scan whose points form no surface: `max_sigma` rejects the pixels of the first
+/// view, their fringe orders are unknown or uncertain, or the light is at fault.
 ///
 /// @shape    `rays` as the camera
 [[nodiscard]] std::string explain_no_surface(const Scan& scan,
                                              const Image<Eigen::Vector2f>& rays,
                                              const DecodeOptions& options,
-                                             std::size_t points,
+                                             PointCounts counts,
                                              const Run& run);
 
 }  // namespace frangia

@@ -6,12 +6,12 @@
 
 namespace frangia {
 
-void resolve_fringe_orders(MeasuredViews& measured,
-                           const Rig& rig,
-                           const Image<Eigen::Vector2f>& rays,
-                           const ResolveByViewsOptions& resolve_options,
-                           const FringeOrderCorrectionOptions& correction_options,
-                           const Run& run) {
+std::size_t resolve_fringe_orders(MeasuredViews& measured,
+                                  const Rig& rig,
+                                  const Image<Eigen::Vector2f>& rays,
+                                  const ResolveByViewsOptions& resolve_options,
+                                  const FringeOrderCorrectionOptions& correction_options,
+                                  const Run& run) {
   const FringeOptics optics{measured.coarsest, rig, rays};
   const auto resolved =
       resolve_by_views(measured.views, measured.unresolved, optics, resolve_options, run);
@@ -22,13 +22,14 @@ void resolve_fringe_orders(MeasuredViews& measured,
                     resolved.removed_points));
   }
   measured.points += resolved.resolved_points;
-  if (!measured.unwrapped_spatially) return;
+  if (!measured.unwrapped_spatially) return resolved.removed_points;
   const std::size_t corrected =
       correct_fringe_orders(measured.views, optics, correction_options, run);
   if (corrected > 0) {
     run.note(
         fmt::format("points moved by whole fringes to agree with the other views: {}", corrected));
   }
+  return resolved.removed_points;
 }
 
 }  // namespace frangia

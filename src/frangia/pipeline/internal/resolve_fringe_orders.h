@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
@@ -15,11 +17,13 @@ namespace frangia {
 /// corrects spatially unwrapped patches whose order the other views contradict.
 ///
 /// The points of resolved regions are added to `measured`; notes and warnings give the counts.
-void resolve_fringe_orders(MeasuredViews& measured,
-                           const Rig& rig,
-                           const Image<Eigen::Vector2f>& rays,
-                           const ResolveByViewsOptions& resolve_options,
-                           const FringeOrderCorrectionOptions& correction_options,
-                           const Run& run = {});
+///
+/// @return number of points removed because nothing determines their fringe order
+std::size_t resolve_fringe_orders(MeasuredViews& measured,
+                                  const Rig& rig,
+                                  const Image<Eigen::Vector2f>& rays,
+                                  const ResolveByViewsOptions& resolve_options,
+                                  const FringeOrderCorrectionOptions& correction_options,
+                                  const Run& run = {});
 
 }  // namespace frangia
