@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/median.h"
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/median_sigma.h"
@@ -64,6 +65,67 @@ TEST(SystematicPart, StaysWhereNoiseFallsWithTheRootOfTheNumberOfViews) {
   EXPECT_NEAR(noise[1] / noise[2], 2.0, 0.2);
   for (const double part : systematic)
     EXPECT_NEAR(part, 0.03, 0.0003);  // the incidence is within 6 degrees
+}
+
+/// Views of a plane from four sides, whose errors differ: each has ripples of its own of this
+/// amplitude and period, and states their RMS.
+ViewStore views_with_ripples(double amplitude_mm, double period_px, double step_deg) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (int i = 0; i < 4; ++i)
+    poses.push_back(look_from(0.3 + rad_from_deg(step_deg) * i, rad_from_deg(70.0), kDistance));
+  const ViewStore views = with_systematic(
+      snapshots(
+          floor_at(0.0), small_camera_model(160), poses, {.noise_mm = 0.01, .sigma_mm = 0.01}),
+      {0.03F});
+  ViewStore out;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    View view = views.load(i);
+    view.range.differing_share = 1.0F;
+    for (int y = 0; y < view.range.depth_mm.height(); ++y) {
+      for (int x = 0; x < view.range.depth_mm.width(); ++x) {
+        view.range.depth_mm(x, y) += static_cast<float>(
+            amplitude_mm * std::sin(kTwoPi * x / period_px + 1.7 * static_cast<double>(i)));
+      }
+    }
+    out.add(view);
+  }
+  return out;
+}
+
+/// RMS over the vertices of the height above the plane, and of its ratio to sigma.
+struct PlaneErrors {
+  double rms_mm = 0.0;
+  double over_sigma = 0.0;
+};
+
+PlaneErrors errors_of(const Mesh& mesh) {
+  PlaneErrors out;
+  const auto count = static_cast<double>(mesh.vertices_mm.size());
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    const double error = mesh.vertices_mm[i].z();
+    out.rms_mm += error * error / count;
+    out.over_sigma += std::pow(error / static_cast<double>(mesh.sigma_mm[i]), 2) / count;
+  }
+  return {std::sqrt(out.rms_mm), std::sqrt(out.over_sigma)};
+}
+
+TEST(SystematicPart, ThatDiffersByViewCoversTheRipplesThatAreLeft) {
+  const double amplitude_mm = 0.03 * std::sqrt(2.0);  // 0.03 RMS
+  for (const double period_px : {24.0, 6.0, 2.3}) {
+    const Mesh mesh = fuse_views(
+        views_with_ripples(amplitude_mm, period_px, 90.0), small_camera_model(160), options());
+    const PlaneErrors errors = errors_of(mesh);
+    EXPECT_GT(errors.over_sigma, 0.55) << period_px;  // 0.58 where the fits smooth most of it
+    EXPECT_LT(errors.over_sigma, 1.5) << period_px;
+    EXPECT_LT(median_sigma(mesh).combined_mm, 0.025) << period_px;
+  }
+}
+
+TEST(SystematicPart, ThatDiffersByViewStaysWhereTheViewsHaveOneDirection) {
+  // The ripples of views that differ by 2 degrees may be the same on the surface.
+  const Mesh mesh =
+      fuse_views(views_with_ripples(0.0, 6.0, 2.0), small_camera_model(160), options());
+  EXPECT_NEAR(median_sigma(mesh).systematic_mm, 0.03 * std::sin(rad_from_deg(70.0)), 0.001);
 }
 
 TEST(SystematicPart, IsProjectedOntoTheNormal) {

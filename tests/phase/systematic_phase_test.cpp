@@ -38,7 +38,7 @@ PhaseErrors errors_of(const DisplayScene& scene, int frames, bool correct = fals
     correct_response(*table, map);
   }
   PhaseErrors out;
-  out.systematic_rad = systematic_phase(fitted, table ? &*table : nullptr);
+  out.systematic_rad = systematic_phase(fitted, table ? &*table : nullptr).rad;
   double count = 0.0;
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {

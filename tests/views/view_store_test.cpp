@@ -52,12 +52,15 @@ TEST(ViewStore, LoadsTheSystematicPartWhereItIsAskedFor) {
   view.range.phase_rad = Image<float>(30, 20, 5.0F);
   view.range.systematic_mm = Image<float>(30, 20, 0.25F);
   view.range.systematic_mm(7, 6) = 0.5F;
+  view.range.differing_share = 0.75F;
   store.add(view_of(2.0F));
   EXPECT_FALSE(store.has_systematic());
   store.add(view);
   EXPECT_TRUE(store.has_systematic());
   EXPECT_EQ(store.load(1).range.systematic_mm(7, 6), 0.5F);
   EXPECT_EQ(store.load(1).range.phase_rad(7, 6), 5.0F);
+  EXPECT_EQ(store.load(1).range.differing_share, 0.75F);
+  EXPECT_EQ(store.load(0).range.differing_share, 0.0F);
   EXPECT_EQ(store.load_points(1, PointSigma::BothParts).range.systematic_mm(7, 6), 0.5F);
   EXPECT_TRUE(store.load_points(1, PointSigma::BothParts).range.phase_rad.empty());
   EXPECT_TRUE(store.load_points(1).range.systematic_mm.empty());

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "frangia/fusion/internal/accumulate_view.h"
+#include "frangia/fusion/internal/differing_part.h"
 #include "frangia/fusion/internal/distance_field.h"
 #include "frangia/fusion/internal/edge_crossings.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
@@ -88,15 +89,25 @@ HermiteAccumulators sample_crossings(const std::vector<Source>& sources,
     return source.views.has_systematic() || source.add_systematic;
   });
   HermiteAccumulators hermite(crossings.points_mm.size(), has_systematic);
+  std::vector<const ViewStore*> stores;
+  for (const Source& source : sources)
+    stores.push_back(&source.views);
+  const bool differ = has_systematic && have_directions_of_their_own(stores);
   LocalPlanes planes;
   for (const Source& source : sources) {
     load_each_view(
         source.views,
         [&](std::size_t /*index*/, View& view) {
           add_edge_pixels(view);
+          const Image<float> differing_mm = differ ? differing_part(view) : Image<float>();
           if (source.add_systematic) source.add_systematic(view);
           planes = local_planes(view, source.rays, {.widen = true}, std::move(planes));
-          accumulate_view(hermite, crossings, planes, source.rays, how, view.range.systematic_mm);
+          accumulate_view(hermite,
+                          crossings,
+                          planes,
+                          source.rays,
+                          how,
+                          {view.range.systematic_mm, differing_mm});
           on_view();
         },
         PointSigma::BothParts);

@@ -116,6 +116,7 @@ IndirectLightCheck check_indirect_light(std::span<const WrappedPhase> coarse_to_
     out.pattern = map.pattern.name;
   }
   if (!out.found) return out;
+  phase.differing_share = 0.0F;  // indirect light is much alike in neighbouring views
   if (phase.systematic_rad.empty())
     phase.systematic_rad = Image<float>(square.width(), square.height(), 0.0F);
   for (std::size_t i = 0; i < square.pixels().size(); ++i) {

@@ -133,7 +133,8 @@ AbsolutePhase decode_gray_code(std::span<const FrameStack> gray,
                     fringes.phase_rad,
                     fringes.sigma_rad,
                     fringes.status,
-                    fringes.systematic_rad};
+                    fringes.systematic_rad,
+                    fringes.differing_share};
   parallel_rows(out.status.height(), [&](int y) {
     for (int x = 0; x < out.status.width(); ++x) {
       if (out.status(x, y) != PixelStatus::Measured) continue;

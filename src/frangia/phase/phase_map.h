@@ -31,6 +31,9 @@ struct WrappedPhase {
   /// systematic standard uncertainty of phase_rad in rad; NaN where not measured; empty: no
   /// systematic part is known
   Image<float> systematic_rad;
+  /// share of the variance of `systematic_rad`, 0 to 1, by causes whose error at a point of the
+  /// surface differs from view to view: harmonics and flicker
+  float differing_share = 0.0F;
 };
 
 /// A phase that is continuous within each region and known up to a whole number of fringes per
@@ -60,6 +63,9 @@ struct AbsolutePhase {
   /// systematic standard uncertainty of phase_rad in rad; NaN where not measured; empty: no
   /// systematic part is known
   Image<float> systematic_rad;
+  /// share of the variance of `systematic_rad`, 0 to 1, by causes whose error at a point of the
+  /// surface differs from view to view: harmonics and flicker
+  float differing_share = 0.0F;
 };
 
 }  // namespace frangia

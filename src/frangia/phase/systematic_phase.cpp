@@ -55,20 +55,22 @@ double harmonic_phase_error(const FittedAlgorithm& fitted, const ResponseTable* 
   return rms_error(fitted, fitted.waveform.waveform, table);
 }
 
-double systematic_phase(const FittedAlgorithm& fitted, const ResponseTable* table) {
+SystematicPhase systematic_phase(const FittedAlgorithm& fitted, const ResponseTable* table) {
   double square = std::pow(harmonic_phase_error(fitted, table), 2);
   for (std::size_t i = 0; i < fitted.waveform.waveform.harmonics.size(); ++i) {
     if (fitted.waveform.waveform.harmonics[i] == 0.0) continue;
     square += std::pow(fitted.waveform.sigma[i] * harmonic_response(fitted, i), 2);
   }
   square += std::pow(fitted.waveform.flicker_error_rad, 2);
+  const double differing = square;
   if (fitted.step.found && fitted.algorithm.name != "aia") {
     // Independent errors of N shifts change the phase by sqrt(2 / N) of their size.
     const auto frames = static_cast<double>(fitted.shifts_rad.size());
     square += std::pow(fitted.step.jitter_rad, 2) * 2.0 / frames;
   }
   const double sigma = std::sqrt(square);
-  return sigma < kNegligible_rad ? 0.0 : sigma;
+  if (sigma < kNegligible_rad) return {};
+  return {sigma, differing / square};
 }
 
 Image<float> uniform_systematic(double systematic_rad, const Image<PixelStatus>& status) {

@@ -42,6 +42,14 @@ PixelStatus status_of(std::span<const WrappedPhase> maps, std::size_t i) {
   return status;
 }
 
+/// The least share of the maps that have a systematic part.
+float least_differing_share(std::span<const WrappedPhase> maps) {
+  float least = 1.0F;
+  for (const WrappedPhase& map : maps)
+    if (!map.systematic_rad.empty()) least = std::min(least, map.differing_share);
+  return least;
+}
+
 /// The systematic uncertainty of the slope of phase over frequency: those of the maps, which are
 /// taken as independent, with the weights of `fit_frequency_slope`. Empty if no map has one.
 Image<float> slope_systematic(std::span<const WrappedPhase> maps,
@@ -109,6 +117,7 @@ AbsolutePhase unwrap_all(std::span<const WrappedPhase> coarse_to_fine, const Unw
     }
   });
   out.systematic_rad = slope_systematic(coarse_to_fine, out.status);
+  out.differing_share = least_differing_share(coarse_to_fine);
   return out;
 }
 

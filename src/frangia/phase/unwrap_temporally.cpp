@@ -20,7 +20,12 @@ constexpr std::size_t kChunk = 1 << 16;
 
 /// The still wrapped phase of a level, in new memory.
 AbsolutePhase start_from(const WrappedPhase& level) {
-  return {level.pattern, level.phase_rad, level.sigma_rad, level.status, level.systematic_rad};
+  return {level.pattern,
+          level.phase_rad,
+          level.sigma_rad,
+          level.status,
+          level.systematic_rad,
+          level.differing_share};
 }
 
 /// The still wrapped phase of a level, in the level's memory.
@@ -29,7 +34,8 @@ AbsolutePhase start_from(WrappedPhase&& level) {
           std::move(level.phase_rad),
           std::move(level.sigma_rad),
           std::move(level.status),
-          std::move(level.systematic_rad)};
+          std::move(level.systematic_rad),
+          level.differing_share};
 }
 
 /// Unwraps the coarsest level. Near the ends of the single fringe, noise may wrap the phase to the

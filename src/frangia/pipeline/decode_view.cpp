@@ -63,18 +63,22 @@ bool is_pixelwise_safe(std::span<const Pattern> patterns,
 
 /// The systematic uncertainty of the slope of phase over frequency through all maps, whose
 /// modulations are taken as equal.
-double sequence_systematic(std::span<const FrameStack* const> fringes,
-                           std::span<const FittedAlgorithm> fits) {
+SystematicPhase sequence_systematic(std::span<const FrameStack* const> fringes,
+                                    std::span<const FittedAlgorithm> fits) {
   const double top = fringes.back()->pattern.fringes_per_unit();
   double weights = 0.0;
   double square = 0.0;
+  double differing = 0.0;
   for (std::size_t m = 0; m < fits.size(); ++m) {
     const double ratio = fringes[m]->pattern.fringes_per_unit() / top;
     const double weight = ratio / std::pow(fits[m].algorithm.noise_gain, 2);
     weights += weight * ratio;
-    square += std::pow(weight * systematic_phase(fits[m]), 2);
+    const SystematicPhase part = systematic_phase(fits[m]);
+    square += std::pow(weight * part.rad, 2);
+    differing += std::pow(weight * part.rad, 2) * part.differing_share;
   }
-  return std::sqrt(square) / weights;
+  if (square == 0.0) return {};
+  return {std::sqrt(square) / weights, differing / square};
 }
 
 /// Decodes all patterns in one pass; the assessments are computed from a sample of rows.
@@ -96,8 +100,9 @@ void decode_in_one_pass(std::span<const FrameStack* const> fringes,
   out.checks = {
       check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   out.phase = decode_sequence(maps, out.noise, rig.projector, {options.wrap, options.temporal});
-  out.phase.systematic_rad =
-      uniform_systematic(sequence_systematic(fringes, fits), out.phase.status);
+  const SystematicPhase systematic = sequence_systematic(fringes, fits);
+  out.phase.systematic_rad = uniform_systematic(systematic.rad, out.phase.status);
+  out.phase.differing_share = static_cast<float>(systematic.differing_share);
 }
 
 bool are_unprocessed_frames(std::span<const FrameStack* const> fringes,

@@ -199,6 +199,7 @@ double CalibrationUncertainty::along_ray_mm(double x_px, double y_px, double dep
 void CalibrationUncertainty::add_to(RangeGrid& range) const {
   if (along_ray_mm_.size() == 0) return;
   const int width = range.depth_mm.width();
+  range.differing_share = 0.0F;  // the rig is that of all views
   if (range.systematic_mm.empty()) {
     range.systematic_mm = Image<float>(width, range.depth_mm.height(), Uninitialized{});
     parallel_rows(range.depth_mm.height(), [&](int y) {

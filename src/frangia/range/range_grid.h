@@ -31,6 +31,9 @@ struct RangeGrid {
   Image<float> phase_rad = {};
   /// Systematic standard uncertainty of the point along its viewing ray.
   Image<float> systematic_mm = {};
+  /// Share of the variance of `systematic_mm`, 0 to 1, by causes whose error at a point of the
+  /// surface differs from view to view; see `AbsolutePhase::differing_share`.
+  float differing_share = 0.0F;
 
   /// Returns the values of pixel (x, y).
   [[nodiscard]] RangePixel pixel(int x, int y) const {

@@ -19,6 +19,7 @@ RangeGrid triangulate(AbsolutePhase& phase, const Rig& rig, const Image<Eigen::V
                 Image<float>(width, rays.height(), Uninitialized{})};
   const bool has_systematic = !phase.systematic_rad.empty();
   if (has_systematic) out.systematic_mm = Image<float>(width, rays.height(), kMissing);
+  out.differing_share = phase.differing_share;
   const PhaseRange lit = phase_range(phase.pattern, rig.projector);
   parallel_rows(rays.height(), [&](int y) {
     for (Image<float>* image : {&out.depth_mm, &out.sigma_mm, &out.phase_rad})

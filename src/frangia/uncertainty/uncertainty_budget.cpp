@@ -34,7 +34,7 @@ constexpr std::array kTerms = {
                         "harmonics",
                         "response of projector and camera that was not corrected",
                         Part::Systematic,
-                        Correlation::AllViews},
+                        Correlation::View},
     UncertaintyTermInfo{Term::StepErrors,
                         "step_errors",
                         "phase steps that differ from the nominal ones",

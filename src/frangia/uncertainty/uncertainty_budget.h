@@ -72,7 +72,8 @@ struct WeightedSigma {
 /// Returns the standard uncertainty of a weighted mean. Noise of the observations is independent
 /// and averages out. Their systematic parts may be alike, so they do not: the part of the mean is
 /// the weighted mean of the parts, which is exact for errors that are fully correlated and an upper
-/// bound for all others. Fusion of views follows the same rule.
+/// bound for all others. Fusion of views follows the same rule, except for errors that are known to
+/// differ from view to view.
 ///
 /// @units    those of the observations
 /// @missing  NaN without observations, and where the sum of the weights is 0

@@ -141,6 +141,7 @@ void ViewStore::write(const View& view, Entry& entry) {
           "ViewStore: the images of the range grid differ in size");
   entry.box = measured_box(range.depth_mm);
   entry.edge_pixels = view.edge_pixels.size();
+  entry.differing_share = range.differing_share;
   const std::size_t images =
       2U + (range.phase_rad.empty() ? 0U : 1U) + (range.systematic_mm.empty() ? 0U : 1U);
   const std::size_t color_bytes = view.color.empty() ? 0U : sizeof(PixelColor);
@@ -242,6 +243,7 @@ View ViewStore::read(std::size_t index, const OptionalImages& wanted) const {
   View view;
   view.rig_from_object = entry.rig_from_object;
   view.edge_pixels.resize(entry.edge_pixels);
+  view.range.differing_share = entry.differing_share;
   Cursor cursor(file_, entry.offset);
   std::vector<float> buffer;
   const auto next_image = [&] {

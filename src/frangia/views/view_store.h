@@ -79,6 +79,7 @@ class ViewStore {
     bool has_phase = false;
     bool has_systematic = false;
     bool has_color = false;
+    float differing_share = 0.0F;
     std::size_t edge_pixels = 0;  ///< pixels
     std::int64_t offset = 0;
     std::int64_t reserved = 0;  ///< bytes of the file from `offset` on

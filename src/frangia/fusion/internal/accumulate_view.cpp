@@ -27,7 +27,7 @@ struct ViewSampler {
   Eigen::Vector3f translation;
   float pixel_rad;
   SamplerSettings set;
-  const Image<float>& systematic_mm;  ///< along the rays; empty: none is known
+  SystematicImages systematic;
 
   /// Points in camera coordinates and in the image, one array for each coordinate, for vector code.
   struct Batch {
@@ -85,12 +85,21 @@ struct ViewSampler {
     }
   }
 
-  /// The systematic part of the nearest pixel; 0 where none is known.
-  [[nodiscard]] float systematic_at(float u, float v) const {
-    if (systematic_mm.empty()) return 0.0F;
-    const float right = u + 0.5F;
-    const float down = v + 0.5F;
-    return systematic_mm(static_cast<int>(right), static_cast<int>(down));
+  /// Both systematic parts of a pixel.
+  struct Systematic {
+    float common_mm = 0.0F;
+    float differing_mm = 0.0F;
+  };
+
+  /// The systematic parts of the nearest pixel; 0 where none is known.
+  [[nodiscard]] Systematic systematic_at(float u, float v) const {
+    if (systematic.all_mm.empty()) return {};
+    const int x = static_cast<int>(u + 0.5F);
+    const int y = static_cast<int>(v + 0.5F);
+    const float all = systematic.all_mm(x, y);
+    if (systematic.differing_mm.empty()) return {all, 0.0F};
+    const float differing = systematic.differing_mm(x, y);
+    return {std::sqrt(std::max(0.0F, all * all - differing * differing)), differing};
   }
 
   /// Whether the surface all around the pixel lies far behind the point.
@@ -110,7 +119,7 @@ struct ViewSampler {
   void support_at_boundary(AccumulatorRef at,
                            const Eigen::Vector3f& point,
                            const LocalPlanes::Plane& pixel,
-                           float systematic,
+                           const Systematic& parts,
                            int outward) const {
     const float incidence =
         pixel.window == WindowKind::Small ? set.small_window_incidence : set.boundary_incidence;
@@ -118,7 +127,7 @@ struct ViewSampler {
     const float distance = pixel.normal.dot(point) + pixel.tangent_distance_mm;
     if (!has_surface_at(point - distance * pixel.normal)) return;
     support(at,
-            {point, pixel.normal, distance, set.boundary_share * pixel.weight, true, systematic},
+            {point, pixel.normal, distance, set.boundary_share * pixel.weight, true, parts},
             outward);
   }
 
@@ -158,8 +167,8 @@ struct ViewSampler {
     const Eigen::Vector3f& normal;
     float distance_mm;
     float weight;
-    bool at_boundary;     ///< a neighbouring quad has no surface
-    float systematic_mm;  ///< of the pixel, along its ray
+    bool at_boundary;       ///< a neighbouring quad has no surface
+    Systematic systematic;  ///< of the pixel, along its ray
   };
 
   void support(AccumulatorRef at, const Observation& observation, int outward) const {
@@ -190,7 +199,10 @@ struct ViewSampler {
     if (!at.all.has_systematic()) return;
     const bool first = &face == &at.all[at.number].first;
     HermiteAccumulators::SystematicSums& sums = at.all.systematic_sums(at.number);
-    (first ? sums.first : sums.second) += w * cosine * observation.systematic_mm;
+    HermiteAccumulators::SystematicSum& sum = first ? sums.first : sums.second;
+    sum.common += w * cosine * observation.systematic.common_mm;
+    const float differing = w * cosine * observation.systematic.differing_mm;
+    sum.differing_squared += differing * differing;
   }
 };
 
@@ -201,14 +213,14 @@ void accumulate_view(HermiteAccumulators& hermite,
                      const LocalPlanes& view,
                      const CameraRays& camera,
                      const HermiteOptions& options,
-                     const Image<float>& systematic_mm) {
+                     const SystematicImages& systematic) {
   const ViewSampler sampler{view,
                             FastCameraModel(camera.model),
                             view.rig_from_object.linear().cast<float>(),
                             view.rig_from_object.translation().cast<float>(),
                             static_cast<float>(1.0 / camera.model.focal_px.mean()),
                             SamplerSettings(options),
-                            systematic_mm};
+                            systematic};
   parallel_chunks(
       hermite.size(), HermiteAccumulators::kChunk, [&](std::size_t begin, std::size_t end) {
         ViewSampler::Batch batch;

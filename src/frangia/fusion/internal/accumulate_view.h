@@ -14,17 +14,21 @@ struct HermiteOptions {
   HermiteParameters parameters;
 };
 
+/// The systematic parts of a view's points along their rays.
+struct SystematicImages {
+  const Image<float>& all_mm;        ///< combined; empty: none is known
+  const Image<float>& differing_mm;  ///< the share that differs by view; empty: none does
+};
+
 /// Samples one view at every crossing and adds its position and normal, or its vote for free space.
 ///
 /// A view votes for free space only when it observes free space all around the pixel: next to a
 /// silhouette, a small error of the pose looks like free space.
-///
-/// `systematic_mm` holds the systematic parts of the view's points along their rays, or is empty.
 void accumulate_view(HermiteAccumulators& hermite,
                      const EdgeCrossings& crossings,
                      const LocalPlanes& view,
                      const CameraRays& camera,
                      const HermiteOptions& options,
-                     const Image<float>& systematic_mm = {});
+                     const SystematicImages& systematic);
 
 }  // namespace frangia

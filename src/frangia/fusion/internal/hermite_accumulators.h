@@ -43,11 +43,15 @@ class HermiteAccumulators {
   /// Crossings whose second faces share a vector: only one thread at a time may add to it.
   static constexpr std::size_t kChunk = 4096;
 
-  /// The systematic parts of the two faces near a crossing: sums of w s over the views, with s the
-  /// systematic part of d.
+  /// The systematic parts of one face near a crossing.
+  struct SystematicSum {
+    float common = 0.0F;             ///< sum of w s; s is the part of d that all views share
+    float differing_squared = 0.0F;  ///< sum of w^2 v; v is the variance that differs by view
+  };
+  /// Those of both faces.
   struct SystematicSums {
-    float first;
-    float second;
+    SystematicSum first;
+    SystematicSum second;
   };
 
   /// Creates empty accumulators; `with_systematic` adds the sums of systematic parts.
@@ -56,12 +60,10 @@ class HermiteAccumulators {
   /// Whether systematic parts are summed.
   [[nodiscard]] bool has_systematic() const { return systematic_.size() > 0; }
   [[nodiscard]] SystematicSums& systematic_sums(std::size_t i) { return systematic_[i]; }
-  /// The systematic part of the face with the larger weight: the weighted mean over the views,
-  /// which their number does not reduce.
-  [[nodiscard]] float systematic_mm(std::size_t i) const {
-    const bool first = &dominant(i) == &all_[i].first;
-    return (first ? systematic_[i].first : systematic_[i].second) / dominant(i).weight;
-  }
+  /// The systematic part of the face with the larger weight. What the views share is their weighted
+  /// mean, which their number does not reduce. What differs by view falls with their number, and
+  /// counts as far as it exceeds the variance that was found between the views at this place.
+  [[nodiscard]] float systematic_mm(std::size_t i) const;
 
   [[nodiscard]] std::size_t size() const { return all_.size(); }
   [[nodiscard]] HermiteAccumulator& operator[](std::size_t i) { return all_[i]; }
@@ -84,16 +86,27 @@ class HermiteAccumulators {
   [[nodiscard]] const HermiteAccumulator::PlaneSum& lesser(std::size_t i) const {
     return all_[i].first.weight < secondary(i).weight ? all_[i].first : secondary(i);
   }
+  /// The variance that differs by view at the face with the larger weight, for one observation: the
+  /// weighted mean over the views.
+  [[nodiscard]] float differing_variance(std::size_t i) const;
+  /// Multiplies the variance that differs by view: local fits smooth a part of it away.
+  void scale_differing(float factor) { differing_factor_ = factor; }
+
   /// Whether more weight supports a surface at the crossing than free space.
   [[nodiscard]] bool is_supported(std::size_t i) const {
     return all_[i].first.weight + secondary(i).weight > all_[i].free_space_weight;
   }
 
  private:
+  [[nodiscard]] const SystematicSum& dominant_systematic(std::size_t i) const {
+    return &dominant(i) == &all_[i].first ? systematic_[i].first : systematic_[i].second;
+  }
+
   static const HermiteAccumulator::PlaneSum kNoPlane;
 
   ChunkedVector<HermiteAccumulator> all_;
   ChunkedVector<SystematicSums> systematic_;  ///< empty unless asked for
+  float differing_factor_ = 1.0F;
   std::vector<std::vector<HermiteAccumulator::PlaneSum>>
       secondary_;  ///< one vector for each `kChunk` crossings
 };
@@ -106,6 +119,9 @@ class HermiteAccumulators {
 /// Sets the common variance of each crossing to the variance between the views in excess of their
 /// noise, estimated over the crossing's block: a systematic error of a view over a region does not
 /// average out within it. The variance from lateral pixel error is the lower bound.
+///
+/// Where systematic parts that differ by view are known, their variance is scaled to what was found
+/// between the views, over all blocks: the local fits have smoothed the rest away.
 ///
 /// @source   random effects, DerSimonian & Laird 1986
 void add_between_view_variance(HermiteAccumulators& hermite, const EdgeCrossings& crossings);

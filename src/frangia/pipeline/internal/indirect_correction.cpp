@@ -32,6 +32,7 @@ void IndirectCorrection::correct(View& view) const {
 void IndirectCorrection::add(View& view) const {
   const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty);
   RangeGrid& range = view.range;
+  range.differing_share = 0.0F;  // the prediction is alike in neighbouring views
   if (range.systematic_mm.empty())
     range.systematic_mm = Image<float>(range.depth_mm.width(), range.depth_mm.height(), kMissing);
   parallel_rows(range.depth_mm.height(), [&](int y) {

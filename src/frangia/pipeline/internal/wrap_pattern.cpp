@@ -52,7 +52,9 @@ void finish_wrapped(const FittedAlgorithm& fitted, const DecodeOptions& options,
   const auto table = correction_of(map.pattern, fitted, options);
   if (table) correct_response(*table, map);
   const ResponseTable* applied = table ? &*table : nullptr;
-  map.systematic_rad = uniform_systematic(systematic_phase(fitted, applied), map.status);
+  const SystematicPhase systematic = systematic_phase(fitted, applied);
+  map.systematic_rad = uniform_systematic(systematic.rad, map.status);
+  map.differing_share = static_cast<float>(systematic.differing_share);
   FrameAssessment& assessment = out.assessments.back();
   assessment.harmonics_corrected = table.has_value();
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
