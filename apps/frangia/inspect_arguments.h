@@ -34,6 +34,7 @@ struct InspectArguments {
   double max_angle_deg = 75.0;
   bool legend = true;
   bool features = false;
+  bool thickness = false;
   bool fail_out_of_tolerance = false;
   AlignmentArguments alignment;
   double expansion_ppm_per_k = 0.0;

@@ -20,6 +20,7 @@
 
 #include "check_can_write.h"
 #include "fixed_text.h"
+#include "inspect_report.h"
 #include "json_number.h"
 
 namespace frangia {
@@ -56,6 +57,22 @@ std::string left_out_text(const DeviationSummary& summary) {
     if (summary.count.at(i) > 0) parts.push_back(fmt::format("{} {}", summary.count.at(i), name));
   }
   return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<VertexProperty> measured_properties(const InspectedPart& part) {
+  std::vector<VertexProperty> more;
+  const auto add = [&](const char* name, const std::vector<float>& values) {
+    if (!values.empty()) more.push_back({name, values});
+  };
+  if (part.comparison) {
+    add("deviation_mm", part.comparison->deviations.deviation_mm);
+    add("u_mm", part.comparison->deviations.u_mm);
+  }
+  if (part.walls) {
+    add("thickness_mm", part.walls->thickness.thickness_mm);
+    add("thickness_u_mm", part.walls->thickness.u_mm);
+  }
+  return more;
 }
 
 }  // namespace
@@ -170,17 +187,16 @@ void check_deviation_output(const std::filesystem::path& path) {
 
 void write_deviations(const std::filesystem::path& path,
                       const InspectArguments& arguments,
-                      const Mesh& mesh,
-                      const Comparison& comparison,
+                      const InspectedPart& part,
                       const Run& run) {
-  const Deviations& found = comparison.deviations;
+  const Mesh& mesh = part.mesh;
   const std::string extension = lowercase_extension(path);
   if (extension == ".ply") {
-    std::vector<VertexProperty> more{{"deviation_mm", found.deviation_mm}};
-    if (!found.u_mm.empty()) more.push_back({"u_mm", found.u_mm});
-    write_ply(path, mesh, more);
+    write_ply(path, mesh, measured_properties(part));
     return;
   }
+  const Comparison& comparison = part.comparison.value();
+  const Deviations& found = comparison.deviations;
   if (extension == ".csv") {
     const auto decided = conformities(found, comparison.summary.limits);
     std::vector<DeviationRow> rows;

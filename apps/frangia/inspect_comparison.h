@@ -16,6 +16,8 @@ struct Comparison {
   DeviationSummary summary;
 };
 
+struct InspectedPart;
+
 /// Measures the deviations of the aligned mesh from its reference.
 [[nodiscard]] Comparison compare_with(const InspectArguments& arguments,
                                       const Mesh& mesh,
@@ -36,12 +38,12 @@ void add_statistics(InspectAnswer& answer,
 /// The largest deviation on a color scale: that of the arguments, or 1.5 times the tolerance.
 [[nodiscard]] double scale_mm(const InspectArguments& arguments, const ToleranceLimits& limits);
 
-/// Writes the aligned mesh: as PLY with `deviation_mm` and `u_mm`, as CSV one line for each
-/// compared vertex, in formats with colors with those of the deviation.
+/// Writes the aligned mesh: as PLY with `deviation_mm` and `u_mm`, and with `thickness_mm` and
+/// `thickness_u_mm`, as far as they were measured; as CSV one line for each compared vertex; in
+/// formats with colors with those of the deviation.
 void write_deviations(const std::filesystem::path& path,
                       const InspectArguments& arguments,
-                      const Mesh& mesh,
-                      const Comparison& comparison,
+                      const InspectedPart& part,
                       const Run& run);
 
 /// Checks before the work that a path can be written by `write_deviations`.

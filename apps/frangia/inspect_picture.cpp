@@ -24,6 +24,8 @@ void check_shown(const InspectArguments& arguments, const Mesh& mesh) {
     require(!arguments.reference.empty(),
             "--show deviation needs a --reference; give one, or choose another --show");
   }
+  if (show == "thickness")
+    require(arguments.thickness, "--show thickness needs --thickness; add it");
   const bool missing =
       (show == "sigma" && mesh.sigma_mm.empty()) || (show == "views" && mesh.views.empty()) ||
       (show == "marks" && mesh.vertex_marks.empty() && mesh.triangle_marks.empty());
@@ -51,13 +53,13 @@ RenderOptions deviation_picture(const InspectArguments& arguments,
   return options;
 }
 
-void draw_picture(const InspectArguments& arguments,
-                  const Mesh& mesh,
-                  const std::optional<Comparison>& comparison,
-                  const Run& run) {
+void draw_picture(const InspectArguments& arguments, const InspectedPart& part, const Run& run) {
+  const Mesh& mesh = part.mesh;
   RenderOptions options;
   if (arguments.show == "deviation") {
-    options = deviation_picture(arguments, mesh, comparison.value());
+    options = deviation_picture(arguments, mesh, part.comparison.value());
+  } else if (arguments.show == "thickness") {
+    options = thickness_picture(arguments, mesh, part.walls.value());
   } else if (arguments.show == "marks") {
     options.show_marks = true;
   } else {

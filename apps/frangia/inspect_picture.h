@@ -4,6 +4,7 @@
 
 #include "inspect_arguments.h"
 #include "inspect_comparison.h"
+#include "inspect_report.h"
 
 namespace frangia {
 
@@ -16,9 +17,6 @@ void check_shown(const InspectArguments& arguments, const Mesh& mesh);
                                               const Comparison& comparison);
 
 /// Draws the picture that the arguments ask for.
-void draw_picture(const InspectArguments& arguments,
-                  const Mesh& mesh,
-                  const std::optional<Comparison>& comparison,
-                  const Run& run);
+void draw_picture(const InspectArguments& arguments, const InspectedPart& part, const Run& run);
 
 }  // namespace frangia

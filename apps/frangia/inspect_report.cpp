@@ -171,6 +171,16 @@ std::vector<ReportPicture> pictures_of(const InspectArguments& arguments,
                         render_mesh(part.mesh, options, run)});
     if (!part.comparison && pictures.size() == 2) break;
   }
+  if (!part.walls) return pictures;
+  RenderOptions walls = thickness_picture(arguments, part.mesh, *part.walls);
+  walls.width_px = options.width_px;
+  walls.height_px = options.height_px;
+  walls.samples_across = options.samples_across;
+  for (const double azimuth : {35.0, 215.0}) {
+    walls.azimuth_rad = rad_from_deg(azimuth);
+    pictures.push_back({fmt::format("thickness, seen from azimuth {:.0f}°, elevation 20°", azimuth),
+                        render_mesh(part.mesh, walls, run)});
+  }
   return pictures;
 }
 
@@ -281,6 +291,7 @@ std::vector<std::string> write_report(const InspectArguments& arguments,
   report.conditions = conditions_of(arguments, run);
   report.alignment = alignment_rows(part);
   if (part.comparison) report.deviation = part.comparison->summary;
+  if (part.walls) report.thickness = part.walls->summary;
   report.pictures = pictures_of(arguments, part, run);
   report.characteristics = part.characteristics;
   report.features = part.features;

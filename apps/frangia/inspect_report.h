@@ -8,6 +8,7 @@
 
 #include "inspect_arguments.h"
 #include "inspect_comparison.h"
+#include "inspect_thickness.h"
 
 namespace frangia {
 
@@ -16,6 +17,7 @@ struct InspectedPart {
   Mesh mesh;                                         ///< aligned
   std::optional<Alignment> alignment;                ///< of the mesh on the reference
   std::optional<Comparison> comparison;              ///< with the reference
+  std::optional<MeasuredWalls> walls;                ///< their thickness
   std::vector<Feature> features;                     ///< that were found
   std::vector<std::optional<NominalFace>> nominals;  ///< of the features, by a CAD reference
   std::vector<MeasuredCharacteristic> characteristics;

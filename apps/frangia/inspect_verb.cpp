@@ -43,8 +43,9 @@ void check_alignment(const InspectArguments& arguments) {
   const AlignmentArguments& alignment = arguments.alignment;
   require(alignment.align.empty() || !arguments.reference.empty(),
           "--align needs a --reference to align the mesh to; give one");
-  require(arguments.outputs.empty() || !arguments.reference.empty(),
-          "-o writes the mesh with its deviations; give a --reference to measure them against");
+  require(arguments.outputs.empty() || !arguments.reference.empty() || arguments.thickness,
+          "-o writes the mesh with its deviations or its thickness; give a --reference to measure "
+          "against, or --thickness");
   require(!arguments.fail_out_of_tolerance || !arguments.reference.empty(),
           "--fail-out-of-tolerance needs a --reference to measure against; give one");
   static_cast<void>(alignment.band());
@@ -52,6 +53,10 @@ void check_alignment(const InspectArguments& arguments) {
           "--start chooses a pose of --align best-fit; add it");
   for (const auto& path : arguments.outputs) {
     check_deviation_output(path);
+    if (arguments.reference.empty() && lowercase_extension(path) != ".ply") {
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: the thickness alone is written as .ply", path.string()));
+    }
   }
 }
 
@@ -59,9 +64,10 @@ void check_alignment(const InspectArguments& arguments) {
 void check_arguments(const InspectArguments& arguments, const InspectionPlan& plan) {
   const bool drawn = !arguments.picture.empty();
   const bool planned = !plan.features.empty() || !plan.sections.empty();
-  require(!arguments.reference.empty() || drawn || arguments.features || planned,
-          "nothing to do: give a --reference to measure against, --features, --plan, --section, or "
-          "a --picture to draw");
+  require(
+      !arguments.reference.empty() || drawn || arguments.features || arguments.thickness || planned,
+      "nothing to do: give a --reference to measure against, --features, --thickness, --plan, "
+      "--section, or a --picture to draw");
   if (drawn) check_picture_output(arguments.picture);
   for (const auto& path : {arguments.report, arguments.batch})
     if (!path.empty()) check_can_write(path);
@@ -129,6 +135,10 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
     add_statistics(answer, arguments, part.mesh, *reference, run);
     add_deviations(answer, *part.comparison);
   }
+  if (arguments.thickness) {
+    part.walls = measure_walls(part.mesh, run);
+    add_thickness(answer, *part.walls);
+  }
   part.sections =
       cut_sections(plan, part.mesh, reference ? &reference->scene : nullptr, part.comparison, run);
   add_results(answer, part);
@@ -180,6 +190,8 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
   const InspectionPlan plan = plan_of(arguments, run);
   apply_plan(plan, arguments);
+  if (arguments.show == "deviation" && arguments.reference.empty() && arguments.thickness)
+    arguments.show = "thickness";
   arguments.mesh = arguments.meshes.front();
   check_arguments(arguments, plan);
   if (!arguments.batch.empty()) {
@@ -192,9 +204,9 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
   const std::optional<Reference> reference = read_reference(arguments, run);
   const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);
   const bool drawn = !arguments.picture.empty();
-  if (drawn) draw_picture(arguments, part.mesh, part.comparison, run);
+  if (drawn) draw_picture(arguments, part, run);
   for (const auto& path : arguments.outputs)
-    write_deviations(path, arguments, part.mesh, part.comparison.value(), run);
+    write_deviations(path, arguments, part, run);
   std::vector<std::string> written;
   if (!arguments.report.empty())
     written = write_report(arguments, plan, part, answer, terminal.warnings(), run);
@@ -264,8 +276,8 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   add_alignment_options(*verb, arguments->alignment);
   verb->add_option("-o,--output",
                    arguments->outputs,
-                   "write the aligned mesh with its deviations: .ply with deviation_mm, .csv, "
-                   "other formats with colors; may repeat")
+                   "write the aligned mesh with its deviations: .ply with deviation_mm (and "
+                   "thickness_mm), .csv, other formats with colors; may repeat")
       ->allow_extra_args(false);
   verb->add_flag("--fail-out-of-tolerance",
                  arguments->fail_out_of_tolerance,
@@ -282,6 +294,9 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
                  arguments->features,
                  "find planes, cylinders, spheres, cones and tori, and the lines and circles where "
                  "they meet, with the uncertainty of their sizes");
+  verb->add_flag("--thickness",
+                 arguments->thickness,
+                 "measure the distance from each vertex to the opposite wall");
   verb->add_option("--scan",
                    arguments->scan,
                    "completeness counts only what the views of this scan can measure");
@@ -308,9 +323,9 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option(
           "--show",
           arguments->show,
-          "what its colors show: deviation, sigma, views (their number), marks, or shape for "
-          "none")
-      ->check(one_of({"deviation", "sigma", "views", "marks", "shape"}))
+          "what its colors show: deviation, thickness, sigma, views (their number), marks, or "
+          "shape for none")
+      ->check(one_of({"deviation", "thickness", "sigma", "views", "marks", "shape"}))
       ->capture_default_str();
   verb->add_option(
           "--from", arguments->from_deg, "direction of the viewer: azimuth,elevation, degrees")

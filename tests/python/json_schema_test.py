@@ -155,7 +155,7 @@ class Answers(unittest.TestCase):
         self.answer("edit", "mesh.ply", "--select-plane", "0,0,1,20mm", "--delete", "--preview", "look.png")
         self.answer("picture", "mesh.ply", "--width", "200", "--height", "150", "-o", "picture.png")
         self.answer("merge", "mesh.ply", "mesh.ply", "-o", "merged.ply", "--voxel", "2mm")
-        self.answer("inspect", "mesh.ply", "--reference", "scan/truth.ply", "--features", "--section", "z=20")
+        self.answer("inspect", "mesh.ply", "--reference", "scan/truth.ply", "--features", "--section", "z=20", "--thickness")
         self.answer("inspect", "mesh.ply", "--reference", "scan/truth.ply", "--align", "best-fit", "--tolerance", "0.5,0.6",
                     "--fail-out-of-tolerance", code=1)
 

@@ -8,46 +8,33 @@
 
 #include "frangia/core/interruptible_chunks.h"
 #include "frangia/core/missing.h"
-#include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/inspect/internal/vertex_use.h"
 
 namespace frangia {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Flags of the vertices that an edge with a single triangle uses.
-std::vector<std::uint8_t> boundary_flags(const Mesh& mesh) {
-  std::vector<std::uint8_t> flags(mesh.vertices_mm.size(), 0);
-  const HalfEdges edges(mesh);
-  for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
-    if (!edges.is_boundary(edge)) continue;
-    const auto& triangle = mesh.triangles[edge / 3];
-    flags[triangle.at(edge % 3)] = 1;
-    flags[triangle.at((edge + 1) % 3)] = 1;
-  }
-  return flags;
-}
-
 /// Why a vertex is left out before it is compared.
 std::vector<DeviationStatus> initial_status(const Mesh& mesh) {
-  std::vector<DeviationStatus> status(mesh.vertices_mm.size(), DeviationStatus::Unused);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const bool synthesized = mark_of(mesh, t) == Mark::Synthesized;
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      if (!synthesized) status[v] = DeviationStatus::Compared;
-      if (synthesized && status[v] == DeviationStatus::Unused)
-        status[v] = DeviationStatus::Synthesized;
+  std::vector<DeviationStatus> status;
+  status.reserve(mesh.vertices_mm.size());
+  for (const VertexUse use : vertex_uses(mesh)) {
+    switch (use) {
+      case VertexUse::Measured:
+        status.push_back(DeviationStatus::Compared);
+        break;
+      case VertexUse::Synthesized:
+        status.push_back(DeviationStatus::Synthesized);
+        break;
+      case VertexUse::MeshEdge:
+        status.push_back(DeviationStatus::MeshEdge);
+        break;
+      case VertexUse::Unused:
+        status.push_back(DeviationStatus::Unused);
+        break;
     }
-  }
-  const auto boundary = boundary_flags(mesh);
-  for (std::size_t i = 0; i < status.size(); ++i) {
-    if (status[i] == DeviationStatus::Unused) continue;
-    if (!mesh.vertex_marks.empty() && mesh.vertex_marks[i] == Mark::Synthesized)
-      status[i] = DeviationStatus::Synthesized;
-    if (status[i] == DeviationStatus::Compared && boundary[i] != 0)
-      status[i] = DeviationStatus::MeshEdge;
-    if (!mesh.vertices_mm[i].allFinite()) status[i] = DeviationStatus::Unused;
   }
   return status;
 }

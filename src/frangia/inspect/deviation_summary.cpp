@@ -7,25 +7,10 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
+#include "frangia/inspect/internal/vertex_use.h"
 
 namespace frangia {
 namespace {
-
-/// A third of the area of the triangles of each vertex.
-std::vector<double> vertex_areas(const Mesh& mesh) {
-  std::vector<double> areas(mesh.vertices_mm.size(), 0.0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d p = mesh.vertices_mm[a].cast<double>();
-    const Eigen::Vector3d ab = mesh.vertices_mm[b].cast<double>() - p;
-    const Eigen::Vector3d ac = mesh.vertices_mm[c].cast<double>() - p;
-    const double third = ab.cross(ac).norm() / 6.0;
-    if (!std::isfinite(third)) continue;
-    areas[a] += third;
-    areas[b] += third;
-    areas[c] += third;
-  }
-  return areas;
-}
 
 double u_of(const Deviations& deviations, std::size_t vertex) {
   return deviations.u_mm.empty() ? 0.0 : static_cast<double>(deviations.u_mm[vertex]);

@@ -135,6 +135,7 @@ void read_surface_keys(TomlReader& top, InspectionPlan& plan) {
     top.fail("align", fmt::format("is \"{}\"; it must be best-fit, datum or none", plan.align));
   if (top.has("start")) plan.start = static_cast<std::size_t>(top.integer("start", 1, 1000));
   plan.tolerance_mm = limits_of(top, "tolerance_mm");
+  if (top.has("thickness")) plan.thickness = top.boolean("thickness");
   plan.expansion_ppm_per_k = top.number_or("expansion_ppm_per_k", 0.0);
   plan.temperature_u_k = top.number_or("temperature_u_k", 0.0);
   if (plan.expansion_ppm_per_k < 0.0) top.fail("expansion_ppm_per_k", "must be 0 or more");

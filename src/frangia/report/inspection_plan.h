@@ -55,6 +55,7 @@ struct InspectionPlan {
   std::vector<std::string> datums;              ///< names of features, in their order; of `datum`
   std::size_t start = 0;                        ///< of poses that fit alike; 0: none
   std::optional<ToleranceLimits> tolerance_mm;  ///< of the deviations from the reference
+  bool thickness = false;                       ///< measure the thickness of the walls
   double expansion_ppm_per_k = 0.0;             ///< coefficient of thermal expansion, 1e-6/K
   double temperature_u_k = 0.0;                 ///< standard uncertainty of the temperature
   std::vector<PlannedFeature> features;         ///< `[[features]]`

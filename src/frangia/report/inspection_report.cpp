@@ -88,6 +88,36 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
   page.table({"vertices", "number"}, vertices);
 }
 
+void add_walls(HtmlPage& page, const InspectionReport& report) {
+  if (!report.thickness) return;
+  const ThicknessSummary& t = *report.thickness;
+  page.heading("Thickness of the walls");
+  const Eigen::Vector3d& at = t.min_at_mm;
+  page.table({"quantity", "value"},
+             {{"measured area, mm²", number_text(t.area_mm2, 1)},
+              {"smallest, mm", number_text(t.min_mm, 4)},
+              {"its standard uncertainty, mm", number_text(t.min_u_mm, 4)},
+              {"its place, mm", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z())},
+              {"5 % of the area is below, mm", number_text(t.p5_mm, 4)},
+              {"median, mm", number_text(t.median_mm, 4)},
+              {"mean, mm", number_text(t.mean_mm, 4)},
+              {"5 % of the area is above, mm", number_text(t.p95_mm, 4)},
+              {"largest, mm", number_text(t.max_mm, 4)}});
+  constexpr std::array<const char*, kThicknessStatuses> kWallReasons{
+      "measured",
+      "left out: a wall is synthesized",
+      "left out: at the edge of the mesh",
+      "left out: no opposite wall",
+      "left out: the opposite wall is inclined by more than 45 degrees",
+      "left out: without a triangle"};
+  Rows vertices;
+  for (std::size_t i = 0; i < kThicknessStatuses; ++i) {
+    if (i == 0 || t.count.at(i) > 0)
+      vertices.push_back({kWallReasons.at(i), fmt::format("{}", t.count.at(i))});
+  }
+  page.table({"vertices", "number"}, vertices);
+}
+
 void add_characteristics(HtmlPage& page, const std::vector<MeasuredCharacteristic>& list) {
   if (list.empty()) return;
   page.heading("Characteristics");
@@ -261,6 +291,7 @@ std::string html_of(const InspectionReport& report) {
     page.table({"", ""}, rows_of(report.alignment));
   }
   add_deviation(page, report);
+  add_walls(page, report);
   if (!report.pictures.empty()) {
     page.begin_figures();
     for (const ReportPicture& one : report.pictures)

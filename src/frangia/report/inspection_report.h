@@ -11,6 +11,7 @@
 #include "frangia/features/find_features.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/deviation_summary.h"
+#include "frangia/inspect/thickness.h"
 #include "frangia/report/measured_characteristics.h"
 #include "frangia/report/section_result.h"
 
@@ -32,7 +33,8 @@ struct InspectionReport {
   std::vector<std::pair<std::string, std::string>> conditions;
   std::vector<std::pair<std::string, std::string>> alignment;  ///< as `conditions`
   std::optional<DeviationSummary> deviation;                   ///< from the reference
-  std::vector<ReportPicture> pictures;                         ///< of the deviations
+  std::optional<ThicknessSummary> thickness;                   ///< of the walls
+  std::vector<ReportPicture> pictures;                         ///< of deviations and thickness
   std::vector<MeasuredCharacteristic> characteristics;         ///< that a plan asked for
   std::vector<Feature> features;                               ///< all that were found
   /// The face of the CAD reference of each feature; empty without such a reference.

@@ -1,0 +1,172 @@
+#include "frangia/inspect/thickness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "frangia/core/error.h"
+#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/median.h"
+#include "frangia/geometry/vertex_data.h"
+#include "frangia/inspect/internal/vertex_use.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::array<std::string_view, kThicknessStatuses> kThicknessNames{
+    "measured", "synthesized", "mesh_edge", "no_wall", "oblique", "unused"};
+
+ThicknessStatus thickness_status_of(VertexUse use) {
+  switch (use) {
+    case VertexUse::Measured:
+      return ThicknessStatus::Measured;
+    case VertexUse::Synthesized:
+      return ThicknessStatus::Synthesized;
+    case VertexUse::MeshEdge:
+      return ThicknessStatus::MeshEdge;
+    case VertexUse::Unused:
+      break;
+  }
+  return ThicknessStatus::Unused;
+}
+
+/// Standard uncertainty along the normal at a point of a triangle.
+double sigma_at(const Mesh& mesh, const RayHit& hit) {
+  const Mesh::Triangle& corners = mesh.triangles[hit.triangle];
+  double sigma = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sigma += hit.barycentric[static_cast<Eigen::Index>(k)] *
+             static_cast<double>(mesh.sigma_mm[corners.at(k)]);
+  }
+  return sigma;
+}
+
+/// Measures the walls of one mesh.
+class WallFinder {
+ public:
+  WallFinder(const RayScene& scene, const ThicknessOptions& options)
+      : scene_(scene), options_(options), normals_(vertex_normals(scene.mesh())) {
+    Eigen::AlignedBox3d box;
+    for (const auto& vertex : scene.mesh().vertices_mm)
+      if (vertex.allFinite()) box.extend(vertex.cast<double>());
+    start_mm_ = 1e-6 * box.diagonal().norm();  // the rounding of vertices in single precision
+  }
+
+  void measure(std::size_t i, Thickness& out) const {
+    const Mesh& mesh = scene_.mesh();
+    const Vector3d normal = normals_[i].cast<double>();
+    const Vector3d vertex = mesh.vertices_mm[i].cast<double>();
+    const Vector3d inward = -normal;
+    const auto hit = normal.squaredNorm() > 0.5
+                         ? scene_.first_hit(vertex + start_mm_ * inward, inward, options_.max_mm)
+                         : std::optional<RayHit>{};
+    if (!hit) {
+      out.status[i] = ThicknessStatus::NoWall;
+      return;
+    }
+    const double cosine = hit->normal.dot(inward);
+    if (!(cosine >= std::cos(options_.max_tilt_rad))) {
+      out.status[i] = ThicknessStatus::Oblique;
+      return;
+    }
+    if (mark_of(mesh, hit->triangle) == Mark::Synthesized) {
+      out.status[i] = ThicknessStatus::Synthesized;
+      return;
+    }
+    out.thickness_mm[i] = static_cast<float>(start_mm_ + hit->distance);
+    if (out.u_mm.empty()) return;
+    out.u_mm[i] = static_cast<float>(
+        std::hypot(static_cast<double>(mesh.sigma_mm[i]), sigma_at(mesh, *hit) / cosine));
+  }
+
+ private:
+  const RayScene& scene_;
+  const ThicknessOptions& options_;
+  std::vector<Eigen::Vector3f> normals_;
+  double start_mm_ = 0.0;
+};
+
+/// The value below which a share of the weight lies. `values` are sorted.
+double weighted_quantile(const std::vector<std::pair<float, double>>& values,
+                         double all,
+                         double share) {
+  double sum = 0.0;
+  for (const auto& [value, weight] : values) {
+    sum += weight;
+    if (sum >= share * all) return static_cast<double>(value);
+  }
+  return static_cast<double>(values.back().first);
+}
+
+}  // namespace
+
+std::string_view name_of(ThicknessStatus status) {
+  return kThicknessNames.at(static_cast<std::size_t>(status));
+}
+
+void ThicknessOptions::check() const {
+  if (!(max_mm > 0.0)) throw Error(ErrorKind::Input, "`max_mm` must be above 0");
+  if (!(max_tilt_rad > 0.0 && max_tilt_rad < kPi / 2.0))
+    throw Error(ErrorKind::Input, "`max_tilt_rad` must be between 0 and 90 degrees");
+}
+
+Thickness thickness_of(const RayScene& scene, const ThicknessOptions& options, const Run& run) {
+  options.check();
+  const Mesh& mesh = scene.mesh();
+  if (mesh.triangles.empty())
+    throw Error(ErrorKind::Input, "the mesh has no triangles: it has no walls");
+  const std::size_t count = mesh.vertices_mm.size();
+  Thickness out;
+  out.thickness_mm.assign(count, kMissing);
+  if (!mesh.sigma_mm.empty()) out.u_mm.assign(count, kMissing);
+  for (const VertexUse use : vertex_uses(mesh))
+    out.status.push_back(thickness_status_of(use));
+  const WallFinder finder(scene, options);
+  constexpr std::size_t kChunk = 4096;
+  interruptible_chunks(count, kChunk, run, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (out.status[i] == ThicknessStatus::Measured) finder.measure(i, out);
+  });
+  return out;
+}
+
+ThicknessSummary summarize(const Mesh& mesh, const Thickness& thickness) {
+  ThicknessSummary summary;
+  const std::vector<double> areas = vertex_areas(mesh);
+  std::vector<std::pair<float, double>> values;
+  std::vector<float> u_mm;
+  double sum = 0.0;
+  std::size_t thinnest = 0;
+  for (std::size_t i = 0; i < thickness.status.size(); ++i) {
+    ++summary.count.at(static_cast<std::size_t>(thickness.status[i]));
+    if (thickness.status[i] != ThicknessStatus::Measured) continue;
+    const float value = thickness.thickness_mm[i];
+    if (values.empty() || value < thickness.thickness_mm[thinnest]) thinnest = i;
+    values.emplace_back(value, areas[i]);
+    summary.area_mm2 += areas[i];
+    sum += areas[i] * static_cast<double>(value);
+    if (!thickness.u_mm.empty() && std::isfinite(thickness.u_mm[i]))
+      u_mm.push_back(thickness.u_mm[i]);
+  }
+  if (values.empty()) return summary;
+  std::sort(values.begin(), values.end());
+  summary.min_mm = static_cast<double>(values.front().first);
+  summary.max_mm = static_cast<double>(values.back().first);
+  summary.min_at_mm = mesh.vertices_mm[thinnest].cast<double>();
+  if (summary.area_mm2 > 0.0) summary.mean_mm = sum / summary.area_mm2;
+  summary.p5_mm = weighted_quantile(values, summary.area_mm2, 0.05);
+  summary.median_mm = weighted_quantile(values, summary.area_mm2, 0.5);
+  summary.p95_mm = weighted_quantile(values, summary.area_mm2, 0.95);
+  if (!thickness.u_mm.empty()) {
+    summary.min_u_mm = static_cast<double>(thickness.u_mm[thinnest]);
+    if (!u_mm.empty()) summary.median_u_mm = static_cast<double>(median(std::move(u_mm)));
+  }
+  return summary;
+}
+
+}  // namespace frangia

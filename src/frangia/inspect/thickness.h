@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/run.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/geometry/ray_scene.h"
+
+namespace frangia {
+
+/// Whether a vertex has a thickness, and otherwise why not.
+enum class ThicknessStatus : std::uint8_t {
+  Measured,     ///< it has a thickness
+  Synthesized,  ///< one of the two walls was not measured
+  MeshEdge,     ///< on the boundary of the mesh, where the measurement ends
+  NoWall,       ///< no wall faces it: the mesh is open there, or thicker than the limit
+  Oblique,      ///< the wall that faces it is inclined too much, as at edges and corners
+  Unused        ///< no triangle uses it
+};
+inline constexpr std::size_t kThicknessStatuses = 6;  ///< number of values of `ThicknessStatus`
+
+/// The name in files: measured, synthesized, mesh_edge, no_wall, oblique, unused.
+[[nodiscard]] std::string_view name_of(ThicknessStatus status);
+
+/// What counts as the opposite wall.
+struct ThicknessOptions {
+  double max_mm = std::numeric_limits<double>::infinity();  ///< a thicker wall is none
+  double max_tilt_rad = rad_from_deg(45.0);  ///< between the normals of the two walls
+
+  /// @errors   Error(Input) that names the value which is out of its range
+  void check() const;
+};
+
+/// The thickness of the wall at each vertex.
+struct Thickness {
+  std::vector<float> thickness_mm;      ///< NaN where there is none
+  std::vector<float> u_mm;              ///< standard uncertainty; empty when no sigma is known
+  std::vector<ThicknessStatus> status;  ///< of each vertex
+};
+
+/// Measures the distance from each vertex along its inward normal to the opposite wall.
+///
+/// The ray method: it is exact between parallel walls and, unlike the largest inscribed sphere,
+/// does not fall to zero towards edges; an inclined wall gives the length of the ray. The
+/// uncertainty is that of both walls along the ray, combined as independent.
+///
+/// `scene` is that of `mesh`. The result has the same bytes for any number of threads.
+/// @units    mm
+/// @missing  NaN for the vertices that `ThicknessStatus` leaves out
+/// @errors   Error(Input) for a mesh without triangles, or as the options' check; Error(Cancelled)
+[[nodiscard]] Thickness thickness_of(const RayScene& scene,
+                                     const ThicknessOptions& options = {},
+                                     const Run& run = {});
+
+/// The thickness over a mesh, weighted by area.
+struct ThicknessSummary {
+  std::array<std::size_t, kThicknessStatuses> count{};  ///< of vertices, by `ThicknessStatus`
+  double area_mm2 = 0.0;                                ///< of the measured vertices
+  double mean_mm = kMissing;                            ///< of the measured area
+  double p5_mm = kMissing;                              ///< 5 % of the area is thinner
+  double median_mm = kMissing;                          ///< half of the area is thinner
+  double p95_mm = kMissing;                             ///< 5 % of the area is thicker
+  double min_mm = kMissing;                             ///< smallest of a vertex
+  double max_mm = kMissing;                             ///< largest of a vertex
+  double min_u_mm = kMissing;                           ///< standard uncertainty of the smallest
+  double median_u_mm = kMissing;                        ///< NaN when none is known
+  Eigen::Vector3d min_at_mm = Eigen::Vector3d::Constant(kMissing);  ///< where the smallest is
+};
+
+/// Sums up the thickness of a mesh.
+///
+/// @units    mm
+/// @missing  NaN where no vertex has a thickness
+[[nodiscard]] ThicknessSummary summarize(const Mesh& mesh, const Thickness& thickness);
+
+}  // namespace frangia
