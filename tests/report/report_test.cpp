@@ -61,6 +61,15 @@ MeasuredFeature ball(const Eigen::Vector3d& center, double diameter) {
   return measured;
 }
 
+TEST(InspectionPlan, ReadsTheReferenceOfForms) {
+  constexpr const char* kBall =
+      "[[features]]\nname = \"A\"\nkind = \"sphere\"\nnear_mm = [0, 0, 0]\n";
+  EXPECT_EQ(plan_from(kBall).features[0].form, FormReference::LeastSquares);
+  EXPECT_EQ(plan_from(std::string(kBall) + "fit = \"minimum-zone\"\n").features[0].form,
+            FormReference::MinimumZone);
+  EXPECT_THROW(static_cast<void>(plan_from(std::string(kBall) + "fit = \"widest\"\n")), Error);
+}
+
 TEST(InspectionPlan, MeasuresItsFeaturesAndDecides) {
   const InspectionPlan plan = plan_from(kTwoBalls);
   EXPECT_EQ(plan.part, "ball bar");

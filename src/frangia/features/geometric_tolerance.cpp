@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -10,7 +11,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/features/feature_points.h"
-#include "frangia/features/internal/filtered_range.h"
+#include "frangia/features/internal/form_width.h"
 #include "frangia/features/internal/shape_distance_between.h"
 
 namespace frangia {
@@ -41,69 +42,45 @@ const Shape& shape_of(const MeasuredFeature& measured) {
                           name_of(characteristic)));
 }
 
-/// The range of a function of the points.
+/// The values of a function at the points.
 template <typename Value>
-MeasuredValue range_of(const MeasuredFeature& measured, const Value& value) {
+std::vector<SurfaceValue> values_of(const MeasuredFeature& measured, const Value& value) {
   std::vector<SurfaceValue> values;
   values.reserve(measured.points_mm.size());
   for (const Vector3d& point : measured.points_mm)
     values.push_back({point, value(point)});
-  const FilteredRange range = filtered_range(std::move(values));
-  return {range.high - range.low, range.u95};
+  return values;
 }
 
-/// The largest range in sections normal to an axis; few points in a section do not count.
-template <typename Value>
-MeasuredValue largest_section_range(const MeasuredFeature& measured,
-                                    const Vector3d& center,
-                                    const Vector3d& axis,
-                                    const Value& value) {
-  constexpr std::size_t kSections = 24;
-  constexpr std::size_t kLeast = 96;
-  double low = 0.0;
-  double high = 0.0;
-  for (const Vector3d& point : measured.points_mm) {
-    const double along = (point - center).dot(axis);
-    low = std::min(low, along);
-    high = std::max(high, along);
-  }
-  const std::size_t sections =
-      std::clamp<std::size_t>(measured.points_mm.size() / (4 * kLeast), std::size_t{1}, kSections);
-  std::vector<std::vector<SurfaceValue>> values(sections);
-  for (const Vector3d& point : measured.points_mm) {
-    const double share = ((point - center).dot(axis) - low) / std::max(high - low, 1e-12);
-    const double at = share * static_cast<double>(sections);
-    const auto section = std::min(static_cast<std::size_t>(at), sections - 1);
-    values[section].push_back({point, value(point)});
-  }
-  MeasuredValue largest;
-  for (auto& section : values) {
-    if (section.size() < kLeast && sections > 1) continue;
-    if (section.empty()) continue;
-    const FilteredRange range = filtered_range(std::move(section));
-    if (range.high - range.low >= largest.value) largest = {range.high - range.low, range.u95};
-  }
-  return largest;
+MeasuredValue measured_value(const FormWidth& width) {
+  return {width.value, width.u95};
 }
 
-MeasuredValue form_of(Characteristic characteristic, const MeasuredFeature& measured) {
+MeasuredValue form_of(Characteristic characteristic,
+                      const MeasuredFeature& measured,
+                      FormReference reference) {
   const Shape& shape = shape_of(measured);
+  const Shape* const moving = reference == FormReference::MinimumZone ? &shape : nullptr;
   const auto residual = [&](const Vector3d& point) {
     return distance_to(shape, point).distance_mm;
   };
   const bool flat = characteristic == Characteristic::Flatness && shape.kind == Kind::Plane;
   const bool round = characteristic == Characteristic::Cylindricity && shape.kind == Kind::Cylinder;
-  if (flat || round) return range_of(measured, residual);
+  std::vector<SurfaceValue> residuals = values_of(measured, residual);
+  if (flat || round)
+    return measured_value(form_width(std::move(residuals), {moving, ZoneFreedom::All}));
   const bool turned =
       shape.kind == Kind::Cylinder || shape.kind == Kind::Cone || shape.kind == Kind::Sphere;
   if (characteristic != Characteristic::Roundness || !turned)
     refuse_kind(characteristic, shape.kind);
-  return largest_section_range(measured, shape.center_mm, shape.axis, residual);
+  return measured_value(largest_section_width(
+      residuals, shape.center_mm, shape.axis, {moving, ZoneFreedom::Section}));
 }
 
 /// The width of the zone that is parallel to a direction's plane: the range of the points along it.
 MeasuredValue zone_width(const MeasuredFeature& measured, const Vector3d& direction) {
-  return range_of(measured, [&](const Vector3d& point) { return point.dot(direction); });
+  return measured_value(
+      form_width(values_of(measured, [&](const Vector3d& p) { return p.dot(direction); })));
 }
 
 MeasuredValue orientation_of(Characteristic characteristic,
@@ -148,9 +125,11 @@ MeasuredValue run_out_of(Characteristic characteristic,
     const double radius = (offset - along * axis.axis).norm();
     return radius * std::cos(slope) - sign * along * std::sin(slope);
   };
-  MeasuredValue result = characteristic == Characteristic::TotalRunOut
-                             ? range_of(measured, value)
-                             : largest_section_range(measured, axis.center_mm, axis.axis, value);
+  std::vector<SurfaceValue> values = values_of(measured, value);
+  MeasuredValue result =
+      measured_value(characteristic == Characteristic::TotalRunOut
+                         ? form_width(std::move(values))
+                         : largest_section_width(values, axis.center_mm, axis.axis));
   const double lever = (shape.center_mm - axis.center_mm).norm();
   const double tilt = datum.feature.uncertainty.axis_u95_rad * lever;
   result.u95 = std::hypot(result.u95, datum.feature.uncertainty.center_u95_mm, tilt);
@@ -206,12 +185,13 @@ std::vector<MeasuredFeature> with_points(const Mesh& mesh,
 MeasuredValue measure(Characteristic characteristic,
                       const MeasuredFeature& feature,
                       const MeasuredFeature* datum,
-                      const Vector3d& nominal_mm) {
+                      const Vector3d& nominal_mm,
+                      FormReference reference) {
   if (characteristic == Characteristic::Position) {
     const double distance = distance_between(shape_of(feature), nominal_mm);
     return {2.0 * distance, 2.0 * feature.feature.uncertainty.center_u95_mm};
   }
-  if (!needs_datum(characteristic)) return form_of(characteristic, feature);
+  if (!needs_datum(characteristic)) return form_of(characteristic, feature, reference);
   if (datum == nullptr) {
     throw Error(ErrorKind::Input,
                 fmt::format("{} is relative to a datum; name one", name_of(characteristic)));

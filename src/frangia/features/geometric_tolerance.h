@@ -21,6 +21,12 @@ enum class Characteristic {
   Angle              ///< between the axes or normals of feature and datum, 0 to 90 degrees
 };
 
+/// The shape that a form is measured from.
+enum class FormReference {
+  LeastSquares,  ///< the shape of least squares
+  MinimumZone    ///< the shape with the narrowest zone, the minimum requirement of ISO 1101
+};
+
 /// The name in files: flatness, roundness, cylindricity, parallelism, perpendicularity, position,
 /// run-out, total-run-out, distance, angle.
 [[nodiscard]] std::string_view name_of(Characteristic characteristic);
@@ -55,16 +61,18 @@ struct MeasuredValue {
 
 /// Measures a characteristic. Forms are ranges of the distances from the least-squares shape; noise
 /// is removed by linear functions in blocks of about 64 points. An axis counts over the length of
-/// its points.
+/// its points. `reference` counts for flatness, roundness and cylindricity; a minimum zone has the
+/// uncertainty of the range from the least-squares shape, which is an upper bound.
 ///
 /// `nominal_mm` is the true position, for `Position` alone.
 /// @units    mm, degrees
 /// @errors   Error(Input) when the kind of the feature or of the datum has no such characteristic,
 ///           or the datum is missing
-/// @source   ISO 1101:2017; ISO 12181-1, ISO 12180-1, ISO 12781-1 (least-squares references)
+/// @source   ISO 1101:2017; ISO 12181-1, ISO 12180-1, ISO 12781-1
 [[nodiscard]] MeasuredValue measure(Characteristic characteristic,
                                     const MeasuredFeature& feature,
                                     const MeasuredFeature* datum = nullptr,
-                                    const Eigen::Vector3d& nominal_mm = Eigen::Vector3d::Zero());
+                                    const Eigen::Vector3d& nominal_mm = Eigen::Vector3d::Zero(),
+                                    FormReference reference = FormReference::LeastSquares);
 
 }  // namespace frangia

@@ -68,6 +68,12 @@ PlannedFeature feature_of(TomlReader& reader) {
   }
   if (reader.has("diameter_mm")) feature.diameter_mm = reader.positive("diameter_mm");
   feature.tolerance_mm = limits_of(reader, "tolerance_mm");
+  if (reader.has("fit")) {
+    const std::string fit = reader.text("fit");
+    if (fit != "least-squares" && fit != "minimum-zone")
+      reader.fail("fit", fmt::format("is \"{}\"; it must be least-squares or minimum-zone", fit));
+    if (fit == "minimum-zone") feature.form = FormReference::MinimumZone;
+  }
   for (const Characteristic form :
        {Characteristic::Flatness, Characteristic::Roundness, Characteristic::Cylindricity}) {
     const std::string key = std::string(name_of(form)) + "_mm";

@@ -24,6 +24,7 @@ struct PlannedFeature {
   std::optional<double> diameter_mm;                  ///< nominal
   std::optional<ToleranceLimits> tolerance_mm;        ///< of the difference from the nominal
   std::map<Characteristic, double> forms_mm;          ///< upper limits of its own form
+  FormReference form = FormReference::LeastSquares;   ///< of its own form: `fit`
 };
 
 /// A characteristic that a plan asks for, such as a distance or a run-out.

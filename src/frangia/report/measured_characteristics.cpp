@@ -12,7 +12,13 @@ namespace frangia {
 namespace {
 
 constexpr double k95 = 1.959964;
-using FeatureByName = std::map<std::string, const MeasuredFeature*>;
+
+/// What a plan says of a feature, and what was found.
+struct FoundFeature {
+  const MeasuredFeature* measured = nullptr;
+  FormReference form = FormReference::LeastSquares;
+};
+using FeatureByName = std::map<std::string, FoundFeature>;
 
 const Shape& shape_of(const Feature& feature) {
   return feature.fit.shape;
@@ -68,7 +74,8 @@ void add_feature_rows(const PlannedFeature& planned,
     row.name = fmt::format("{} {}", planned.name, name_of(form));
     row.limits = at_most(limit);
     if (feature != nullptr) {
-      const MeasuredValue value = measure(form, *feature);
+      const MeasuredValue value =
+          measure(form, *feature, nullptr, Eigen::Vector3d::Zero(), planned.form);
       row.value = value.value;
       row.u95 = value.u95;
     }
@@ -87,11 +94,11 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
                                  *planned.nominal + planned.tolerance->upper};
   }
   if (planned.limit) row.limits = at_most(*planned.limit);
-  const MeasuredFeature* feature = found.at(planned.feature);
-  const MeasuredFeature* datum = planned.datum.empty() ? nullptr : found.at(planned.datum);
+  const auto& [feature, form] = found.at(planned.feature);
+  const MeasuredFeature* datum = planned.datum.empty() ? nullptr : found.at(planned.datum).measured;
   const bool is_measured = feature != nullptr && (planned.datum.empty() || datum != nullptr);
   if (is_measured) {
-    const MeasuredValue value = measure(planned.kind, *feature, datum, planned.position_mm);
+    const MeasuredValue value = measure(planned.kind, *feature, datum, planned.position_mm, form);
     row.value = value.value;
     row.u95 = value.u95;
   }
@@ -112,7 +119,7 @@ std::vector<MeasuredCharacteristic> measure_characteristics(
   FeatureByName found;
   for (const PlannedFeature& planned : plan.features) {
     const MeasuredFeature* feature = nearest_of(planned, features);
-    found[planned.name] = feature;
+    found[planned.name] = {feature, planned.form};
     if (feature == nullptr) {
       run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",
                            planned.name,

@@ -112,6 +112,8 @@ void add_block(std::span<SurfaceValue> block, RangeSums& sums) {
     residuals.push_back(one.value - fitted);
     squares += residuals.back() * residuals.back();
   }
+  for (std::size_t i = 0; i < block.size(); ++i)
+    block[i].value -= residuals[i];
   ++sums.blocks;
   if (count <= parameters) return;
   const double variance = squares / (count - parameters);
@@ -143,7 +145,7 @@ FilteredRange filtered_range(std::vector<SurfaceValue> values) {
   const double u = corner * sums.largest_mean_u * std::sqrt(inflation_of(sums));
   // The extremes of many blocks lie apart by chance, too.
   const double apart = 2.0 * u * std::sqrt(2.0 * std::log(4.0 * static_cast<double>(sums.blocks)));
-  return {sums.low, sums.high, std::hypot(k95 * std::sqrt(2.0) * u, apart)};
+  return {sums.low, sums.high, std::hypot(k95 * std::sqrt(2.0) * u, apart), std::move(values)};
 }
 
 }  // namespace frangia

@@ -21,6 +21,7 @@ struct FilteredRange {
   /// many blocks apart. Errors that are alike in neighbouring points are seen in parts of the
   /// blocks.
   double u95 = 0.0;
+  std::vector<SurfaceValue> values;  ///< without their noise, in the order of the blocks
 };
 
 /// Replaces the values in compact blocks of at least 48 points by linear functions of the position
