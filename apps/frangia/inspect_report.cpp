@@ -298,7 +298,8 @@ std::vector<std::string> write_report(const InspectArguments& arguments,
   report.nominals = part.nominals;
   report.sections = part.sections;
   report.uncertainty_mm = uncertainty_terms_of(part);
-  report.correlation_known = !part.mesh.sigma_systematic_mm.empty();
+  report.systematic_known = !part.mesh.sigma_systematic_mm.empty();
+  report.correlation_known = part.calibration_mm.size() > 0;
   report.warnings = warnings;
 
   std::vector<std::string> written;

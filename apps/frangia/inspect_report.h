@@ -18,6 +18,7 @@ struct InspectedPart {
   std::optional<Alignment> alignment;                ///< of the mesh on the reference
   std::optional<Comparison> comparison;              ///< with the reference
   std::optional<MeasuredWalls> walls;                ///< their thickness
+  Eigen::MatrixXf calibration_mm;                    ///< as `FeaturePoints` has it; or empty
   std::vector<Feature> features;                     ///< that were found
   std::vector<std::optional<NominalFace>> nominals;  ///< of the features, by a CAD reference
   std::vector<MeasuredCharacteristic> characteristics;

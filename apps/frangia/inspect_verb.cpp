@@ -13,6 +13,7 @@
 #include "frangia/features/find_features.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/transform_mesh.h"
+#include "frangia/pipeline/calibration_displacements.h"
 #include "frangia/report/batch.h"
 #include "frangia/report/planned_nominals.h"
 
@@ -95,7 +96,7 @@ void inspect_features(const InspectArguments& arguments,
   }
   if (!arguments.features && plan.features.empty()) return;
   run.stage("features");
-  part.features = find_features(part.mesh, {}, run);
+  part.features = find_features(part.mesh, {.calibration_mm = &part.calibration_mm}, run);
   std::vector<MeasuredFeature> measured;
   if (!plan.features.empty() || (reference && reference->cad))
     measured = with_points(part.mesh, part.features, run);
@@ -114,6 +115,9 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   InspectedPart part;
   part.mesh = read_surface(arguments.mesh, run, arguments.read);
   if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
+  // Before the mesh is moved: the scan has its frame.
+  if (!arguments.scan.empty() && (arguments.features || !plan.features.empty()))
+    part.calibration_mm = calibration_displacements(part.mesh, read_scan(arguments.scan, run), run);
   if (reference) add_reference(answer, *reference);
   if (!arguments.alignment.align.empty()) {
     DatumFit fit;
@@ -299,7 +303,8 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
                  "measure the distance from each vertex to the opposite wall");
   verb->add_option("--scan",
                    arguments->scan,
-                   "completeness counts only what the views of this scan can measure");
+                   "the scan of the mesh: completeness counts what its views can measure, and "
+                   "features hold the covariance of its rig");
   verb->add_option("--within",
                    arguments->within_mm,
                    "a point of the reference is covered by mesh within this distance, mm")

@@ -83,6 +83,18 @@ TEST(Reconstruct, IsAnErrorWhereThePointsFormNoSurface) {
       << error;
 }
 
+TEST(Reconstruct, RefusesViewsAtSeveralAnglesWithoutAnAxis) {
+  const TemporaryFolder folder;
+  Scan scan = small_scan(folder.path(), "plate", "digital", 2, {.samples_per_px = 1});
+  scan.rig.turntable.reset();
+  const std::string error = testing::error_of([&] { static_cast<void>(reconstruct(scan)); });
+  EXPECT_NE(error.find("at different angles, but rig.toml has no [turntable]"), std::string::npos)
+      << error;
+  for (ScanView& view : scan.views)
+    view.angle_rad = 0.0;
+  EXPECT_EQ(testing::error_of([&] { static_cast<void>(reconstruct(scan)); }), "");
+}
+
 TEST(Reconstruct, SaysThatNothingDeterminesTheFringeOrders) {
   const TemporaryFolder folder;
   Scan plan;

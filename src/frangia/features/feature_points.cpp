@@ -70,9 +70,25 @@ std::vector<double> chosen_values(const std::vector<float>& values,
   return chosen;
 }
 
+/// Takes over the displacements of the points and takes them out of their systematic parts.
+void add_calibration(FeaturePoints& points, const Eigen::MatrixXf& calibration_mm) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  points.calibration_mm.resize(calibration_mm.rows(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto vertex = static_cast<Eigen::Index>(points.vertices[static_cast<std::size_t>(i)]);
+    points.calibration_mm.col(i) = calibration_mm.col(vertex);
+    if (points.systematic_mm.empty()) continue;
+    double& rest = points.systematic_mm[static_cast<std::size_t>(i)];
+    const auto known = static_cast<double>(points.calibration_mm.col(i).norm());
+    rest = std::sqrt(std::max(0.0, rest * rest - known * known));
+  }
+}
+
 }  // namespace
 
-FeaturePoints feature_points_of(const Mesh& mesh, const Run& run) {
+FeaturePoints feature_points_of(const Mesh& mesh,
+                                const Run& run,
+                                const Eigen::MatrixXf* calibration_mm) {
   Mesh measured;
   measured.vertices_mm = mesh.vertices_mm;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -112,6 +128,8 @@ FeaturePoints feature_points_of(const Mesh& mesh, const Run& run) {
   if (!mesh.sigma_systematic_mm.empty())
     points.systematic_mm = chosen_values(mesh.sigma_systematic_mm, vertices);
   points.area_mm2 = extent.area_mm2;
+  if (calibration_mm != nullptr && calibration_mm->size() > 0)
+    add_calibration(points, *calibration_mm);
   return points;
 }
 

@@ -24,7 +24,7 @@ std::vector<Feature> find_features(const Mesh& mesh,
                                    const FindFeaturesOptions& options,
                                    const Run& run) {
   options.check();
-  const FeaturePoints points = feature_points_of(mesh, run);
+  const FeaturePoints points = feature_points_of(mesh, run, options.calibration_mm);
   constexpr std::size_t kPointsPerCell = 4;
   const SurfaceCells cells = surface_cells(
       points, std::clamp(points.size() / kPointsPerCell, std::size_t{100}, options.cells), run);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "frangia/core/run.h"
 #include "frangia/features/fit_shape.h"
 #include "frangia/features/shape.h"
@@ -30,6 +32,10 @@ struct FindFeaturesOptions {
   /// Points of a feature lie within this distance of it; 0: chosen from the noise of the mesh.
   double gate_mm = 0.0;
   bool edges = true;  ///< also lines and circles where two features meet
+  /// What the calibration of the rig does to all vertices of the mesh alike, as `FeaturePoints` has
+  /// it; null: not known. Without it the systematic part of sigma counts as alike along the
+  /// normals.
+  const Eigen::MatrixXf* calibration_mm = nullptr;
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;

@@ -13,6 +13,7 @@
 #include "frangia/features/feature_points.h"
 #include "frangia/features/internal/form_width.h"
 #include "frangia/features/internal/shape_distance_between.h"
+#include "frangia/features/internal/shared_calibration.h"
 
 namespace frangia {
 namespace {
@@ -199,16 +200,26 @@ MeasuredValue measure(Characteristic characteristic,
   const ShapeUncertainty& u = feature.feature.uncertainty;
   const ShapeUncertainty& datum_u = datum->feature.uncertainty;
   if (characteristic == Characteristic::Distance) {
-    return {distance_between(shape_of(feature), shape_of(*datum)),
-            std::hypot(u.center_u95_mm, datum_u.center_u95_mm)};
+    const auto distance = [](const Shape& a, const Shape& b) { return distance_between(a, b); };
+    return {distance(shape_of(feature), shape_of(*datum)),
+            knows_calibration(u, datum_u)
+                ? std::hypot(u.center_local_u95_mm,
+                             datum_u.center_local_u95_mm,
+                             calibration_u95(feature.feature, datum->feature, distance))
+                : std::hypot(u.center_u95_mm, datum_u.center_u95_mm)};
   }
   if (characteristic == Characteristic::Angle) {
     if (!has_axis(shape_of(feature).kind)) refuse_kind(characteristic, shape_of(feature).kind);
     if (!has_axis(shape_of(*datum).kind)) refuse_kind(characteristic, shape_of(*datum).kind);
-    const Vector3d& a = shape_of(feature).axis;
-    const Vector3d& b = shape_of(*datum).axis;
-    return {deg_from_rad(std::atan2(a.cross(b).norm(), std::abs(a.dot(b)))),
-            deg_from_rad(std::hypot(u.axis_u95_rad, datum_u.axis_u95_rad))};
+    const auto angle = [](const Shape& a, const Shape& b) {
+      return std::atan2(a.axis.cross(b.axis).norm(), std::abs(a.axis.dot(b.axis)));
+    };
+    return {deg_from_rad(angle(shape_of(feature), shape_of(*datum))),
+            deg_from_rad(knows_calibration(u, datum_u)
+                             ? std::hypot(u.axis_local_u95_rad,
+                                          datum_u.axis_local_u95_rad,
+                                          calibration_u95(feature.feature, datum->feature, angle))
+                             : std::hypot(u.axis_u95_rad, datum_u.axis_u95_rad))};
   }
   const bool turns =
       characteristic == Characteristic::RunOut || characteristic == Characteristic::TotalRunOut;

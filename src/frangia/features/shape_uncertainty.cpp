@@ -8,6 +8,7 @@
 
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/features/internal/weighted_sums.h"
+#include "frangia/geometry/robust_gauss_newton.h"
 
 namespace frangia {
 namespace {
@@ -140,6 +141,26 @@ double worst_direction(const Eigen::MatrixXd& covariance, const ParameterRange& 
   return std::sqrt(std::max(0.0, symmetric_eigen(block).values[range.count - 1]));
 }
 
+/// The changes of the parameters by the displacements of the points, a column for each of them.
+Eigen::MatrixXd calibration_response(const FeaturePoints& points,
+                                     std::span<const std::uint32_t> chosen,
+                                     const ShapeFit& fit,
+                                     const PointWeights& weights,
+                                     const Eigen::MatrixXd& inverse) {
+  if (points.calibration_mm.size() == 0) return {};
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(inverse.rows(), points.calibration_mm.rows());
+  for (const std::uint32_t point : chosen) {
+    const ShapeDistance at = distance_to(fit.shape, points.points_mm[point]);
+    if (!(std::abs(at.distance_mm) < fit.gate_mm) || !at.derivatives.allFinite()) continue;
+    const double weight = weights.of(point) * tukey_weight(at.distance_mm, fit.gate_mm);
+    const double outward = at.normal.dot(points.normals[point]);
+    sums.noalias() +=
+        weight * outward * at.derivatives.head(inverse.rows()) *
+        points.calibration_mm.col(static_cast<Eigen::Index>(point)).cast<double>().transpose();
+  }
+  return -inverse * sums;
+}
+
 }  // namespace
 
 ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
@@ -177,8 +198,16 @@ ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
   const bool is_diameter = fit.shape.kind != ShapeKind::Plane;
   const double to_size = is_diameter ? 2.0 : 1.0;
   result.noise_mm = to_size * std::sqrt(covariance(size, size)) / k95;
-  result.systematic_mm = to_size * std::abs(shared[size]) / k95;
   covariance += shared * shared.transpose();
+  result.center_local_u95_mm = worst_direction(covariance, center_parameters(fit.shape.kind));
+  result.axis_local_u95_rad = worst_direction(covariance, axis_parameters(fit.shape.kind));
+  double systematic = shared[size] * shared[size] / (k95 * k95);
+  result.calibration = calibration_response(points, chosen, fit, weights, inverse);
+  if (result.calibration.size() > 0) {
+    covariance += k95 * k95 * result.calibration * result.calibration.transpose();
+    systematic += result.calibration.row(size).squaredNorm();
+  }
+  result.systematic_mm = to_size * std::sqrt(systematic);
   result.u95_mm = to_size * std::sqrt(covariance(size, size));
   result.center_u95_mm = worst_direction(covariance, center_parameters(fit.shape.kind));
   result.axis_u95_rad = worst_direction(covariance, axis_parameters(fit.shape.kind));

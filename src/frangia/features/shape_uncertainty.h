@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include <Eigen/Core>
+
 #include "frangia/core/missing.h"
 #include "frangia/features/feature_points.h"
 #include "frangia/features/fit_shape.h"
@@ -19,6 +21,11 @@ struct ShapeUncertainty {
   double center_u95_mm = kMissing;
   double axis_u95_rad = kMissing;   ///< of the direction of the axis; NaN for a sphere
   double angle_u95_rad = kMissing;  ///< of the half angle of a cone; NaN otherwise
+  /// What independent changes of the rig's parameters, of one standard deviation each, do to the
+  /// parameters of the shape (see `moved`): a column for each change; empty: not known.
+  Eigen::MatrixXd calibration;
+  double center_local_u95_mm = kMissing;  ///< `center_u95_mm` without `calibration`
+  double axis_local_u95_rad = kMissing;   ///< `axis_u95_rad` without `calibration`
 };
 
 /// Estimates the uncertainty of a fit from its own residuals.

@@ -1,5 +1,7 @@
 #include "frangia/pipeline/reconstruct.h"
 
+#include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -7,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
@@ -111,10 +114,26 @@ Reconstruction reconstruct_with_refined_rig(const Scan& scan,
   return out;
 }
 
+/// Views at different angles cannot be brought together without the axis that they turned about.
+void check_turntable(const Scan& scan) {
+  constexpr double kSame = 1e-6;  // rad
+  if (scan.rig.turntable) return;
+  std::map<int, double> angles;
+  for (const ScanView& view : scan.views) {
+    const double first = angles.emplace(view.setup, view.angle_rad).first->second;
+    if (std::abs(wrap_rad(view.angle_rad - first)) < kSame) continue;
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: the views are at different angles, but rig.toml has no "
+                            "[turntable]; find its axis with `frangia calibrate turntable`",
+                            scan.folder.string()));
+  }
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
   if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
+  check_turntable(scan);
   warn_of_relative_distances(scan, run);
   const auto rays = rays_of(scan.rig.camera.model);
   Reconstruction out;

@@ -253,12 +253,22 @@ void add_uncertainty(HtmlPage& page, const InspectionReport& report) {
     return;
   }
   page.table({"term", "standard uncertainty, mm"}, rows);
-  page.paragraph(
-      report.correlation_known
-          ? "The systematic part of sigma holds the calibration of the rig; its errors "
-            "are propagated as one that is alike in all points of a feature."
-          : "The mesh states no systematic part of sigma: the calibration of the rig and "
-            "the correlation of its errors are not included.");
+  if (report.correlation_known) {
+    page.paragraph(
+        "The covariance of the rig's parameters is propagated to the features: each independent "
+        "change moves all points of the part together, so that sizes, distances and angles hold "
+        "the "
+        "correlation of their errors.");
+  } else if (report.systematic_known) {
+    page.paragraph(
+        "The systematic part of sigma is propagated as one error that is alike in all points of a "
+        "feature. Correlation between features is not included: that needs the scan, with a rig "
+        "whose calibration has a covariance.");
+  } else {
+    page.paragraph(
+        "The mesh states no systematic part of sigma: the calibration of the rig and the "
+        "correlation of its errors are not included.");
+  }
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ struct InspectionReport {
   std::vector<SectionResult> sections;  ///< that a plan asked for
   /// Largest or typical standard uncertainty of each known source, mm.
   std::vector<std::pair<std::string, double>> uncertainty_mm;
-  bool correlation_known = false;     ///< the systematic part of sigma holds the calibration
+  bool systematic_known = false;      ///< the mesh states a systematic part of sigma
+  bool correlation_known = false;     ///< features hold the covariance of the rig's parameters
   std::vector<std::string> warnings;  ///< of the inspection
 };
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/pattern/pattern.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// One displacement for each independent change of the parameters.
+using Displacements = Eigen::Matrix3Xd;
+
+/// Triangulates points by rigs that differ from the true one by one change of the parameters each.
+class ChangedRigs {
+ public:
+  /// Takes one change for each column of the factor of the covariance, which must be known.
+  ChangedRigs(const Rig& rig, const Pattern& pattern);
+
+  [[nodiscard]] Eigen::Index changes() const {
+    return static_cast<Eigen::Index>(changed_.size() / 2);
+  }
+
+  /// The displacements of a measured point; NaN where a rig does not measure it.
+  [[nodiscard]] Displacements displacements_of(const Eigen::Vector3d& point_mm) const;
+
+ private:
+  const Rig& rig_;
+  const Pattern& pattern_;
+  std::vector<Rig> changed_;  ///< in pairs: by a step in either direction
+};
+
+/// A rigid motion for each change of the parameters, small enough to be linear: a translation and a
+/// rotation vector about `center`, per `size_mm`.
+struct RigidMotions {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double size_mm = 1.0;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> motions;
+
+  [[nodiscard]] Eigen::Matrix<double, 3, 6> design(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d arm = (point - center) / size_mm;
+    Eigen::Matrix<double, 3, 6> rows;
+    rows.leftCols<3>().setIdentity();
+    rows.rightCols<3>() << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
+    return rows;
+  }
+};
+
+/// Fits a rigid motion to the displacements of points by least squares, for each change.
+[[nodiscard]] RigidMotions fit_rigid(std::span<const Eigen::Vector3d> points,
+                                     const ChangedRigs& rigs);
+
+}  // namespace frangia
