@@ -17,8 +17,13 @@ namespace {
 
 const Feature& found_datum(const PlannedFeature& planned,
                            const std::vector<Feature>& features,
+                           const Mesh& mesh,
                            const std::filesystem::path& on) {
-  const Feature* feature = nearest_feature(planned, features);
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+    if (vertex.allFinite()) box.extend(vertex);
+  const double farthest_mm = kFarthestFeature * static_cast<double>(box.diagonal().norm());
+  const Feature* feature = nearest_feature(planned, features, farthest_mm);
   if (feature == nullptr) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: datum \"{}\": there is no {} near ({:g}, {:g}, {:g}); check its "
@@ -58,13 +63,14 @@ DatumFit align_by_datums(const InspectArguments& arguments,
         *std::find_if(plan.features.begin(), plan.features.end(), [&](const auto& feature) {
           return feature.name == name;
         });
-    const Feature& seen = found_datum(planned, measured, arguments.mesh);
+    const Feature& seen = found_datum(planned, measured, aligned, arguments.mesh);
     Datum datum{name, {}, seen.fit.shape, seen.uncertainty};
     if (planned.face > 0) {
       datum.nominal = reference.cad->faces()[planned.face - 1].shape.value();
     } else {
       if (nominal.empty()) nominal = find_features(reference.scene.mesh(), {.edges = false}, run);
-      datum.nominal = found_datum(planned, nominal, arguments.reference).fit.shape;
+      datum.nominal =
+          found_datum(planned, nominal, reference.scene.mesh(), arguments.reference).fit.shape;
     }
     datums.push_back(std::move(datum));
   }

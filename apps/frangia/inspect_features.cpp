@@ -57,7 +57,16 @@ Json json_of_details(const Feature& feature) {
 
 Json json_of_nominal(const Feature& feature, const std::optional<NominalFace>& nominal) {
   if (!nominal) return {};
-  Json json{{"face", nominal->number}, {"diameter_mm", Json()}, {"difference_mm", Json()}};
+  Json json{{"face", nominal->number},
+            {"diameter_mm", Json()},
+            {"difference_mm", Json()},
+            {"half_angle_deg", Json()},
+            {"half_angle_difference_deg", Json()}};
+  if (nominal->shape.kind == ShapeKind::Cone) {
+    json["half_angle_deg"] = deg_from_rad(nominal->shape.half_angle_rad);
+    json["half_angle_difference_deg"] =
+        deg_from_rad(feature.fit.shape.half_angle_rad - nominal->shape.half_angle_rad);
+  }
   if (has_diameter(nominal->shape.kind)) {
     json["diameter_mm"] = 2.0 * nominal->shape.radius_mm;
     json["difference_mm"] = 2.0 * (feature.fit.shape.radius_mm - nominal->shape.radius_mm);

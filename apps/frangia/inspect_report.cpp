@@ -299,7 +299,7 @@ std::vector<std::string> write_report(const InspectArguments& arguments,
   report.sections = part.sections;
   report.uncertainty_mm = uncertainty_terms_of(part);
   report.systematic_known = !part.mesh.sigma_systematic_mm.empty();
-  report.correlation_known = part.calibration_mm.size() > 0;
+  report.correlation_known = part.knows_calibration;
   report.warnings = warnings;
 
   std::vector<std::string> written;

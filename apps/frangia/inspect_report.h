@@ -14,12 +14,13 @@ namespace frangia {
 
 /// What one inspection found, as the report needs it.
 struct InspectedPart {
-  Mesh mesh;                                         ///< aligned
-  std::optional<Alignment> alignment;                ///< of the mesh on the reference
-  std::optional<Comparison> comparison;              ///< with the reference
-  std::optional<MeasuredWalls> walls;                ///< their thickness
-  Eigen::MatrixXf calibration_mm;                    ///< as `FeaturePoints` has it; or empty
-  std::vector<Feature> features;                     ///< that were found
+  Mesh mesh;                             ///< aligned
+  std::optional<Alignment> alignment;    ///< of the mesh on the reference
+  std::optional<Comparison> comparison;  ///< with the reference
+  std::optional<MeasuredWalls> walls;    ///< their thickness
+  Eigen::MatrixXf shared_mm;             ///< `calibration_mm` of `FeaturePoints`; or empty
+  bool knows_calibration = false;        ///< it holds the covariance of the rig
+  std::vector<Feature> features;         ///< that were found
   std::vector<std::optional<NominalFace>> nominals;  ///< of the features, by a CAD reference
   std::vector<MeasuredCharacteristic> characteristics;
   std::vector<SectionResult> sections;

@@ -11,6 +11,7 @@
 
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/features/find_features.h"
+#include "frangia/features/thermal_displacement.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/pipeline/calibration_displacements.h"
@@ -82,6 +83,21 @@ void check_arguments(const InspectArguments& arguments, const InspectionPlan& pl
           "--align datum needs a --plan whose `datums` name one to three of its [[features]]");
 }
 
+/// Finds what moves all features alike: the calibration of the rig and the temperature. The mesh
+/// still has the frame of its scan.
+void add_shared_errors(const InspectArguments& arguments, InspectedPart& part, const Run& run) {
+  constexpr double kPerMillion = 1e-6;
+  if (!arguments.scan.empty()) {
+    part.shared_mm = calibration_displacements(part.mesh, read_scan(arguments.scan, run), run);
+    part.knows_calibration = part.shared_mm.size() > 0;
+  }
+  if (!(arguments.expansion_ppm_per_k * arguments.temperature_u_k > 0.0)) return;
+  const Eigen::MatrixXf thermal = thermal_displacement(
+      part.mesh, kPerMillion * arguments.expansion_ppm_per_k, arguments.temperature_u_k);
+  part.shared_mm.conservativeResize(part.shared_mm.rows() + 1, thermal.cols());
+  part.shared_mm.bottomRows(1) = thermal;
+}
+
 /// Finds the features of the mesh and measures those of the plan.
 void inspect_features(const InspectArguments& arguments,
                       InspectionPlan plan,
@@ -96,7 +112,7 @@ void inspect_features(const InspectArguments& arguments,
   }
   if (!arguments.features && plan.features.empty()) return;
   run.stage("features");
-  part.features = find_features(part.mesh, {.calibration_mm = &part.calibration_mm}, run);
+  part.features = find_features(part.mesh, {.calibration_mm = &part.shared_mm}, run);
   std::vector<MeasuredFeature> measured;
   if (!plan.features.empty() || (reference && reference->cad))
     measured = with_points(part.mesh, part.features, run);
@@ -115,9 +131,7 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   InspectedPart part;
   part.mesh = read_surface(arguments.mesh, run, arguments.read);
   if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
-  // Before the mesh is moved: the scan has its frame.
-  if (!arguments.scan.empty() && (arguments.features || !plan.features.empty()))
-    part.calibration_mm = calibration_displacements(part.mesh, read_scan(arguments.scan, run), run);
+  if (arguments.features || !plan.features.empty()) add_shared_errors(arguments, part, run);
   if (reference) add_reference(answer, *reference);
   if (!arguments.alignment.align.empty()) {
     DatumFit fit;

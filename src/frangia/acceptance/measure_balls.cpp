@@ -123,7 +123,7 @@ std::vector<Shape> candidates(const std::vector<Feature>& features, double diame
 
 [[noreturn]] void fail_without(const ReferenceArtifact& artifact, std::size_t ball) {
   throw Error(ErrorKind::Input,
-              fmt::format("no ball of {:g} mm is found; check `diameters_mm` and whether the ball "
+              fmt::format("no ball of {:g} mm is found; check diameters_mm and whether the ball "
                           "is in view",
                           artifact.diameters_mm[ball]));
 }
@@ -157,7 +157,7 @@ MeasuredArtifact measure_balls(const Mesh& mesh,
   }
   if (ends[0] == nullptr) {
     throw Error(ErrorKind::Input,
-                fmt::format("no two balls {:g} mm from each other are found; check `spacing_mm` "
+                fmt::format("no two balls {:g} mm from each other are found; check spacing_mm "
                             "and whether both balls are in view",
                             artifact.spacing_mm));
   }

@@ -18,8 +18,9 @@ struct FeaturePoints {
   std::vector<double> noise_mm;            ///< standard uncertainty without the systematic part,
                                            ///< one for each point, or empty
   std::vector<double> systematic_mm;       ///< systematic part, one for each point, or empty
-  /// Displacements along the normals by independent changes of the rig's parameters, of one
-  /// standard deviation each: a row for each change, a column for each point; empty: not known.
+  /// Displacements along the normals by what is alike in the whole part, independent changes of the
+  /// rig's parameters or of the temperature, of one standard deviation each: a row for each change,
+  /// a column for each point; empty: not known.
   Eigen::MatrixXf calibration_mm;
   /// Numbers of the mesh's vertices, ascending, one for each point; empty for samples.
   std::vector<std::uint32_t> vertices;

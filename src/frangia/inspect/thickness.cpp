@@ -110,9 +110,10 @@ std::string_view name_of(ThicknessStatus status) {
 }
 
 void ThicknessOptions::check() const {
-  if (!(max_mm > 0.0)) throw Error(ErrorKind::Input, "`max_mm` must be above 0");
+  if (!(max_mm > 0.0)) throw Error(ErrorKind::Input, "ThicknessOptions: max_mm must be above 0");
   if (!(max_tilt_rad > 0.0 && max_tilt_rad < kPi / 2.0))
-    throw Error(ErrorKind::Input, "`max_tilt_rad` must be between 0 and 90 degrees");
+    throw Error(ErrorKind::Input,
+                "ThicknessOptions: max_tilt_rad must be between 0 and 90 degrees");
 }
 
 Thickness thickness_of(const RayScene& scene, const ThicknessOptions& options, const Run& run) {

@@ -130,8 +130,10 @@ const std::vector<std::pair<const char*, TextOf>>& statistics_lines() {
        [](const BatchCharacteristic& one) { return value_text(one.deviation, 5); }},
       {"Cp", [](const BatchCharacteristic& one) { return value_text(one.cp, 2); }},
       {"Cpk", [](const BatchCharacteristic& one) { return value_text(one.cpk, 2); }},
-      {"Cpk exceeds, 95 %",
-       [](const BatchCharacteristic& one) { return value_text(one.cpk_lower_95, 2); }}};
+      {"Cpk exceeds, 95 %", [](const BatchCharacteristic& one) {
+         const bool proven = !(one.cpk_lower_95 < 0.0);
+         return proven ? value_text(one.cpk_lower_95, 2) : std::string("nothing above 0");
+       }}};
   return lines;
 }
 

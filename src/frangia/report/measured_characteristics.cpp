@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/report/internal/shape_mismatch.h"
@@ -28,10 +29,11 @@ const Shape& shape_of(const MeasuredFeature& feature) {
 }
 
 template <typename Item>
-const Item* nearest_of(const PlannedFeature& planned, const std::vector<Item>& features) {
+const Item* nearest_of(const PlannedFeature& planned,
+                       const std::vector<Item>& features,
+                       double farthest_mm) {
   const Item* best = nullptr;
-  constexpr double kFarthest = 10.0;  // mm
-  double least = kFarthest;
+  double least = farthest_mm;
   for (const Item& feature : features) {
     const Shape& shape = shape_of(feature);
     if (shape.kind != planned.kind) continue;
@@ -109,16 +111,23 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
 }  // namespace
 
 const Feature* nearest_feature(const PlannedFeature& planned,
-                               const std::vector<Feature>& features) {
-  return nearest_of(planned, features);
+                               const std::vector<Feature>& features,
+                               double farthest_mm) {
+  return nearest_of(planned, features, farthest_mm);
 }
 
 std::vector<MeasuredCharacteristic> measure_characteristics(
     const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run) {
   std::vector<MeasuredCharacteristic> rows;
   FeatureByName found;
+  Eigen::AlignedBox3d box;
+  for (const MeasuredFeature& feature : features) {
+    for (const Eigen::Vector3d& point : feature.points_mm)
+      box.extend(point);
+  }
+  const double farthest_mm = box.isEmpty() ? 0.0 : kFarthestFeature * box.diagonal().norm();
   for (const PlannedFeature& planned : plan.features) {
-    const MeasuredFeature* feature = nearest_of(planned, features);
+    const MeasuredFeature* feature = nearest_of(planned, features, farthest_mm);
     found[planned.name] = {feature, planned.form};
     if (feature == nullptr) {
       run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",

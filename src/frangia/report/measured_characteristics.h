@@ -24,12 +24,18 @@ struct MeasuredCharacteristic {
 };
 
 /// The feature of the planned kind whose center, or axis, and diameter come nearest to those of the
-/// plan; null where none lies within 10 mm.
+/// plan; null where none lies within `farthest_mm`.
 [[nodiscard]] const Feature* nearest_feature(const PlannedFeature& planned,
-                                             const std::vector<Feature>& features);
+                                             const std::vector<Feature>& features,
+                                             double farthest_mm);
+
+/// How far from its planned place and size a feature may be, as a share of the diagonal of the
+/// part.
+inline constexpr double kFarthestFeature = 0.1;
 
 /// Measures what a plan asks for on a mesh in the frame of its reference. A planned feature is the
-/// one of its kind whose center, or axis, and diameter come nearest.
+/// one of its kind whose center, or axis, and diameter come nearest, within `kFarthestFeature` of
+/// the diagonal of all points.
 ///
 /// `run` is warned of planned features that are not found.
 /// @units    mm, degrees

@@ -25,6 +25,11 @@ constexpr std::array kTerms = {
                         "position of a pixel on the surface",
                         Part::Noise,
                         Correlation::View},
+    UncertaintyTermInfo{Term::Speckle,
+                        "speckle",
+                        "grain of laser light on a rough surface",
+                        Part::Noise,
+                        Correlation::View},
     UncertaintyTermInfo{Term::Registration,
                         "registration",
                         "differences between the views after registration",
@@ -58,6 +63,11 @@ constexpr std::array kTerms = {
     UncertaintyTermInfo{Term::Calibration,
                         "calibration",
                         "uncertainty of the parameters of the rig",
+                        Part::Systematic,
+                        Correlation::AllViews},
+    UncertaintyTermInfo{Term::Temperature,
+                        "temperature",
+                        "thermal expansion of the part",
                         Part::Systematic,
                         Correlation::AllViews}};
 

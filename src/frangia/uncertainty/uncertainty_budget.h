@@ -9,6 +9,7 @@ namespace frangia {
 enum class UncertaintyTerm {
   CameraNoise,          ///< shot noise and read noise of the camera
   LateralLocalization,  ///< position of a pixel on the surface, response within the pixel
+  Speckle,              ///< grain of laser light, whose phase differs from pixel to pixel
   Registration,         ///< differences between the views after registration
   Harmonics,            ///< response of projector and camera that was not corrected
   StepErrors,           ///< phase steps that differ from the nominal ones
@@ -16,6 +17,7 @@ enum class UncertaintyTerm {
   Quantization,         ///< whole counts of the frames
   IndirectLight,        ///< light that reaches a point by way of other parts of the surface
   Calibration,          ///< covariance of the parameters of the rig
+  Temperature,          ///< thermal expansion of the part
 };
 
 /// The part of the uncertainty that a term belongs to.
