@@ -21,6 +21,7 @@ struct InspectArguments {
   std::filesystem::path mesh;                 ///< the one that is inspected
   std::filesystem::path plan;
   std::filesystem::path report;
+  std::filesystem::path qif;
   std::filesystem::path batch;
   std::vector<std::string> sections;
   bool blade = false;

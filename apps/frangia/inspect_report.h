@@ -23,6 +23,7 @@ struct InspectedPart {
   std::vector<Feature> features;         ///< that were found
   std::vector<std::optional<NominalFace>> nominals;  ///< of the features, by a CAD reference
   std::vector<MeasuredCharacteristic> characteristics;
+  std::vector<NamedFeature> named_features;  ///< those of the plan
   std::vector<SectionResult> sections;
 };
 

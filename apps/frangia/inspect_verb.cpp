@@ -17,6 +17,7 @@
 #include "frangia/pipeline/calibration_displacements.h"
 #include "frangia/report/batch.h"
 #include "frangia/report/planned_nominals.h"
+#include "frangia/report/qif_results.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"
@@ -71,7 +72,9 @@ void check_arguments(const InspectArguments& arguments, const InspectionPlan& pl
       "nothing to do: give a --reference to measure against, --features, --thickness, --plan, "
       "--section, or a --picture to draw");
   if (drawn) check_picture_output(arguments.picture);
-  for (const auto& path : {arguments.report, arguments.batch})
+  require(arguments.qif.empty() || !plan.features.empty(),
+          "--qif states the characteristics of a --plan; give one with [[features]]");
+  for (const auto& path : {arguments.report, arguments.batch, arguments.qif})
     if (!path.empty()) check_can_write(path);
   if (!arguments.report.empty() && lowercase_extension(arguments.report) != ".html") {
     throw Error(ErrorKind::Input,
@@ -119,7 +122,9 @@ void inspect_features(const InspectArguments& arguments,
   if (reference) part.nominals = nominal_faces(*reference, measured);
   add_features(answer.json, part.features, part.nominals);
   if (arguments.features) answer.text += feature_table(part.features, part.nominals);
-  if (!plan.features.empty()) part.characteristics = measure_characteristics(plan, measured, run);
+  if (plan.features.empty()) return;
+  part.characteristics = measure_characteristics(plan, measured, run);
+  part.named_features = named_features(plan, measured);
 }
 
 /// Inspects one mesh.
@@ -163,9 +168,18 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   return part;
 }
 
+/// The decision about the part, by its deviations and its characteristics.
+Conformity verdict_of_part(const InspectedPart& part) {
+  InspectionReport report;
+  if (part.comparison) report.deviation = part.comparison->summary;
+  report.characteristics = part.characteristics;
+  return verdict_of(report);
+}
+
 /// Inspects each mesh by the plan and writes the table.
 void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Terminal& terminal) {
   const Run run = terminal.run();
+  require(arguments.qif.empty(), "--qif states one part, not a batch; leave out --batch");
   require(!plan.features.empty(),
           "--batch compares the characteristics of a --plan; give one with [[features]]");
   const std::optional<Reference> reference = read_reference(arguments, run);
@@ -228,6 +242,12 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
   std::vector<std::string> written;
   if (!arguments.report.empty())
     written = write_report(arguments, plan, part, answer, terminal.warnings(), run);
+  if (!arguments.qif.empty()) {
+    write_report_text(arguments.qif,
+                      qif_of({part.named_features, part.characteristics, verdict_of_part(part)}));
+    written.push_back(arguments.qif.string());
+    answer.json["qif"] = arguments.qif.string();
+  }
   if (drawn) answer.json["picture"] = arguments.picture.string();
   if (!arguments.report.empty()) answer.json["report"] = arguments.report.string();
   terminal.finish();
@@ -268,6 +288,9 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--report",
                    arguments->report,
                    "write a report as one .html page, and .json and .csv files of the same name");
+  verb->add_option("--qif",
+                   arguments->qif,
+                   "write the characteristics of the plan and their features as QIF 3.0 results");
   verb->add_option("--batch",
                    arguments->batch,
                    "inspect several meshes by the plan and write a table with mean, Cp and Cpk: "

@@ -17,7 +17,7 @@ constexpr double k95 = 1.959964;
 /// What a plan says of a feature, and what was found.
 struct FoundFeature {
   const MeasuredFeature* measured = nullptr;
-  FormReference form = FormReference::LeastSquares;
+  const PlannedFeature* planned = nullptr;
 };
 using FeatureByName = std::map<std::string, FoundFeature>;
 
@@ -45,6 +45,16 @@ const Item* nearest_of(const PlannedFeature& planned,
   return best;
 }
 
+/// How far from its planned place a feature may be.
+double farthest_mm(const std::vector<MeasuredFeature>& features) {
+  Eigen::AlignedBox3d box;
+  for (const MeasuredFeature& feature : features) {
+    for (const Eigen::Vector3d& point : feature.points_mm)
+      box.extend(point);
+  }
+  return box.isEmpty() ? 0.0 : kFarthestFeature * box.diagonal().norm();
+}
+
 void decide_row(MeasuredCharacteristic& row) {
   if (row.limits) row.conformity = conformity_of(row.value, row.u95 / k95, *row.limits);
 }
@@ -59,6 +69,8 @@ void add_feature_rows(const PlannedFeature& planned,
   if (planned.diameter_mm) {
     MeasuredCharacteristic row;
     row.name = planned.name + " diameter";
+    row.feature = planned.name;
+    row.shape = planned.kind;
     row.nominal = planned.diameter_mm;
     if (planned.tolerance_mm) {
       row.limits = ToleranceLimits{*planned.diameter_mm + planned.tolerance_mm->lower,
@@ -74,7 +86,11 @@ void add_feature_rows(const PlannedFeature& planned,
   for (const auto& [form, limit] : planned.forms_mm) {
     MeasuredCharacteristic row;
     row.name = fmt::format("{} {}", planned.name, name_of(form));
+    row.kind = form;
+    row.feature = planned.name;
+    row.shape = planned.kind;
     row.limits = at_most(limit);
+    row.fit = planned.form;
     if (feature != nullptr) {
       const MeasuredValue value =
           measure(form, *feature, nullptr, Eigen::Vector3d::Zero(), planned.form);
@@ -89,6 +105,11 @@ void add_feature_rows(const PlannedFeature& planned,
 MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const FeatureByName& found) {
   MeasuredCharacteristic row;
   row.name = planned.name;
+  row.kind = planned.kind;
+  row.feature = planned.feature;
+  row.datum = planned.datum;
+  const auto& [feature, of] = found.at(planned.feature);
+  row.shape = of->kind;
   row.unit = planned.kind == Characteristic::Angle ? "degrees" : "mm";
   row.nominal = planned.nominal;
   if (planned.nominal && planned.tolerance) {
@@ -96,11 +117,12 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
                                  *planned.nominal + planned.tolerance->upper};
   }
   if (planned.limit) row.limits = at_most(*planned.limit);
-  const auto& [feature, form] = found.at(planned.feature);
+  if (!needs_datum(planned.kind) && planned.kind != Characteristic::Position) row.fit = of->form;
   const MeasuredFeature* datum = planned.datum.empty() ? nullptr : found.at(planned.datum).measured;
   const bool is_measured = feature != nullptr && (planned.datum.empty() || datum != nullptr);
   if (is_measured) {
-    const MeasuredValue value = measure(planned.kind, *feature, datum, planned.position_mm, form);
+    const MeasuredValue value =
+        measure(planned.kind, *feature, datum, planned.position_mm, of->form);
     row.value = value.value;
     row.u95 = value.u95;
   }
@@ -120,15 +142,10 @@ std::vector<MeasuredCharacteristic> measure_characteristics(
     const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run) {
   std::vector<MeasuredCharacteristic> rows;
   FeatureByName found;
-  Eigen::AlignedBox3d box;
-  for (const MeasuredFeature& feature : features) {
-    for (const Eigen::Vector3d& point : feature.points_mm)
-      box.extend(point);
-  }
-  const double farthest_mm = box.isEmpty() ? 0.0 : kFarthestFeature * box.diagonal().norm();
+  const double farthest = farthest_mm(features);
   for (const PlannedFeature& planned : plan.features) {
-    const MeasuredFeature* feature = nearest_of(planned, features, farthest_mm);
-    found[planned.name] = {feature, planned.form};
+    const MeasuredFeature* feature = nearest_of(planned, features, farthest);
+    found[planned.name] = {feature, &planned};
     if (feature == nullptr) {
       run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",
                            planned.name,
@@ -142,6 +159,21 @@ std::vector<MeasuredCharacteristic> measure_characteristics(
   for (const PlannedCharacteristic& planned : plan.characteristics)
     rows.push_back(row_of(planned, found));
   return rows;
+}
+
+std::vector<NamedFeature> named_features(const InspectionPlan& plan,
+                                         const std::vector<MeasuredFeature>& features) {
+  std::vector<NamedFeature> named;
+  for (const PlannedFeature& planned : plan.features) {
+    const MeasuredFeature* found = nearest_of(planned, features, farthest_mm(features));
+    if (found == nullptr) continue;
+    named.push_back({planned.name,
+                     found->feature.fit.shape,
+                     found->feature.uncertainty,
+                     found->low_mm,
+                     found->high_mm});
+  }
+  return named;
 }
 
 Conformity overall(const std::vector<MeasuredCharacteristic>& rows) {

@@ -13,6 +13,11 @@ namespace frangia {
 /// A row of the table of results.
 struct MeasuredCharacteristic {
   std::string name;                       ///< of the plan, with the quantity
+  std::optional<Characteristic> kind;     ///< none: a diameter
+  std::string feature;                    ///< name of the feature in the plan
+  std::string datum;                      ///< name of its datum; may be empty
+  ShapeKind shape = ShapeKind::Plane;     ///< of the feature
+  std::optional<FormReference> fit;       ///< of a form: what it is measured from
   std::string unit = "mm";                ///< mm or degrees
   std::optional<double> nominal;          ///< none: not stated
   double value = kMissing;                ///< NaN: the feature was not found
@@ -43,6 +48,19 @@ inline constexpr double kFarthestFeature = 0.1;
 /// @errors   Error(Input) for a characteristic that the kind of its feature does not have
 [[nodiscard]] std::vector<MeasuredCharacteristic> measure_characteristics(
     const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run = {});
+
+/// A feature of a plan that was found.
+struct NamedFeature {
+  std::string name;              ///< in the plan
+  Shape shape;                   ///< measured
+  ShapeUncertainty uncertainty;  ///< of `shape`
+  double low_mm = 0.0;           ///< ends of its points along its axis, from the center
+  double high_mm = 0.0;          ///< see `low_mm`
+};
+
+/// The features of a plan that were found, in the order of the plan.
+[[nodiscard]] std::vector<NamedFeature> named_features(
+    const InspectionPlan& plan, const std::vector<MeasuredFeature>& features);
 
 /// The decision about all rows: out when one is out, in when all that have limits are in.
 [[nodiscard]] Conformity overall(const std::vector<MeasuredCharacteristic>& rows);
