@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 
 #include "features/noisy_shapes.h"
@@ -121,6 +122,42 @@ TEST(GeometricTolerance, RoundnessAndRunOutFollowTheLobesAndTheEccentricity) {
   EXPECT_NEAR(
       measure(Characteristic::Position, eccentric, nullptr, Vector3d(0, 0, 55)).value, 0.1, 0.004);
   EXPECT_LT(measure(Characteristic::Parallelism, eccentric, &datum).value, 0.004);
+}
+
+/// The points on an ideal taper about z: radius 20 - 0.04 to 20 + 0.04 mm over 60 mm.
+MeasuredFeature taper(double eccentricity_mm) {
+  MeasuredFeature feature;
+  feature.feature.fit.shape = {
+      ShapeKind::Cylinder, {eccentricity_mm, 0.0, 30.0}, Vector3d::UnitZ(), 20.0, 0.0, 0.0};
+  for (int i = 0; i < 240; ++i) {
+    for (int k = 0; k <= 60; ++k) {
+      const double angle = kTwoPi * i / 240.0;
+      const double radius = 20.0 + 0.04 * (k - 30.0) / 30.0;
+      feature.points_mm.emplace_back(
+          eccentricity_mm + radius * std::cos(angle), radius * std::sin(angle), k);
+    }
+  }
+  return feature;
+}
+
+TEST(GeometricTolerance, ATaperIsCylindricityAndTotalRunOutButNotRoundness) {
+  MeasuredFeature datum;
+  datum.feature.fit.shape = {ShapeKind::Cylinder, Vector3d::Zero(), Vector3d::UnitZ(), 10.0};
+  datum.feature.uncertainty.center_u95_mm = 0.0;
+  datum.feature.uncertainty.axis_u95_rad = 0.0;
+  const MeasuredFeature cone = taper(0.03);
+  for (const FormReference fit : {FormReference::LeastSquares, FormReference::MinimumZone}) {
+    const auto form = [&](Characteristic kind) {
+      return measure(kind, cone, nullptr, Vector3d::Zero(), fit).value;
+    };
+    EXPECT_NEAR(form(Characteristic::Cylindricity), 0.08, 1e-3);
+    // 24 sections of 2.5 mm, each with its share of the taper.
+    EXPECT_LT(form(Characteristic::Roundness), 0.08 / 20.0);
+  }
+  EXPECT_NEAR(measure(Characteristic::TotalRunOut, cone, &datum).value, 0.08 + 0.06, 2e-3);
+  EXPECT_NEAR(measure(Characteristic::RunOut, cone, &datum).value, 0.06, 6e-3);
+  EXPECT_NEAR(
+      measure(Characteristic::Position, cone, nullptr, Vector3d(0.0, 0.04, 7.0)).value, 0.1, 1e-9);
 }
 
 TEST(GeometricTolerance, NamesWhatAFeatureDoesNotHave) {
