@@ -14,6 +14,7 @@
 #include "frangia/simulate/default_patterns.h"
 
 #include "capture_result.h"
+#include "direction_option.h"
 #include "drivers.h"
 #include "option_values.h"
 #include "print_text.h"
@@ -46,6 +47,7 @@ void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
   verb.add_option("--shifts", patterns.shifts, "frames per fringe pattern")
       ->check(from_to(3, 360))
       ->capture_default_str();
+  add_direction_option(verb, patterns);
   verb.add_option("--periods",
                   patterns.periods_px,
                   "digital projector: fringe periods, px, such as 1280,160,20")

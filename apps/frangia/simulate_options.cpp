@@ -8,6 +8,7 @@
 #include "frangia/simulate/rig_presets.h"
 
 #include "allow_memory.h"
+#include "direction_option.h"
 #include "option_values.h"
 
 namespace frangia {
@@ -43,6 +44,7 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
   verb.add_option("--shifts", arguments.patterns.shifts, "frames per fringe pattern")
       ->check(from_to(3, 360))
       ->capture_default_str();
+  add_direction_option(verb, arguments.patterns);
   verb.add_option("--periods",
                   arguments.patterns.periods_px,
                   "digital projector: fringe periods, px, such as 1280,160,20")

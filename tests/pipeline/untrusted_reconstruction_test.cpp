@@ -11,6 +11,7 @@
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/pipeline/reconstruct.h"
+#include "frangia/rig/crossing_of_axes.h"
 #include "frangia/rig/read_rig.h"
 
 #include "support/displaced_views.h"
@@ -81,6 +82,37 @@ TEST(Reconstruct, IsAnErrorWhereThePointsFormNoSurface) {
                        "uncertain or jump from pixel to pixel"),
             std::string::npos)
       << error;
+}
+
+TEST(Reconstruct, MeasuresWithAProjectorAboveTheCamera) {
+  Scan plan;
+  plan.rig = testing::small_rig("digital");
+  const Eigen::Vector3d target = crossing_of_axes(plan.rig);
+  Projector& projector = plan.rig.projector;
+  projector.position_mm = {0.0, -180.0, 30.0};
+  const Eigen::Vector3d forward = (target - projector.position_mm).normalized();
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitY().cross(forward).normalized();
+  projector.rotation.row(0) = right;
+  projector.rotation.row(1) = forward.cross(right);
+  projector.rotation.row(2) = forward;
+  for (int i = 0; i < 4; ++i)
+    plan.views.push_back({kTwoPi * i / 4, "views/" + std::to_string(i)});
+  for (const bool vertical : {false, true}) {
+    const TemporaryFolder folder;
+    plan.folder = folder.path();
+    PatternPlan patterns;
+    if (vertical) patterns.direction = FringeDirection::Vertical;
+    plan.patterns = default_patterns(plan.rig, patterns);
+    const Scan scan = simulate_scan(make_part("plate"), plan, {.samples_per_px = 1});
+    if (vertical) {
+      const std::string error = testing::error_of([&] { static_cast<void>(reconstruct(scan)); });
+      EXPECT_NE(error.find("vertical fringes do not measure depth"), std::string::npos) << error;
+      continue;
+    }
+    const Reconstruction result = reconstruct(scan);
+    EXPECT_EQ(result.untrusted_reason, "");
+    EXPECT_LT(surface_error(result.mesh, RayScene(make_part("plate"))).rms_mm, 0.1);
+  }
 }
 
 TEST(Reconstruct, RefusesViewsAtSeveralAnglesWithoutAnAxis) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
 #include "frangia/pipeline/internal/tie_cameras.h"
 #include "frangia/pipeline/refine_scan_rig.h"
+#include "frangia/rig/fringe_parallax.h"
 #include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
@@ -129,11 +131,31 @@ void check_turntable(const Scan& scan) {
   }
 }
 
+/// Fringes along the line from camera to projector do not move with depth.
+void check_parallax(const Scan& scan) {
+  std::optional<FringeDirection> useless;
+  for (const Pattern& pattern : scan.patterns) {
+    if (pattern.kind != PatternKind::Fringe && pattern.kind != PatternKind::Gray) continue;
+    if (!lacks_parallax(scan.rig, pattern.direction)) return;
+    useless = pattern.direction;
+  }
+  if (!useless) return;
+  const bool vertical = *useless == FringeDirection::Vertical;
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: its {} fringes do not measure depth, because the projector of "
+                          "rig.toml stands {} the camera; capture {} ones",
+                          scan.folder.string(),
+                          vertical ? "vertical" : "horizontal",
+                          vertical ? "above or below" : "beside",
+                          vertical ? "horizontal" : "vertical"));
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
   if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
   check_turntable(scan);
+  check_parallax(scan);
   warn_of_relative_distances(scan, run);
   const auto rays = rays_of(scan.rig.camera.model);
   Reconstruction out;

@@ -11,6 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
 #include "frangia/pattern/gray_code.h"
+#include "frangia/rig/fringe_parallax.h"
 
 namespace frangia {
 namespace {
@@ -49,6 +50,8 @@ std::vector<Pattern> angular_patterns(const Rig& rig, const PatternPlan& plan) {
                     finest,
                     kMaxFringes));
   }
+  require(plan.direction.value_or(FringeDirection::Vertical) == FringeDirection::Vertical,
+          "`direction` is for a digital projector, but the rig's projector is angular");
   require(plan.periods_px.empty(),
           "`periods_px` is for a digital projector, but the rig's projector is angular; set "
           "`fringes_per_degree` instead");
@@ -76,10 +79,17 @@ void require_period(double period_px) {
           "a fringe period is {:g} pixels; it must be at least {:g}", period_px, kMinPeriod_px));
 }
 
-std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const PatternPlan& plan) {
+/// Pixels of the projector across fringes of a direction.
+double field_px(const PinholeModel& pinhole, FringeDirection direction) {
+  return direction == FringeDirection::Vertical ? pinhole.width_px : pinhole.height_px;
+}
+
+std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole,
+                                      FringeDirection direction,
+                                      const PatternPlan& plan) {
   std::vector<double> periods = plan.periods_px;
   if (periods.empty()) {
-    const double width = pinhole.width_px;
+    const double width = field_px(pinhole, direction);
     periods = {width, width / 8.0, width / 64.0};
   }
   std::sort(periods.begin(), periods.end(), std::greater<>());
@@ -88,6 +98,7 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const Pattern
     require_period(period);
     Pattern pattern;
     pattern.name = fmt::format("p{:g}", period);
+    pattern.direction = direction;
     pattern.period_px = period;
     pattern.shifts_rad = even_shifts(plan.shifts);
     patterns.push_back(pattern);
@@ -96,7 +107,9 @@ std::vector<Pattern> pinhole_patterns(const PinholeModel& pinhole, const Pattern
 }
 
 /// A multi-frequency sequence over the whole field, for either kind of projector.
-std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) {
+std::vector<Pattern> sequence_patterns(const Rig& rig,
+                                       FringeDirection direction,
+                                       const PatternPlan& plan) {
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   std::vector<Pattern> patterns;
   const bool alone = plan.sequence == "gray-alone";
@@ -110,7 +123,9 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
        gray ? std::vector<double>{plan.fringes} : fringe_sequence(plan.sequence, plan.fringes)) {
     const std::string name = fmt::format("f{:g}", fringes);
     if (pinhole != nullptr) {
-      Pattern pattern{.name = name, .period_px = pinhole->width_px / fringes};
+      Pattern pattern{.name = name,
+                      .direction = direction,
+                      .period_px = field_px(*pinhole, direction) / fringes};
       require_period(pattern.period_px);
       pattern.shifts_rad = even_shifts(plan.shifts);
       patterns.push_back(pattern);
@@ -124,7 +139,7 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
   if (gray)
     patterns.push_back(
         gray_code_for_fringes(patterns.front(),
-                              pinhole->width_px,
+                              field_px(*pinhole, direction),
                               plan.inverted ? InvertedFrames::After : InvertedFrames::None));
   if (alone) patterns.erase(patterns.begin());
   return patterns;
@@ -135,9 +150,10 @@ std::vector<Pattern> sequence_patterns(const Rig& rig, const PatternPlan& plan) 
 std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan) {
   require(plan.shifts >= 3, "`shifts` must be at least 3");
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
-  std::vector<Pattern> patterns = !plan.sequence.empty() ? sequence_patterns(rig, plan)
-                                  : pinhole != nullptr   ? pinhole_patterns(*pinhole, plan)
-                                                         : angular_patterns(rig, plan);
+  const FringeDirection direction = plan.direction.value_or(measuring_direction(rig));
+  std::vector<Pattern> patterns = !plan.sequence.empty() ? sequence_patterns(rig, direction, plan)
+                                  : pinhole != nullptr ? pinhole_patterns(*pinhole, direction, plan)
+                                                       : angular_patterns(rig, plan);
   for (Pattern& pattern : patterns)
     if (pattern.kind != PatternKind::Line) pattern.exposures_ms = plan.exposures_ms;
   if (plan.ramp > 0) {
@@ -156,7 +172,9 @@ std::vector<Pattern> calibration_patterns(const Rig& rig, const PatternPlan& pla
   const auto* projector = std::get_if<PinholeModel>(&rig.projector.model);
   require(projector != nullptr,
           "the rig's projector is angular, but a board calibrates a digital projector only");
-  std::vector<Pattern> patterns = default_patterns(rig, plan);
+  PatternPlan columns = plan;
+  columns.direction = FringeDirection::Vertical;
+  std::vector<Pattern> patterns = default_patterns(rig, columns);
   const double ratio = static_cast<double>(projector->height_px) / projector->width_px;
   for (std::size_t i = 0, count = patterns.size(); i < count; ++i) {
     Pattern across = patterns[i];

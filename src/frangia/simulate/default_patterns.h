@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,11 @@ namespace frangia {
 
 /// The patterns that `default_patterns` creates for a rig.
 struct PatternPlan {
+  /// Pinhole projector: direction of fringes and Gray code; none: `measuring_direction` of the rig.
+  std::optional<FringeDirection> direction;
   double fringes_per_degree = 1.0;  ///< angular projector: pitch of the finest pattern
-  std::vector<double> periods_px;   ///< pinhole projector; empty: width, width / 8, width / 64
+  /// Pinhole projector; empty: width, width / 8, width / 64, or height for horizontal fringes.
+  std::vector<double> periods_px;
   /// Replaces the two above when not empty: a name known to `fringe_sequence`, or "gray" for the
   /// finest fringes alone with a Gray code that gives their order, or "gray-alone" for this code
   /// without the fringes.

@@ -1,4 +1,4 @@
-#include "frangia/simulate/internal/crossing_of_axes.h"
+#include "frangia/rig/crossing_of_axes.h"
 
 #include <variant>
 
