@@ -2,8 +2,12 @@
 #include "frangia/inspect/thickness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
@@ -113,6 +117,74 @@ TEST(Thickness, OfAWedgeIsTheRayAndAnInclinedWallIsNone) {
       EXPECT_TRUE(std::isnan(walls.thickness_mm[middle]));
     }
   }
+}
+
+/// A closed box of 40 x 30 x 3 mm in any orientation, one vertex a millimetre, shared at its edges.
+Mesh turned_box() {
+  constexpr std::array<int, 3> kSize{40, 30, 3};
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(0.3, 1.0, -0.4).normalized());
+  Mesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> numbers;
+  const auto number = [&](const std::array<int, 3>& at) {
+    const auto [place, is_new] =
+        numbers.try_emplace(at, static_cast<std::uint32_t>(mesh.vertices_mm.size()));
+    if (is_new)
+      mesh.vertices_mm.emplace_back((turn * Eigen::Vector3d(at[0], at[1], at[2])).cast<float>());
+    return place->second;
+  };
+  for (std::size_t side = 0; side < 3; ++side) {
+    const std::size_t u = (side + 1) % 3;
+    const std::size_t v = (side + 2) % 3;
+    for (const bool upper : {false, true}) {
+      for (int i = 0; i < kSize.at(u); ++i) {
+        for (int k = 0; k < kSize.at(v); ++k) {
+          const auto corner = [&](int di, int dk) {
+            std::array<int, 3> at{};
+            at.at(side) = upper ? kSize.at(side) : 0;
+            at.at(u) = i + di;
+            at.at(v) = k + dk;
+            return number(at);
+          };
+          Mesh::Triangle a{corner(0, 0), corner(1, 0), corner(1, 1)};
+          Mesh::Triangle b{corner(0, 0), corner(1, 1), corner(0, 1)};
+          if (!upper) {
+            std::swap(a[1], a[2]);
+            std::swap(b[1], b[2]);
+          }
+          mesh.triangles.push_back(a);
+          mesh.triangles.push_back(b);
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+TEST(Thickness, LeavesOutSharpEdgesInAnyOrientation) {
+  const Mesh mesh = turned_box();
+  const Thickness walls = thickness_of(RayScene(mesh));
+  const ThicknessSummary summary = summarize(mesh, walls);
+  // The vertices of twelve edges.
+  EXPECT_EQ(count_of(summary, ThicknessStatus::SharpEdge), 4U * (39U + 29U + 2U) + 8U);
+  EXPECT_EQ(count_of(summary, ThicknessStatus::Measured),
+            mesh.vertices_mm.size() - count_of(summary, ThicknessStatus::SharpEdge));
+  for (const float one : walls.thickness_mm) {
+    if (std::isnan(one)) continue;
+    const bool known = std::abs(one - 3.0F) < 1e-4F || std::abs(one - 30.0F) < 1e-4F ||
+                       std::abs(one - 40.0F) < 1e-4F;
+    EXPECT_TRUE(known) << one;
+  }
+}
+
+TEST(Thickness, AddsTheSystematicPartsOfBothWalls) {
+  Mesh mesh = turned_box();
+  const std::size_t count = mesh.vertices_mm.size();
+  mesh.sigma_noise_mm.assign(count, 0.004F);
+  mesh.sigma_systematic_mm.assign(count, 0.003F);
+  mesh.sigma_mm.assign(count, 0.005F);
+  const ThicknessSummary summary = summarize(mesh, thickness_of(RayScene(mesh)));
+  // Noise differs between the walls; an error that is alike in both, such as one of scale, adds up.
+  EXPECT_NEAR(summary.median_u_mm, std::hypot(0.004 * std::sqrt(2.0), 2.0 * 0.003), 1e-7);
 }
 
 TEST(Thickness, LeavesOutWallsThatWereNotMeasured) {

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::array<std::string_view, kThicknessStatuses> kThicknessNames{
-    "measured", "synthesized", "mesh_edge", "no_wall", "oblique", "unused"};
+    "measured", "synthesized", "mesh_edge", "no_wall", "oblique", "sharp_edge", "unused"};
 
 ThicknessStatus thickness_status_of(VertexUse use) {
   switch (use) {
@@ -35,15 +35,15 @@ ThicknessStatus thickness_status_of(VertexUse use) {
   return ThicknessStatus::Unused;
 }
 
-/// Standard uncertainty along the normal at a point of a triangle.
-double sigma_at(const Mesh& mesh, const RayHit& hit) {
+/// A value of the vertices at a point of a triangle.
+double value_at(const Mesh& mesh, const std::vector<float>& values, const RayHit& hit) {
   const Mesh::Triangle& corners = mesh.triangles[hit.triangle];
-  double sigma = 0.0;
+  double value = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    sigma += hit.barycentric[static_cast<Eigen::Index>(k)] *
-             static_cast<double>(mesh.sigma_mm[corners.at(k)]);
+    value +=
+        hit.barycentric[static_cast<Eigen::Index>(k)] * static_cast<double>(values[corners.at(k)]);
   }
-  return sigma;
+  return value;
 }
 
 /// Measures the walls of one mesh.
@@ -80,11 +80,39 @@ class WallFinder {
     }
     out.thickness_mm[i] = static_cast<float>(start_mm_ + hit->distance);
     if (out.u_mm.empty()) return;
-    out.u_mm[i] = static_cast<float>(
-        std::hypot(static_cast<double>(mesh.sigma_mm[i]), sigma_at(mesh, *hit) / cosine));
+    out.u_mm[i] = static_cast<float>(uncertainty(i, *hit, cosine));
+  }
+
+  /// Leaves out the vertices whose triangles face too differently.
+  void find_sharp_edges(std::vector<ThicknessStatus>& status) const {
+    const Mesh& mesh = scene_.mesh();
+    const double least = std::cos(options_.max_edge_rad);
+    for (const auto& triangle : mesh.triangles) {
+      const Vector3d a = mesh.vertices_mm[triangle[0]].cast<double>();
+      const Vector3d b = mesh.vertices_mm[triangle[1]].cast<double>();
+      const Vector3d c = mesh.vertices_mm[triangle[2]].cast<double>();
+      const Vector3d facing = (b - a).cross(c - a).normalized();
+      for (const std::uint32_t v : triangle) {
+        if (status[v] == ThicknessStatus::Measured &&
+            normals_[v].cast<double>().dot(facing) < least)
+          status[v] = ThicknessStatus::SharpEdge;
+      }
+    }
   }
 
  private:
+  /// Of a vertex and of the wall that the ray meets at an angle of this cosine.
+  [[nodiscard]] double uncertainty(std::size_t i, const RayHit& hit, double cosine) const {
+    const Mesh& mesh = scene_.mesh();
+    const std::vector<float>& noise = noise_mm_of(mesh);
+    const double independent =
+        std::hypot(static_cast<double>(noise[i]), value_at(mesh, noise, hit) / cosine);
+    const std::vector<float>& shared = mesh.sigma_systematic_mm;
+    if (shared.empty()) return independent;
+    return std::hypot(independent,
+                      static_cast<double>(shared[i]) + value_at(mesh, shared, hit) / cosine);
+  }
+
   const RayScene& scene_;
   const ThicknessOptions& options_;
   std::vector<Eigen::Vector3f> normals_;
@@ -114,6 +142,9 @@ void ThicknessOptions::check() const {
   if (!(max_tilt_rad > 0.0 && max_tilt_rad < kPi / 2.0))
     throw Error(ErrorKind::Input,
                 "ThicknessOptions: max_tilt_rad must be between 0 and 90 degrees");
+  if (!(max_edge_rad > 0.0 && max_edge_rad < kPi / 2.0))
+    throw Error(ErrorKind::Input,
+                "ThicknessOptions: max_edge_rad must be between 0 and 90 degrees");
 }
 
 Thickness thickness_of(const RayScene& scene, const ThicknessOptions& options, const Run& run) {
@@ -128,6 +159,7 @@ Thickness thickness_of(const RayScene& scene, const ThicknessOptions& options, c
   for (const VertexUse use : vertex_uses(mesh))
     out.status.push_back(thickness_status_of(use));
   const WallFinder finder(scene, options);
+  finder.find_sharp_edges(out.status);
   constexpr std::size_t kChunk = 4096;
   interruptible_chunks(count, kChunk, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -23,18 +23,23 @@ enum class ThicknessStatus : std::uint8_t {
   Synthesized,  ///< one of the two walls was not measured
   MeshEdge,     ///< on the boundary of the mesh, where the measurement ends
   NoWall,       ///< no wall faces it: the mesh is open there, or thicker than the limit
-  Oblique,      ///< the wall that faces it is inclined too much, as at edges and corners
+  Oblique,      ///< the wall that faces it is inclined too much
+  SharpEdge,    ///< its triangles face too differently for one normal
   Unused        ///< no triangle uses it
 };
-inline constexpr std::size_t kThicknessStatuses = 6;  ///< number of values of `ThicknessStatus`
+inline constexpr std::size_t kThicknessStatuses = 7;  ///< number of values of `ThicknessStatus`
 
-/// The name in files: measured, synthesized, mesh_edge, no_wall, oblique, unused.
+/// The name in files: measured, synthesized, mesh_edge, no_wall, oblique, sharp_edge,
+/// unused.
 [[nodiscard]] std::string_view name_of(ThicknessStatus status);
 
 /// What counts as the opposite wall.
 struct ThicknessOptions {
   double max_mm = std::numeric_limits<double>::infinity();  ///< a thicker wall is none
   double max_tilt_rad = rad_from_deg(45.0);  ///< between the normals of the two walls
+  /// Largest angle between the normal of a vertex and those of its triangles: 45 degrees at the
+  /// edge of a box, 15 on a cylinder of 12 facets.
+  double max_edge_rad = rad_from_deg(30.0);
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
@@ -51,7 +56,8 @@ struct Thickness {
 ///
 /// The ray method: it is exact between parallel walls and, unlike the largest inscribed sphere,
 /// does not fall to zero towards edges; an inclined wall gives the length of the ray. The
-/// uncertainty is that of both walls along the ray, combined as independent.
+/// uncertainty is that of both walls along the ray: their noise is independent, their systematic
+/// parts add up, since what is alike in both walls does not cancel.
 ///
 /// `scene` is that of `mesh`. The result has the same bytes for any number of threads.
 /// @units    mm

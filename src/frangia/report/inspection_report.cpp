@@ -109,6 +109,7 @@ void add_walls(HtmlPage& page, const InspectionReport& report) {
       "left out: at the edge of the mesh",
       "left out: no opposite wall",
       "left out: the opposite wall is inclined by more than 45 degrees",
+      "left out: at a sharp edge",
       "left out: without a triangle"};
   Rows vertices;
   for (std::size_t i = 0; i < kThicknessStatuses; ++i) {
