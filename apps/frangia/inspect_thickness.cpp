@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/inspect/deviation_summary.h"
@@ -13,6 +15,21 @@
 #include "json_number.h"
 
 namespace frangia {
+
+namespace {
+
+/// A line that names how many vertices were left out, and why; empty for none.
+std::string without_thickness(const ThicknessSummary& summary) {
+  std::vector<std::string> reasons;
+  for (std::size_t i = 1; i < kThicknessStatuses; ++i) {
+    std::string name(name_of(static_cast<ThicknessStatus>(i)));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    if (summary.count.at(i) > 0) reasons.push_back(fmt::format("{} {}", summary.count.at(i), name));
+  }
+  return reasons.empty() ? "" : fmt::format("vertices left out: {}\n", fmt::join(reasons, ", "));
+}
+
+}  // namespace
 
 MeasuredWalls measure_walls(const Mesh& mesh, const Run& run) {
   run.stage("thickness");
@@ -43,7 +60,8 @@ void add_thickness(InspectAnswer& answer, const MeasuredWalls& walls) {
   const std::size_t measured =
       summary.count.at(static_cast<std::size_t>(ThicknessStatus::Measured));
   if (measured == 0) {
-    answer.text += "thickness: no vertex faces a wall that was measured\n";
+    answer.text +=
+        "thickness: no vertex faces a wall that was measured\n" + without_thickness(summary);
     return;
   }
   answer.text += fmt::format(
@@ -57,6 +75,11 @@ void add_thickness(InspectAnswer& answer, const MeasuredWalls& walls) {
       fixed_text(at.x(), 2),
       fixed_text(at.y(), 2),
       fixed_text(at.z(), 2));
+  answer.text += std::isfinite(summary.median_u_mm)
+                     ? fmt::format("its standard uncertainty: {} mm, median\n",
+                                   fixed_text(summary.median_u_mm, 4))
+                     : "the mesh has no sigma: the uncertainty of the thickness is not known\n";
+  answer.text += without_thickness(summary);
 }
 
 RenderOptions thickness_picture(const InspectArguments& arguments,

@@ -154,6 +154,13 @@ TEST(Batch, StatesTheCapabilityOfTheProcess) {
   const std::string csv = batch_csv(parts, all);
   EXPECT_NE(csv.find("Cpk,1.33"), std::string::npos) << csv;
   EXPECT_NE(batch_html("<batch>", parts, all).find("&lt;batch&gt;"), std::string::npos);
+  // Two parts prove no Cpk above 0, although the mean is amid the limits.
+  const std::vector<BatchPart> two{{"a", {row_of(9.97)}}, {"b", {row_of(10.03)}}};
+  const auto few = batch_characteristics(two);
+  EXPECT_GT(few[0].cpk, 0.7);
+  EXPECT_LT(few[0].cpk_lower_95, 0.0);
+  EXPECT_NE(batch_csv(two, few).find("95 %,too few parts"), std::string::npos)
+      << batch_csv(two, few);
   // A limit on one side has a Cpk and no Cp.
   for (BatchPart& part : parts)
     part.rows[0].limits->lower = -std::numeric_limits<double>::infinity();

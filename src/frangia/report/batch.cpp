@@ -131,8 +131,9 @@ const std::vector<std::pair<const char*, TextOf>>& statistics_lines() {
       {"Cp", [](const BatchCharacteristic& one) { return value_text(one.cp, 2); }},
       {"Cpk", [](const BatchCharacteristic& one) { return value_text(one.cpk, 2); }},
       {"Cpk exceeds, 95 %", [](const BatchCharacteristic& one) {
-         const bool proven = !(one.cpk_lower_95 < 0.0);
-         return proven ? value_text(one.cpk_lower_95, 2) : std::string("nothing above 0");
+         if (!(one.cpk_lower_95 < 0.0)) return value_text(one.cpk_lower_95, 2);
+         // The mean is within the limits, but so few parts prove nothing about the process.
+         return std::string(one.cpk > 0.0 ? "too few parts" : "nothing above 0");
        }}};
   return lines;
 }
@@ -223,7 +224,8 @@ std::string batch_html(const std::string& title,
       "Cp and Cpk are computed from the standard deviation of the measured values, which contains "
       "the uncertainty of the measurement. Few parts say little about a process: the last line "
       "states "
-      "the Cpk that it exceeds with a probability of 95 %.");
+      "the Cpk that it exceeds with a probability of 95 %, or that too few were measured to prove "
+      "any above 0.");
   page.heading("Trends");
   page.begin_figures();
   for (const BatchCharacteristic& one : characteristics)

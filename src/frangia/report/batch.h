@@ -28,7 +28,8 @@ struct BatchCharacteristic {
   /// over 3 s. NaN without the limits that they need, or below two values.
   double cp = kMissing;
   double cpk = kMissing;  ///< see `cp`; of one-sided limits, too
-  /// The Cpk that the process exceeds with a probability of 95 %: of few parts it lies far below.
+  /// The Cpk that the process exceeds with a probability of 95 %: of few parts it lies far below,
+  /// and negative where they prove nothing.
   double cpk_lower_95 = kMissing;
 };
 
