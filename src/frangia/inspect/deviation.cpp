@@ -80,6 +80,15 @@ class DeviationFinder {
     }
   }
 
+  /// A measured edge is rounded or broken by the distance of its points, which no sigma states.
+  void leave_out_sharp_edges(std::vector<DeviationStatus>& status) const {
+    const auto sharp = sharp_edge_flags(mesh_, normals_);
+    for (std::size_t i = 0; i < status.size(); ++i) {
+      if (status[i] == DeviationStatus::Compared && sharp[i] != 0)
+        status[i] = DeviationStatus::SharpEdge;
+    }
+  }
+
   [[nodiscard]] Vector3d normal(std::size_t vertex) const {
     return normals_[vertex].cast<double>();
   }
@@ -177,8 +186,14 @@ class DeviationFinder {
 }  // namespace
 
 std::string_view name_of(DeviationStatus status) {
-  constexpr std::array<std::string_view, kDeviationStatuses> kNames{
-      "compared", "synthesized", "mesh_edge", "reference_edge", "other_side", "too_far", "unused"};
+  constexpr std::array<std::string_view, kDeviationStatuses> kNames{"compared",
+                                                                    "synthesized",
+                                                                    "mesh_edge",
+                                                                    "reference_edge",
+                                                                    "sharp_edge",
+                                                                    "other_side",
+                                                                    "too_far",
+                                                                    "unused"};
   return kNames.at(static_cast<std::size_t>(status));
 }
 
@@ -205,6 +220,7 @@ Deviations deviations_of(const Mesh& mesh,
   if (!mesh.sigma_mm.empty()) found.u_mm.assign(count, kMissing);
   found.status = initial_status(mesh);
   const DeviationFinder finder(mesh, reference, options);
+  if (!mesh.sigma_mm.empty()) finder.leave_out_sharp_edges(found.status);
   constexpr std::size_t kChunk = 4096;
   constexpr std::size_t kBlock = 64 * kChunk;  // between reports of progress
   for (std::size_t done = 0; done < count; done += kBlock) {

@@ -21,14 +21,15 @@ enum class DeviationStatus : std::uint8_t {
   Synthesized,    ///< it, or all of its triangles, were not measured
   MeshEdge,       ///< on the boundary of the mesh, where the measurement ends
   ReferenceEdge,  ///< its nearest point is on the boundary of an open reference
+  SharpEdge,      ///< at an edge of the mesh that its resolution rounds or breaks
   OtherSide,      ///< the nearest surface faces the other way
   TooFar,         ///< farther from the reference than the limit
   Unused          ///< no triangle uses it
 };
-inline constexpr std::size_t kDeviationStatuses = 7;  ///< number of values of `DeviationStatus`
+inline constexpr std::size_t kDeviationStatuses = 8;  ///< number of values of `DeviationStatus`
 
-/// The name in files: compared, synthesized, mesh_edge, reference_edge, other_side, too_far,
-/// unused.
+/// The name in files: compared, synthesized, mesh_edge, reference_edge, sharp_edge, other_side,
+/// too_far, unused.
 [[nodiscard]] std::string_view name_of(DeviationStatus status);
 
 /// What is compared, and the uncertainty beside that of the vertices.
@@ -60,7 +61,8 @@ struct Deviations {
 ///
 /// The result has the same bytes for any number of threads.
 /// @units    mm
-/// @missing  NaN for the vertices that `DeviationStatus` leaves out
+/// @missing  NaN for the vertices that `DeviationStatus` leaves out; those at sharp edges only of a
+///           mesh with a sigma, which was measured
 /// @errors   Error(Input) when either mesh has no triangles; Error(Cancelled)
 /// @source   point to triangle: Ericson 2004; GUM (JCGM 100:2008), 5.1.2
 [[nodiscard]] Deviations deviations_of(const Mesh& mesh,

@@ -85,18 +85,10 @@ class WallFinder {
 
   /// Leaves out the vertices whose triangles face too differently.
   void find_sharp_edges(std::vector<ThicknessStatus>& status) const {
-    const Mesh& mesh = scene_.mesh();
-    const double least = std::cos(options_.max_edge_rad);
-    for (const auto& triangle : mesh.triangles) {
-      const Vector3d a = mesh.vertices_mm[triangle[0]].cast<double>();
-      const Vector3d b = mesh.vertices_mm[triangle[1]].cast<double>();
-      const Vector3d c = mesh.vertices_mm[triangle[2]].cast<double>();
-      const Vector3d facing = (b - a).cross(c - a).normalized();
-      for (const std::uint32_t v : triangle) {
-        if (status[v] == ThicknessStatus::Measured &&
-            normals_[v].cast<double>().dot(facing) < least)
-          status[v] = ThicknessStatus::SharpEdge;
-      }
+    const auto sharp = sharp_edge_flags(scene_.mesh(), normals_, options_.max_edge_rad);
+    for (std::size_t i = 0; i < status.size(); ++i) {
+      if (status[i] == ThicknessStatus::Measured && sharp[i] != 0)
+        status[i] = ThicknessStatus::SharpEdge;
     }
   }
 

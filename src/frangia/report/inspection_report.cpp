@@ -77,6 +77,7 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
       "left out: synthesized",
       "left out: at the edge of the mesh",
       "left out: at the edge of the reference",
+      "left out: at a sharp edge, which is rounded by the distance of the points",
       "left out: the nearest surface faces the other way",
       "left out: too far from the reference",
       "left out: without a triangle"};

@@ -14,8 +14,8 @@
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
 #include "frangia/dataset/write_scan.h"
-#include "frangia/rig/write_rig.h"
 #include "frangia/rig/crossing_of_axes.h"
+#include "frangia/rig/write_rig.h"
 #include "frangia/simulate/internal/sheet.h"
 #include "frangia/simulate/simulate_scan.h"
 

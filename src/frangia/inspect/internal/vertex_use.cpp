@@ -42,6 +42,22 @@ std::vector<VertexUse> vertex_uses(const Mesh& mesh) {
   return status;
 }
 
+std::vector<std::uint8_t> sharp_edge_flags(const Mesh& mesh,
+                                           const std::vector<Eigen::Vector3f>& normals,
+                                           double max_rad) {
+  std::vector<std::uint8_t> flags(mesh.vertices_mm.size(), 0);
+  const double least = std::cos(max_rad);
+  for (const auto& triangle : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices_mm[triangle[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.vertices_mm[triangle[1]].cast<double>();
+    const Eigen::Vector3d c = mesh.vertices_mm[triangle[2]].cast<double>();
+    const Eigen::Vector3d facing = (b - a).cross(c - a).normalized();
+    for (const std::uint32_t v : triangle)
+      if (normals[v].cast<double>().dot(facing) < least) flags[v] = 1;
+  }
+  return flags;
+}
+
 std::vector<double> vertex_areas(const Mesh& mesh) {
   std::vector<double> areas(mesh.vertices_mm.size(), 0.0);
   for (const auto& [a, b, c] : mesh.triangles) {
