@@ -193,7 +193,7 @@ void add_accept_verb(CLI::App& program, Terminal& terminal) {
       program.add_subcommand("accept", "test a scanner with a ball bar or ball, and certify it");
   verb->footer(
       "Example:\n"
-      "  frangia accept examples/acceptance.toml -o acceptance\n"
+      "  frangia accept examples/acceptance/ball-bar.toml -o acceptance\n"
       "The plan names the artifact, the limits, and whether scans exist, are captured by devices\n"
       "or are simulated. Repeat the same command to continue a test that was interrupted.");
   auto arguments = std::make_shared<AcceptArguments>();

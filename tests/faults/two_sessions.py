@@ -1,4 +1,5 @@
 """Two scans into the same folder at once: one is refused by name, and the frames are those of the other."""
+import signal
 import subprocess
 import time
 
@@ -7,14 +8,9 @@ from campaign import Answer
 
 def run(campaign):
     answer = Answer("two_sessions", "two `scan` commands into one folder at once", campaign.count(2, 40))
-    seconds = campaign.whole()[1]
     for i in range(answer.tried):
         scan = campaign.fresh("shared")
-        processes = []
-        for delay in (0.0, campaign.random.uniform(0.0, 0.5 * seconds)):
-            time.sleep(delay)
-            processes.append(subprocess.Popen(campaign.scan_command(scan), stderr=subprocess.PIPE, text=True))
-        errors = [process.communicate(timeout=60)[1] for process in processes]
+        processes, errors = start_both(campaign, scan, together=i % 2 == 0)
         refused = [error for process, error in zip(processes, errors) if process.returncode != 0]
         if len(refused) != 1:
             answer.failures.append(f"run {i + 1}: {len(refused)} of two scans were refused")
@@ -22,3 +18,26 @@ def run(campaign):
             answer.failures.append(f"run {i + 1}: the refusal names no process: {refused[0].strip()}")
         campaign.finish(scan, answer, f"run {i + 1}")
     return answer
+
+
+def start_both(campaign, scan, together):
+    """Both processes, ended, and what each wrote: started together, or the second while the first, halted, owns the folder."""
+    first = start(campaign, scan)
+    if not together:
+        while first.poll() is None and not (scan / ".frangia-lock").exists():
+            time.sleep(0.001)
+        time.sleep(campaign.random.uniform(0.0, 0.1 * campaign.whole()[1]))
+        first.send_signal(signal.SIGSTOP)
+    second = start(campaign, scan)
+    processes = [first, second]
+    if not together:
+        processes.reverse()  # the halted one goes on when the other has ended
+    errors = []
+    for process in processes:
+        process.send_signal(signal.SIGCONT)
+        errors.append(process.communicate(timeout=60)[1])
+    return processes, errors
+
+
+def start(campaign, scan):
+    return subprocess.Popen(campaign.scan_command(scan), stderr=subprocess.PIPE, text=True)

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -32,14 +34,22 @@ bool is_at(int file, const std::filesystem::path& path) {
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  std::ifstream in(file);
+/// What the owner wrote into the lock file. It locks first: its line may be a moment late.
+std::string owner_of(const std::filesystem::path& file) {
   std::string owner;
-  std::getline(in, owner);
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    std::ifstream in(file);
+    if (std::getline(in, owner) && !in.eof()) return owner;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return "another process";
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& folder, const std::filesystem::path& file) {
   throw Error(ErrorKind::Input,
               fmt::format("{}: {} is writing to this folder; wait until it ends, or stop it",
                           folder.string(),
-                          owner.empty() ? "another process" : owner));
+                          owner_of(file)));
 }
 
 /// Opens and locks the file at `path`.
