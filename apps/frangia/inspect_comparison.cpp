@@ -9,6 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/lowercase_extension.h"
+#include "frangia/core/percent_text.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/deviation_csv.h"
 #include "frangia/files/ply.h"
@@ -113,16 +114,16 @@ void add_deviations(InspectAnswer& answer, const Comparison& comparison) {
       {"largest_temperature_u_mm", comparison.deviations.largest_temperature_u_mm},
       {"vertices", json_of_counts(summary)}};
   answer.text += fmt::format(
-      "deviation: {} to {} mm; of {:.0f} mm2 compared, {:.2f} % are in {} to {} mm, {:.2f} % out, "
-      "{:.2f} % undecided; the part is {}\n",
+      "deviation: {} to {} mm; of {:.0f} mm2 compared, {} are in {} to {} mm, {} out, {} "
+      "undecided; the part is {}\n",
       signed_text(summary.min_mm, 4),
       signed_text(summary.max_mm, 4),
       summary.area_mm2,
-      100.0 * summary.in_share,
+      percent_text(summary.in_share),
       signed_text(summary.limits.lower, 4),
       signed_text(summary.limits.upper, 4),
-      100.0 * summary.out_share,
-      100.0 * summary.undecided_share,
+      percent_text(summary.out_share),
+      percent_text(summary.undecided_share),
       summary.verdict == Conformity::Undecided ? "undecided"
       : summary.verdict == Conformity::In      ? "in tolerance"
                                                : "out of tolerance");

@@ -8,6 +8,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
+#include "frangia/core/percent_text.h"
 #include "frangia/report/html_page.h"
 
 namespace frangia {
@@ -64,9 +65,9 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
   page.table({"quantity", "value"},
              {{"tolerance, mm", fmt::format("{:+.4g} to {:+.4g}", d.limits.lower, d.limits.upper)},
               {"compared area, mm²", number_text(d.area_mm2, 1)},
-              {"share in", fmt::format("{:.2f} %", 100.0 * d.in_share)},
-              {"share out", fmt::format("{:.2f} %", 100.0 * d.out_share)},
-              {"share undecided", fmt::format("{:.2f} %", 100.0 * d.undecided_share)},
+              {"share in", percent_text(d.in_share)},
+              {"share out", percent_text(d.out_share)},
+              {"share undecided", percent_text(d.undecided_share)},
               {"smallest, mm", fmt::format("{:+.4f}", d.min_mm)},
               {"largest, mm", fmt::format("{:+.4f}", d.max_mm)},
               {"mean, mm", fmt::format("{:+.4f}", d.mean_mm)},
