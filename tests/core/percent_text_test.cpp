@@ -1,0 +1,17 @@
+#include "frangia/core/percent_text.h"
+
+#include <gtest/gtest.h>
+
+namespace frangia {
+namespace {
+
+TEST(PercentText, DoesNotRoundToNothingOrAll) {
+  EXPECT_EQ(percent_text(0.0), "0.00 %");
+  EXPECT_EQ(percent_text(1e-6), "under 0.01 %");
+  EXPECT_EQ(percent_text(0.1234), "12.34 %");
+  EXPECT_EQ(percent_text(1.0 - 1e-6), "over 99.99 %");
+  EXPECT_EQ(percent_text(1.0), "100.00 %");
+}
+
+}  // namespace
+}  // namespace frangia
