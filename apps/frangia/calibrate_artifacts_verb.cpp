@@ -79,6 +79,14 @@ void print_table(const ArtifactCalibration& result) {
                deg_from_rad(sigma_in(rig, "projector.rotation_y_rad")),
                angular->pitch_scale,
                sigma_in(rig, "projector.pitch_scale"));
+    if (!angular->wavefront.is_plane()) {
+      std::vector<double> deviations;
+      for (const double coefficient : angular->wavefront.coefficients_rad)
+        deviations.push_back(deg_from_rad(coefficient));
+      print_text("  {:<10} wavefront {} degrees (uu, vv, uuu, uuv, uvv, vvv)\n",
+                 "",
+                 fmt::format("{:.4f}", fmt::join(deviations, ", ")));
+    }
   }
   print_text("  {:<10} direction ± {:.4f} degrees, place ± {:.4f} mm, angles ± {:.4f} degrees\n",
              "turntable",

@@ -48,32 +48,47 @@ Eigen::Isometry3d turned(const Rig& rig, double angle_rad) {
          Eigen::Translation3d(-rig.turntable->point_mm);
 }
 
+/// Deviations of a wavefront at the edge of the field, rad: by psi squared, and by the cube of the
+/// elevation.
+struct Bend {
+  double uu = 0.0;
+  double vvv = 0.0;
+};
+
 /// Nominal psi of a point.
-double psi_of(const Eigen::Vector3d& point) {
+double psi_of(const Eigen::Vector3d& point, const Bend& bend) {
   const Rig rig = true_rig();
   const Eigen::Vector3d p = rig.projector.rotation * (point - rig.projector.position_mm);
-  return std::atan2(p.x(), p.z()) / kPitch;
+  const double psi = std::atan2(p.x(), p.z());
+  const double half = rad_from_deg(12.0);
+  const double u = psi / half;
+  const double v = p.y() / std::hypot(p.x(), p.z()) / half;
+  return (psi + bend.uu * u * u + bend.vvv * v * v * v) / kPitch;
 }
 
 class Noise {
  public:
-  explicit Noise(unsigned seed) : random_(seed) {}
+  explicit Noise(unsigned seed, const Bend& bend) : random_(seed), bend_(bend) {}
   LightSite site(const Eigen::Vector2d& pixel, const Eigen::Vector3d& point) {
     LightSite out;
     out.camera_px = pixel;
-    out.light.x() = psi_of(point) + kNoise_rad * normal_(random_);
+    out.light.x() = psi_of(point, bend_) + kNoise_rad * normal_(random_);
     out.sigma.x() = 0.5 * kNoise_rad;  // not the true noise
     return out;
   }
 
  private:
   std::mt19937 random_;
+  Bend bend_;
   std::normal_distribution<double> normal_{0.0, 1.0};
 };
 
 /// A plate that leans by 14 degrees beside the axis, at `views` angles over `span`; `errors` of the
 /// table.
-ArtifactCapture plate_capture(int views, double span_rad, double error_rad = 0.0) {
+ArtifactCapture plate_capture(int views,
+                              double span_rad,
+                              double error_rad = 0.0,
+                              const Bend& bend = {}) {
   const Rig rig = true_rig();
   const Eigen::Vector3d axis = rig.turntable->axis;
   Eigen::Vector3d normal = -Eigen::Vector3d::UnitZ() + 0.17 * Eigen::Vector3d::UnitX();
@@ -81,7 +96,7 @@ ArtifactCapture plate_capture(int views, double span_rad, double error_rad = 0.0
   normal = Eigen::AngleAxisd(0.25, axis.cross(normal).normalized()) * normal;
   const double offset = normal.dot(rig.turntable->point_mm) + 5.0;
   ArtifactCapture capture{Plate{}, {}, {}};
-  Noise noise(5);
+  Noise noise(5, bend);
   for (int i = 0; i < views; ++i) {
     const double angle = span_rad * (static_cast<double>(i) / (views - 1) - 0.5);
     // The first view defines the place of the plate.
@@ -109,14 +124,14 @@ ArtifactCapture plate_capture(int views, double span_rad, double error_rad = 0.0
   return capture;
 }
 
-ArtifactCapture ball_capture(int views) {
+ArtifactCapture ball_capture(int views, const Bend& bend = {}) {
   const Rig rig = true_rig();
   const Balls balls{40.0, 70.0};
   const Eigen::Vector3d up = rig.turntable->axis;
   const Eigen::Vector3d middle = rig.turntable->point_mm + 55.0 * up;
   const Eigen::Vector3d along = up.cross(Eigen::Vector3d::UnitZ()).normalized();
   ArtifactCapture capture{balls, {}, {}};
-  Noise noise(6);
+  Noise noise(6, bend);
   const std::vector<Eigen::Vector3d> centers = {middle - 35.0 * along, middle + 35.0 * along};
   for (int i = 0; i < views; ++i) {
     const double angle = 0.25 * (i - 0.5 * (views - 1));
@@ -182,6 +197,32 @@ TEST(SolveArtifacts, FindsAnAngularRigFromAPlateAndABallBar) {
   EXPECT_NEAR(found.diameters_mm[1][0], 40.0, 0.02);
   EXPECT_EQ(std::count(found.held.begin(), found.held.end(), "scale"), 0);
   EXPECT_EQ(found.held.front(), "shift of the projector along its fringes");
+}
+
+TEST(SolveArtifacts, FindsTheWavefrontThatTheDataHolds) {
+  const Bend bend{rad_from_deg(0.02), rad_from_deg(-0.01)};
+  const std::vector<ArtifactCapture> captures = {plate_capture(13, 2.1, 0.0, bend),
+                                                 ball_capture(5, bend)};
+  const ArtifactSolution found = solve_artifacts(captures, true_rig());
+  expect_angular_rig(found);
+  EXPECT_NEAR(found.light_noise, 2.0, 0.2);  // nothing of the bend is left in the residuals
+  const Wavefront& wavefront = std::get<AngularModel>(found.rig.projector.model).wavefront;
+  const std::array<double, Wavefront::kTerms> truth = {bend.uu, 0.0, 0.0, 0.0, 0.0, bend.vvv};
+  ASSERT_EQ(found.parameters.size(), 16U + Wavefront::kTerms);
+  for (std::size_t i = 0; i < Wavefront::kTerms; ++i) {
+    const auto row = static_cast<Eigen::Index>(16 + i);
+    const double sigma = std::sqrt(found.covariance(row, row));
+    EXPECT_LT(std::abs(wavefront.coefficients_rad.at(i) - truth.at(i)), 4.0 * sigma)
+        << found.parameters[16 + i];
+    EXPECT_LT(sigma, rad_from_deg(0.004)) << found.parameters[16 + i];
+  }
+}
+
+TEST(SolveArtifacts, FindsNoWavefrontInNoise) {
+  const ArtifactSolution found = solve_artifacts(
+      std::vector<ArtifactCapture>{plate_capture(13, 2.1), ball_capture(5)}, true_rig());
+  EXPECT_TRUE(std::get<AngularModel>(found.rig.projector.model).wavefront.is_plane());
+  EXPECT_EQ(found.parameters.size(), 16U);
 }
 
 TEST(SolveArtifacts, TakesTheScaleFromALengthOrNamesItAsHeld) {

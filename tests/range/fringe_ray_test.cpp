@@ -21,6 +21,13 @@ Projector angular() {
   return projector;
 }
 
+Projector angular_with_wavefront() {
+  Projector projector = angular();
+  std::get<AngularModel>(projector.model).wavefront.coefficients_rad = {
+      2e-4, -3e-4, 1e-4, 5e-5, -1e-4, 2e-4};
+  return projector;
+}
+
 Projector pinhole() {
   Projector projector;
   projector.model = CameraModel{.width_px = 1280,
@@ -76,6 +83,7 @@ TEST_P(FringeRay, GivesTheDerivativeOfDepthWithRespectToPhase) {
 INSTANTIATE_TEST_SUITE_P(Projectors,
                          FringeRay,
                          ::testing::Values(std::pair(degrees(), angular()),
+                                           std::pair(degrees(), angular_with_wavefront()),
                                            std::pair(columns(), pinhole()),
                                            std::pair(rows(), pinhole())));
 

@@ -81,6 +81,18 @@ TEST(ReadRig, ReadsBackAWrittenRig) {
   EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
 }
 
+TEST(ReadRig, ReadsBackAWavefront) {
+  const TemporaryFolder folder;
+  Rig rig = make_paper_rig({});
+  auto& wavefront = std::get<AngularModel>(rig.projector.model).wavefront;
+  wavefront.coefficients_rad = {1e-4, -2e-4, 3e-5, 0.0, 5e-5, -6e-5};
+  write_rig(folder.path() / "rig.toml", rig);
+  const Rig back = read_rig(folder.path() / "rig.toml");
+  const auto& read = std::get<AngularModel>(back.projector.model).wavefront;
+  for (std::size_t i = 0; i < Wavefront::kTerms; ++i)
+    EXPECT_NEAR(read.coefficients_rad.at(i), wavefront.coefficients_rad.at(i), 1e-15) << i;
+}
+
 TEST(ReadRig, TakesTheLensModelsOfOpenCv) {
   const TemporaryFolder folder;
   const std::string five = "[-0.09, 0.05, 4e-4, -3e-4, 0.0]";

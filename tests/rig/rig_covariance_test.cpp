@@ -107,6 +107,18 @@ TEST(ChangeParameters, MovesEachParameterAsTheCovarianceDefinesIt) {
   EXPECT_DOUBLE_EQ(changed.camera.model.distortion[2], 1e-3);
 }
 
+TEST(ChangeParameters, ChangesATermOfTheWavefront) {
+  Rig rig = make_paper_rig({});
+  std::get<AngularModel>(rig.projector.model).wavefront.coefficients_rad[1] = 1e-4;
+  const std::vector<std::string> names = rig_parameter_names(rig);
+  ASSERT_EQ(names.back(), "projector.wavefront_vvv_rad");
+  const Rig changed = change_parameters(
+      rig, {"projector.wavefront_vv_rad", names.back()}, Eigen::Vector2d(2e-4, -1e-5));
+  const auto& after = std::get<AngularModel>(changed.projector.model).wavefront;
+  EXPECT_DOUBLE_EQ(after.coefficients_rad[1], 3e-4);
+  EXPECT_DOUBLE_EQ(after.coefficients_rad[5], -1e-5);
+}
+
 TEST(ChangeParameters, TurnsAndShiftsTheProjectorInOpenCvsConvention) {
   const Rig rig = pinhole_rig();
   const Eigen::AngleAxisd turn(rig.projector.rotation);

@@ -14,6 +14,7 @@
 #include "frangia/calibrate/internal/check_artifact_captures.h"
 #include "frangia/calibrate/internal/fit_sheet.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
+#include "frangia/calibrate/internal/select_wavefront.h"
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/rig/rig_covariance.h"
@@ -122,6 +123,17 @@ std::vector<ArtifactCapture> thinned(std::span<const ArtifactCapture> captures) 
   return some;
 }
 
+/// Estimates the terms of the wavefront that the residuals call for.
+void release_wavefront(ArtifactProblem& problem, ArtifactFit& fit, const Run& run) {
+  for (;;) {
+    const auto missing = missing_wavefront_terms(problem, fit.noise, fit.parameters);
+    if (std::none_of(missing.begin(), missing.end(), [](bool is) { return is; })) return;
+    for (std::size_t i = 0; i < missing.size(); ++i)
+      problem.free_wavefront.at(i) = problem.free_wavefront.at(i) || missing.at(i);
+    adjust_in_rounds(problem, fit, run);
+  }
+}
+
 /// Covariance by the names of the rig; parameters that are held have none.
 void set_covariance(const ArtifactInverse& inverse, ArtifactSolution& out) {
   out.parameters = rig_parameter_names(out.rig);
@@ -183,6 +195,8 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
   std::copy(
       fit.parameters.pose.begin(), fit.parameters.pose.end(), problem.prior_mean.begin() + 18);
   problem.prior_mean[24] = fit.parameters.pitch_scale;
+  for (std::size_t i = 0; i < Wavefront::kTerms; ++i)
+    problem.free_wavefront.at(i) = fit.parameters.wavefront.at(i) != 0.0;
   fit.noise.angle_rad = options.angle_sigma_rad;
   // A start of some degrees takes many iterations, for which few sites are enough.
   const std::vector<ArtifactCapture> some = thinned(captures);
@@ -191,6 +205,7 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
   problem.captures = captures;
   fit.noise.angle_rad = options.angle_sigma_rad;
   adjust_in_rounds(problem, fit, run);
+  release_wavefront(problem, fit, run);
   if (!fit.inverse.open.empty()) {
     throw Error(ErrorKind::Input,
                 fmt::format("the views do not determine {}; add views at other angles of the "

@@ -71,10 +71,11 @@ struct ArtifactSolution {
 /// bundle adjustment over all captures: the light at each site is predicted from the intersection
 /// of the camera's ray with the artifact, at the table's angle, and compared with the phase.
 ///
-/// An angular projector is estimated whole, with its pitch. A digital projector's intrinsics, and
-/// those of the camera, are adjusted within the covariance of `start.calibration`, or held where it
-/// has none. The turntable's angles are estimated with a prior. The laser sheet is then fitted to
-/// its line on the artifacts.
+/// An angular projector is estimated whole, with its pitch and those terms of its wavefront that
+/// the start has or the residuals call for. A digital projector's intrinsics, and those of the
+/// camera, are adjusted within the covariance of `start.calibration`, or held where it has none.
+/// The turntable's angles are estimated with a prior. The laser sheet is then fitted to its line on
+/// the artifacts.
 ///
 /// @units    mm, rad, px
 /// @missing  a site with one direction enters by it alone

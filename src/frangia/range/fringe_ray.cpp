@@ -33,6 +33,35 @@ RayDepth intersect_angle(const Eigen::Vector3d& direction,
   return intersect_plane(direction, c * x - s * z, -s * x - c * z, projector.position_mm);
 }
 
+/// Intersects the ray with a surface of constant `fringe_angle_rad`: the plane of even fringes
+/// gives the start; Newton's method along the ray then solves for the wavefront.
+RayDepth intersect_wavefront(const Eigen::Vector3d& direction,
+                             double angle_rad,
+                             const Projector& projector) {
+  const auto& angular = std::get<AngularModel>(projector.model);
+  RayDepth found = intersect_angle(direction, angular.pitch_scale * angle_rad, projector);
+  found.mm_per_rad *= angular.pitch_scale;
+  if (angular.wavefront.is_plane()) return found;
+  const Eigen::Vector3d step = projector.rotation * direction;
+  constexpr int kIterations = 12;
+  for (int i = 0; i < kIterations; ++i) {
+    const Eigen::Vector3d p = projector.from_rig(found.depth_mm * direction);
+    if (!(p.z() > 0.0)) return {kNowhere, kNowhere};
+    const double error = angular.fringe_angle_rad(p) - angle_rad;
+    // The deviation is smooth: a difference over some ten thousandths of the depth is
+    // its derivative.
+    const double side = 1e-4 * found.depth_mm;
+    const double rad_per_mm =
+        (angular.fringe_angle_rad(p + side * step) - angular.fringe_angle_rad(p - side * step)) /
+        (2.0 * side);
+    found.mm_per_rad = 1.0 / rad_per_mm;
+    if (std::abs(error) < 1e-12) return found;
+    found.depth_mm -= error / rad_per_mm;
+    if (!(found.depth_mm > 0.0)) return {kNowhere, kNowhere};
+  }
+  return {kNowhere, kNowhere};
+}
+
 /// Intersects the ray with a projector column (axis 0) or row (axis 1). The undistorted column is a
 /// plane and gives the start; Newton's method along the ray then solves for the distorted one.
 RayDepth intersect_pixel(const Eigen::Vector3d& direction,
@@ -74,9 +103,8 @@ RayDepth intersect_fringe(const Eigen::Vector2d& ray,
   const double unit_per_rad = 1.0 / (kTwoPi * pattern.fringes_per_unit());
   const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
   if (projector.is_angular()) {
-    const double scale = std::get<AngularModel>(projector.model).pitch_scale;
-    RayDepth found = intersect_angle(direction, scale * rad_from_deg(unit), projector);
-    found.mm_per_rad *= scale * rad_from_deg(unit_per_rad);
+    RayDepth found = intersect_wavefront(direction, rad_from_deg(unit), projector);
+    found.mm_per_rad *= rad_from_deg(unit_per_rad);
     return found;
   }
   const int axis = pattern.direction == FringeDirection::Horizontal ? 1 : 0;
@@ -92,7 +120,7 @@ double phase_at(const Eigen::Vector3d& point_mm,
   const double rad_per_unit = kTwoPi * pattern.fringes_per_unit();
   if (!(p.z() > 0.0)) return kNowhere;
   if (const auto* angular = std::get_if<AngularModel>(&projector.model))
-    return rad_per_unit * deg_from_rad(std::atan2(p.x(), p.z())) / angular->pitch_scale;
+    return rad_per_unit * deg_from_rad(angular->fringe_angle_rad(p));
   const int axis = pattern.direction == FringeDirection::Horizontal ? 1 : 0;
   return rad_per_unit * std::get<PinholeModel>(projector.model).project(p)(axis);
 }

@@ -80,6 +80,17 @@ std::map<std::string, ChangedDevice, std::less<>> devices_of(Rig& rig) {
   return devices;
 }
 
+/// The coefficient of the wavefront with a name; null for another name or projector.
+double* wavefront_coefficient(Rig& rig, std::string_view name) {
+  auto* angular = std::get_if<AngularModel>(&rig.projector.model);
+  if (angular == nullptr) return nullptr;
+  for (std::size_t i = 0; i < Wavefront::kTerms; ++i) {
+    if (name == fmt::format("{}{}_rad", kWavefrontPrefix, Wavefront::kNames.at(i)))
+      return &angular->wavefront.coefficients_rad.at(i);
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 Rig change_parameters(const Rig& rig,
@@ -103,6 +114,8 @@ Rig change_parameters(const Rig& rig,
       device->second.pose[static_cast<Eigen::Index>(in_pose)] += change;
     } else if (name == kPitchScaleName && changed.projector.is_angular()) {
       std::get<AngularModel>(changed.projector.model).pitch_scale += change;
+    } else if (double* coefficient = wavefront_coefficient(changed, name)) {
+      *coefficient += change;
     } else {
       throw Error(ErrorKind::Input, fmt::format("'{}' is not a parameter of this rig", name));
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -10,15 +12,36 @@
 #include "frangia/rig/camera_model.h"
 #include "frangia/rig/fringe_waveform.h"
 #include "frangia/rig/response_curve.h"
+#include "frangia/rig/wavefront.h"
 
 namespace frangia {
 
-/// An interferometric projector. Its fringes are evenly spaced in the angle psi = atan2(p.x, p.z).
+/// An interferometric projector. Its fringes are evenly spaced in the angle psi = atan2(p.x, p.z),
+/// but for the deviation of its wavefront.
 struct AngularModel {
   double field_min_rad = 0.0;  ///< start of the illuminated range of psi
   double field_max_rad = 0.0;  ///< end of the illuminated range of psi
   /// Angle from one fringe to the next, over that which `Pattern::fringes_per_degree` states.
   double pitch_scale = 1.0;
+  Wavefront wavefront{};  ///< deviation from even fringes
+
+  /// Coordinates of a direction in the field, see `Wavefront`.
+  template <typename T>
+  [[nodiscard]] std::array<T, 2> in_field(const T& x, const T& y, const T& z) const {
+    using std::atan2;
+    using std::sqrt;
+    const double half = 0.5 * (field_max_rad - field_min_rad);
+    const double middle = 0.5 * (field_max_rad + field_min_rad);
+    return {T((atan2(x, z) - middle) / half), T(y / (sqrt(x * x + z * z) * half))};
+  }
+  /// The angle that counts the fringes at a point of the projector frame: psi with the deviation of
+  /// the wavefront, over the scale of the pitch.
+  [[nodiscard]] double fringe_angle_rad(const Eigen::Vector3d& p) const {
+    const double psi = std::atan2(p.x(), p.z());
+    if (wavefront.is_plane()) return psi / pitch_scale;
+    const auto [u, v] = in_field(p.x(), p.y(), p.z());
+    return (psi + Wavefront::deviation(wavefront.coefficients_rad.data(), u, v)) / pitch_scale;
+  }
 };
 
 /// A digital projector. Its fringes are evenly spaced in projector pixels.

@@ -213,7 +213,15 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
       reader.fail("field_deg", "must be two rising angles between -90 and 90");
     }
     const double scale = reader.has("pitch_scale") ? reader.positive("pitch_scale") : 1.0;
-    projector.model = AngularModel{rad_from_deg(field[0]), rad_from_deg(field[1]), scale};
+    AngularModel angular{rad_from_deg(field[0]), rad_from_deg(field[1]), scale};
+    if (reader.has("wavefront_deg")) {
+      const auto deviations = reader.numbers("wavefront_deg", Wavefront::kTerms);
+      std::transform(deviations.begin(),
+                     deviations.end(),
+                     angular.wavefront.coefficients_rad.begin(),
+                     rad_from_deg);
+    }
+    projector.model = angular;
   } else if (model == "pinhole") {
     projector.model = read_camera_model(reader, content);
     if (reader.has("pixels")) projector.pixels = read_pixels(reader);

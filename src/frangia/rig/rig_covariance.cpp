@@ -73,7 +73,13 @@ std::vector<std::string> rig_parameter_names(const Rig& rig) {
   add(std::string(kCameraPrefix), kIntrinsicNames);
   if (!rig.projector.is_angular()) add(std::string(kProjectorPrefix), kIntrinsicNames);
   add(std::string(kProjectorPrefix), kPoseNames);
-  if (rig.projector.is_angular()) names.emplace_back(kPitchScaleName);
+  if (const auto* angular = std::get_if<AngularModel>(&rig.projector.model)) {
+    names.emplace_back(kPitchScaleName);
+    if (!angular->wavefront.is_plane()) {
+      for (const char* term : Wavefront::kNames)
+        names.push_back(fmt::format("{}{}_rad", kWavefrontPrefix, term));
+    }
+  }
   for (const PosedCamera& posed : rig.more_cameras) {
     add(camera_prefix(posed.camera.name), kIntrinsicNames);
     add(camera_prefix(posed.camera.name), kPoseNames);

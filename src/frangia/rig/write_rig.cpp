@@ -102,6 +102,12 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
         "field_deg",
         std::vector{deg_from_rad(angular->field_min_rad), deg_from_rad(angular->field_max_rad)});
     if (angular->pitch_scale != 1.0) writer.put("pitch_scale", angular->pitch_scale);
+    if (!angular->wavefront.is_plane()) {
+      std::vector<double> deviations;
+      for (const double coefficient : angular->wavefront.coefficients_rad)
+        deviations.push_back(deg_from_rad(coefficient));
+      writer.put("wavefront_deg", deviations);
+    }
   } else {
     const auto& pinhole = std::get<PinholeModel>(projector.model);
     if (projector.is_label) {

@@ -141,8 +141,10 @@ Rig roughly_known(const Rig& rig, const ArtifactPlan& plan, std::uint64_t seed) 
   Rig rough = rig;
   rough.projector.position_mm *= 1.0 + plan.start_error;
   rough.projector.rotation = turned(1) * rig.projector.rotation;
-  if (auto* angular = std::get_if<AngularModel>(&rough.projector.model))
+  if (auto* angular = std::get_if<AngularModel>(&rough.projector.model)) {
     angular->pitch_scale *= 1.0 - plan.start_error;
+    angular->wavefront = {};
+  }
   rough.turntable->axis = turned(2) * rig.turntable->axis;
   rough.turntable->point_mm *= 1.0 - plan.start_error;
   if (rough.laser_sheet) {

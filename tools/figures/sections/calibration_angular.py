@@ -60,6 +60,39 @@ def captures(study, seed):
     return made("screen", POSES), made("plate", ANGLES, "--samples", 4), made("ball-bar", STATIONS, "--samples", 4)
 
 
+WAVEFRONT_DEG = (0.02, -0.03, 0.01, 0, 0.01, -0.01)
+
+
+def measure_wavefront(study):
+    """The same captures by an interferometer whose fringes are not even, and angles of fringes at points of the volume."""
+    truth = study.work / "angular-wavefront.toml"
+    scans = captures(study, SEEDS[0])
+    lines = (scans[1] / "truth-rig.toml").read_text().splitlines()
+    at = next(i for i, line in enumerate(lines) if line.startswith("field_deg"))
+    truth.write_text("\n".join([*lines[: at + 1], f"wavefront_deg = {list(WAVEFRONT_DEG)}", *lines[at + 1:], ""]))
+    made = [study.made(f"wavefront-{kind}", "simulate", "--calibration", kind, "--rig", truth, "--views", views)
+            for kind, views in (("screen", POSES), ("plate", ANGLES), ("ball-bar", STATIONS))]
+    rig = study.work / "angular-wavefront-found.toml"
+    study.run("calibrate", "rig", *made, "-o", rig)
+    points = numpy.random.default_rng(1).uniform((-50, -50, 440), (50, 50, 540), (10000, 3))
+    off = fringe_angles(rig_of(rig), points) - fringe_angles(rig_of(truth), points)
+    deviation = fringe_angles(rig_of(truth), points) - fringe_angles(rig_of(scans[1] / "truth-rig.toml"), points)
+    study.add(f"\nA wavefront that deviates by {numpy.sqrt((deviation ** 2).mean()):.4f} degrees RMS in the measuring volume: found with an error of {numpy.sqrt((off ** 2).mean()):.5f} degrees RMS, {abs(off).max():.5f} at most.")
+
+
+def fringe_angles(rig, points):
+    """The angle that counts the fringes at points of the rig frame, degrees, by the formulas of docs/scan-format.md."""
+    projector = rig["projector"]
+    x, y, z = ((points - projector["position_mm"]) @ numpy.array(projector["rotation"]).T).T
+    psi = numpy.degrees(numpy.arctan2(x, z))
+    low, high = projector["field_deg"]
+    half = (high - low) / 2
+    u, v = (psi - (low + high) / 2) / half, numpy.degrees(y / numpy.hypot(x, z)) / half
+    a, b, c, d, e, f = projector.get("wavefront_deg", [0] * 6)
+    bend = a * u ** 2 + b * v ** 2 + c * u ** 3 + d * u ** 2 * v + e * u * v ** 2 + f * v ** 3
+    return (psi + bend) / projector.get("pitch_scale", 1)
+
+
 def check(study, rig, scan):
     """The answer of `frangia calibrate check`, which ends with 1 where the rig is no longer what it was."""
     answer = subprocess.run([study.program, "--json", "calibrate", "check", rig, scan], capture_output=True, text=True)
@@ -99,6 +132,7 @@ def measure(study):
     for name in errors[0]:
         start = "" if "px" in name else f"{max(abs(s[name]) for s in starts):.3g}"
         study.row(name, start, f"{max(abs(e[name]) for e in errors):.4f}")
+    measure_wavefront(study)
     study.add("\n`frangia calibrate check rig.toml SCAN`, with the found rig and with one whose projector was turned by 0.1 degrees and moved by 0.5 mm afterwards.\n")
     study.table("scan", "rig", "figure", "deviation, mm", "limit, mm", "")
     plate, bar = scans[1], scans[2]

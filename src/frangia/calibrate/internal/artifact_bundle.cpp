@@ -89,6 +89,11 @@ void add_rig_blocks(const ArtifactProblem& problem,
              "projector.z_mm"},
             blocks);
   add_block(out, &parameters.pitch_scale, {angular ? "projector.pitch_scale" : ""}, blocks);
+  std::vector<std::string> wavefront(Wavefront::kTerms);
+  for (std::size_t i = 0; i < Wavefront::kTerms; ++i) {
+    if (problem.free_wavefront.at(i)) wavefront[i] = wavefront_parameter(i);
+  }
+  add_block(out, parameters.wavefront.data(), wavefront, blocks);
   add_block(out,
             parameters.table.data(),
             {"turntable.tilt_1", "turntable.tilt_2", "turntable.shift_1", "turntable.shift_2"},
@@ -139,23 +144,26 @@ void add_views(const ArtifactProblem& problem,
                const ArtifactNoise& noise,
                ArtifactParameters& parameters,
                ceres::Problem& out) {
-  const bool angular = problem.start.projector.is_angular();
+  const auto* angular = std::get_if<AngularModel>(&problem.start.projector.model);
   for (std::size_t c = 0; c < problem.captures.size(); ++c) {
     for (std::size_t v = 0; v < problem.captures[c].views.size(); ++v) {
       const ArtifactView& view = problem.captures[c].views[v];
       for (std::size_t i = 0; i < view.sites.size(); ++i) {
         const LightSite& site = view.sites[i];
         out.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<LightResidual, 2, 9, 9, 6, 1, 4, 1, 4>(
-                new LightResidual{turned_surface(problem, c, view, view.surface[i], site.camera_px),
-                                  angular,
-                                  site.light,
-                                  light_weight(site, noise.light)}),
+            new ceres::
+                AutoDiffCostFunction<LightResidual, 2, 9, 9, 6, 1, Wavefront::kTerms, 4, 1, 4>(
+                    new LightResidual{
+                        turned_surface(problem, c, view, view.surface[i], site.camera_px),
+                        angular,
+                        site.light,
+                        light_weight(site, noise.light)}),
             new ceres::HuberLoss(kHuberSigmas),
             parameters.camera.data(),
             parameters.projector.data(),
             parameters.pose.data(),
             &parameters.pitch_scale,
+            parameters.wavefront.data(),
             parameters.table.data(),
             &parameters.angle_errors[c][v],
             parameters.surfaces[c][static_cast<std::size_t>(view.surface[i])].data());
@@ -230,7 +238,10 @@ ArtifactLinearization linearize_artifacts(const ArtifactProblem& problem,
     out.names.insert(out.names.end(), block.names.begin(), block.names.end());
   }
   ceres::CRSMatrix sparse;
-  composed.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
+  std::vector<double> gradient;
+  composed.Evaluate(options, nullptr, nullptr, &gradient, &sparse);
+  out.gradient = Eigen::Map<const Eigen::VectorXd>(gradient.data(),
+                                                   static_cast<Eigen::Index>(gradient.size()));
   out.normal = Eigen::MatrixXd::Zero(sparse.num_cols, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row) {
     const int begin = sparse.rows[static_cast<std::size_t>(row)];

@@ -55,7 +55,7 @@ Eigen::Vector2d light_weight(const LightSite& site, double noise) {
 ArtifactResiduals artifact_residuals(const ArtifactProblem& problem,
                                      const ArtifactParameters& parameters) {
   ArtifactResiduals out;
-  const bool angular = problem.start.projector.is_angular();
+  const auto* angular = std::get_if<AngularModel>(&problem.start.projector.model);
   for (std::size_t c = 0; c < problem.captures.size(); ++c) {
     for (std::size_t v = 0; v < problem.captures[c].views.size(); ++v) {
       const ArtifactView& view = problem.captures[c].views[v];
@@ -73,6 +73,7 @@ ArtifactResiduals artifact_residuals(const ArtifactProblem& problem,
                      parameters.projector.data(),
                      parameters.pose.data(),
                      &parameters.pitch_scale,
+                     parameters.wavefront.data(),
                      parameters.table.data(),
                      &parameters.angle_errors[c][v],
                      parameters.surfaces[c][static_cast<std::size_t>(view.surface[i])].data(),

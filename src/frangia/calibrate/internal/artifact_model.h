@@ -21,7 +21,8 @@ struct ArtifactParameters {
   std::array<double, 9> projector{};  ///< likewise, of a digital one
   std::array<double, 6> pose{};       ///< projector_from_camera: rotation vector, translation
   double pitch_scale = 1.0;           ///< of an angular projector
-  std::array<double, 4> table{};      ///< two tilts and two shifts across the starting axis
+  std::array<double, Wavefront::kTerms> wavefront{};  ///< likewise, see Wavefront
+  std::array<double, 4> table{};  ///< two tilts and two shifts across the starting axis
   /// By capture and view.
   std::vector<std::vector<double>> angle_errors;
   /// By capture: two tilts and the offset of a plate, or center and relative diameter of each ball.
@@ -46,7 +47,12 @@ struct ArtifactProblem {
   bool free_camera = false;      ///< the prior determines it
   bool free_intrinsics = false;  ///< of a digital projector, likewise
   bool has_scale = false;        ///< by a ball
+  /// Terms of the wavefront that are estimated, of an angular projector.
+  std::array<bool, Wavefront::kTerms> free_wavefront{};
 };
+
+/// Name of a term of the wavefront as a parameter.
+[[nodiscard]] std::string wavefront_parameter(std::size_t term);
 
 /// The start as parameters.
 [[nodiscard]] ArtifactParameters artifact_start(const ArtifactProblem& problem);
@@ -87,6 +93,7 @@ struct ArtifactResiduals {
 /// Jacobian of the weighted residuals at the optimum, by the parameters that are estimated.
 struct ArtifactLinearization {
   Eigen::MatrixXd normal;          ///< sum of the squares of the Jacobian
+  Eigen::VectorXd gradient;        ///< of half the sum of squares
   std::vector<std::string> names;  ///< of its columns; see solve_artifacts.cpp
 };
 

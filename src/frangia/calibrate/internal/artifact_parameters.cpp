@@ -1,12 +1,17 @@
 #include <variant>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/artifact_residuals.h"
 #include "frangia/calibrate/internal/intrinsics_block.h"
 
 namespace frangia {
+
+std::string wavefront_parameter(std::size_t term) {
+  return fmt::format("projector.wavefront_{}_rad", Wavefront::kNames.at(term));
+}
 
 ArtifactParameters artifact_start(const ArtifactProblem& problem) {
   const Rig& rig = problem.start;
@@ -15,7 +20,9 @@ ArtifactParameters artifact_start(const ArtifactProblem& problem) {
   if (const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
     out.projector = intrinsics_block(*pinhole);
   } else {
-    out.pitch_scale = std::get<AngularModel>(rig.projector.model).pitch_scale;
+    const auto& angular = std::get<AngularModel>(rig.projector.model);
+    out.pitch_scale = angular.pitch_scale;
+    out.wavefront = angular.wavefront.coefficients_rad;
   }
   const Eigen::AngleAxisd turn(rig.projector.rotation);
   const Eigen::Vector3d rotation = turn.angle() * turn.axis();
@@ -45,7 +52,9 @@ Rig artifact_rig(const ArtifactProblem& problem, const ArtifactParameters& param
   if (auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
     *pinhole = with_intrinsics(*pinhole, parameters.projector);
   } else {
-    std::get<AngularModel>(rig.projector.model).pitch_scale = parameters.pitch_scale;
+    auto& angular = std::get<AngularModel>(rig.projector.model);
+    angular.pitch_scale = parameters.pitch_scale;
+    angular.wavefront.coefficients_rad = parameters.wavefront;
   }
   const Eigen::Isometry3d projector_from_camera = isometry_of(parameters.pose);
   rig.projector.rotation = projector_from_camera.linear();

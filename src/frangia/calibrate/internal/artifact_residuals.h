@@ -94,7 +94,7 @@ struct TurnedSurface {
 /// Weighted difference of the predicted light and that seen at a site.
 struct LightResidual {
   TurnedSurface surface;
-  bool is_angular;
+  const AngularModel* angular;  ///< null for a digital projector
   Eigen::Vector2d light;
   Eigen::Vector2d weight;  ///< 0 for a direction that is not measured
 
@@ -103,6 +103,7 @@ struct LightResidual {
                   const T* intrinsics,
                   const T* pose,
                   const T* pitch,
+                  const T* wavefront,
                   const T* table,
                   const T* angle_error,
                   const T* shape,
@@ -112,8 +113,9 @@ struct LightResidual {
     const Eigen::Matrix<T, 3, 1> lit = transform(pose, point);
     if (!(lit.z() > T(0.0))) return false;
     Eigen::Matrix<T, 2, 1> predicted;
-    if (is_angular) {
-      predicted.x() = atan2(lit.x(), lit.z()) / pitch[0];
+    if (angular != nullptr) {
+      const auto [u, v] = angular->in_field(lit.x(), lit.y(), lit.z());
+      predicted.x() = (atan2(lit.x(), lit.z()) + Wavefront::deviation(wavefront, u, v)) / pitch[0];
       predicted.y() = T(0.0);
     } else {
       predicted = project_point(intrinsics, lit);

@@ -66,7 +66,7 @@ bool set_projector_coordinate(const Projector& projector,
   }
   const auto& field = std::get<AngularModel>(projector.model);
   const double psi = std::atan2(p.x(), p.z());
-  sample.u = static_cast<float>(deg_from_rad(psi) / field.pitch_scale);
+  sample.u = static_cast<float>(deg_from_rad(field.fringe_angle_rad(p)));
   return psi >= field.field_min_rad && psi <= field.field_max_rad;
 }
 
