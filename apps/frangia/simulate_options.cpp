@@ -80,11 +80,12 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
   verb.add_option("--seed", arguments.options.seed, "seed of the random noise")
       ->check(zero_or_more())
       ->capture_default_str();
-  verb.add_option("--samples",
-                  arguments.options.samples_per_px,
-                  "rays per pixel; with 4 a pixel at an edge mixes two surfaces")
-      ->check(from_to(1, 64))
-      ->capture_default_str();
+  arguments.samples =
+      verb.add_option("--samples",
+                      arguments.options.samples_per_px,
+                      "rays per pixel; with 4 a pixel at an edge mixes two surfaces; by default 1, "
+                      "and 4 for the poses of a board")
+          ->check(from_to(1, 64));
 }
 
 void add_calibration_options(CLI::App& verb, SimulateArguments& arguments) {

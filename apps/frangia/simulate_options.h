@@ -28,6 +28,7 @@ struct SimulateArguments {
   double axis_tilt_deg = 0.0;
   std::string calibration;
   bool on_turntable = false;
+  const CLI::Option* samples = nullptr;
   std::vector<int> corners = {10, 7};
   double square_mm = 0.0;
   const CLI::Option* fringes_per_degree = nullptr;

@@ -150,6 +150,10 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
     return;
   }
   if (!kind.empty()) {
+    // The corners of a board lie at edges, which one ray a pixel would shift by a quarter of a
+    // pixel.
+    constexpr int kBoardSamples = 4;
+    if (arguments.samples->count() == 0) options.samples_per_px = kBoardSamples;
     simulate_poses(arguments, options, run, terminal);
     return;
   }

@@ -158,7 +158,7 @@ TEST(SystematicPart, ChangesNoShapeAndCombinesWithTheNoise) {
 
 TEST(SystematicPart, IsAddedByTheCallerToViewsThatDoNotStoreIt) {
   FusionOptions how = options();
-  how.add_systematic = [](View& view) {
+  how.add_systematic = [](View& view, std::size_t /*camera*/) {
     const Image<float>& depth = view.range.depth_mm;
     view.range.systematic_mm = Image<float>(depth.width(), depth.height(), 0.07F);
   };

@@ -85,6 +85,24 @@ TEST(IsMeasurable, IsLimitedToTheFieldsOfCameraAndProjector) {
   EXPECT_FALSE(measurable(60.0));
 }
 
+TEST(IsMeasurable, NeedsTwoCamerasWhereTheProjectorIsALabel) {
+  Rig rig = two_eyes();
+  const std::vector<Eigen::Isometry3d> poses{rig.rig_from_object(0.0)};
+  const RayScene nothing((Mesh()));
+  PosedCamera second{rig.camera, rig.projector.position_mm, rig.projector.rotation};
+  rig.more_cameras.push_back(second);
+  rig.projector.is_label = true;
+  rig.projector.position_mm.setConstant(std::nan(""));
+  rig.projector.rotation.setConstant(std::nan(""));
+  const auto measurable = [&](const RayScene& scene) {
+    return is_measurable(scene, {0, 0, 0}, {1, 0, 0}, MeasurementViews{rig, poses}, 1.3);
+  };
+  EXPECT_TRUE(measurable(nothing));
+  const double side = rig.rig_from_object(0.0).inverse().operator*(second.position_mm).y();
+  const auto y = static_cast<float>(side / 5.0);
+  EXPECT_FALSE(measurable(RayScene(box({100, y - 1, -1}, {101, y + 1, 1}))));
+}
+
 TEST(SurfaceCompleteness, RefusesAReferenceWithoutTriangles) {
   EXPECT_THROW(static_cast<void>(surface_completeness(RayScene(Mesh{}), RayScene(Mesh{}))), Error);
 }

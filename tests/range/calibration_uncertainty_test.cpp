@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/rig_covariance.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -65,12 +67,48 @@ std::vector<Vector3d> measured_points() {
   return points;
 }
 
+/// Where a rig sees the point that another one, the true one, sees at the same pixel.
+using SeenBy = std::function<Vector3d(const Rig& rig, const Vector3d& point)>;
+
+/// Reference camera and projector.
+SeenBy by_projector(const Rig& truth, const Pattern& pattern) {
+  return [&truth, &pattern](const Rig& rig, const Vector3d& point) {
+    const Eigen::Vector2d ray = rig.camera.model.ray(truth.camera.model.project(point));
+    const double phase = phase_at(point, pattern, truth.projector);
+    return Vector3d(intersect_fringe(ray, phase, pattern, rig.projector).depth_mm *
+                    ray.homogeneous());
+  };
+}
+
+/// The point on the first camera's ray that the second one sees nearest to its pixel, by search.
+SeenBy by_second_camera(const Rig& truth) {
+  return [&truth](const Rig& rig, const Vector3d& point) {
+    const PosedCamera& nominal = truth.more_cameras.front();
+    const PosedCamera& second = rig.more_cameras.front();
+    const Eigen::Vector2d pixel = nominal.camera.model.project(nominal.camera_from_rig() * point);
+    const Eigen::Vector2d ray = rig.camera.model.ray(truth.camera.model.project(point));
+    double low = 0.8 * point.z();
+    double high = 1.25 * point.z();
+    for (int i = 0; i < 90; ++i) {
+      const auto off = [&](double depth) {
+        const Vector3d there = second.camera_from_rig() * Vector3d(depth * ray.homogeneous());
+        return (second.camera.model.project(there) - pixel).squaredNorm();
+      };
+      const double a = low + (high - low) / 3.0;
+      const double b = high - (high - low) / 3.0;
+      (off(a) < off(b) ? high : low) = off(a) < off(b) ? b : a;
+    }
+    return Vector3d(0.5 * (low + high) * ray.homogeneous());
+  };
+}
+
 /// The RMS over rigs drawn from the covariance of the distance along its ray by which each point
-/// moves, after the best rigid motion (Umeyama 1991) of all points.
+/// moves, after the best rigid motion (Umeyama 1991) of all points. The rays begin at `eye`.
 std::vector<double> scatter_of(const Rig& rig,
-                               const Pattern& pattern,
+                               const SeenBy& seen_by,
                                const std::vector<Vector3d>& points,
-                               int draws) {
+                               int draws,
+                               const Vector3d& eye = Vector3d::Zero()) {
   const RigCovariance& known = rig.calibration->covariance;
   const Eigen::LLT<Eigen::MatrixXd> root(known.covariance);
   const Eigen::MatrixXd lower = root.matrixL();
@@ -85,18 +123,14 @@ std::vector<double> scatter_of(const Rig& rig,
         Eigen::VectorXd::NullaryExpr(lower.cols(), [&] { return normal(generator); });
     const Rig other = change_parameters(rig, known.parameters, lower * z);
     Eigen::Matrix3Xd seen = nominal;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector2d ray = other.camera.model.ray(rig.camera.model.project(points[i]));
-      const double phase = phase_at(points[i], pattern, rig.projector);
-      seen.col(static_cast<Eigen::Index>(i)) =
-          intersect_fringe(ray, phase, pattern, other.projector).depth_mm * ray.homogeneous();
-    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      seen.col(static_cast<Eigen::Index>(i)) = seen_by(other, points[i]);
     const Eigen::Matrix4d motion = Eigen::umeyama(nominal, seen, false);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vector3d moved =
           motion.topLeftCorner<3, 3>() * points[i] + motion.topRightCorner<3, 1>();
       const double along =
-          (seen.col(static_cast<Eigen::Index>(i)) - moved).dot(points[i].normalized());
+          (seen.col(static_cast<Eigen::Index>(i)) - moved).dot((points[i] - eye).normalized());
       squares[i] += along * along / draws;
     }
   }
@@ -105,15 +139,22 @@ std::vector<double> scatter_of(const Rig& rig,
   return squares;
 }
 
-void expect_scatter(const Rig& rig, const Pattern& pattern) {
+void expect_scatter(const Rig& rig,
+                    const Pattern& pattern,
+                    const SeenBy& seen_by,
+                    std::size_t camera = 0) {
   const std::vector<Vector3d> points = measured_points();
-  const CalibrationUncertainty stated(rig, pattern, points);
-  const std::vector<double> scatter = scatter_of(rig, pattern, points, 800);
+  const CalibrationUncertainty stated(rig, pattern, points, camera);
+  const Eigen::Isometry3d camera_from = camera_from_rig(rig, camera);
+  const CameraModel& model = camera == 0 ? rig.camera.model : rig.more_cameras.front().camera.model;
+  const std::vector<double> scatter =
+      scatter_of(rig, seen_by, points, 800, camera_from.inverse().translation());
   double stated_squares = 0.0;
   double scatter_squares = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d pixel = rig.camera.model.project(points[i]);
-    const double sigma = stated.along_ray_mm(pixel.x(), pixel.y(), points[i].z());
+    const Vector3d point = camera_from * points[i];
+    const Eigen::Vector2d pixel = model.project(point);
+    const double sigma = stated.along_ray_mm(pixel.x(), pixel.y(), point.z());
     EXPECT_NEAR(sigma / scatter[i], 1.0, 0.1) << points[i].transpose();
     stated_squares += sigma * sigma;
     scatter_squares += scatter[i] * scatter[i];
@@ -124,7 +165,7 @@ void expect_scatter(const Rig& rig, const Pattern& pattern) {
 TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfADigitalRig) {
   Rig rig = digital_rig();
   rig.calibration = Calibration{.covariance = digital_covariance()};
-  expect_scatter(rig, kColumns);
+  expect_scatter(rig, kColumns, by_projector(rig, kColumns));
 }
 
 TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfAnAngularRig) {
@@ -132,7 +173,57 @@ TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfAnAngular
   Eigen::VectorXd sigma(16);
   sigma << 0.5, 1e-4, 0.8, 0.8, 2e-3, 1e-2, 1e-4, 1e-4, 1e-2, 3e-4, 4e-4, 3e-4, 0.1, 0.1, 0.2, 5e-4;
   rig.calibration = Calibration{.covariance = correlated(rig_parameter_names(rig), sigma)};
-  expect_scatter(rig, kFringe);
+  expect_scatter(rig, kFringe, by_projector(rig, kFringe));
+}
+
+/// The digital rig with a second camera 150 mm beside the first.
+Rig two_camera_rig() {
+  Rig rig = digital_rig();
+  PosedCamera second;
+  second.camera = rig.camera;
+  second.camera.name = "left";
+  second.position_mm = {150.0, 4.0, 20.0};
+  second.rotation =
+      (Eigen::AngleAxisd(0.3, Vector3d::UnitY()) * Eigen::AngleAxisd(0.02, Vector3d::UnitX()))
+          .toRotationMatrix();
+  rig.more_cameras.push_back(second);
+  Eigen::VectorXd sigma(39);
+  sigma << digital_covariance().covariance.diagonal().cwiseSqrt(),  // camera, projector, pose
+      0.9, 1e-4, 1.1, 0.9, 3e-3, 1e-2, 1e-4, 1e-4, 1e-2,            // second camera
+      3e-4, 4e-4, 2e-4, 0.1, 0.1, 0.15;                             // its pose
+  rig.calibration = Calibration{.covariance = correlated(rig_parameter_names(rig), sigma)};
+  return rig;
+}
+
+TEST(CalibrationUncertainty, IsTheScatterOfTwoCamerasWithAProjectorThatIsALabel) {
+  Rig rig = two_camera_rig();
+  rig.projector.is_label = true;
+  expect_scatter(rig, kColumns, by_second_camera(rig));
+}
+
+TEST(CalibrationUncertainty, IsTheScatterOfASecondCameraAndTheProjector) {
+  const Rig truth = two_camera_rig();
+  const SeenBy search = [&](const Rig& rig, const Vector3d& point) {
+    const PosedCamera& nominal = truth.more_cameras.front();
+    const PosedCamera& second = rig.more_cameras.front();
+    const Eigen::Vector2d pixel = nominal.camera.model.project(nominal.camera_from_rig() * point);
+    const Vector3d direction =
+        second.rotation.transpose() * second.camera.model.ray(pixel).homogeneous();
+    const double phase = phase_at(point, kColumns, truth.projector);
+    const double depth = (nominal.camera_from_rig() * point).z();
+    double low = 0.8 * depth;
+    double high = 1.25 * depth;
+    const auto off = [&](double at) {
+      return phase_at(second.position_mm + at * direction, kColumns, rig.projector) - phase;
+    };
+    const bool rises = off(high) > off(low);
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      ((off(middle) > 0.0) == rises ? high : low) = middle;
+    }
+    return Vector3d(second.position_mm + 0.5 * (low + high) * direction);
+  };
+  expect_scatter(truth, kColumns, search, 1);
 }
 
 TEST(CalibrationUncertainty, IsZeroForAChangeThatLeavesThePlanesOfLightWhereTheyAre) {

@@ -167,11 +167,12 @@ Mesh fuse_views(std::span<const CameraViews> cameras,
     const CameraRays rays(camera.views, camera.camera);
     const Sampling sampling = measure_sampling(camera.views, rays, run);
     if (sampling.points == 0) continue;
-    const bool is_first = &camera == &cameras.front();
-    sources.push_back({camera.views,
-                       rays,
-                       sampling,
-                       is_first ? options.add_systematic : std::function<void(View&)>()});
+    std::function<void(View&)> add;
+    if (options.add_systematic) {
+      const auto index = static_cast<std::size_t>(&camera - cameras.data());
+      add = [&options, index](View& view) { options.add_systematic(view, index); };
+    }
+    sources.push_back({camera.views, rays, sampling, std::move(add)});
     view_count += camera.views.size();
   }
   require(!sources.empty(), "no view holds a point: there is no surface to fuse");

@@ -16,9 +16,9 @@ namespace frangia {
 struct FusionOptions {
   double voxel_mm = 0.0;          ///< edge of a voxel; 0 derives it from the sampling of the views
   std::size_t max_memory_mb = 0;  ///< of the surface during fusion; 0 is half of the machine's
-  /// Adds systematic parts that are not stored with the points of a view; empty: there are none.
-  /// Of several cameras, it is called for the views of the first.
-  std::function<void(View&)> add_systematic;
+  /// Adds systematic parts that are not stored with the points of a view of the camera with this
+  /// index; empty: there are none.
+  std::function<void(View&, std::size_t camera)> add_systematic;
   std::size_t min_component_triangles = 100;  ///< smaller connected components are removed
   FusionParameters parameters;                ///< heuristic thresholds
 };

@@ -7,6 +7,7 @@
 
 #include "frangia/core/interruptible_chunks.h"
 #include "frangia/geometry/sample_surface.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -73,17 +74,28 @@ bool is_measurable(const RayScene& scene,
                    double max_angle_rad) {
   const double min_cos = std::cos(max_angle_rad);
   const Eigen::Vector3d start = point_mm + kRayOffset_mm * normal;
+  const bool is_label = view.rig.projector.is_label;
+  const std::size_t cameras = camera_count(view.rig);
+  const auto is_faced = [&](const Eigen::Vector3d& eye) {
+    return (eye - point_mm).normalized().dot(normal) >= min_cos && !scene.occluded(start, eye);
+  };
   return std::any_of(
       view.rig_from_object.begin(), view.rig_from_object.end(), [&](const Eigen::Isometry3d& pose) {
         const Eigen::Vector3d seen = pose * point_mm;
-        if (!in_image(view.rig.camera.model, seen)) return false;
-        if (!in_projector_field(view.rig.projector, seen)) return false;
         const Eigen::Isometry3d object_from_rig = pose.inverse();
-        const Eigen::Vector3d camera = object_from_rig.translation();
-        const Eigen::Vector3d light = object_from_rig * view.rig.projector.position_mm;
-        return (camera - point_mm).normalized().dot(normal) >= min_cos &&
-               (light - point_mm).normalized().dot(normal) >= min_cos &&
-               !scene.occluded(start, camera) && !scene.occluded(start, light);
+        if (!is_label && (!in_projector_field(view.rig.projector, seen) ||
+                          !is_faced(object_from_rig * view.rig.projector.position_mm)))
+          return false;
+        std::size_t wanted = is_label ? 2 : 1;
+        for (std::size_t camera = 0; camera < cameras && wanted > 0; ++camera) {
+          const Eigen::Isometry3d to_camera = camera_from_rig(view.rig, camera);
+          const CameraModel& model =
+              camera == 0 ? view.rig.camera.model : view.rig.more_cameras[camera - 1].camera.model;
+          if (in_image(model, to_camera * seen) &&
+              is_faced(object_from_rig * to_camera.inverse().translation()))
+            --wanted;
+        }
+        return wanted == 0;
       });
 }
 

@@ -44,7 +44,8 @@ struct MeasurementViews {
 };
 
 /// Completeness of the part of the reference that at least one view can measure: inside the fields
-/// of camera and projector, occluded from neither by the reference itself, and facing both.
+/// of a camera and the projector, occluded from neither by the reference itself, and facing both. A
+/// projector that is a label counts as lighting everything, and two cameras are needed.
 [[nodiscard]] SurfaceCompleteness surface_completeness(const RayScene& reference,
                                                        const RayScene& mesh,
                                                        const MeasurementViews& views,

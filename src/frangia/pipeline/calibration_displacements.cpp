@@ -55,8 +55,7 @@ Eigen::MatrixXf calibration_displacements(const Mesh& mesh, const Scan& scan, co
       std::find_if(scan.patterns.begin(), scan.patterns.end(), [](const Pattern& pattern) {
         return pattern.kind == PatternKind::Fringe;
       });
-  if (fringes == scan.patterns.end() || scan.views.empty() || scan.rig.projector.is_label)
-    return {};
+  if (fringes == scan.patterns.end() || scan.views.empty()) return {};
   const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
   const std::vector<Eigen::Isometry3d> poses = poses_of(scan);
   const RigChangeField field(scan.rig, *fringes, facing_points(mesh, normals, poses));

@@ -9,20 +9,26 @@
 #include "frangia/core/parallel.h"
 #include "frangia/range/internal/changed_rigs.h"
 #include "frangia/range/internal/node_values.h"
+#include "frangia/rig/rig_of_camera.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
                                                const Pattern& pattern,
-                                               std::span<const Eigen::Vector3d> volume_mm) {
+                                               std::span<const Eigen::Vector3d> volume_mm,
+                                               std::size_t camera) {
   if (!rig.calibration || rig.calibration->covariance.empty() || volume_mm.empty()) return;
-  const ChangedRigs rigs(rig, pattern);
+  const ChangedRigs rigs(rig, pattern, camera);
   if (rigs.changes() == 0) return;
   const RigidMotions rigid = fit_rigid(volume_mm, rigs);
+  const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera).inverse();
+  const CameraModel& model =
+      camera == 0 ? rig.camera.model : rig.more_cameras.at(camera - 1).camera.model;
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low_;
-  for (const Eigen::Vector3d& point : volume_mm) {
-    const Eigen::Vector2d pixel = rig.camera.model.project(point);
+  for (const Eigen::Vector3d& in_rig : volume_mm) {
+    const Eigen::Vector3d point = rig_from_camera.inverse() * in_rig;
+    const Eigen::Vector2d pixel = model.project(point);
     const Eigen::Array3d at(pixel.x(), pixel.y(), point.z());
     low_ = low_.min(at);
     high = high.max(at);
@@ -37,8 +43,9 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
       const Eigen::Array3d at = low_ + step_ * Eigen::Array3d(index % kNodes[0],
                                                               index / kNodes[0] % kNodes[1],
                                                               index / (kNodes[0] * kNodes[1]));
-      const Eigen::Vector3d ray = rig.camera.model.ray({at.x(), at.y()}).homogeneous();
-      const Eigen::Vector3d point = at.z() * ray;
+      const Eigen::Vector3d in_camera = at.z() * model.ray({at.x(), at.y()}).homogeneous();
+      const Eigen::Vector3d point = rig_from_camera * in_camera;
+      const Eigen::Vector3d ray = rig_from_camera.linear() * in_camera;
       const Displacements rest = rigs.displacements_of(point) - rigid.design(point) * rigid.motions;
       nodes.col(index) = rest.transpose() * ray.normalized();
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include <Eigen/Core>
@@ -23,7 +24,9 @@ namespace frangia {
 class CalibrationUncertainty {
  public:
   /// Linearizes the triangulation about the rig. `volume_mm` are points that represent the measured
-  /// volume: some hundreds, on all surfaces and from all views.
+  /// volume: some hundreds, on all surfaces and from all views. `camera` counts as in
+  /// `rig_of_camera`; its points are those of its own ray and the projector's phase, or, where the
+  /// projector is a label, the ray of the reference camera, or of the first other one.
   ///
   /// @units    mm, rig frame
   /// @missing  zero everywhere when the rig has no covariance or `volume_mm` is empty
@@ -31,9 +34,11 @@ class CalibrationUncertainty {
   ///           axes of the covariance
   CalibrationUncertainty(const Rig& rig,
                          const Pattern& pattern,
-                         std::span<const Eigen::Vector3d> volume_mm);
+                         std::span<const Eigen::Vector3d> volume_mm,
+                         std::size_t camera = 0);
 
-  /// Returns the standard uncertainty of the point that pixel (x, y) sees at a depth. Beyond the
+  /// Returns the standard uncertainty of the point that pixel (x, y) of the camera sees at a depth
+  /// in its frame. Beyond the
   /// measured volume it is that at the volume's boundary.
   [[nodiscard]] double along_ray_mm(double x_px, double y_px, double depth_mm) const;
 

@@ -60,7 +60,7 @@ def captures(study, seed):
     return made("screen", POSES), made("plate", ANGLES, "--samples", 4), made("ball-bar", STATIONS, "--samples", 4)
 
 
-WAVEFRONT_DEG = (0.02, -0.03, 0.01, 0, 0.01, -0.01)
+WAVEFRONT_DEG = (0.2, -0.3, 0.1, 0, 0.1, -0.1)
 
 
 def measure_wavefront(study):

@@ -60,7 +60,7 @@ def measured(study, scan, true_scan, *options):
 
 def measure(study):
     failures = []
-    study.add(f"`frangia simulate {PART} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the reference camera can measure; gamma is not corrected. Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}, and at most {MOST} under gamma, whose systematic part is an upper bound.\n")
+    study.add(f"`frangia simulate {PART} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the cameras of the row can measure; gamma is not corrected. Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}, and at most {MOST} under gamma, whose systematic part is an upper bound.\n")
     study.table("fault", "method", "points", "triangles", "RMS mm", "95 % mm", "99 % mm", "mean mm", "completeness", "median sigma mm", "error over sigma", "cameras apart, mm", "over their noise")
     for fault, options in (("none", ()), ("gamma 2.2", ("--display-gamma", 2.2)), ("gamma 2.2, three steps", ("--display-gamma", 2.2, "--shifts", 3))):
         name = "two-cameras-" + fault.replace(" ", "-").replace(",", "")

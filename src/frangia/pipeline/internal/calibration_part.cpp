@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frangia/range/calibration_uncertainty.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -36,15 +37,19 @@ std::vector<Eigen::Vector3d> measured_volume(const ViewStore& views,
 
 }  // namespace
 
-std::function<void(View&)> calibration_part(const ViewStore& views,
-                                            const Rig& rig,
-                                            const Pattern& pattern,
-                                            const Image<Eigen::Vector2f>& rays) {
-  if (rig.projector.is_label) return {};  // the covariance is that of the projector and one camera
+std::function<void(View&, std::size_t camera)> calibration_part(
+    const ViewStore& views,
+    const Rig& rig,
+    const Pattern& pattern,
+    const Image<Eigen::Vector2f>& rays) {
   if (!rig.calibration || rig.calibration->covariance.empty()) return {};
-  const auto uncertainty =
-      std::make_shared<const CalibrationUncertainty>(rig, pattern, measured_volume(views, rays));
-  return [uncertainty](View& view) { uncertainty->add_to(view.range); };
+  const auto volume = measured_volume(views, rays);
+  const auto uncertainties = std::make_shared<std::vector<CalibrationUncertainty>>();
+  for (std::size_t camera = 0; camera < camera_count(rig); ++camera)
+    uncertainties->emplace_back(rig, pattern, volume, camera);
+  return [uncertainties](View& view, std::size_t camera) {
+    uncertainties->at(camera).add_to(view.range);
+  };
 }
 
 }  // namespace frangia

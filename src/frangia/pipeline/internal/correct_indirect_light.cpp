@@ -85,7 +85,7 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
                                                           FusionOptions& fusion,
                                                           const Run& run) {
   constexpr int kPasses = 2;
-  const std::function<void(View&)> others = fusion.add_systematic;
+  const auto others = fusion.add_systematic;
   std::optional<IndirectLightReport> report;
   for (int pass = 0; pass < kPasses; ++pass) {
     const auto indirect =
@@ -93,8 +93,8 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
     if (!indirect) break;
     correct_all(measured, *indirect, run);
     report = indirect->report;
-    fusion.add_systematic = [others, add = indirect->add](View& view) {
-      if (others) others(view);
+    fusion.add_systematic = [others, add = indirect->add](View& view, std::size_t camera) {
+      if (others) others(view, camera);
       add(view);
     };
     fused = fuse_views(measured.views, scan.rig.camera.model, fusion, run);

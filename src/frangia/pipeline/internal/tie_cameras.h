@@ -17,13 +17,12 @@ void tie_cameras(MeasuredViews& measured, const Rig& rig);
 /// Empties the further cameras' views of those that the registration of a setup emptied.
 void clear_outliers_of_cameras(MeasuredSetup& setup);
 
-/// All points of all cameras, as `collect_points`; `add_systematic` is that of the reference
-/// camera.
+/// All points of all cameras, as `collect_points`; `add_systematic` is told the camera of a view.
 [[nodiscard]] PointCloud collect_points_of_cameras(
     const MeasuredViews& measured,
     const Rig& rig,
     const Run& run,
-    const std::function<void(View&)>& add_systematic);
+    const std::function<void(View&, std::size_t camera)>& add_systematic);
 
 /// The views of all cameras, the reference camera first. `measured` and `rig` must outlive them.
 [[nodiscard]] std::vector<CameraViews> views_of_cameras(const MeasuredViews& measured,

@@ -8,6 +8,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/rig_covariance.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -16,9 +17,50 @@ namespace {
 /// large enough for the tolerance of the triangulation, 1e-9 px.
 constexpr double kStep = 0.1;
 
+/// A camera's ray in the rig frame.
+struct RigRay {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+};
+
+const CameraModel& model_of(const Rig& rig, std::size_t camera) {
+  return camera == 0 ? rig.camera.model : rig.more_cameras[camera - 1].camera.model;
+}
+
+Eigen::Vector2d pixel_of(const Rig& rig, std::size_t camera, const Eigen::Vector3d& point_mm) {
+  return model_of(rig, camera).project(camera_from_rig(rig, camera) * point_mm);
+}
+
+RigRay ray_of(const Rig& rig, std::size_t camera, const Eigen::Vector2d& pixel) {
+  const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera).inverse();
+  return {rig_from_camera.translation(),
+          rig_from_camera.linear() * model_of(rig, camera).ray(pixel).homogeneous()};
+}
+
+/// The point on a camera's ray that the partner sees nearest to its pixel.
+Eigen::Vector3d seen_nearest(const RigRay& ray,
+                             const Rig& rig,
+                             std::size_t partner,
+                             const Eigen::Vector2d& pixel,
+                             double start) {
+  constexpr int kIterations = 4;  // Gauss-Newton on one unknown, from within a percent
+  constexpr double kShare = 1e-4;
+  double along = start;
+  const auto project = [&](double at) {
+    return pixel_of(rig, partner, ray.origin + at * ray.direction);
+  };
+  for (int i = 0; i < kIterations; ++i) {
+    const double step = kShare * along;
+    const Eigen::Vector2d moves = (project(along + step) - project(along - step)) / (2.0 * step);
+    along += moves.dot(pixel - project(along)) / moves.squaredNorm();
+  }
+  return ray.origin + along * ray.direction;
+}
+
 }  // namespace
 
-ChangedRigs::ChangedRigs(const Rig& rig, const Pattern& pattern) : rig_(rig), pattern_(pattern) {
+ChangedRigs::ChangedRigs(const Rig& rig, const Pattern& pattern, std::size_t camera)
+    : rig_(rig), pattern_(pattern), camera_(camera) {
   const RigCovariance& known = rig.calibration->covariance;
   const Eigen::MatrixXd factor = covariance_factor(known);
   for (Eigen::Index i = 0; i < factor.cols(); ++i) {
@@ -28,11 +70,26 @@ ChangedRigs::ChangedRigs(const Rig& rig, const Pattern& pattern) : rig_(rig), pa
 }
 
 Displacements ChangedRigs::displacements_of(const Eigen::Vector3d& point_mm) const {
-  const Eigen::Vector2d pixel = rig_.camera.model.project(point_mm);
-  const double phase_rad = phase_at(point_mm, pattern_, rig_.projector);
+  const bool is_label = rig_.projector.is_label;
+  const Eigen::Vector2d pixel = pixel_of(rig_, camera_, point_mm);
+  const std::size_t partner = camera_ == 0 ? 1 : 0;
+  Eigen::Vector2d partner_pixel = Eigen::Vector2d::Zero();
+  double phase_rad = 0.0;
+  if (is_label) {
+    partner_pixel = pixel_of(rig_, partner, point_mm);
+  } else {
+    phase_rad = phase_at(point_mm, pattern_, rig_.projector);
+  }
+  const double depth = (camera_from_rig(rig_, camera_) * point_mm).z();
   const auto seen_by = [&](const Rig& rig) -> Eigen::Vector3d {
-    const Eigen::Vector2d ray = rig.camera.model.ray(pixel);
-    return intersect_fringe(ray, phase_rad, pattern_, rig.projector).depth_mm * ray.homogeneous();
+    if (is_label)
+      return seen_nearest(ray_of(rig, camera_, pixel), rig, partner, partner_pixel, depth);
+    const Eigen::Vector2d ray = model_of(rig, camera_).ray(pixel);
+    if (camera_ == 0)
+      return intersect_fringe(ray, phase_rad, pattern_, rig.projector).depth_mm * ray.homogeneous();
+    const Rig of_camera = rig_of_camera(rig, camera_);
+    const double lit = intersect_fringe(ray, phase_rad, pattern_, of_camera.projector).depth_mm;
+    return camera_from_rig(rig, camera_).inverse() * Eigen::Vector3d(lit * ray.homogeneous());
   };
   Displacements moved(3, changes());
   for (Eigen::Index i = 0; i < changes(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -13,22 +14,27 @@ namespace frangia {
 /// One displacement for each independent change of the parameters.
 using Displacements = Eigen::Matrix3Xd;
 
-/// Triangulates points by rigs that differ from the true one by one change of the parameters each.
+/// Triangulates points by rigs that differ from the true one by one change of the parameters each:
+/// from a camera's ray and the projector's phase, or, where the projector is a label, from that ray
+/// and the ray of a second camera.
 class ChangedRigs {
  public:
   /// Takes one change for each column of the factor of the covariance, which must be known.
-  ChangedRigs(const Rig& rig, const Pattern& pattern);
+  /// `camera` counts as in `rig_of_camera`.
+  ChangedRigs(const Rig& rig, const Pattern& pattern, std::size_t camera = 0);
 
   [[nodiscard]] Eigen::Index changes() const {
     return static_cast<Eigen::Index>(changed_.size() / 2);
   }
 
-  /// The displacements of a measured point; NaN where a rig does not measure it.
+  /// The displacements of a measured point, both in the rig frame; NaN where a rig does not measure
+  /// it.
   [[nodiscard]] Displacements displacements_of(const Eigen::Vector3d& point_mm) const;
 
  private:
   const Rig& rig_;
   const Pattern& pattern_;
+  std::size_t camera_;
   std::vector<Rig> changed_;  ///< in pairs: by a step in either direction
 };
 
