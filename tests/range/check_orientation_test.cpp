@@ -62,6 +62,24 @@ TEST(CheckOrientation, AcceptsThePhasesOfABumpySurface) {
   }
 }
 
+TEST(CheckOrientation, DoesNotTakeFineFringesForFallingOnes) {
+  // 3.3 projector pixels a camera pixel: a fringe of 8 spans 2.4 camera pixels, one of 14 spans 4.
+  const Rig rig = crossed_rig();
+  const auto rays = rays_of(rig.camera.model);
+  for (const double period : {5.0, 8.0, 10.0, 14.0}) {
+    for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
+      AbsolutePhase phase = bumpy(rig, direction);
+      phase.pattern.period_px = period;
+      for (float& value : phase.phase_rad.pixels())
+        value =
+            static_cast<float>(std::remainder(static_cast<double>(value) * 20.0 / period, kTurn));
+      const OrientationCheck found = check_orientation(phase, rig, rays);
+      EXPECT_TRUE(found.consistent) << period << ": " << found.fits;
+      EXPECT_TRUE(found.decided || period < 13.0) << period;
+    }
+  }
+}
+
 TEST(CheckOrientation, NamesAPhaseThatFallsInsteadOfRises) {
   const Rig rig = crossed_rig();
   const auto rays = rays_of(rig.camera.model);

@@ -14,7 +14,10 @@
 namespace frangia {
 namespace {
 
-constexpr int kStep = 2;                 // px between the pixels that are compared
+constexpr int kStep = 2;  // px between the pixels that are compared, at most
+/// Largest expected change between two pixels. A slope of the surface may double it, and beyond
+/// half a turn a wrapped change has the wrong sign.
+constexpr double kMaxChange_rad = 0.5 * kPi;
 constexpr std::size_t kSamples = 5'000;  // of the measured pixels
 constexpr std::size_t kMinPixels = 200;  // fewer decide nothing
 constexpr double kMajority = 0.8;
@@ -72,15 +75,18 @@ OrientationCheck check_orientation(const AbsolutePhase& phase,
   std::vector<float> expected_ratio;
   for (int y = 0; y + kStep < rays.height(); y += stride) {
     for (int x = 0; x + kStep < rays.width(); x += stride) {
+      const double expected_here = expected_at(x, y);
+      const Eigen::Vector2d a_pixel(expected_at(x + 1, y) - expected_here,
+                                    expected_at(x, y + 1) - expected_here);
+      const double change = a_pixel.cwiseAbs().maxCoeff();
+      if (!(change <= kMaxChange_rad)) continue;
+      const int step = kStep * change <= kMaxChange_rad ? kStep : 1;
+      const Eigen::Vector2d expected = step * a_pixel;
       const double here = phase.phase_rad(x, y);
-      const double right = phase.phase_rad(x + kStep, y);
-      const double below = phase.phase_rad(x, y + kStep);
+      const double right = phase.phase_rad(x + step, y);
+      const double below = phase.phase_rad(x, y + step);
       const Eigen::Vector2d measured(wrap_rad(right - here), wrap_rad(below - here));
       if (!measured.allFinite()) continue;
-      const double expected_here = expected_at(x, y);
-      const Eigen::Vector2d expected(expected_at(x + kStep, y) - expected_here,
-                                     expected_at(x, y + kStep) - expected_here);
-      if (!expected.allFinite()) continue;
       const int main = std::abs(expected.x()) >= std::abs(expected.y()) ? 0 : 1;
       along.push_back(static_cast<float>(std::abs(measured(main))));
       across.push_back(static_cast<float>(std::abs(measured(1 - main))));
