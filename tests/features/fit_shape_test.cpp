@@ -183,6 +183,27 @@ FeaturePoints correlated_cylinder(double noise, double shared, std::uint64_t see
   return points;
 }
 
+// The circle of least squares that Gander, Golub and Strebel 1994 publish for six points (BIT 34,
+// 558-578): center (4.7398, 2.9835), radius 4.7142. Along z it is a cylinder.
+TEST(PublishedFit, IsTheCircleOfSixPoints) {
+  FeaturePoints points;
+  for (int level = -10; level <= 10; ++level) {
+    for (const auto& [x, y] : {std::pair{1, 7}, {2, 6}, {5, 8}, {7, 7}, {9, 5}, {3, 7}}) {
+      points.points_mm.emplace_back(x, y, level);
+      points.normals.push_back(Vector3d(x - 5.0, y - 3.0, 0.0).normalized());
+    }
+  }
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const Shape start{ShapeKind::Cylinder, {5.0, 3.0, 0.0}, Vector3d::UnitZ(), 5.0, 0.0, 0.0};
+  const ShapeFit found = fit_shape(points, all, start, {.gate_mm = 20.0, .robust = false});
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.shape.center_mm.x(), 4.7398, 5.1e-5);
+  EXPECT_NEAR(found.shape.center_mm.y(), 2.9835, 5.1e-5);
+  EXPECT_NEAR(found.shape.radius_mm, 4.7142, 5.1e-5);
+  EXPECT_NEAR(std::abs(found.shape.axis.z()), 1.0, 1e-9);
+}
+
 TEST(ShapeUncertainty, CoversDiametersOverSeeds) {
   constexpr int kSeeds = 250;
   for (const double shared : {0.0, 0.004}) {

@@ -42,6 +42,18 @@ def timed(study, folder, name, *options):
     return seconds, json.loads((study.work / name / "table.json").read_text())
 
 
+def side_by_side(study, folder, lanes):
+    """Seconds of bare `reconstruct` of all scans, one process after the other in each lane: the limit of the machine."""
+    def commands(lane):
+        return " && ".join(f"{study.program} --quiet --threads 1 reconstruct {folder / f'{i:02}'} -o {study.work / f'lane-{lane}.ply'}"
+                           for i in range(lane, SCANS, lanes))
+    begin = time.monotonic()
+    running = [subprocess.Popen(["sh", "-c", commands(lane)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for lane in range(lanes)]
+    if any(process.wait() for process in running):
+        raise RuntimeError("a scan cannot be reconstructed")
+    return time.monotonic() - begin
+
+
 def kill_at_random(node, done):
     """Kills the controller five times and requeues tasks while the array runs."""
     randomly = random.Random(1)
@@ -70,6 +82,8 @@ def measure(study):
     study.row("scans done", sum(row["state"] == "done" for row in rows), SCANS)
     study.row("`--jobs 1 --threads 1`, seconds", f"{one:.1f}", "")
     study.row("its ratio to `--jobs 2 --threads 1`", f"{one / two:.2f}", "at least 1.8")
+    floor = side_by_side(study, folder, 1) / side_by_side(study, folder, 2)
+    study.row("the same ratio of bare `reconstruct`, one after the other and two beside each other: the limit of the machine", f"{floor:.2f}", "")
     study.row("`--jobs 1 --threads 2` over `--jobs 2 --threads 1`", f"{wide / two:.2f}", "at least 1")
     study.row("most memory of a scan, MB", f"{max(row['memory_mb'] for row in rows):.0f}", "")
     study.row("scans an hour and core", f"{3600 * len(rows) / sum(row['processor_s'] for row in rows):.0f}", "")
