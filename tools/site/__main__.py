@@ -33,7 +33,7 @@ NAV = {
                   "Mesh files": "docs/files.md", "Python": "reference/python.md", "C++": "reference/cpp.md",
                   "Protocol of the app": "docs/service-api.md", "Parameters": "docs/parameters.md", "Terms": "docs/terms.md"},
     "Explanation": {"Phase": "docs/phase.md", "Surface": "docs/surface.md", "Uncertainty": "docs/uncertainty.md",
-                    "Figures": "docs/figures.md", "Figures of captures": "docs/figures-capture.md", "Decisions": "docs/decisions.md"},
+                    "Figures": "docs/figures.md", "Figures of captures": "docs/figures-capture.md", "Coverage": "docs/coverage.md", "Decisions": "docs/decisions.md"},
     "Project": {"Contributing": "CONTRIBUTING.md", "Changelog": "CHANGELOG.md"},
 }
 NOT_PAGES = {"api.md"}  # the first page of Doxygen's reference
