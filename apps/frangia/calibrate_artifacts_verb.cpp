@@ -93,9 +93,10 @@ void print_table(const ArtifactCalibration& result) {
              deg_from_rad(table.axis_sigma_rad),
              table.point_sigma_mm,
              deg_from_rad(table.angle_sigma_rad));
-  if (table.line_rms_mm > 0.0)
+  if (table.line_rms_mm > 0.0) {
     print_text(
         "  {:<10} the laser line is {:.4f} mm rms off its sheet\n", "line", table.line_rms_mm);
+  }
   for (std::size_t c = 0; c < result.captures.size(); ++c) {
     if (!std::holds_alternative<Balls>(result.captures[c].artifact)) continue;
     print_text("  {:<10} {} mm\n",

@@ -96,9 +96,10 @@ void read_conditions(TomlReader reader, AcceptancePlan& plan) {
 }  // namespace
 
 std::vector<Arrangement> usual_arrangements(const ReferenceArtifact& artifact) {
-  const auto at = [](const char* name, Eigen::Vector3d direction, Eigen::Vector3d offset) {
-    return Arrangement{name, {}, direction.normalized(), offset};
-  };
+  const auto at =
+      [](const char* name, const Eigen::Vector3d& direction, const Eigen::Vector3d& offset) {
+        return Arrangement{name, {}, direction.normalized(), offset};
+      };
   if (artifact.diameters_mm.size() < 2) {
     return {at("in the middle of the turntable", {1, 0, 0}, {0, 0, 0}),
             at("near the edge of the volume, low", {1, 0, 0}, {1.0, 0, -0.5}),

@@ -71,10 +71,11 @@ std::vector<std::string> lacks_of(const AcceptancePlan& plan,
                                 diameter));
     break;
   }
-  if (bar && artifact.spacing_mm < 0.3 * diagonal)
+  if (bar && artifact.spacing_mm < 0.3 * diagonal) {
     lacks.push_back(fmt::format("a spacing of at least {:.3g} mm for this volume; {:g} mm was used",
                                 0.3 * diagonal,
                                 artifact.spacing_mm));
+  }
   return lacks;
 }
 

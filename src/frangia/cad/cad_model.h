@@ -30,6 +30,10 @@ class CadModel final : public ExactSurface {
   struct Faces;
   /// Takes over the faces. `unit` is that of the file.
   CadModel(std::unique_ptr<Faces> faces, std::string unit);
+  CadModel(const CadModel&) = delete;
+  CadModel& operator=(const CadModel&) = delete;
+  CadModel(CadModel&&) = delete;
+  CadModel& operator=(CadModel&&) = delete;
   ~CadModel() override;
 
   /// Tessellation of all faces, closed where the model is.

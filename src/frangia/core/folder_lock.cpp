@@ -86,8 +86,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   file_ = lock(folder_, path_);
   const std::string owner = fmt::format("process {} on {}\n", ::getpid(), host_name());
   // Only a message needs the content: a full disk must not prevent the lock.
-  static_cast<void>(!::ftruncate(file_, 0));
-  static_cast<void>(!::write(file_, owner.data(), owner.size()));
+  static_cast<void>(::ftruncate(file_, 0) == 0);
+  static_cast<void>(::write(file_, owner.data(), owner.size()) > 0);
 }
 
 FolderLock::~FolderLock() {

@@ -37,6 +37,7 @@ std::vector<Feature> find_features(const Mesh& mesh,
   std::vector<Feature> edges;
   if (options.edges) edges = edge_features(surfaces, cells);
   std::vector<Feature> features;
+  features.reserve(surfaces.size() + edges.size());
   for (FoundSurface& surface : surfaces)
     features.push_back(std::move(surface.feature));
   std::move(edges.begin(), edges.end(), std::back_inserter(features));

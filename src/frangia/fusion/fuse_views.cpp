@@ -90,6 +90,7 @@ HermiteAccumulators sample_crossings(const std::vector<Source>& sources,
   });
   HermiteAccumulators hermite(crossings.points_mm.size(), has_systematic);
   std::vector<const ViewStore*> stores;
+  stores.reserve(sources.size());
   for (const Source& source : sources)
     stores.push_back(&source.views);
   const bool differ = has_systematic && have_directions_of_their_own(stores);

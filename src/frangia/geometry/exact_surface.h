@@ -25,6 +25,8 @@ class ExactSurface {
   ExactSurface() = default;
   ExactSurface(const ExactSurface&) = delete;
   ExactSurface& operator=(const ExactSurface&) = delete;
+  ExactSurface(ExactSurface&&) = delete;
+  ExactSurface& operator=(ExactSurface&&) = delete;
   virtual ~ExactSurface() = default;
 
   /// Returns the point of the surface nearest to `point_mm`. `start` is the nearest point of the

@@ -234,9 +234,10 @@ Deviations deviations_of(const Mesh& mesh,
     if (found.status[i] != DeviationStatus::Compared) continue;
     const Vector3d point = mesh.vertices_mm[i].cast<double>();
     const Vector3d normal = finder.normal(i);
-    if (options.pose)
+    if (options.pose) {
       found.largest_pose_u_mm =
           std::max(found.largest_pose_u_mm, options.pose->along(point, normal));
+    }
     found.largest_temperature_u_mm =
         std::max(found.largest_temperature_u_mm, finder.temperature_u_mm(point, normal));
   }

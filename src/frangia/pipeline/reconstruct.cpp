@@ -78,9 +78,10 @@ bool register_setup(MeasuredSetup& setup,
     turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
   }
   if (options.register_views) {
-    if (options.indirect_light)
+    if (options.indirect_light) {
       indirect_light =
           correct_before_registration(measured, scan, rays, options.decode, options.fusion, run);
+    }
     setup.registration = register_views(measured.views,
                                         camera,
                                         {*scan.rig.turntable, measured.stations},

@@ -40,9 +40,9 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
   parallel_chunks(kCount, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto index = static_cast<int>(i);
-      const Eigen::Array3d at = low_ + step_ * Eigen::Array3d(index % kNodes[0],
-                                                              index / kNodes[0] % kNodes[1],
-                                                              index / (kNodes[0] * kNodes[1]));
+      const Eigen::Array3i place(
+          index % kNodes[0], index / kNodes[0] % kNodes[1], index / (kNodes[0] * kNodes[1]));
+      const Eigen::Array3d at = low_ + step_ * place.cast<double>();
       const Eigen::Vector3d in_camera = at.z() * model.ray({at.x(), at.y()}).homogeneous();
       const Eigen::Vector3d point = rig_from_camera * in_camera;
       const Eigen::Vector3d ray = rig_from_camera.linear() * in_camera;

@@ -46,9 +46,10 @@ std::string vector_text(const Eigen::Vector3d& vector) {
 
 /// The name of a characteristic in QIF, without what follows it: Definition, Nominal, ...
 std::string qif_kind(const MeasuredCharacteristic& row) {
-  if (!row.kind)
+  if (!row.kind) {
     return row.shape == ShapeKind::Sphere ? "SphericalDiameterCharacteristic"
                                           : "DiameterCharacteristic";
+  }
   switch (*row.kind) {
     case Characteristic::Flatness:
       return "FlatnessCharacteristic";

@@ -68,6 +68,7 @@ void put_response(TomlWriter& writer, const Projector& projector) {
   constexpr int kDigits = 6;  // a measured response is less certain than the sixth digit
   const auto rounded = [&](const std::vector<double>& values) {
     std::vector<double> out;
+    out.reserve(values.size());
     for (const double value : values)
       out.push_back(rounded_to_digits(value, kDigits));
     return out;
