@@ -146,7 +146,7 @@ void expect_scatter(const Rig& rig,
   const std::vector<Vector3d> points = measured_points();
   const CalibrationUncertainty stated(rig, pattern, points, camera);
   const Eigen::Isometry3d camera_from = camera_from_rig(rig, camera);
-  const CameraModel& model = camera == 0 ? rig.camera.model : rig.more_cameras.front().camera.model;
+  const CameraModel& model = model_of_camera(rig, camera);
   const std::vector<double> scatter =
       scatter_of(rig, seen_by, points, 800, camera_from.inverse().translation());
   double stated_squares = 0.0;

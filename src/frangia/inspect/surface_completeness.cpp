@@ -89,9 +89,7 @@ bool is_measurable(const RayScene& scene,
         std::size_t wanted = is_label ? 2 : 1;
         for (std::size_t camera = 0; camera < cameras && wanted > 0; ++camera) {
           const Eigen::Isometry3d to_camera = camera_from_rig(view.rig, camera);
-          const CameraModel& model =
-              camera == 0 ? view.rig.camera.model : view.rig.more_cameras[camera - 1].camera.model;
-          if (in_image(model, to_camera * seen) &&
+          if (in_image(model_of_camera(view.rig, camera), to_camera * seen) &&
               is_faced(object_from_rig * to_camera.inverse().translation()))
             --wanted;
         }

@@ -22,8 +22,7 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
   if (rigs.changes() == 0) return;
   const RigidMotions rigid = fit_rigid(volume_mm, rigs);
   const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera).inverse();
-  const CameraModel& model =
-      camera == 0 ? rig.camera.model : rig.more_cameras.at(camera - 1).camera.model;
+  const CameraModel& model = model_of_camera(rig, camera);
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low_;
   for (const Eigen::Vector3d& in_rig : volume_mm) {

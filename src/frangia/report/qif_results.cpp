@@ -81,7 +81,7 @@ std::string status_of(const MeasuredCharacteristic& row) {
   return row.conformity == Conformity::Out ? "FAIL" : "INDETERMINATE";
 }
 
-/// The tolerance of a definition, with what QIF requires beside it.
+/// The tolerance of a definition and the other elements that QIF requires there.
 std::string tolerance_of(const MeasuredCharacteristic& row) {
   if (row.nominal) {
     return "<Tolerance>\n" + element("MaxValue", decimal(row.limits->upper - *row.nominal)) +

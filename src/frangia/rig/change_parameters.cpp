@@ -85,8 +85,7 @@ double* wavefront_coefficient(Rig& rig, std::string_view name) {
   auto* angular = std::get_if<AngularModel>(&rig.projector.model);
   if (angular == nullptr) return nullptr;
   for (std::size_t i = 0; i < Wavefront::kTerms; ++i) {
-    if (name == fmt::format("{}{}_rad", kWavefrontPrefix, Wavefront::kNames.at(i)))
-      return &angular->wavefront.coefficients_rad.at(i);
+    if (name == Wavefront::parameter_name(i)) return &angular->wavefront.coefficients_rad.at(i);
   }
   return nullptr;
 }

@@ -13,8 +13,8 @@ namespace frangia {
 /// @missing  0 for an angular projector, a label, and a projector at the place of the camera
 [[nodiscard]] double fringe_parallax_px(const Rig& rig, FringeDirection direction);
 
-/// The direction of fringes that measures depth better: horizontal where the projector stands above
-/// or below the camera rather than beside it. Vertical for an angular projector.
+/// The direction of fringes that measures depth better: horizontal for a projector above or below
+/// the camera, vertical for one beside it and for an angular projector.
 [[nodiscard]] FringeDirection measuring_direction(const Rig& rig);
 
 /// Whether fringes of a direction measure next to nothing, while those of the other would: their

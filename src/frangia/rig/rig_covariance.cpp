@@ -76,8 +76,8 @@ std::vector<std::string> rig_parameter_names(const Rig& rig) {
   if (const auto* angular = std::get_if<AngularModel>(&rig.projector.model)) {
     names.emplace_back(kPitchScaleName);
     if (!angular->wavefront.is_plane()) {
-      for (const char* term : Wavefront::kNames)
-        names.push_back(fmt::format("{}{}_rad", kWavefrontPrefix, term));
+      for (std::size_t term = 0; term < Wavefront::kTerms; ++term)
+        names.push_back(Wavefront::parameter_name(term));
     }
   }
   for (const PosedCamera& posed : rig.more_cameras) {

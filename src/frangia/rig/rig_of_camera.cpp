@@ -6,6 +6,10 @@ std::size_t camera_count(const Rig& rig) {
   return 1 + rig.more_cameras.size();
 }
 
+const CameraModel& model_of_camera(const Rig& rig, std::size_t camera) {
+  return camera == 0 ? rig.camera.model : rig.more_cameras.at(camera - 1).camera.model;
+}
+
 Eigen::Isometry3d camera_from_rig(const Rig& rig, std::size_t camera) {
   return camera == 0 ? Eigen::Isometry3d::Identity()
                      : rig.more_cameras.at(camera - 1).camera_from_rig();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace frangia {
 
@@ -19,6 +20,11 @@ struct Wavefront {
       "uu", "vv", "uuu", "uuv", "uvv", "vvv"};
   /// The coefficients of the second order come first.
   static constexpr std::size_t kSecondOrder = 2;
+
+  /// Name of a term among the parameters of a rig.
+  [[nodiscard]] static std::string parameter_name(std::size_t term) {
+    return std::string("projector.wavefront_") + kNames.at(term) + "_rad";
+  }
 
   std::array<double, kTerms> coefficients_rad{};  ///< in the order of `kNames`
 

@@ -91,7 +91,7 @@ void add_rig_blocks(const ArtifactProblem& problem,
   add_block(out, &parameters.pitch_scale, {angular ? "projector.pitch_scale" : ""}, blocks);
   std::vector<std::string> wavefront(Wavefront::kTerms);
   for (std::size_t i = 0; i < Wavefront::kTerms; ++i) {
-    if (problem.free_wavefront.at(i)) wavefront[i] = wavefront_parameter(i);
+    if (problem.free_wavefront.at(i)) wavefront[i] = Wavefront::parameter_name(i);
   }
   add_block(out, parameters.wavefront.data(), wavefront, blocks);
   add_block(out,

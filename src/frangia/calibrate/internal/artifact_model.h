@@ -51,9 +51,6 @@ struct ArtifactProblem {
   std::array<bool, Wavefront::kTerms> free_wavefront{};
 };
 
-/// Name of a term of the wavefront as a parameter.
-[[nodiscard]] std::string wavefront_parameter(std::size_t term);
-
 /// The start as parameters.
 [[nodiscard]] ArtifactParameters artifact_start(const ArtifactProblem& problem);
 

@@ -1,17 +1,12 @@
 #include <variant>
 
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/artifact_residuals.h"
 #include "frangia/calibrate/internal/intrinsics_block.h"
 
 namespace frangia {
-
-std::string wavefront_parameter(std::size_t term) {
-  return fmt::format("projector.wavefront_{}_rad", Wavefront::kNames.at(term));
-}
 
 ArtifactParameters artifact_start(const ArtifactProblem& problem) {
   const Rig& rig = problem.start;

@@ -52,7 +52,7 @@ std::array<bool, Wavefront::kTerms> missing_wavefront_terms(const ArtifactProble
   for (std::size_t i = 0; i < full.names.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     std::size_t term = 0;
-    while (term < Wavefront::kTerms && full.names[i] != wavefront_parameter(term))
+    while (term < Wavefront::kTerms && full.names[i] != Wavefront::parameter_name(term))
       ++term;
     if (term == Wavefront::kTerms || problem.free_wavefront.at(term)) {
       active.push_back(column);

@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-/// Terms of the wavefront that the residuals of a fit call for, besides those that are estimated
-/// already: the second order before the third; none when the residuals are noise.
+/// Returns the terms of the wavefront that would explain the residuals of a fit and are not yet
+/// estimated: first the second order, then the third; none when the residuals are noise.
 ///
 /// @source   score test, Rao 1948, at the optimum without them
 [[nodiscard]] std::array<bool, Wavefront::kTerms> missing_wavefront_terms(

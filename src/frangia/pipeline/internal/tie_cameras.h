@@ -17,7 +17,8 @@ void tie_cameras(MeasuredViews& measured, const Rig& rig);
 /// Empties the further cameras' views of those that the registration of a setup emptied.
 void clear_outliers_of_cameras(MeasuredSetup& setup);
 
-/// All points of all cameras, as `collect_points`; `add_systematic` is told the camera of a view.
+/// Collects the points of all cameras, as `collect_points` does for one. `add_systematic` gets each
+/// view with the index of its camera.
 [[nodiscard]] PointCloud collect_points_of_cameras(
     const MeasuredViews& measured,
     const Rig& rig,

@@ -23,18 +23,14 @@ struct RigRay {
   Eigen::Vector3d direction;
 };
 
-const CameraModel& model_of(const Rig& rig, std::size_t camera) {
-  return camera == 0 ? rig.camera.model : rig.more_cameras[camera - 1].camera.model;
-}
-
 Eigen::Vector2d pixel_of(const Rig& rig, std::size_t camera, const Eigen::Vector3d& point_mm) {
-  return model_of(rig, camera).project(camera_from_rig(rig, camera) * point_mm);
+  return model_of_camera(rig, camera).project(camera_from_rig(rig, camera) * point_mm);
 }
 
 RigRay ray_of(const Rig& rig, std::size_t camera, const Eigen::Vector2d& pixel) {
   const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera).inverse();
   return {rig_from_camera.translation(),
-          rig_from_camera.linear() * model_of(rig, camera).ray(pixel).homogeneous()};
+          rig_from_camera.linear() * model_of_camera(rig, camera).ray(pixel).homogeneous()};
 }
 
 /// The point on a camera's ray that the partner sees nearest to its pixel.
@@ -84,7 +80,7 @@ Displacements ChangedRigs::displacements_of(const Eigen::Vector3d& point_mm) con
   const auto seen_by = [&](const Rig& rig) -> Eigen::Vector3d {
     if (is_label)
       return seen_nearest(ray_of(rig, camera_, pixel), rig, partner, partner_pixel, depth);
-    const Eigen::Vector2d ray = model_of(rig, camera_).ray(pixel);
+    const Eigen::Vector2d ray = model_of_camera(rig, camera_).ray(pixel);
     if (camera_ == 0)
       return intersect_fringe(ray, phase_rad, pattern_, rig.projector).depth_mm * ray.homogeneous();
     const Rig of_camera = rig_of_camera(rig, camera_);

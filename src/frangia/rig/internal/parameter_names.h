@@ -14,8 +14,6 @@ constexpr std::array kPoseNames = {
 constexpr std::string_view kCameraPrefix = "camera.";
 constexpr std::string_view kProjectorPrefix = "projector.";
 constexpr std::string_view kPitchScaleName = "projector.pitch_scale";
-/// Followed by the name of the term and "_rad".
-constexpr std::string_view kWavefrontPrefix = "projector.wavefront_";
 
 /// The device of the parameters of a camera beside the reference camera.
 [[nodiscard]] inline std::string camera_prefix(const std::string& camera) {
