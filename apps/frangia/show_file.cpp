@@ -12,9 +12,10 @@
 namespace frangia {
 namespace {
 
-bool run_xdg_open(std::string what) {
+bool run_xdg_open(const std::string& what) {
   std::string program = "xdg-open";
-  const std::array<char*, 3> arguments = {program.data(), what.data(), nullptr};
+  std::string argument = what;
+  const std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

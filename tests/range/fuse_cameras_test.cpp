@@ -48,10 +48,11 @@ struct Options {
 
 /// A ball in front of two cameras and a projector, with phases computed from its surface.
 struct TwoCameras {
-  explicit TwoCameras(const Options& given) : options(given) {
+  explicit TwoCameras(const Options& given)
+      : options(given),
+        center_mm(given.scale * Eigen::Vector3d(0.0, 0.0, 500.0)),
+        radius_mm(40.0 * given.scale) {
     const double s = options.scale;
-    center_mm = s * Eigen::Vector3d(0.0, 0.0, 500.0);
-    radius_mm = 40.0 * s;
     rig.camera.model = {.width_px = 160,
                         .height_px = 128,
                         .focal_px = {700.0, 700.0},

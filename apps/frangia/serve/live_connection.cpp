@@ -129,7 +129,8 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
 void serve_live(beast::tcp_stream stream,
                 const http::request<http::string_body>& request,
                 const SharedPtr& shared) {
-  std::make_shared<LiveConnection>(std::move(stream), shared)->accept(request);
+  const auto connection = std::make_shared<LiveConnection>(std::move(stream), shared);
+  connection->accept(request);
 }
 
 }  // namespace frangia

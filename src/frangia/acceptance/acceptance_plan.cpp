@@ -12,10 +12,10 @@ namespace {
 
 AcceptanceSource source_of(TomlReader& top) {
   const std::string text = top.text("source");
+  if (text != "scans" && text != "devices" && text != "simulation")
+    top.fail("source", fmt::format("is \"{}\"; it must be scans, devices or simulation", text));
   if (text == "scans") return AcceptanceSource::Scans;
-  if (text == "devices") return AcceptanceSource::Devices;
-  if (text == "simulation") return AcceptanceSource::Simulation;
-  top.fail("source", fmt::format("is \"{}\"; it must be scans, devices or simulation", text));
+  return text == "devices" ? AcceptanceSource::Devices : AcceptanceSource::Simulation;
 }
 
 double not_negative(TomlReader& reader, std::string_view key, double fallback) {

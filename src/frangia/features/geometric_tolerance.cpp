@@ -126,10 +126,10 @@ MeasuredValue run_out_of(Characteristic characteristic,
     const double radius = (offset - along * axis.axis).norm();
     return radius * std::cos(slope) - sign * along * std::sin(slope);
   };
-  std::vector<SurfaceValue> values = values_of(measured, value);
+  const std::vector<SurfaceValue> values = values_of(measured, value);
   MeasuredValue result =
       measured_value(characteristic == Characteristic::TotalRunOut
-                         ? form_width(std::move(values))
+                         ? form_width(values)
                          : largest_section_width(values, axis.center_mm, axis.axis));
   const double lever = (shape.center_mm - axis.center_mm).norm();
   const double tilt = datum.feature.uncertainty.axis_u95_rad * lever;

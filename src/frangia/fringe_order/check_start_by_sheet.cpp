@@ -43,9 +43,10 @@ SequenceCheck check_start_by_sheet(const WrappedPhase& phase,
   if (points < kMinPoints) return out;
   // Where the phase hardly changes along the line, both signs are concentrated: the declared one
   // then stands.
-  const bool reversed = std::abs(forward) < kScattered * static_cast<double>(points) &&
-                        std::abs(backward) > kReversed * static_cast<double>(points);
-  const std::complex<double> mean = (reversed ? backward : forward) / static_cast<double>(points);
+  const std::complex<double> forward_mean = forward / static_cast<double>(points);
+  const std::complex<double> backward_mean = backward / static_cast<double>(points);
+  const bool reversed = std::abs(backward_mean) > kReversed && std::abs(forward_mean) < kScattered;
+  const std::complex<double> mean = reversed ? backward_mean : forward_mean;
   if (std::abs(mean) < kConcentrated) return out;
   out.decided = true;
   out.misfit_rad = std::abs(std::arg(mean));

@@ -91,19 +91,20 @@ double residuals(std::span<const AlbedoSample> samples,
 
 AlbedoEstimate estimate_albedo(std::span<const AlbedoSample> samples,
                                std::span<const Pattern> patterns) {
-  constexpr int kSteps = 20;
+  constexpr std::size_t kAlbedos = 21;  // from 0 to 1
+  constexpr double kStep = 1.0 / (kAlbedos - 1);
   constexpr double kSeesSurface = 0.03;  // share of indirect light
   AlbedoEstimate out;
-  std::array<double, kSteps + 1> sums{};
-  for (int i = 0; i <= kSteps; ++i)
-    sums.at(static_cast<std::size_t>(i)) =
-        residuals(samples, patterns, static_cast<double>(i) / kSteps);
-  const auto best = static_cast<int>(std::min_element(sums.begin(), sums.end()) - sums.begin());
+  std::array<double, kAlbedos> sums{};
+  for (std::size_t i = 0; i < kAlbedos; ++i)
+    sums.at(i) = residuals(samples, patterns, static_cast<double>(i) * kStep);
+  const auto best =
+      static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
   const auto affected = static_cast<double>(
       std::count_if(samples.begin(), samples.end(), [](const AlbedoSample& sample) {
         return sample.predicted.mean > kSeesSurface;
       }));
-  const double least = sums.at(static_cast<std::size_t>(best));
+  const double least = sums.at(best);
   if (affected == 0.0) return out;
   out.unexplained = sums.front() > 0.0 ? least / sums.front() : 1.0;
   out.improvement = (sums.front() - least) / affected;
@@ -112,13 +113,13 @@ AlbedoEstimate estimate_albedo(std::span<const AlbedoSample> samples,
   out.significant = best > 0 && out.improvement > kMaterial;
   if (!out.significant) return out;
   double offset = 0.0;
-  if (best < kSteps) {  // vertex of the parabola through the least sum and its neighbours
-    const double before = sums.at(static_cast<std::size_t>(best) - 1);
-    const double after = sums.at(static_cast<std::size_t>(best) + 1);
+  if (best + 1 < kAlbedos) {  // vertex of the parabola through the least sum and its neighbours
+    const double before = sums.at(best - 1);
+    const double after = sums.at(best + 1);
     const double bend = before - 2.0 * least + after;
     if (bend > 0.0) offset = 0.5 * (before - after) / bend;
   }
-  out.albedo = std::clamp((best + offset) / kSteps, 0.0, 1.0);
+  out.albedo = std::clamp((static_cast<double>(best) + offset) * kStep, 0.0, 1.0);
   return out;
 }
 

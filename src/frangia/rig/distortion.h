@@ -66,12 +66,14 @@ struct Distortion {
   /// Returns the derivatives of `distort`.
   template <bool kExtended>
   [[nodiscard]] Jacobian jacobian(T x, T y) const {
+    const T two{2};
+    const T three{3};
     const T r2 = x * x + y * y;
     T radial = T{1} + r2 * (c[0] + r2 * (c[1] + r2 * c[4]));
-    T slope = T{2} * (c[0] + r2 * (T{2} * c[1] + r2 * T{3} * c[4]));  // 2 d(radial) / d(r^2)
+    T slope = two * (c[0] + r2 * (two * c[1] + r2 * three * c[4]));  // 2 d(radial) / d(r^2)
     if constexpr (kExtended) {
       const T below = T{1} + r2 * (c[5] + r2 * (c[6] + r2 * c[7]));
-      const T slope_below = T{2} * (c[5] + r2 * (T{2} * c[6] + r2 * T{3} * c[7]));
+      const T slope_below = two * (c[5] + r2 * (two * c[6] + r2 * three * c[7]));
       radial /= below;
       slope = (slope - radial * slope_below) / below;
     }

@@ -167,9 +167,9 @@ std::vector<PosedCamera> read_more_cameras(TomlReader& reader, RigContent conten
 
 PixelLayout read_pixels(TomlReader& reader) {
   const std::string name = reader.text("pixels");
-  if (name == "square") return PixelLayout::Square;
-  if (name == "diamond") return PixelLayout::Diamond;
-  reader.fail("pixels", fmt::format(R"(is "{}"; it must be "square" or "diamond")", name));
+  if (name != "square" && name != "diamond")
+    reader.fail("pixels", fmt::format(R"(is "{}"; it must be "square" or "diamond")", name));
+  return name == "square" ? PixelLayout::Square : PixelLayout::Diamond;
 }
 
 FringeWaveform read_waveform(TomlReader& reader, const Run& run) {

@@ -12,12 +12,13 @@ namespace {
 class RawDecoder : public ImageDecoder {
  public:
   RawDecoder(std::shared_ptr<const ImageBytes> file, const RawFormat& format)
-      : file_(std::move(file)), is_big_endian_(format.is_big_endian) {
-    info_ = {.codec = "raw",
-             .width_px = format.width_px,
-             .height_px = format.height_px,
-             .bits = format.bits > 8 ? 16 : 8,
-             .white_level = (1 << format.bits) - 1};
+      : file_(std::move(file)),
+        info_{.codec = "raw",
+              .width_px = format.width_px,
+              .height_px = format.height_px,
+              .bits = format.bits > 8 ? 16 : 8,
+              .white_level = (1 << format.bits) - 1},
+        is_big_endian_(format.is_big_endian) {
     page_bytes_ = static_cast<std::size_t>(format.width_px) *
                   static_cast<std::size_t>(format.height_px) *
                   static_cast<std::size_t>(info_.bits / 8);

@@ -14,14 +14,9 @@ class FirstView {
  public:
   FirstView(const Scan& scan,
             const Image<Eigen::Vector2f>& rays,
-            DecodeOptions options,
-            const Run& run) {
-    options.wrap = {};
-    Run silent;
-    silent.stop = run.stop;
-    status_ =
-        decode_view(read_frames(scan, 0, silent), scan.rig, rays, options, silent).phase.status;
-  }
+            const DecodeOptions& options,
+            const Run& run)
+      : status_(decoded(scan, rays, options, run)) {}
   [[nodiscard]] std::ptrdiff_t count(PixelStatus status) const {
     const auto pixels = status_.pixels();
     return std::count(pixels.begin(), pixels.end(), status);
@@ -32,6 +27,16 @@ class FirstView {
   }
 
  private:
+  [[nodiscard]] static Image<PixelStatus> decoded(const Scan& scan,
+                                                  const Image<Eigen::Vector2f>& rays,
+                                                  DecodeOptions options,
+                                                  const Run& run) {
+    options.wrap = {};
+    Run silent;
+    silent.stop = run.stop;
+    return decode_view(read_frames(scan, 0, silent), scan.rig, rays, options, silent).phase.status;
+  }
+
   Image<PixelStatus> status_;
 };
 

@@ -84,7 +84,7 @@ class PhaseSampler {
     const auto along = weights(down);
     double sum = 0.0;
     double low = out.phase_rad;
-    double high = out.phase_rad;
+    double high = low;
     for (std::size_t row = 0; row < along.size(); ++row) {
       for (std::size_t column = 0; column < across.size(); ++column) {
         const auto value = static_cast<double>(
