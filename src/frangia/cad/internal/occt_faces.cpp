@@ -8,35 +8,23 @@
 #include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <Geom_Circle.hxx>
-#include <Geom_ConicalSurface.hxx>
-#include <Geom_CylindricalSurface.hxx>
-#include <Geom_Line.hxx>
-#include <Geom_Plane.hxx>
-#include <Geom_SphericalSurface.hxx>
-#include <Geom_SurfaceOfLinearExtrusion.hxx>
-#include <Geom_SurfaceOfRevolution.hxx>
-#include <Geom_ToroidalSurface.hxx>
-#include <Geom_TrimmedCurve.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
-#include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Vertex.hxx>
-#include <gp_Pln.hxx>
 
 #include "frangia/cad/internal/faces.h"
+#include "frangia/cad/internal/nominal_shape.h"
 #include "frangia/cad/internal/occt_foot.h"
+#include "frangia/cad/internal/shared_nodes.h"
 #include "frangia/geometry/aabb_tree.h"
 
 namespace frangia {
@@ -82,164 +70,6 @@ Vector3d weights_in(const Mesh& mesh, std::uint32_t triangle, const Vector3d& po
   const double w = ab.cross(point - a).dot(normal) / area2;
   return {1.0 - v - w, v, w};
 }
-
-/// The nominal shape of a face; its center is moved amid the face.
-std::optional<Shape> shape_of(const FootSurface& surface, double side, const Vector3d& amid) {
-  Shape shape;
-  const Handle(Geom_Surface)& geometry = surface.surface();
-  const auto set_axis = [&](const gp_Ax3& place) {
-    shape.center_mm = vector_from(place.Location());
-    shape.axis = vector_from(place.Direction());
-  };
-  const auto move_along_axis = [&] {
-    const double along = (amid - shape.center_mm).dot(shape.axis);
-    shape.center_mm += along * shape.axis;
-    return along;
-  };
-  switch (surface.type()) {
-    case GeomAbs_Plane: {
-      const gp_Pln plane = Handle(Geom_Plane)::DownCast(geometry)->Pln();
-      set_axis(plane.Position());
-      if (!plane.Position().Direct()) shape.axis = -shape.axis;
-      shape.axis *= side;
-      shape.center_mm = amid - (amid - shape.center_mm).dot(shape.axis) * shape.axis;
-      return shape;
-    }
-    case GeomAbs_Cylinder: {
-      const auto cylinder = Handle(Geom_CylindricalSurface)::DownCast(geometry);
-      shape.kind = ShapeKind::Cylinder;
-      set_axis(cylinder->Position());
-      move_along_axis();
-      shape.radius_mm = cylinder->Radius();
-      return shape;
-    }
-    case GeomAbs_Cone: {
-      const auto cone = Handle(Geom_ConicalSurface)::DownCast(geometry);
-      shape.kind = ShapeKind::Cone;
-      set_axis(cone->Position());
-      shape.half_angle_rad = cone->SemiAngle();
-      shape.radius_mm = cone->RefRadius() + std::tan(shape.half_angle_rad) * move_along_axis();
-      const bool beyond_apex = shape.radius_mm < 0.0;
-      if (beyond_apex) shape.radius_mm = -shape.radius_mm;
-      if (beyond_apex != (shape.half_angle_rad < 0.0)) shape.axis = -shape.axis;
-      shape.half_angle_rad = std::abs(shape.half_angle_rad);
-      return shape;
-    }
-    case GeomAbs_Sphere: {
-      const auto sphere = Handle(Geom_SphericalSurface)::DownCast(geometry);
-      shape.kind = ShapeKind::Sphere;
-      set_axis(sphere->Position());
-      shape.radius_mm = sphere->Radius();
-      return shape;
-    }
-    case GeomAbs_Torus: {
-      const auto torus = Handle(Geom_ToroidalSurface)::DownCast(geometry);
-      shape.kind = ShapeKind::Torus;
-      set_axis(torus->Position());
-      shape.radius_mm = torus->MajorRadius();
-      shape.tube_radius_mm = torus->MinorRadius();
-      return shape;
-    }
-    default:
-      return std::nullopt;
-  }
-}
-
-/// The nominal shape of a line or a circle swept along or about an axis, as IGES states them.
-std::optional<Shape> swept_shape_of(const FootSurface& surface, const Vector3d& amid) {
-  constexpr double kParallel = 1e-9;
-  Shape shape;
-  const auto extrusion = Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(surface.surface());
-  const auto revolution = Handle(Geom_SurfaceOfRevolution)::DownCast(surface.surface());
-  if (extrusion.IsNull() && revolution.IsNull()) return std::nullopt;
-  Handle(Geom_Curve) curve =
-      extrusion.IsNull() ? revolution->BasisCurve() : extrusion->BasisCurve();
-  if (curve->IsKind(STANDARD_TYPE(Geom_TrimmedCurve)))
-    curve = Handle(Geom_TrimmedCurve)::DownCast(curve)->BasisCurve();
-  const auto circle = Handle(Geom_Circle)::DownCast(curve);
-  const auto line = Handle(Geom_Line)::DownCast(curve);
-  if (!extrusion.IsNull() && !circle.IsNull()) {
-    shape.axis = vector_from(extrusion->Direction());
-    shape.center_mm = vector_from(circle->Location());
-    shape.radius_mm = circle->Radius();
-    const Vector3d normal = vector_from(circle->Axis().Direction());
-    if (shape.axis.cross(normal).norm() > kParallel) return std::nullopt;
-  } else if (!revolution.IsNull() && !line.IsNull()) {
-    shape.axis = vector_from(revolution->Direction());
-    shape.center_mm = vector_from(revolution->Location());
-    const Vector3d at = vector_from(line->Lin().Location()) - shape.center_mm;
-    shape.radius_mm = (at - at.dot(shape.axis) * shape.axis).norm();
-    const Vector3d direction = vector_from(line->Lin().Direction());
-    if (shape.axis.cross(direction).norm() > kParallel) return std::nullopt;
-  } else {
-    return std::nullopt;
-  }
-  shape.kind = ShapeKind::Cylinder;
-  shape.center_mm += (amid - shape.center_mm).dot(shape.axis) * shape.axis;
-  return shape;
-}
-
-/// Gives the nodes on shared edges and vertices one number in all faces.
-class SharedNodes {
- public:
-  SharedNodes(const TopoDS_Shape& shape, Mesh& mesh) : mesh_(mesh) {
-    TopExp::MapShapes(shape, TopAbs_EDGE, edges_);
-    TopExp::MapShapes(shape, TopAbs_VERTEX, vertices_);
-    of_edge_.resize(static_cast<std::size_t>(edges_.Extent()) + 1);
-    of_vertex_.resize(static_cast<std::size_t>(vertices_.Extent()) + 1, kNone);
-  }
-
-  /// The numbers of the nodes of a face.
-  std::vector<std::uint32_t> numbers_of(const TopoDS_Face& face,
-                                        const Handle(Poly_Triangulation) & triangles,
-                                        const TopLoc_Location& place) {
-    std::vector<std::uint32_t> numbers(static_cast<std::size_t>(triangles->NbNodes()), kNone);
-    const auto point_of = [&](std::size_t node) {
-      const gp_Pnt at = triangles->Node(static_cast<int>(node) + 1).Transformed(place);
-      return Eigen::Vector3f(vector_from(at).cast<float>());
-    };
-    for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
-      const TopoDS_Edge edge = TopoDS::Edge(at.Current());
-      const auto polygon = BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
-      if (polygon.IsNull()) continue;
-      const int count = polygon->NbNodes();
-      auto& inner = of_edge_[static_cast<std::size_t>(edges_.FindIndex(edge))];
-      if (inner.empty()) inner.assign(static_cast<std::size_t>(count), kNone);
-      if (inner.size() != static_cast<std::size_t>(count)) continue;
-      const bool point = BRep_Tool::Degenerated(edge);
-      for (int i = 0; i < count; ++i) {
-        const auto node = static_cast<std::size_t>(polygon->Node(i + 1)) - 1;
-        std::uint32_t* number = &inner[static_cast<std::size_t>(i)];
-        if (i == 0 || point) number = number_of(TopExp::FirstVertex(edge));
-        if (i == count - 1 && !point) number = number_of(TopExp::LastVertex(edge));
-        if (number == nullptr) continue;
-        if (*number == kNone) *number = added(point_of(node));
-        numbers[node] = *number;
-      }
-    }
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (numbers[i] == kNone) numbers[i] = added(point_of(i));
-    return numbers;
-  }
-
- private:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-  std::uint32_t added(const Eigen::Vector3f& point) {
-    mesh_.vertices_mm.push_back(point);
-    return static_cast<std::uint32_t>(mesh_.vertices_mm.size() - 1);
-  }
-  std::uint32_t* number_of(const TopoDS_Vertex& vertex) {
-    if (vertex.IsNull()) return nullptr;
-    return &of_vertex_[static_cast<std::size_t>(vertices_.FindIndex(vertex))];
-  }
-
-  Mesh& mesh_;
-  TopTools_IndexedMapOfShape edges_;
-  TopTools_IndexedMapOfShape vertices_;
-  std::vector<std::vector<std::uint32_t>> of_edge_;
-  std::vector<std::uint32_t> of_vertex_;
-};
 
 class OcctFaces final : public CadModel::Faces {
  public:
@@ -328,9 +158,7 @@ class OcctFaces final : public CadModel::Faces {
       data.box.max().array() += data.margin_mm;
     }
     if (found.area_mm2 > 0.0)
-      found.shape = shape_of(data.surface, data.side, center / found.area_mm2);
-    if (found.area_mm2 > 0.0 && !found.shape)
-      found.shape = swept_shape_of(data.surface, center / found.area_mm2);
+      found.shape = nominal_shape(data.surface, data.side, center / found.area_mm2);
     if (!data.uvs.empty()) {
       Mesh own;
       own.vertices_mm.reserve(3 * data.uvs.size());
