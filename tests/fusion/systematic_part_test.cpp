@@ -18,7 +18,6 @@ namespace {
 using testing::floor_at;
 using testing::look_from;
 using testing::small_camera_model;
-using testing::Snapshot;
 using testing::snapshots;
 
 constexpr double kDistance = 650.0;
@@ -70,9 +69,11 @@ TEST(SystematicPart, StaysWhereNoiseFallsWithTheRootOfTheNumberOfViews) {
 /// Views of a plane from four sides, whose errors differ: each has ripples of its own of this
 /// amplitude and period, and states their RMS.
 ViewStore views_with_ripples(double amplitude_mm, double period_px, double step_deg) {
-  std::vector<Eigen::Isometry3d> poses;
-  for (int i = 0; i < 4; ++i)
-    poses.push_back(look_from(0.3 + rad_from_deg(step_deg) * i, rad_from_deg(70.0), kDistance));
+  std::vector<Eigen::Isometry3d> poses(4);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i] = look_from(
+        0.3 + rad_from_deg(step_deg) * static_cast<double>(i), rad_from_deg(70.0), kDistance);
+  }
   const ViewStore views = with_systematic(
       snapshots(
           floor_at(0.0), small_camera_model(160), poses, {.noise_mm = 0.01, .sigma_mm = 0.01}),

@@ -180,6 +180,61 @@ void describe(std::span<const Scan> scans, ArtifactCalibration& result) {
   result.rig.calibration = calibration;
 }
 
+/// Scales a rig whose plates left its scale open, and the surfaces found with it.
+Rig rescaled(const Rig& rig, double scale, std::span<ArtifactCapture> captures) {
+  for (ArtifactCapture& capture : captures) {
+    const bool plate = std::holds_alternative<Plate>(capture.artifact);
+    for (Eigen::Vector4d& surface : capture.surfaces) {
+      surface.tail<1>() *= scale;
+      if (!plate) surface.head<3>() *= scale;
+    }
+  }
+  return scaled(rig, scale);
+}
+
+/// Measures all plates and adjusts projector and table to them.
+void calibrate_by_plates(std::span<const Scan> scans,
+                         const CalibrateArtifactsOptions& options,
+                         const Run& run,
+                         ArtifactCalibration& result) {
+  run.stage("plate");
+  for (const Scan& scan : scans) {
+    if (is_kind<Plate>(scan))
+      result.captures.push_back(measure_plate(scan, result.rig, options, run, result.left_out));
+  }
+  if (result.captures.empty()) return;
+  run.stage("adjustment");
+  result.table = solve_artifacts(result.captures, result.rig, options.solve, run);
+  for (std::size_t c = 0; c < result.captures.size(); ++c)
+    result.captures[c].surfaces = result.table->surfaces[c];
+}
+
+/// Measures all balls and adjusts projector and table to plates and balls together.
+void calibrate_by_balls(std::span<const Scan> scans,
+                        const CalibrateArtifactsOptions& options,
+                        const Run& run,
+                        ArtifactCalibration& result) {
+  run.stage("balls");
+  // The start of this adjustment is the result of the plates', but its prior is that of the start:
+  // the same data must not count twice.
+  const Rig& start = result.rig;
+  Rig rig = result.table ? result.table->rig : start;
+  rig.calibration = start.calibration;
+  rig.camera = start.camera;
+  if (!start.projector.is_angular()) rig.projector = start.projector;
+  const std::size_t plates = result.captures.size();
+  for (const Scan& scan : scans) {
+    if (is_kind<Balls>(scan))
+      result.captures.push_back(measure_balls(scan, rig, options, run, result.left_out));
+  }
+  if (plates > 0 && !options.solve.baseline_mm && start.projector.is_angular()) {
+    const ArtifactCapture& balls = result.captures[plates];
+    rig = rescaled(rig, scale_of(balls, mean_radius(balls, rig)), result.captures);
+  }
+  run.stage("adjustment");
+  result.table = solve_artifacts(result.captures, rig, options.solve, run);
+}
+
 /// Projector and table from plates, then from plates and balls together.
 void calibrate_table(std::span<const Scan> scans,
                      const CalibrateArtifactsOptions& options,
@@ -189,48 +244,9 @@ void calibrate_table(std::span<const Scan> scans,
   require(result.rig.turntable.has_value(),
           "rig.toml has no [turntable], on which plates and balls turn; add point_mm and axis, "
           "within a few degrees");
-  run.stage("plate");
-  for (const Scan& scan : scans)
-    if (is_kind<Plate>(scan))
-      result.captures.push_back(measure_plate(scan, result.rig, options, run, result.left_out));
-  const Rig start = result.rig;
-  Rig rig = start;
-  const bool has_balls = std::any_of(scans.begin(), scans.end(), is_kind<Balls>);
-  if (!result.captures.empty()) {
-    run.stage("adjustment");
-    result.table = solve_artifacts(result.captures, start, options.solve, run);
-    rig = result.table->rig;
-    for (std::size_t c = 0; c < result.captures.size(); ++c)
-      result.captures[c].surfaces = result.table->surfaces[c];
-  }
-  if (has_balls) {
-    run.stage("balls");
-    // The start of the second adjustment is the result of the first, but its prior is that of the
-    // first: the same data must not count twice.
-    rig.calibration = start.calibration;
-    rig.camera = start.camera;
-    if (!start.projector.is_angular()) rig.projector = start.projector;
-    const std::size_t plates = result.captures.size();
-    for (const Scan& scan : scans)
-      if (is_kind<Balls>(scan))
-        result.captures.push_back(measure_balls(scan, rig, options, run, result.left_out));
-    const bool free_scale =
-        plates > 0 && !options.solve.baseline_mm && start.projector.is_angular();
-    if (free_scale) {
-      const double scale =
-          scale_of(result.captures[plates], mean_radius(result.captures[plates], rig));
-      rig = scaled(rig, scale);
-      for (std::size_t c = 0; c < result.captures.size(); ++c) {
-        const bool plate = std::holds_alternative<Plate>(result.captures[c].artifact);
-        for (Eigen::Vector4d& surface : result.captures[c].surfaces) {
-          surface.tail<1>() *= scale;
-          if (!plate) surface.head<3>() *= scale;
-        }
-      }
-    }
-    run.stage("adjustment");
-    result.table = solve_artifacts(result.captures, rig, options.solve, run);
-  }
+  calibrate_by_plates(scans, options, run, result);
+  if (std::any_of(scans.begin(), scans.end(), is_kind<Balls>))
+    calibrate_by_balls(scans, options, run, result);
   result.rig = result.table->rig;
   result.light_range = light_range_of(result.captures);
   if (result.table->light_rms > options.max_light_share * result.light_range) {

@@ -49,13 +49,18 @@ std::string what_fits(bool is_exchanged, FringeDirection direction) {
                "mirrored upside down";
 }
 
-}  // namespace
+/// Changes of the phase between neighbouring pixels, measured and expected.
+struct PhaseChanges {
+  std::vector<float> along;           ///< rad, in the direction in which more change is expected
+  std::vector<float> across;          ///< rad, in the other
+  std::vector<float> expected_ratio;  ///< of the expected change across to that along
+  std::size_t voting = 0;             ///< changes beyond their noise
+  std::size_t rising = 0;             ///< of these, with the expected sign
+};
 
-OrientationCheck check_orientation(const AbsolutePhase& phase,
-                                   const Rig& rig,
-                                   const Image<Eigen::Vector2f>& rays) {
-  require(same_size(phase.phase_rad, rays), "check_orientation: phase and rays differ in size");
-  OrientationCheck out;
+PhaseChanges phase_changes(const AbsolutePhase& phase,
+                           const Rig& rig,
+                           const Image<Eigen::Vector2f>& rays) {
   const double distance = working_distance(phase.pattern, rig);
   const auto expected_at = [&](int x, int y) {
     const Eigen::Vector2d ray = rays(x, y).cast<double>();
@@ -68,11 +73,7 @@ OrientationCheck check_orientation(const AbsolutePhase& phase,
   const int stride = std::max(1,
                               static_cast<int>(std::sqrt(static_cast<double>(measured_pixels) /
                                                          static_cast<double>(kSamples))));
-  std::size_t rising = 0;
-  std::size_t voting = 0;
-  std::vector<float> along;
-  std::vector<float> across;
-  std::vector<float> expected_ratio;
+  PhaseChanges out;
   for (int y = 0; y + kStep < rays.height(); y += stride) {
     for (int x = 0; x + kStep < rays.width(); x += stride) {
       const double expected_here = expected_at(x, y);
@@ -88,24 +89,37 @@ OrientationCheck check_orientation(const AbsolutePhase& phase,
       const Eigen::Vector2d measured(wrap_rad(right - here), wrap_rad(below - here));
       if (!measured.allFinite()) continue;
       const int main = std::abs(expected.x()) >= std::abs(expected.y()) ? 0 : 1;
-      along.push_back(static_cast<float>(std::abs(measured(main))));
-      across.push_back(static_cast<float>(std::abs(measured(1 - main))));
-      expected_ratio.push_back(
+      out.along.push_back(static_cast<float>(std::abs(measured(main))));
+      out.across.push_back(static_cast<float>(std::abs(measured(1 - main))));
+      out.expected_ratio.push_back(
           static_cast<float>(std::abs(expected(1 - main)) / std::abs(expected(main))));
       const double noise = phase.sigma_rad(x, y) * std::numbers::sqrt2;
       if (std::abs(measured(main)) < kMinSigmas * noise) continue;
-      ++voting;
-      if ((measured(main) > 0.0) == (expected(main) > 0.0)) ++rising;
+      ++out.voting;
+      if ((measured(main) > 0.0) == (expected(main) > 0.0)) ++out.rising;
     }
   }
-  if (along.size() < kMinPixels) return out;
-  const auto main_change = static_cast<double>(median_in_place(std::span(along)));
-  out.across = static_cast<double>(median_in_place(std::span(across))) / main_change;
-  out.rising = voting == 0 ? 0.0 : static_cast<double>(rising) / static_cast<double>(voting);
-  const bool is_plain = median_in_place(std::span(expected_ratio)) < 0.5F;
+  return out;
+}
+
+}  // namespace
+
+OrientationCheck check_orientation(const AbsolutePhase& phase,
+                                   const Rig& rig,
+                                   const Image<Eigen::Vector2f>& rays) {
+  require(same_size(phase.phase_rad, rays), "check_orientation: phase and rays differ in size");
+  OrientationCheck out;
+  PhaseChanges changes = phase_changes(phase, rig, rays);
+  if (changes.along.size() < kMinPixels) return out;
+  const auto main_change = static_cast<double>(median_in_place(std::span(changes.along)));
+  out.across = static_cast<double>(median_in_place(std::span(changes.across))) / main_change;
+  out.rising = changes.voting == 0
+                   ? 0.0
+                   : static_cast<double>(changes.rising) / static_cast<double>(changes.voting);
+  const bool is_plain = median_in_place(std::span(changes.expected_ratio)) < 0.5F;
   const bool is_exchanged = is_plain && out.across > kExchanged;
   const bool agree =
-      voting >= kMinPixels && (out.rising >= kMajority || out.rising <= 1.0 - kMajority);
+      changes.voting >= kMinPixels && (out.rising >= kMajority || out.rising <= 1.0 - kMajority);
   out.decided = is_exchanged || agree;
   out.consistent = !is_exchanged && !(agree && out.rising <= 1.0 - kMajority);
   if (!out.consistent) out.fits = what_fits(is_exchanged, phase.pattern.direction);

@@ -30,9 +30,10 @@ void check(std::span<const CameraPhases> cameras, std::span<const RangeGrid> ran
             "fuse_cameras: the cameras differ in the directions of their fringes");
     require(same_size(ranges[i].depth_mm, cameras[i].rays),
             "fuse_cameras: range grid and rays differ in size");
-    for (const AbsolutePhase* phase : cameras[i].phases)
+    for (const AbsolutePhase* phase : cameras[i].phases) {
       require(same_size(phase->phase_rad, cameras[i].rays),
               "fuse_cameras: phase and rays differ in size");
+    }
   }
 }
 
@@ -212,11 +213,11 @@ class CameraFusion {
       return false;
     const int left = static_cast<int>(at.x());
     const int top = static_cast<int>(at.y());
-    for (const auto& [x, y] :
-         {std::pair{left, top}, {left + 1, top}, {left, top + 1}, {left + 1, top + 1}}) {
-      if (!(static_cast<double>(depth(x, y)) > seen.point.z() + tolerance_mm)) return false;
-    }
-    return true;
+    const auto is_behind = [&](int x, int y) {
+      return static_cast<double>(depth(x, y)) > seen.point.z() + tolerance_mm;
+    };
+    return is_behind(left, top) && is_behind(left + 1, top) && is_behind(left, top + 1) &&
+           is_behind(left + 1, top + 1);
   }
 
   struct Outcome {

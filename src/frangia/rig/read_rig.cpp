@@ -177,7 +177,7 @@ FringeWaveform read_waveform(TomlReader& reader, const Run& run) {
   out.period_px = reader.positive("period_px");
   const std::string direction = reader.text("direction");
   if (direction != "vertical" && direction != "horizontal")
-    reader.fail("direction", "must be \"vertical\" or \"horizontal\"");
+    reader.fail("direction", R"(must be "vertical" or "horizontal")");
   out.direction = direction == "vertical" ? FringeDirection::Vertical : FringeDirection::Horizontal;
   const std::vector<double> cosine = reader.numbers("cosine");
   const std::vector<double> sine = reader.numbers("sine", cosine.size());
@@ -185,6 +185,35 @@ FringeWaveform read_waveform(TomlReader& reader, const Run& run) {
     out.harmonics.emplace_back(cosine[i], sine[i]);
   reader.warn_of_unused_keys(run);
   return out;
+}
+
+AngularModel read_angular_model(TomlReader& reader) {
+  const auto field = reader.numbers("field_deg", 2);
+  if (!(field[0] < field[1]) || field[0] <= -90.0 || field[1] >= 90.0) {
+    reader.fail("field_deg", "must be two rising angles between -90 and 90");
+  }
+  const double scale = reader.has("pitch_scale") ? reader.positive("pitch_scale") : 1.0;
+  AngularModel angular{rad_from_deg(field[0]), rad_from_deg(field[1]), scale};
+  if (reader.has("wavefront_deg")) {
+    const auto deviations = reader.numbers("wavefront_deg", Wavefront::kTerms);
+    std::transform(deviations.begin(),
+                   deviations.end(),
+                   angular.wavefront.coefficients_rad.begin(),
+                   rad_from_deg);
+  }
+  return angular;
+}
+
+/// Reads the response to grey levels and the waveforms of the fringes.
+void read_response(TomlReader response, const Run& run, Projector& projector) {
+  const auto light = response.numbers("light");
+  const bool rises = std::is_sorted(light.begin(), light.end());
+  if (light.size() < 2 || light.front() != 0.0 || light.back() != 1.0 || !rises)
+    response.fail("light", "must rise from 0 to 1, one number per evenly spaced level");
+  projector.response = ResponseCurve{light};
+  for (TomlReader& waveform : response.tables("waveform"))
+    projector.waveforms.push_back(read_waveform(waveform, run));
+  response.warn_of_unused_keys(run);
 }
 
 Projector read_projector(TomlReader reader, RigContent content, const Run& run) {
@@ -208,20 +237,7 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
     projector.model = read_image_size(reader);
     if (reader.has("pixels")) projector.pixels = read_pixels(reader);
   } else if (model == "angular") {
-    const auto field = reader.numbers("field_deg", 2);
-    if (!(field[0] < field[1]) || field[0] <= -90.0 || field[1] >= 90.0) {
-      reader.fail("field_deg", "must be two rising angles between -90 and 90");
-    }
-    const double scale = reader.has("pitch_scale") ? reader.positive("pitch_scale") : 1.0;
-    AngularModel angular{rad_from_deg(field[0]), rad_from_deg(field[1]), scale};
-    if (reader.has("wavefront_deg")) {
-      const auto deviations = reader.numbers("wavefront_deg", Wavefront::kTerms);
-      std::transform(deviations.begin(),
-                     deviations.end(),
-                     angular.wavefront.coefficients_rad.begin(),
-                     rad_from_deg);
-    }
-    projector.model = angular;
+    projector.model = read_angular_model(reader);
   } else if (model == "pinhole") {
     projector.model = read_camera_model(reader, content);
     if (reader.has("pixels")) projector.pixels = read_pixels(reader);
@@ -229,17 +245,7 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
     reader.fail("model",
                 fmt::format(R"(is "{}"; it must be "angular", "pinhole" or "label")", model));
   }
-  if (reader.has("response")) {
-    TomlReader response = reader.table("response");
-    const auto light = response.numbers("light");
-    const bool rises = std::is_sorted(light.begin(), light.end());
-    if (light.size() < 2 || light.front() != 0.0 || light.back() != 1.0 || !rises)
-      response.fail("light", "must rise from 0 to 1, one number per evenly spaced level");
-    projector.response = ResponseCurve{light};
-    for (TomlReader& waveform : response.tables("waveform"))
-      projector.waveforms.push_back(read_waveform(waveform, run));
-    response.warn_of_unused_keys(run);
-  }
+  if (reader.has("response")) read_response(reader.table("response"), run, projector);
   if (projector.position_mm.norm() == 0.0) {
     reader.fail("position_mm", "is the camera's own centre; triangulation needs a baseline");
   }

@@ -100,6 +100,13 @@ void add_rig_blocks(const ArtifactProblem& problem,
             blocks);
 }
 
+template <int kResiduals, int... kBlocks, typename Residual>
+ceres::CostFunction* artifact_cost(const Residual& residual) {
+  return new ceres::
+      AutoDiffCostFunction<Residual, kResiduals, kBlocks...>(  // NOLINT(*-owning-memory)
+          new Residual(residual));                             // NOLINT(*-owning-memory)
+}
+
 /// Declares the angles and surfaces of all captures, with what is known of them.
 void add_capture_blocks(const ArtifactProblem& problem,
                         const ArtifactNoise& noise,
@@ -112,31 +119,27 @@ void add_capture_blocks(const ArtifactProblem& problem,
       // The first view of an artifact defines where it stands.
       add_block(out, angle, {v == 0 ? "" : fmt::format("angle.{}.{}", c, v)}, blocks);
       if (v == 0) continue;
-      out.AddResidualBlock(new ceres::AutoDiffCostFunction<NumberPrior, 1, 1>(
-                               new NumberPrior{0, 0.0, 1.0 / noise.angle_rad}),
-                           nullptr,
-                           angle);
+      out.AddResidualBlock(
+          artifact_cost<1, 1>(NumberPrior{0, 0.0, 1.0 / noise.angle_rad}), nullptr, angle);
     }
     const auto* balls = std::get_if<Balls>(&problem.captures[c].artifact);
     for (std::size_t s = 0; s < parameters.surfaces[c].size(); ++s) {
       double* surface = parameters.surfaces[c][s].data();
-      std::vector<std::string> names;
-      for (int i = 0; i < 4; ++i)
-        names.push_back(i == 3 && balls == nullptr ? "" : fmt::format("surface.{}.{}.{}", c, s, i));
+      std::vector<std::string> names(4);
+      for (std::size_t i = 0; i < (balls == nullptr ? 3 : names.size()); ++i)
+        names[i] = fmt::format("surface.{}.{}.{}", c, s, i);
       add_block(out, surface, names, blocks);
       if (balls == nullptr) continue;
-      out.AddResidualBlock(new ceres::AutoDiffCostFunction<NumberPrior, 1, 4>(
-                               new NumberPrior{3, 0.0, 1.0 / problem.options.diameter_sigma}),
-                           nullptr,
-                           surface);
+      const double weight = 1.0 / problem.options.diameter_sigma;
+      out.AddResidualBlock(artifact_cost<1, 4>(NumberPrior{3, 0.0, weight}), nullptr, surface);
     }
     if (balls == nullptr || !balls->spacing_mm) continue;
     const double spacing = *balls->spacing_mm;
-    out.AddResidualBlock(new ceres::AutoDiffCostFunction<SpacingResidual, 1, 4, 4>(
-                             new SpacingResidual{spacing, 1.0 / (kCertified * spacing)}),
-                         nullptr,
-                         parameters.surfaces[c][0].data(),
-                         parameters.surfaces[c][1].data());
+    out.AddResidualBlock(
+        artifact_cost<1, 4, 4>(SpacingResidual{spacing, 1.0 / (kCertified * spacing)}),
+        nullptr,
+        parameters.surfaces[c][0].data(),
+        parameters.surfaces[c][1].data());
   }
 }
 
@@ -151,14 +154,12 @@ void add_views(const ArtifactProblem& problem,
       for (std::size_t i = 0; i < view.sites.size(); ++i) {
         const LightSite& site = view.sites[i];
         out.AddResidualBlock(
-            new ceres::
-                AutoDiffCostFunction<LightResidual, 2, 9, 9, 6, 1, Wavefront::kTerms, 4, 1, 4>(
-                    new LightResidual{
-                        turned_surface(problem, c, view, view.surface[i], site.camera_px),
-                        angular,
-                        site.light,
-                        light_weight(site, noise.light)}),
-            new ceres::HuberLoss(kHuberSigmas),
+            artifact_cost<2, 9, 9, 6, 1, Wavefront::kTerms, 4, 1, 4>(
+                LightResidual{turned_surface(problem, c, view, view.surface[i], site.camera_px),
+                              angular,
+                              site.light,
+                              light_weight(site, noise.light)}),
+            new ceres::HuberLoss(kHuberSigmas),  // NOLINT(*-owning-memory) the problem owns it
             parameters.camera.data(),
             parameters.projector.data(),
             parameters.pose.data(),
@@ -182,7 +183,9 @@ std::vector<FreeBlock> compose(const ArtifactProblem& problem,
   add_capture_blocks(problem, noise, parameters, out, blocks);
   add_views(problem, noise, parameters, out);
   if (problem.prior.rows() > 0) {
-    out.AddResidualBlock(new RigPrior(problem.prior, problem.prior_mean),
+    // NOLINTNEXTLINE(*-owning-memory) the problem owns it
+    auto* prior = new RigPrior(problem.prior, problem.prior_mean);
+    out.AddResidualBlock(prior,
                          nullptr,
                          parameters.camera.data(),
                          parameters.projector.data(),
@@ -194,8 +197,7 @@ std::vector<FreeBlock> compose(const ArtifactProblem& problem,
     // Without a known length the baseline keeps that of the start.
     const double length =
         problem.options.baseline_mm.value_or(problem.start.projector.position_mm.norm());
-    out.AddResidualBlock(new ceres::AutoDiffCostFunction<LengthResidual, 1, 6>(
-                             new LengthResidual{length, 1.0 / (kCertified * length)}),
+    out.AddResidualBlock(artifact_cost<1, 6>(LengthResidual{length, 1.0 / (kCertified * length)}),
                          nullptr,
                          parameters.pose.data());
   }

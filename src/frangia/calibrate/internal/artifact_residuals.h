@@ -99,6 +99,7 @@ struct LightResidual {
   Eigen::Vector2d weight;  ///< 0 for a direction that is not measured
 
   template <typename T>
+  // NOLINTNEXTLINE(readability-function-size) Ceres passes each block by itself
   bool operator()(const T* camera,
                   const T* intrinsics,
                   const T* pose,

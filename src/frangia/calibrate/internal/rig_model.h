@@ -50,7 +50,9 @@ struct RigLayout {
   bool has_projector = true;  ///< false where the projector only labels points
   std::size_t more = 0;       ///< cameras beside the reference camera
 
+  // NOLINTNEXTLINE(readability-convert-member-functions-to-static) of a layout, like the others
   [[nodiscard]] std::size_t projector() const { return kIntrinsics; }
+  // NOLINTNEXTLINE(readability-convert-member-functions-to-static)
   [[nodiscard]] std::size_t projector_pose() const { return 2UL * kIntrinsics; }
   [[nodiscard]] std::size_t camera(std::size_t i) const {
     constexpr std::size_t kPosed = kIntrinsics + kPose;

@@ -110,6 +110,7 @@ struct ProjectorResidual {
 
   /// Read by the reference camera.
   template <typename T>
+  // NOLINTNEXTLINE(readability-function-size) Ceres passes each block by itself
   bool operator()(const T* camera,
                   const T* intrinsics,
                   const T* projector_from_camera,
@@ -120,6 +121,7 @@ struct ProjectorResidual {
   }
   /// Read by a further camera.
   template <typename T>
+  // NOLINTNEXTLINE(readability-function-size) Ceres passes each block by itself
   bool operator()(const T* camera,
                   const T* from_reference,
                   const T* intrinsics,
@@ -132,6 +134,7 @@ struct ProjectorResidual {
   }
 
   template <typename T>
+  // NOLINTNEXTLINE(readability-function-size) Ceres passes each block by itself
   bool evaluate(const T* camera,
                 const T* from_reference,
                 const T* intrinsics,
@@ -161,6 +164,7 @@ struct LabelResidual {
   PhaseReading further;
 
   template <typename T>
+  // NOLINTNEXTLINE(readability-function-size) Ceres passes each block by itself
   bool operator()(const T* reference_intrinsics,
                   const T* intrinsics,
                   const T* from_reference,
