@@ -113,7 +113,7 @@ fs::path acceptance_scan(const AcceptancePlan& plan,
                          Terminal& terminal) {
   const Arrangement& wanted = plan.arrangements[arrangement];
   if (plan.source == AcceptanceSource::Scans) return wanted.scan;
-  const fs::path folder = output / fmt::format("arrangement-{}", arrangement + 1);
+  fs::path folder = output / fmt::format("arrangement-{}", arrangement + 1);
   if (fs::exists(folder / "scan.toml")) return folder;
   const Scan scan = plan_of_arrangement(plan, rig, wanted, folder);
   if (plan.source == AcceptanceSource::Devices) {

@@ -84,7 +84,7 @@ void add_scan_options(CLI::App& verb, SimulateArguments& arguments) {
       verb.add_option("--samples",
                       arguments.options.samples_per_px,
                       "rays per pixel; with 4 a pixel at an edge mixes two surfaces; by default 1, "
-                      "and 4 for the poses of a board")
+                      "and 9 for the poses of a board")
           ->check(from_to(1, 64));
 }
 

@@ -130,6 +130,43 @@ TEST(CheckBoardViews, RecognizesFramesThatDoNotFollowTheShifts) {
             std::string::npos);
 }
 
+TEST(CheckBoardViews, NamesFramesThatDoNotFollowTheShiftsInMostPosesFirst) {
+  // In the others the fringe is wide, and the swap happens to leave no residual, but wrong phases.
+  std::vector<PoseCapture> poses = captures(8);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i < 5) poses[i].misfit = 1.4;
+    for (BoardPoint& point : poses[i].view.points)
+      if (point.index % 2 == 0) point.projector_px.x() += 40.0;
+  }
+  const std::string message =
+      testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+  EXPECT_EQ(message.find("the frames of pattern"), 0U) << message;
+}
+
+TEST(CheckBoardViews, NamesAllThatIsWrongWhenTooFewPosesAreLeft) {
+  std::vector<PoseCapture> poses = captures(5);
+  poses[0].misfit = 1.4;
+  poses[1].misfit = 1.4;
+  poses[3].motion_px = 1.0;
+  const std::string message =
+      testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+  EXPECT_NE(message.find("pose 0, pose 1 do not follow"), std::string::npos) << message;
+  EXPECT_NE(message.find("besides, the board or the camera moved during the capture of pose 3"),
+            std::string::npos)
+      << message;
+}
+
+TEST(CheckBoardViews, TakesABlurredBoardForBlurredNotForMoved) {
+  std::vector<PoseCapture> poses = captures(8);
+  poses[2].blur_px = 4.0;
+  poses[2].motion_px = 0.6;  // what fringes do to a blurred corner
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_TRUE(checks.left_out.empty());
+  ASSERT_EQ(checks.warnings.size(), 1U);
+  EXPECT_NE(checks.warnings[0].find("out of focus or moving in pose 2"), std::string::npos)
+      << checks.warnings[0];
+}
+
 TEST(CheckBoardViews, LeavesOutThePoseWhosePhasesAreNotThoseOfAPlane) {
   std::vector<PoseCapture> poses = captures(8);
   for (BoardPoint& point : poses[5].view.points)

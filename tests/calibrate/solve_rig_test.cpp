@@ -159,6 +159,27 @@ TEST(SolveRig, StatesTheUncertaintyOfAShapeThatTheErrorsOfManySeedsHave) {
   EXPECT_LT(std::sqrt(squares / spread), 1.6);
 }
 
+TEST(SolveRig, StatesTheSameUncertaintyHoweverTheProjectorIsRolled) {
+  std::vector<BoardView> views = make_views({}, 8, 0.1, 4);
+  const RigSolution upright = solve_rig(kBoard, views, known_rig());
+  // The projector lies on its side: its rows measure depth.
+  Rig rolled = known_rig();
+  auto& projector = std::get<PinholeModel>(rolled.projector.model);
+  std::swap(projector.width_px, projector.height_px);
+  for (BoardView& view : views) {
+    for (BoardPoint& point : view.points) {
+      const Eigen::Vector2d pixel = point.projector_px;
+      point.projector_px = {pixel.y(), projector.height_px - 1 - pixel.x()};
+      std::swap(point.projector_sigma_px.x(), point.projector_sigma_px.y());
+      const Eigen::Matrix2d slope = point.projector_by_camera;
+      point.projector_by_camera << slope.row(1), -slope.row(0);
+    }
+  }
+  const RigSolution lying = solve_rig(kBoard, views, rolled);
+  EXPECT_NEAR(lying.point_sigma_mm / upright.point_sigma_mm, 1.0, 0.05);
+  EXPECT_NEAR(lying.spread_mm / upright.spread_mm, 1.0, 0.05);
+}
+
 TEST(SolveRig, UsesThatAPhaseIsReadAtTheCornerThatTheCameraSees) {
   // Corners with errors of 0.3 px, phases with errors of 0.01 px read at these corners.
   const TrueRig rig;

@@ -61,8 +61,8 @@ struct HttpApp {
 
 /// Limits that keep one client from hindering others.
 struct HttpLimits {
-  std::size_t header_bytes = 16 * 1024;
-  std::size_t body_bytes = 1024 * 1024;
+  std::size_t header_bytes = 16UL * 1024;
+  std::size_t body_bytes = 1024UL * 1024;
   std::size_t connections = 256;            ///< beyond it, the one that is idle longest is closed
   std::chrono::seconds request_time{10};    ///< for a whole request to arrive
   std::chrono::seconds response_time{120};  ///< for the answer to be taken

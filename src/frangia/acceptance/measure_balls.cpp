@@ -1,6 +1,7 @@
 #include "frangia/acceptance/measure_balls.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -144,7 +145,7 @@ MeasuredArtifact measure_balls(const Mesh& mesh,
   const std::vector<Shape> second = candidates(features, artifact.diameters_mm[1]);
   if (second.empty()) fail_without(artifact, 1);
   // The pair whose spacing comes nearest.
-  const Shape* ends[2] = {nullptr, nullptr};
+  std::array<const Shape*, 2> ends = {nullptr, nullptr};
   double least = kDiameterTolerance * artifact.spacing_mm;
   for (const Shape& a : first) {
     for (const Shape& b : second) {

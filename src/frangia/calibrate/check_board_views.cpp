@@ -214,9 +214,11 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
                     list_of(unseen)));
   }
   PoseChecks checks;
+  std::string earlier;  // what is wrong with the poses left out so far
   const auto leave_out = [&](const std::vector<std::string>& names, const std::string& reason) {
     if (names.empty()) return;
-    if (seen.size() - names.size() < options.min_views) fail(reason);
+    if (seen.size() - names.size() < options.min_views) fail(earlier + reason);
+    earlier += reason + "; besides, ";
     std::erase_if(seen, [&](const PoseCapture& pose) { return is_among(pose.view.name, names); });
     checks.left_out.insert(checks.left_out.end(), names.begin(), names.end());
     checks.warnings.push_back(fmt::format(
@@ -231,9 +233,13 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
   leave_out(dark, describe_dark(dark, options));
   const auto swapped =
       names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
+  // Most poses: not a slip of one capture, and the phases of the others say nothing either.
+  if (2 * swapped.size() > poses.size()) fail(earlier + describe_swapped(seen, swapped));
   leave_out(swapped, describe_swapped(seen, swapped));
-  const auto moved = names_of(
-      seen, [&](const PoseCapture& pose) { return pose.motion_px > options.max_motion_px; });
+  // A blurred corner is found elsewhere as the fringes beside it change; such a pose is warned of.
+  const auto moved = names_of(seen, [&](const PoseCapture& pose) {
+    return pose.motion_px > options.max_motion_px && !is_blurred(pose, options);
+  });
   leave_out(moved, describe_moved(seen, moved));
   const auto without_phase =
       names_of(seen, [&](const PoseCapture& pose) { return !is_lit(pose, options); });

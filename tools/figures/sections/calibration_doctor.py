@@ -171,7 +171,7 @@ FAULTS = [
 def first_message(study, scan):
     """The first warning or error of a calibration; None without one."""
     result = subprocess.run([study.program, "--json", "calibrate", "rig", scan, "-o", scan / "found.toml"], capture_output=True, text=True)
-    messages = [line for line in result.stderr.splitlines() if line.strip()]
+    messages = [line.replace(f"{scan}/", "") for line in result.stderr.splitlines() if line.strip()]
     if messages:
         return messages[0]
     return next(iter(json.loads(result.stdout).get("warnings", [])), None) if result.stdout else None

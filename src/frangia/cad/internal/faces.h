@@ -14,6 +14,8 @@ struct CadModel::Faces {
   Faces() = default;
   Faces(const Faces&) = delete;
   Faces& operator=(const Faces&) = delete;
+  Faces(Faces&&) = delete;
+  Faces& operator=(Faces&&) = delete;
   virtual ~Faces() = default;
 
   /// As `ExactSurface::nearest`.

@@ -15,16 +15,29 @@ Eigen::Vector3d moved_by(const RigParameters::Pose& pose, const Eigen::Vector3d&
   return moved + Eigen::Vector3d::Map(pose.data() + 3);
 }
 
+Eigen::Vector2d lit_pixel(const RigParameters& parameters, const Eigen::Vector3d& point) {
+  return project_point(parameters.projector.data(),
+                       moved_by(parameters.projector_from_camera, point));
+}
+
+/// The coordinate of the projector that changes most along the ray of the camera: 0 for columns,
+/// 1 for rows, as of a projector above the camera.
+int depth_coordinate(const RigParameters& parameters, const Eigen::Vector3d& point) {
+  const Eigen::Vector2d change =
+      lit_pixel(parameters, 1.001 * point) - lit_pixel(parameters, 0.999 * point);
+  return std::abs(change.x()) >= std::abs(change.y()) ? 0 : 1;
+}
+
 /// What determines a point of the reference camera's frame: its camera pixel and its projector
-/// column or, with a label, its pixels in all cameras.
+/// coordinate `measured` or, with a label, its pixels in all cameras.
 Eigen::VectorXd coordinates_of(const RigLayout& layout,
                                const RigParameters& parameters,
-                               const Eigen::Vector3d& point) {
+                               const Eigen::Vector3d& point,
+                               int measured) {
   Eigen::VectorXd out(layout.has_projector ? 3 : 2 + 2 * static_cast<Eigen::Index>(layout.more));
   out.head<2>() = project_point(parameters.camera.data(), point);
   if (layout.has_projector) {
-    const Eigen::Vector3d lit = moved_by(parameters.projector_from_camera, point);
-    out[2] = project_point(parameters.projector.data(), lit).x();
+    out[2] = lit_pixel(parameters, point)[measured];
     return out;
   }
   Eigen::Index row = 2;
@@ -41,8 +54,9 @@ Eigen::MatrixXd response_at(const Eigen::Vector3d& point,
                             const RigLayout& layout,
                             const RigParameters& parameters,
                             const Eigen::MatrixXd& covariance) {
+  const int measured = layout.has_projector ? depth_coordinate(parameters, point) : 0;
   const auto seen = [&](const RigParameters& by, const Eigen::Vector3d& at) {
-    return coordinates_of(layout, by, at);
+    return coordinates_of(layout, by, at, measured);
   };
   Eigen::MatrixXd by_point(seen(parameters, point).size(), 3);
   const double step_mm = 1e-4 * point.norm();

@@ -19,8 +19,8 @@ struct ShapeResponse {
 /// The response at the poses of a solution that has its covariance.
 ///
 /// @source   linear propagation: a point is where the ray of a pixel of the reference camera meets
-///           the sheet of light of one projector column; with a label, where the rays of all
-///           cameras meet, by least squares
+///           the sheet of light of one projector column, or row where rows measure depth; with a
+///           label, where the rays of all cameras meet, by least squares
 [[nodiscard]] ShapeResponse shape_response(const Board& board,
                                            const RigLayout& layout,
                                            const RigParameters& parameters,

@@ -102,7 +102,7 @@ void warn_of_quality(std::span<const PoseCapture> poses,
                     100.0 * median(misfits)));
   }
   const auto blurred =
-      names_of(poses, [&](const PoseCapture& pose) { return pose.blur_px > options.max_blur_px; });
+      names_of(poses, [&](const PoseCapture& pose) { return is_blurred(pose, options); });
   if (!blurred.empty()) {
     checks.warnings.push_back(fmt::format(
         "the board is out of focus or moving in {}: its edges are blurred by {:.1f} px; "

@@ -31,6 +31,11 @@ template <typename Condition>
 [[nodiscard]] std::string describe_moved(std::span<const PoseCapture> poses,
                                          const std::vector<std::string>& names);
 
+/// Whether the board is out of focus, or moved during single frames.
+[[nodiscard]] inline bool is_blurred(const PoseCapture& pose, const PoseCheckOptions& options) {
+  return pose.blur_px > options.max_blur_px;
+}
+
 /// Median distance of the projector's pixels from a homography of the board.
 [[nodiscard]] double plane_misfit_px(const Board& board, const BoardView& view);
 

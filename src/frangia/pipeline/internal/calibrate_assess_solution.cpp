@@ -28,7 +28,7 @@ void warn_of_poses(const std::vector<BoardView>& views,
       continue;
     run.warn(fmt::format(
         "{}: the reprojection error of {} is {:.2f} px, {:.1f} times the median of all poses; "
-        "the board or the camera moved during its capture, or it is blurred",
+        "the board or the camera moved during its capture, or its corners are blurred or badly lit",
         views[i].name,
         device,
         by_view[i].rms_px,

@@ -85,8 +85,12 @@ LitRow ViewRenderer::sample_row(int y) const {
     }
     for (int row = 0; row < samples_across_; ++row) {
       for (int column = 0; column < samples_across_; ++column) {
-        const Eigen::Vector2d offset((column + 0.5) / samples_across_ - 0.5,
-                                     (row + 0.5) / samples_across_ - 0.5);
+        // A sheared grid: no two samples of a pixel have the same x or y, so that an edge along a
+        // row or column of pixels darkens them by finer steps than 1 / samples_across_.
+        const Eigen::Vector2d cell((column + 0.5) / samples_across_ - 0.5,
+                                   (row + 0.5) / samples_across_ - 0.5);
+        const Eigen::Vector2d offset =
+            cell + Eigen::Vector2d(cell.y(), -cell.x()) / samples_across_;
         samples.push_back(sample_light(scene_, pose_, center + ray_from_px * offset));
       }
     }
