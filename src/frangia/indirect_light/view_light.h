@@ -23,7 +23,7 @@ struct IndirectShare {
 /// What the prediction for the pixels of a view is for. Interpolated light differs from the nodes
 /// around it by at most the stated share of the direct light, or of itself.
 enum class LightUse {
-  FewPixels,    ///< each is traced
+  FewPixels,  ///< each is traced
   /// Of all pixels: 0.5 % (0.005 rad, as the noise of fine fringes), or a tenth of itself.
   Correction,
   Uncertainty,  ///< of all pixels: 3 %, or a quarter of itself
