@@ -124,12 +124,12 @@ TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
   EXPECT_EQ(state().at("project").at("commands").at("edit"), Json::array({"box", "2"}));
   static_cast<void>(command("redo"));
   static_cast<void>(finish());
-  const std::string mesh = *service_->mesh();
+  const std::string mesh = service_->mesh();
 
   restart();
   static_cast<void>(command("open-project", {{"name", "box"}}));
   static_cast<void>(finish());
-  EXPECT_EQ(*service_->mesh(), mesh);
+  EXPECT_EQ(service_->mesh(), mesh);
   EXPECT_EQ(state().at("project").at("surface").at("steps_done"), 3);
 }
 
@@ -171,12 +171,12 @@ TEST_F(ServiceTest, FitsShapesToTheSelection) {
 
 TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
   open_box();
-  const std::string mesh = *service_->mesh();
+  const std::string mesh = service_->mesh();
   static_cast<void>(command("edit", {{"operation", "delete"}}));  // nothing is selected
   const Json job = finish();
   EXPECT_EQ(job.at("state"), "failed");
   EXPECT_NE(job.at("error").get<std::string>().find("select"), std::string::npos);
-  EXPECT_EQ(*service_->mesh(), mesh);
+  EXPECT_EQ(service_->mesh(), mesh);
   EXPECT_NE(refusal("edit", R"({"operation": "decimate", "value": "much"})"), "");
 }
 

@@ -64,6 +64,21 @@ std::optional<std::string> percent_decoded(const std::string& text) {
   return out;
 }
 
+/// The whole number that follows `prefix` in a path; empty when something else does.
+std::optional<std::size_t> number_after(const std::string& path, std::string_view prefix) {
+  const auto text = rest_of(path, prefix);
+  if (!text) return std::nullopt;
+  std::size_t number = 0;
+  const char* end = text->data() + text->size();
+  const auto [last, error] = std::from_chars(text->data(), end, number);
+  return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
+}
+
+/// Arrays, or that there are none.
+HttpResponse found(std::string bytes, const char* otherwise) {
+  return bytes.empty() ? failure(kNotFound, otherwise) : binary(std::move(bytes));
+}
+
 HttpResponse asset_at(const std::string& path) {
   const std::string wanted = path == "/" ? "/index.html" : path;
   for (const WebAsset& asset : web_assets()) {
@@ -184,17 +199,15 @@ HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string
 HttpResponse AppRoutes::get(const std::string& path) const {
   if (path == "/api/state") return {.body = service_.state()};
   if (path == "/api/mesh" || path == "/api/selection") {
-    const auto bytes = path == "/api/mesh" ? service_.mesh() : service_.selection();
-    return bytes ? binary(*bytes) : failure(kNotFound, "there is no surface");
+    return found(path == "/api/mesh" ? service_.mesh() : service_.selection(),
+                 "there is no surface");
   }
-  if (const auto text = rest_of(path, "/api/clouds/")) {
-    std::size_t station = 0;
-    const char* end = text->data() + text->size();
-    const auto [last, error] = std::from_chars(text->data(), end, station);
-    std::string bytes;
-    if (error == std::errc() && last == end) bytes = service_.cloud(station);
-    return bytes.empty() ? failure(kNotFound, "this station has no points") : binary(bytes);
-  }
+  if (const auto level = number_after(path, "/api/levels/"))
+    return found(service_.level(*level), "the surface has no such level");
+  if (const auto level = number_after(path, "/api/selection/"))
+    return found(service_.selection(*level), "the surface has no such level");
+  if (const auto station = number_after(path, "/api/clouds/"))
+    return found(service_.cloud(*station), "this station has no points");
   if (const auto text = rest_of(path, "/api/exports/")) {
     const auto name = percent_decoded(*text);
     if (!name) return failure(kBadRequest, "the name is not percent-encoded");
@@ -210,6 +223,7 @@ HttpResponse AppRoutes::get(const std::string& path) const {
 HttpResponse AppRoutes::post(const std::string& path,
                              const std::string& body,
                              const std::string& key) const {
+  if (path == "/api/pick") return {.body = service_.pick(body)};
   if (path == "/api/operator") {
     keys_.take_over(key);
     on_operator_();

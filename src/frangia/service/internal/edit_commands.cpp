@@ -45,11 +45,11 @@ nlohmann::ordered_json Service::Implementation::start_select_component(
 }
 nlohmann::ordered_json Service::Implementation::start_undo(CommandArguments& arguments) {
   arguments.check_all_read();
-  return started_edit([](SurfaceModel& model, const Run&) { return model.undo(); });
+  return started_edit([](SurfaceModel& model, const Run& run) { return model.undo(run); });
 }
 nlohmann::ordered_json Service::Implementation::start_redo(CommandArguments& arguments) {
   arguments.check_all_read();
-  return started_edit([](SurfaceModel& model, const Run&) { return model.redo(); });
+  return started_edit([](SurfaceModel& model, const Run& run) { return model.redo(run); });
 }
 nlohmann::ordered_json Service::Implementation::start_fit(CommandArguments& arguments) {
   const std::string kind = arguments.text("kind");
@@ -104,14 +104,18 @@ nlohmann::ordered_json Service::Implementation::started_edit(
   static_cast<void>(folder());
   return started("edit", [this, work = std::move(work)](const Run& run) {
     require(model_ != nullptr, "there is no surface to edit; reconstruct it first");
-    const SurfacePtr surface = work(*model_, run);
-    change([&](OpenProject& opened) { opened.surface = surface; });
+    show_surface(work(*model_, run), run);
   });
+}
+void Service::Implementation::show_surface(const SurfacePtr& surface, const Run& run) {
+  change([&](OpenProject& opened) { opened.surface = surface; });
+  const SurfacePtr refined = model_->refine(run);
+  if (refined) change([&](OpenProject& opened) { opened.surface = refined; });
 }
 void Service::Implementation::load_surface(const ProjectFolder& project, const Run& run) {
   drop_model();
   model_ = std::make_unique<SurfaceModel>(project, revision_, run);
-  change([&](OpenProject& opened) { opened.surface = model_->snapshot(); });
+  show_surface(model_->snapshot(), run);
 }
 void Service::Implementation::drop_model() {
   if (model_) revision_ = model_->snapshot()->selection_revision;

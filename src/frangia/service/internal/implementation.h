@@ -71,6 +71,8 @@ class Service::Implementation {
   void require_idle() const;
   /// On the queue's thread.
   void load_surface(const ProjectFolder& project, const Run& run);
+  /// On the queue's thread. Shows a surface, and then its finer level.
+  void show_surface(const SurfacePtr& surface, const Run& run);
   /// On the queue's thread. The next model counts on, so that no two meshes share a revision.
   void drop_model();
   void change(const std::function<void(OpenProject&)>& edit);

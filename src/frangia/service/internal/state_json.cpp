@@ -75,6 +75,12 @@ Json json_of_surface(const SurfaceSnapshot& surface, const std::string& summary)
               {"noise", number_or_null(surface.sigma.noise_mm)},
               {"systematic", number_or_null(surface.sigma.systematic_mm)}}},
             {"hole_count", surface.hole_count}};
+  json["levels"] = Json::array();
+  for (const auto& level : surface.picture->levels()) {
+    json["levels"].push_back(
+        {{"triangles", level->exact ? surface.triangles : level->triangles.size()},
+         {"error_mm", level->error_mm}});
+  }
   json["holes"] = Json::array();
   for (const SurfaceHole& hole : surface.holes) {
     json["holes"].push_back(

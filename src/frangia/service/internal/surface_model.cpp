@@ -1,20 +1,23 @@
 #include "frangia/service/internal/surface_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <functional>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/parallel.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/features/feature_points.h"
 #include "frangia/features/fit_points.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/connected_components.h"
-#include "frangia/service/encode_arrays.h"
 
 namespace frangia {
 namespace {
@@ -55,6 +58,26 @@ ShapeKind shape_kind_of(const std::string& name) {
   throw Error(ErrorKind::Input, "kind: is plane, cylinder or sphere");
 }
 
+/// The figures and the picture of a mesh.
+void describe(const Mesh& mesh, SurfaceSnapshot& snapshot, const Run& run) {
+  snapshot.vertices = mesh.vertices_mm.size();
+  snapshot.triangles = mesh.triangles.size();
+  const std::array<std::function<void()>, 2> tasks = {
+      [&] {
+        snapshot.picture =
+            std::make_shared<const SurfacePicture>(mesh, snapshot.mesh_revision, run);
+      },
+      [&] {
+        snapshot.holes = holes_of(mesh);
+        snapshot.components = connected_components(mesh).components.size();
+        snapshot.sigma = median_sigma(mesh);
+      }};
+  parallel_chunks(tasks.size(), 1, [&](std::size_t task, std::size_t) { tasks.at(task)(); });
+  snapshot.hole_count = snapshot.holes.size();
+  if (snapshot.holes.size() > SurfaceSnapshot::kMostHoles)
+    snapshot.holes.resize(SurfaceSnapshot::kMostHoles);
+}
+
 }  // namespace
 
 SurfaceModel::SurfaceModel(const ProjectFolder& project, int revision, const Run& run)
@@ -70,14 +93,14 @@ SurfaceModel::SurfaceModel(const ProjectFolder& project, int revision, const Run
     for (std::size_t i = script.done; i < script.steps.size(); ++i)
       history_->undo();
   }
-  publish(nullptr);
+  publish(run);
 }
 
 SurfacePtr SurfaceModel::apply(const EditStep& step, const Run& run) {
-  const EditState before = history_->state();
   history_->apply(step, run);
+  shown_.resize(history_->done());  // those of steps that were undone are gone
   save();
-  return publish(&before);
+  return publish(run);
 }
 
 SurfacePtr SurfaceModel::select_component_of(std::size_t triangle, const Run& run) {
@@ -112,51 +135,70 @@ SurfacePtr SurfaceModel::fit(const std::string& kind, const Run& run) {
                         .form_mm = found.fit.form_mm,
                         .points = found.fit.points});
   if (next->fits.size() > SurfaceSnapshot::kMostFits) next->fits.erase(next->fits.begin());
-  snapshot_ = std::move(next);
-  return snapshot_;
+  return show(std::move(next));
 }
 
-SurfacePtr SurfaceModel::undo() {
-  const EditState before = history_->state();
+SurfacePtr SurfaceModel::undo(const Run& run) {
   require(history_->undo(), "there is no step to undo");
   save();
-  return publish(&before);
+  return publish(run);
 }
 
-SurfacePtr SurfaceModel::redo() {
-  const EditState before = history_->state();
+SurfacePtr SurfaceModel::redo(const Run& run) {
   require(history_->redo(), "there is no step to redo");
   save();
-  return publish(&before);
+  return publish(run);
 }
 
-SurfacePtr SurfaceModel::publish(const EditState* before) {
+SurfacePtr SurfaceModel::publish(const Run& run) {
   const EditState& state = history_->state();
-  const bool keeps_mesh = before != nullptr && same_picture(before->mesh, state.mesh);
-  auto next = std::make_shared<SurfaceSnapshot>();
+  const std::size_t done = history_->done();
+  shown_.resize(history_->steps().size() + 1);
   ++revision_;
-  next->selection_revision = revision_;
-  if (keeps_mesh) {
+  auto next = std::make_shared<SurfaceSnapshot>();
+  if (shown_[done]) {  // undone or done again: the picture is known
+    *next = *shown_[done];
+  } else if (snapshot_ && same_picture(snapshot_->picture->mesh(), state.mesh)) {
     *next = *snapshot_;
-    next->selection_revision = revision_;
   } else {
     next->mesh_revision = revision_;
-    next->vertices = state.mesh.vertices_mm.size();
-    next->triangles = state.mesh.triangles.size();
-    next->sigma = median_sigma(state.mesh);
-    next->components = connected_components(state.mesh).components.size();
-    next->holes = holes_of(state.mesh);
-    next->hole_count = next->holes.size();
-    if (next->holes.size() > SurfaceSnapshot::kMostHoles)
-      next->holes.resize(SurfaceSnapshot::kMostHoles);
-    next->mesh = std::make_shared<const std::string>(encode_mesh(state.mesh));
+    describe(state.mesh, *next, run);
   }
   next->selected = count_selected(state.selection);
-  next->selection = std::make_shared<const std::string>(encode_selection(state.selection));
+  next->selection = std::make_shared<const Selection>(state.selection);
+  return show(std::move(next));
+}
+
+SurfacePtr SurfaceModel::refine(const Run& run) {
+  if (!snapshot_->picture->is_coarse()) return nullptr;
+  auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
+  next->picture = snapshot_->picture->refined(run);
+  return show(std::move(next));
+}
+
+SurfacePtr SurfaceModel::show(std::shared_ptr<SurfaceSnapshot> next) {
+  next->selection_revision = revision_;
   next->steps = history_->steps();
   next->done = history_->done();
   snapshot_ = std::move(next);
+  shown_[history_->done()] = snapshot_;
+  forget_far_pictures();
   return snapshot_;
+}
+
+void SurfaceModel::forget_far_pictures() {
+  std::set<const SurfacePicture*> kept;
+  std::size_t bytes = 0;
+  const std::size_t done = history_->done();
+  const auto consider = [&](SurfacePtr& one) {
+    if (!one) return;
+    if (kept.insert(one->picture.get()).second) bytes += one->picture->bytes();
+    if (bytes > kMostPictureBytes) one.reset();
+  };
+  for (std::size_t away = 1; away < shown_.size(); ++away) {
+    if (away <= done) consider(shown_[done - away]);
+    if (done + away < shown_.size()) consider(shown_[done + away]);
+  }
 }
 
 void SurfaceModel::save() const {

@@ -12,6 +12,8 @@
 #include "frangia/core/run.h"
 #include "frangia/editor/edit_history.h"
 #include "frangia/geometry/median_sigma.h"
+#include "frangia/geometry/selection.h"
+#include "frangia/service/internal/surface_picture.h"
 #include "frangia/service/project_folder.h"
 
 namespace frangia {
@@ -50,8 +52,8 @@ struct SurfaceSnapshot {
   std::vector<EditStep> steps;  ///< those after the first `done` were undone
   std::size_t done = 0;
   std::vector<SurfaceFit> fits;  ///< of the present mesh, the newest last, at most kMostFits
-  std::shared_ptr<const std::string> mesh;       ///< packed
-  std::shared_ptr<const std::string> selection;  ///< packed
+  PicturePtr picture;
+  std::shared_ptr<const Selection> selection;  ///< of the exact mesh
 
   static constexpr std::size_t kMostHoles = 100;
   static constexpr std::size_t kMostFits = 12;
@@ -77,18 +79,28 @@ class SurfaceModel {
   /// @errors   Error(Input) for another kind, for too small a selection, or when its points do not
   ///          determine the shape
   SurfacePtr fit(const std::string& kind, const Run& run);
-  SurfacePtr undo();  ///< Error(Input) without a step to undo
-  SurfacePtr redo();  ///< Error(Input) without a step to redo
+  SurfacePtr undo(const Run& run);  ///< Error(Input) without a step to undo
+  SurfacePtr redo(const Run& run);  ///< Error(Input) without a step to redo
   [[nodiscard]] SurfacePtr snapshot() const { return snapshot_; }
+  /// Adds the level that is drawn at rest, which a client does not have to wait for. Null when the
+  /// picture has it.
+  SurfacePtr refine(const Run& run);
 
  private:
-  SurfacePtr publish(const EditState* before);
+  /// Pictures of the steps nearest to the present one that are kept, so that undo shows them at
+  /// once.
+  static constexpr std::size_t kMostPictureBytes = 512UL * 1024 * 1024;
+
+  SurfacePtr publish(const Run& run);
+  SurfacePtr show(std::shared_ptr<SurfaceSnapshot> next);
+  void forget_far_pictures();
   void save() const;
 
   ProjectFolder project_;
   std::optional<EditHistory> history_;
   int revision_ = 0;
   SurfacePtr snapshot_;
+  std::vector<SurfacePtr> shown_;  ///< after so many steps; null: not known any more
 };
 
 }  // namespace frangia
