@@ -152,6 +152,42 @@ TEST_F(ServiceTest, ReplaysItsStepsByTheCommandLineToTheSameMesh) {
     EXPECT_NE(error_of([&] { static_cast<void>(service_->exported(name)); }), "") << name;
 }
 
+TEST_F(ServiceTest, ShowsLevelsOfALargeMeshAndKnowsAnUndoneMeshAgain) {
+  constexpr int kRings = 400;  // 638 400 triangles: more than are drawn at rest
+  open_box(kRings);
+  const Json before = state().at("project").at("surface");
+  ASSERT_EQ(before.at("levels").size(), 2U);
+  EXPECT_LE(before.at("levels")[0].at("triangles"), 100'000);
+  EXPECT_LE(before.at("levels")[1].at("triangles"), 500'000);
+  EXPECT_LT(service_->level(0).size(), service_->level(1).size());
+  EXPECT_TRUE(service_->level(2).empty());
+  static_cast<void>(
+      command("select-component-of", {{"triangle", before.at("triangles").get<int>() - 1}}));
+  static_cast<void>(command("edit", {{"operation", "delete"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const Json after = state().at("project").at("surface");
+  EXPECT_NE(after.at("mesh_revision"), before.at("mesh_revision"));
+  static_cast<void>(command("undo"));
+  static_cast<void>(finish());
+  const Json undone = state().at("project").at("surface");
+  EXPECT_EQ(undone.at("mesh_revision"), before.at("mesh_revision"));
+  EXPECT_EQ(undone.at("selected"), 11);
+  EXPECT_EQ(undone.at("levels"), before.at("levels"));
+  static_cast<void>(command("redo"));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("surface").at("mesh_revision"), after.at("mesh_revision"));
+}
+
+TEST_F(ServiceTest, PicksPointsOfTheSurface) {
+  open_box();
+  const Json hit = Json::parse(service_->pick(R"({"eye": [0, 0, 50], "direction": [0, 0, -1]})"));
+  EXPECT_NEAR(hit.at("hit").at("point_mm")[2].get<double>(), 5.0, 1e-6);
+  EXPECT_TRUE(hit.at("hit").at("sigma_mm").is_null());
+  EXPECT_EQ(hit.at("mesh_revision"), state().at("project").at("surface").at("mesh_revision"));
+  for (const char* wrong : {"", "{}", R"({"eye": [0, 0, 1]})", R"({"eye": [0], "direction": [1]})"})
+    EXPECT_NE(error_of([&] { static_cast<void>(service_->pick(wrong)); }), "") << wrong;
+}
+
 TEST_F(ServiceTest, FitsShapesToTheSelection) {
   open_box(96);
   EXPECT_NE(refusal("fit", R"({"kind": "egg"})"), "");

@@ -2,7 +2,7 @@
 import { html, LitElement, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 
-import { meshOf, unpack } from './arrays';
+import { unpack } from './arrays';
 import type { StepName } from './app_steps';
 import { arranged, type RigDraft } from './arrange';
 import { dialogs, footer, header, picture } from './frame_parts';
@@ -18,10 +18,11 @@ import { rigStep } from './steps/rig';
 import { scanStep } from './steps/scan';
 import { surfaceStep } from './steps/surface';
 import type { Coloring } from './mesh_colors';
+import { MeshSource } from './mesh_source';
 import type { Measurement } from './ruler';
 import type { Job, Project, RigGeometry, State } from './types';
 import { plain } from './ui';
-import { type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
+import { type Hit, type Ray, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
 import { LiveView } from './live_view';
 
 interface Look { shading: Shading; coloring: Coloring; axis: SectionAxis; share: number; flipped: boolean }
@@ -42,8 +43,7 @@ export class App extends LitElement {
   measurement: Measurement | null = null;
   private problem = '';
   private seenFailure = 0;
-  private meshShown = -1;
-  private selectionShown = -1;
+  meshes!: MeshSource;
   private cloudsShown = new Map<number, number>();
   private projectShown = '';
   private wantSurface = false;
@@ -61,6 +61,7 @@ export class App extends LitElement {
     document.documentElement.dataset.theme = theme;
     this.host.className = 'view';
     this.viewer = new Viewer(this.host, {
+      pick: (ray) => this.pick(ray),
       measured: (result) => {
         this.measurement = result;
         this.requestUpdate();
@@ -69,6 +70,7 @@ export class App extends LitElement {
       partPicked: (triangle) => void this.selectPart(triangle),
       picked: (tool, points) => void this.onPicked(tool, points),
     });
+    this.meshes = new MeshSource(this.session, this.viewer, () => this.requestUpdate(), (error) => this.say(error));
     addEventListener('keydown', (event) => onKey(this, event));
     void this.session.begin();
   }
@@ -159,7 +161,7 @@ export class App extends LitElement {
       }
       this.chooseLayer();
       if (this.step === 'rig') this.viewer.setRig(this.drawnRig);
-      void this.showSurface();
+      void this.meshes.follow();
       void this.showClouds();
     }
     this.requestUpdate();
@@ -183,9 +185,8 @@ export class App extends LitElement {
 
   private onProject(state: State): void {
     this.projectShown = state.project?.name ?? '';
-    this.meshShown = this.selectionShown = -1;
     this.cloudsShown.clear();
-    this.viewer.setMesh(null);
+    this.meshes.forget();
     this.viewer.clearClouds();
     this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
     this.problem = '';
@@ -194,29 +195,12 @@ export class App extends LitElement {
     this.viewer.frame([0.9, -1.1, 0.6]);
   }
 
-  private async showSurface(): Promise<void> {
-    const surface = this.state.project?.surface;
-    if (!surface) {
-      if (this.meshShown !== -1) this.viewer.setMesh(null);
-      this.meshShown = -1;
-      return;
-    }
+  private async pick(ray: Ray): Promise<Hit | null> {
     try {
-      if (surface.mesh_revision !== this.meshShown) {
-        this.meshShown = surface.mesh_revision;
-        const arrays = meshOf(await this.session.bytes('/api/mesh'));
-        if (this.meshShown !== surface.mesh_revision) return;
-        this.viewer.setMesh(arrays);
-        this.selectionShown = -1;
-        this.requestUpdate();
-      }
-      if (surface.selection_revision !== this.selectionShown) {
-        this.selectionShown = surface.selection_revision;
-        const flags = surface.selected ? unpack(await this.session.bytes('/api/selection')).get('selected') : undefined;
-        this.viewer.setSelection((flags as Uint8Array | undefined) ?? null);
-      }
+      return await this.session.pick(ray);
     } catch (error) {
       this.say(error);
+      return null;
     }
   }
 

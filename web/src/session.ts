@@ -1,4 +1,5 @@
 import type { State } from './types';
+import type { Hit, Ray } from './viewer';
 
 const KEY = 'frangia-key';
 const ID = 'frangia-id';
@@ -98,6 +99,12 @@ export class Session {
   async command<T = Record<string, unknown>>(name: string, argument: object = {}): Promise<T> {
     const response = await this.post(`/api/commands/${name}`, argument);
     return (await response.json()) as T;
+  }
+
+  /** The point of the exact mesh on a ray. */
+  async pick(ray: Ray): Promise<Hit | null> {
+    const response = await this.post('/api/pick', ray);
+    return ((await response.json()) as { hit: Hit | null }).hit;
   }
 
   async newLink(): Promise<string> {

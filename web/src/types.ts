@@ -108,7 +108,16 @@ export interface Calibration {
   poses: { points: number; expected: number }[];
   verdict: Verdict | null;
 }
+/** Deviations of the surface from a reference. */
+export interface Comparison {
+  revision: number;
+  reference: string;
+  tolerance_mm: [number, number];
+}
 export interface Surface {
+  /** Levels of detail, the coarsest first. */
+  levels: { triangles: number; error_mm: number }[];
+  comparison?: Comparison | null;
   mesh_revision: number;
   selection_revision: number;
   vertices: number;

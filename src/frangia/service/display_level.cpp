@@ -48,18 +48,17 @@ std::vector<std::uint8_t> shared_by_corners(const Mesh& mesh,
   std::vector<std::uint8_t> shared(level.triangles.size());
   for (std::size_t i = 0; i < shared.size(); ++i) {
     const auto& [a, b, c] = level.triangles[i];
-    shared[i] = std::min({around[level.vertices[a]],
-                          around[level.vertices[b]],
-                          around[level.vertices[c]]});
+    shared[i] =
+        std::min({around[level.vertices[a]], around[level.vertices[b]], around[level.vertices[c]]});
   }
   return shared;
 }
 
-void add_vectors(ArrayPacker& packer, const char* name, const std::vector<Eigen::Vector3f>& vectors) {
-  packer.add(name,
-             "float32",
-             reinterpret_cast<const float*>(vectors.data()),
-             vectors.size() * kCorners);
+void add_vectors(ArrayPacker& packer,
+                 const char* name,
+                 const std::vector<Eigen::Vector3f>& vectors) {
+  packer.add(
+      name, "float32", reinterpret_cast<const float*>(vectors.data()), vectors.size() * kCorners);
 }
 
 }  // namespace
@@ -76,17 +75,16 @@ DisplayLevel display_level(const Mesh& mesh, std::size_t most, const Run& run) {
   constexpr float kAnyError = 1.0F;  // of the size of the mesh: the number of triangles decides
   float error = 0.0F;
   level.triangles.resize(mesh.triangles.size());
-  const std::size_t indices =
-      meshopt_simplify(level.triangles.front().data(),
-                       mesh.triangles.front().data(),
-                       mesh.triangles.size() * kCorners,
-                       positions,
-                       mesh.vertices_mm.size(),
-                       kStride,
-                       most * kCorners,
-                       kAnyError,
-                       0,
-                       &error);
+  const std::size_t indices = meshopt_simplify(level.triangles.front().data(),
+                                               mesh.triangles.front().data(),
+                                               mesh.triangles.size() * kCorners,
+                                               positions,
+                                               mesh.vertices_mm.size(),
+                                               kStride,
+                                               most * kCorners,
+                                               kAnyError,
+                                               0,
+                                               &error);
   run.check();
   level.triangles.resize(indices / kCorners);
   level.error_mm = static_cast<double>(

@@ -219,9 +219,8 @@ std::string Service::pick(const std::string& text) const {
   nlohmann::ordered_json json{{"mesh_revision", surface->mesh_revision}, {"hit", nullptr}};
   if (picked) {
     const Eigen::Vector3d& p = picked->point_mm;
-    json["hit"] = {{"point_mm", {p.x(), p.y(), p.z()}},
-                   {"triangle", picked->triangle},
-                   {"sigma_mm", nullptr}};
+    json["hit"] = {
+        {"point_mm", {p.x(), p.y(), p.z()}}, {"triangle", picked->triangle}, {"sigma_mm", nullptr}};
     if (std::isfinite(picked->sigma_mm)) json["hit"]["sigma_mm"] = picked->sigma_mm;
   }
   return json.dump();
