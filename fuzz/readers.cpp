@@ -26,6 +26,8 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig_covariance.h"
 
+#include "network_readers.h"
+
 namespace frangia {
 namespace {
 
@@ -127,22 +129,26 @@ void read_names(const Path& path) {
   static_cast<void>(NameTemplate(guess_name_template(files)));
 }
 
-constexpr std::array<FuzzReader, 27> kReaders{{
+constexpr std::array<FuzzReader, 31> kReaders{{
     {"3mf", "input.3mf", read_mesh_file},
     {"bmp", "input.bmp", read_image},
+    {.name = "command", .file = "", .take = take_command},
     {"conf", "input.conf", [](const Path& path) { static_cast<void>(read_posed_scans(path)); }},
     {"covariance", "input.csv", read_covariance},
     {"dxf", "input.dxf", read_mesh_file},
+    {.name = "http", .file = "", .take = take_http},
     {"glb", "input.glb", read_mesh_file},
     {"gltf", "input.gltf", read_mesh_file},
     {"image", "input.png", read_image},
     {"jpeg", "input.jpg", read_image},
+    {.name = "live", .file = "", .take = take_live},
     {"manifest",
      "capture/manifest.txt",
      [](const Path& path) {
        CaptureManifest manifest(path.parent_path().parent_path());
        static_cast<void>(manifest.retries());
      }},
+    {.name = "message", .file = "", .take = take_message},
     {"names", "input.txt", read_names},
     {"npy", "input.npy", read_image},
     {"obj", "input.obj", read_mesh_file},
@@ -197,6 +203,13 @@ FuzzFolder::~FuzzFolder() {
 }
 
 void FuzzFolder::run(const FuzzReader& reader, std::string_view bytes) const {
+  if (reader.take != nullptr) {
+    try {
+      reader.take(bytes);
+    } catch (const Error&) {  // the reader refused them
+    }
+    return;
+  }
   const Path input = path_ / reader.file;
   write(input, bytes);
   try {

@@ -8,12 +8,13 @@
 
 namespace frangia {
 
-/// One reader of files under test.
+/// One reader under test, of files or of what a network sends.
 struct FuzzReader {
   std::string_view name;  ///< folder below fuzz/seeds and fuzz/findings
-  std::string_view file;  ///< name that the input gets
+  std::string_view file;  ///< name that the input gets; empty for a reader of bytes
   /// Reads the input at `path`. The folder of `path` also holds the files that inputs refer to.
-  void (*read)(const std::filesystem::path& path);
+  void (*read)(const std::filesystem::path& path) = nullptr;
+  void (*take)(std::string_view bytes) = nullptr;  ///< instead of `read`, without a file
 };
 
 /// All readers.

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -149,8 +151,12 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   const RuntimeFile file(server->port(), keys.issue_key());
   const std::string link = routes.new_link();
   print_link(link, arguments.projects, terminal);
-  if (arguments.open && !show_address(link))
-    run.warn("xdg-open cannot show the link; open it yourself");
+  std::jthread opener;  // xdg-open may last as long as the browser, which the server must answer
+  if (arguments.open) {
+    opener = std::jthread([&run, &link](const std::stop_token& stop) {
+      if (!show_address(link, stop)) run.warn("xdg-open cannot show the link; open it yourself");
+    });
+  }
   server->serve(routes.app(), run.stop);
 }
 

@@ -1,8 +1,11 @@
 #include "show_file.h"
 
 #include <array>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -12,7 +15,7 @@
 namespace frangia {
 namespace {
 
-bool run_xdg_open(const std::string& what) {
+bool run_xdg_open(const std::string& what, const std::stop_token& stop) {
   std::string program = "xdg-open";
   std::string argument = what;
   const std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
@@ -32,20 +35,27 @@ bool run_xdg_open(const std::string& what) {
       ::posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  return error == 0 && ::waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-         WEXITSTATUS(status) == 0;
+  if (error != 0) return false;
+  for (;;) {
+    constexpr std::chrono::milliseconds kInterval(20);
+    int status = 0;
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (ended < 0 && errno != EINTR) return false;
+    if (stop.stop_requested()) return true;  // it shows it still
+    std::this_thread::sleep_for(kInterval);
+  }
 }
 
 }  // namespace
 
 bool show_file(const std::filesystem::path& path) {
   // Absolute, so that a name that begins with a dash is no option of xdg-open.
-  return run_xdg_open(std::filesystem::absolute(path).string());
+  return run_xdg_open(std::filesystem::absolute(path).string(), {});
 }
 
-bool show_address(const std::string& address) {
-  return run_xdg_open(address);
+bool show_address(const std::string& address, const std::stop_token& stop) {
+  return run_xdg_open(address, stop);
 }
 
 }  // namespace frangia

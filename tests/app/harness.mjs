@@ -72,16 +72,16 @@ export function newLink(program, home) {
   return asked.stdout.trim();
 }
 
-export const launch = () =>
+export const launch = (...more) =>
   require('playwright-core').chromium.launch({
     executablePath: chromiumPath,
     args: ['--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage'],
+      '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage', ...more],
   });
 
 /** A page all of whose messages are checked. */
-export async function openPage(browser, url, viewport = { width: 1440, height: 900 }) {
-  const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB' });
+export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, more = {}) {
+  const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB', ...more });
   const page = await context.newPage();
   page.setDefaultTimeout(30_000 * slowdown);
   // Not by the page's own policy, which forbids it.
@@ -89,7 +89,7 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
   page.on('pageerror', (error) => fail(`the page: ${error.message}`));
   page.on('console', (message) => {
     const text = message.text();
-    if (message.type() === 'error' && !/GL Driver|404|409|ERR_CONNECTION|WebSocket/.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
+    if (message.type() === 'error' && !/GL Driver|403|404|409|ERR_CONNECTION|WebSocket/.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
   });
   page.on('request', (request) => {
     const { pathname, origin } = new URL(request.url());
@@ -112,14 +112,19 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
   return page;
 }
 
-/** Takes a screenshot and runs axe on the page. */
-export async function look(page, folder, name) {
-  await page.waitForTimeout(200);
-  await page.screenshot({ path: path.join(folder, `${name}.png`) });
+/** Runs axe on the page as it is. */
+export async function axe(page, name) {
   const found = await page
     .evaluate(async () => (await window.axe.run(document)).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).slice(0, 3)}`))
     .catch((error) => [`axe: ${error.message}`]);
   for (const violation of found) fail(`${name}: ${violation}`);
+}
+
+/** Takes a screenshot and runs axe on the page. */
+export async function look(page, folder, name) {
+  await page.waitForTimeout(200);
+  await page.screenshot({ path: path.join(folder, `${name}.png`) });
+  await axe(page, name);
   passed(name);
 }
 

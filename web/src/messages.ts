@@ -133,6 +133,7 @@ const CATALOGUE = {
     'Der Tisch fährt die Stationen an; jede Ansicht wird ausgewertet, während die nächste aufgenommen wird.',
   ],
   'scan.resume': ['This scan was interrupted. Nothing that was captured is lost.', 'Dieser Scan wurde unterbrochen. Nichts Aufgenommenes ist verloren.'],
+  'scan.tableAngle': ['Present angle of the turntable, °', 'Jetziger Winkel des Drehtischs, °'],
   'scan.noRig': ['This folder holds a finished scan without devices.', 'Dieser Ordner enthält einen fertigen Scan ohne Geräte.'],
   'scan.rescan': ['Scan this station again', 'Diese Station neu aufnehmen'],
   'scan.build': ['Build the surface', 'Fläche berechnen'],

@@ -143,6 +143,7 @@ export interface Project {
   devices: Device[];
   live: { pattern: LivePattern; table_deg: number } | null;
   calibration: Calibration | null;
+  table_angle: { last_deg: number | null } | null;
   stations: Station[];
   surface: Surface | null;
   exports: { name: string; bytes: number }[];

@@ -31,6 +31,14 @@ HttpRequest request_of(const http::request<http::string_body>& message) {
   return request;
 }
 
+/// Whether a header that decides who asks, or what is sent, occurs twice. A proxy in front may read
+/// the other one.
+bool is_ambiguous(const http::request<http::string_body>& message) {
+  return message.count(http::field::host) > 1 || message.count(http::field::origin) > 1 ||
+         message.count("Sec-Fetch-Site") > 1 || message.count(http::field::content_type) > 1 ||
+         message.count(http::field::authorization) > 1;
+}
+
 Answer answer_of(HttpResponse response, const Shared& shared, unsigned version, bool keep_alive) {
   Answer answer(static_cast<http::status>(response.status), version);
   answer.set(http::field::content_type, response.type);
@@ -62,7 +70,6 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   HttpConnection(HttpConnection&&) = delete;
   HttpConnection& operator=(HttpConnection&&) = delete;
   ~HttpConnection() override {
-    end_waiting();
     if (!upgraded_) --shared_->connections;
   }
 
@@ -75,21 +82,16 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(shared_->limits.header_bytes));
     parser_->body_limit(shared_->limits.body_bytes);
-    place_ = shared_->idle.insert(shared_->idle.end(), this);
+    place_.enter(shared_->idle, this);
     stream_.expires_after(shared_->limits.request_time);  // for all of the request
     http::async_read(
         stream_, buffer_, *parser_, [self = shared_from_this()](ErrorCode error, std::size_t) {
-          self->end_waiting();
+          self->place_.leave();
           self->on_request(error);
         });
   }
 
  private:
-  void end_waiting() {
-    if (place_) shared_->idle.erase(*place_);
-    place_.reset();
-  }
-
   void on_request(ErrorCode error) {
     if (error == http::error::body_limit) return refuse(http::status::payload_too_large);
     if (error == http::error::header_limit)
@@ -99,6 +101,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
       return refuse(http::status::bad_request);
     if (error) return close();
     const auto& message = parser_->get();
+    if (is_ambiguous(message)) return refuse(http::status::bad_request);
     const HttpRequest request = request_of(message);
     if (websocket::is_upgrade(message)) {
       if (!shared_->app.may_connect(request)) return refuse(http::status::forbidden);
@@ -119,8 +122,10 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
 
   void write(Answer answer) {
     answer_ = std::move(answer);
+    place_.enter(shared_->sending, this);
     stream_.expires_after(shared_->limits.response_time);
     http::async_write(stream_, answer_, [self = shared_from_this()](ErrorCode error, std::size_t) {
+      self->place_.leave();
       if (error) return;
       if (self->answer_.need_eof()) return self->end();
       self->answer_ = {};
@@ -138,8 +143,8 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
   Answer answer_;
-  std::optional<std::list<Connection*>::iterator> place_;
   bool upgraded_ = false;
+  ConnectionPlace place_;  ///< last: leaves a list of `shared_`
 };
 
 }  // namespace

@@ -32,10 +32,14 @@ struct HttpServer::Implementation {
     });
   }
 
-  /// Closes the connection that has waited longest for a request; its memory follows.
+  /// Closes the connection that has waited longest, for a request if there is such a one, otherwise
+  /// for its client to take an answer; its memory follows.
   void make_room() const {
-    if (shared->idle.empty()) return;
-    shared->idle.front()->close();
+    for (const Connections* list : {&shared->idle, &shared->sending}) {
+      if (list->empty()) continue;
+      list->front()->close();
+      return;
+    }
   }
 
   void announce(bool state) {

@@ -67,6 +67,9 @@ struct HttpLimits {
   std::chrono::seconds request_time{10};    ///< for a whole request to arrive
   std::chrono::seconds response_time{120};  ///< for the answer to be taken
   std::size_t live_message_bytes = 4096;    ///< of a message from a client
+  /// A WebSocket is asked for a sign of life after half of this time without a message, and closed
+  /// after all of it. Proxies close a connection that is silent for a minute.
+  std::chrono::seconds live_silence{40};
   std::chrono::milliseconds live_interval{50};  ///< at least, between two live messages
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 /// A WebSocket: hears one message that authorizes it, then sends the state and, when the client
 /// asks for them, pictures.
-class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
+class LiveConnection : public Connection, public std::enable_shared_from_this<LiveConnection> {
  public:
   LiveConnection(beast::tcp_stream stream, SharedPtr shared)
       : socket_(std::move(stream)), shared_(std::move(shared)) {}
@@ -18,15 +18,19 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   LiveConnection& operator=(const LiveConnection&) = delete;
   LiveConnection(LiveConnection&&) = delete;
   LiveConnection& operator=(LiveConnection&&) = delete;
-  ~LiveConnection() {
+  ~LiveConnection() override {
     if (registered_) shared_->live.erase(place_);
     --shared_->connections;
   }
 
+  void close() override { beast::get_lowest_layer(socket_).close(); }
+
   void accept(const http::request<http::string_body>& request) {
     beast::get_lowest_layer(socket_).expires_never();
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    socket_.set_option(websocket::stream_base::timeout{
+        shared_->limits.request_time, shared_->limits.live_silence, true});
     socket_.read_message_max(shared_->limits.live_message_bytes);
+    waiting_.enter(shared_->idle, this);
     socket_.async_accept(request, [self = shared_from_this()](ErrorCode error) {
       if (!error) self->expect_key();
     });
@@ -37,7 +41,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
     timer_.emplace(socket_.get_executor(), shared_->limits.request_time);
     timer_->async_wait([weak = weak_from_this()](ErrorCode error) {
       const auto self = weak.lock();
-      if (!error && self) beast::get_lowest_layer(self->socket_).close();
+      if (!error && self) self->close();
     });
     socket_.async_read(buffer_, [self = shared_from_this()](ErrorCode error, std::size_t) {
       self->timer_.reset();
@@ -58,6 +62,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   }
 
   void begin() {
+    waiting_.leave();
     place_ = shared_->live.insert(shared_->live.end(), [weak = weak_from_this()](bool state) {
       if (const auto self = weak.lock()) self->changed(state);
     });
@@ -121,7 +126,8 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   bool state_due_ = false;
   bool picture_due_ = false;
   int channel_ = 0;
-  std::uint64_t seen_ = 0;  ///< revision of the picture that was sent last
+  std::uint64_t seen_ = 0;   ///< revision of the picture that was sent last
+  ConnectionPlace waiting_;  ///< until a key has come; last: leaves a list of `shared_`
 };
 
 }  // namespace

@@ -38,11 +38,40 @@ class Connection {
   virtual void close() = 0;
 };
 
+/// Connections in the order in which they are closed to make room.
+using Connections = std::list<Connection*>;
+
+/// The place of a connection in one of the lists, while it is in one.
+class ConnectionPlace {
+ public:
+  ConnectionPlace() = default;
+  ConnectionPlace(const ConnectionPlace&) = delete;
+  ConnectionPlace& operator=(const ConnectionPlace&) = delete;
+  ConnectionPlace(ConnectionPlace&&) = delete;
+  ConnectionPlace& operator=(ConnectionPlace&&) = delete;
+  ~ConnectionPlace() { leave(); }
+
+  void enter(Connections& list, Connection* connection) {
+    leave();
+    list_ = &list;
+    place_ = list.insert(list.end(), connection);
+  }
+  void leave() {
+    if (list_ != nullptr) list_->erase(place_);
+    list_ = nullptr;
+  }
+
+ private:
+  Connections* list_ = nullptr;
+  Connections::iterator place_;
+};
+
 /// What connections share. One thread uses it, except for `changed`.
 struct Shared {
   HttpApp app;
   HttpLimits limits;
-  std::list<Connection*> idle;  ///< that wait for a request, the longest first
+  Connections idle;     ///< that wait for a request or for a key, the longest first
+  Connections sending;  ///< whose client takes an answer, the longest first
   std::size_t connections = 0;
   /// Tell a WebSocket that the state, or else a picture, has changed.
   std::list<std::function<void(bool state)>> live;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/acquisition/capture_scan.h"
+#include "frangia/acquisition/left_table.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/folder_lock.h"
@@ -130,7 +131,22 @@ void enter(const ViewAssessment& found,
   });
 }
 
+/// The table may have been turned by hand since the session that left it.
+void require_table_angle(const ProjectFolder& project,
+                         const RigDevices& devices,
+                         const CaptureSetup& setup) {
+  if (!devices.turntable || devices.turntable->info().can_home || setup.table_at_rad) return;
+  if (const auto left = left_table(project.scan)) throw UnknownTableAngle(left->angle_deg);
+}
+
 }  // namespace
+
+UnknownTableAngle::UnknownTableAngle(std::optional<double> last_deg)
+    : Error(ErrorKind::Input,
+            fmt::format("the turntable has no home switch and may have been turned since the scan "
+                        "stopped{}; state its present angle, or turn it to 0 by hand and state 0",
+                        last_deg ? fmt::format(" at {:.6g} degrees", *last_deg) : "")),
+      last_deg_(last_deg) {}
 
 const char* name_of(StationState state) {
   switch (state) {
@@ -201,11 +217,13 @@ CaptureReport capture_project(
   const FolderLock lock(plan.folder);
   OpenedDevices opened(project.rig(), plan.rig, setup.drivers(), setup, run);
   RigDevices& devices = opened.devices();
+  require_table_angle(project, devices, setup);
   run.stage("scan");
   StationBook book(project, std::move(stations), on_change);
   const StationCloud clouds(plan.rig);
   CaptureOptions options;
   options.camera = settings.camera;
+  options.table_at_rad = setup.table_at_rad;
   options.on_view = [&](const ViewAssessment& found) {
     enter(found, clouds, project, book, plan.views[found.view].angle_rad);
   };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frangia/acquisition/capture_options.h"
+#include "frangia/core/error.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/devices/driver.h"
@@ -46,6 +47,20 @@ struct CaptureSetup {
   std::optional<GuardianProgram> guardian;  ///< switches devices off when the program dies
   /// Returns an object that lives as long as devices are open; may be empty.
   std::function<std::shared_ptr<void>()> hold_devices;
+  /// Present angle of a turntable without a home switch, for a scan that goes on.
+  std::optional<double> table_at_rad;
+};
+
+/// A scan cannot go on before somebody states `CaptureSetup::table_at_rad`.
+class UnknownTableAngle : public Error {
+ public:
+  explicit UnknownTableAngle(std::optional<double> last_deg);
+
+  /// Where the table was left; empty when it was turning.
+  [[nodiscard]] std::optional<double> last_deg() const { return last_deg_; }
+
+ private:
+  std::optional<double> last_deg_;
 };
 
 /// Returns stations evenly over one turn, all waiting.
@@ -66,7 +81,7 @@ void write_stations(const ProjectFolder& project, const std::vector<ProjectStati
 /// change, on the calling thread or on that which decodes views.
 ///
 /// The points are in the object frame of the rig as calibrated: registration comes later.
-/// @errors   as open_devices and capture_scan
+/// @errors   UnknownTableAngle; as open_devices and capture_scan
 CaptureReport capture_project(
     const ProjectFolder& project,
     std::vector<ProjectStation> stations,

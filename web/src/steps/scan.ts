@@ -4,7 +4,7 @@ import { dial } from '../dial';
 import { icon } from '../icons';
 import { number, t } from '../messages';
 import type { Station } from '../types';
-import { span } from '../ui';
+import { numberForm, span } from '../ui';
 
 function note(app: App): string {
   const job = app.job('scan');
@@ -27,6 +27,9 @@ export function scanStep(app: App): TemplateResult {
         ? html`<button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>${icon('pause')}${t('scan.pause')}</button>`
         : project.scan_complete
           ? html`<button class="btn primary wide" id="build" ?disabled=${app.occupied} @click=${() => app.build()}>${t('scan.build')}${icon('arrow')}</button>`
+          : project.table_angle
+            ? numberForm('table-angle', t('scan.tableAngle'), project.table_angle.last_deg ?? 0, t('scan.continue'), app.occupied,
+                (angle) => void app.command('start-scan', { table_deg: angle }))
           : project.can_scan
             ? html`<button class="btn primary wide" id="scan" ?disabled=${app.occupied} @click=${() => app.command('start-scan')}>
                 ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}

@@ -41,6 +41,10 @@ std::string CommandArguments::text_or(const char* key, const std::string& otherw
   return find(key) == nullptr ? otherwise : text(key);
 }
 
+std::optional<std::string> CommandArguments::text_if_given(const char* key) {
+  return find(key) == nullptr ? std::nullopt : std::optional(text(key));
+}
+
 std::size_t CommandArguments::whole(const char* key, std::size_t least, std::size_t most) {
   const nlohmann::json* value = find(key);
   if (value == nullptr || !value->is_number_unsigned() || value->get<std::size_t>() < least ||
@@ -56,26 +60,24 @@ std::size_t CommandArguments::whole_or(const char* key,
   return find(key) == nullptr ? otherwise : whole(key, least, most);
 }
 
-std::optional<double> CommandArguments::positive(const char* key) {
+std::optional<double> CommandArguments::number(const char* key) {
   const nlohmann::json* value = find(key);
   if (value == nullptr) return std::nullopt;
-  if (!value->is_number() || !(value->get<double>() > 0.0))
-    fail_argument(key, "a number above 0 is missing here");
+  if (!value->is_number() || !(std::abs(value->get<double>()) <= kLargest))
+    fail_argument(key, fmt::format("a number of at most {:g} is missing here", kLargest));
   return value->get<double>();
+}
+
+std::optional<double> CommandArguments::positive(const char* key) {
+  const auto value = number(key);
+  if (value && !(*value > 0.0)) fail_argument(key, "a number above 0 is missing here");
+  return value;
 }
 
 std::optional<double> CommandArguments::zero_or_more(const char* key) {
   const auto value = number(key);
   if (value && *value < 0.0) fail_argument(key, "a number of 0 or more is missing here");
   return value;
-}
-
-std::optional<double> CommandArguments::number(const char* key) {
-  const nlohmann::json* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  if (!value->is_number() || !std::isfinite(value->get<double>()))
-    fail_argument(key, "a number is missing here");
-  return value->get<double>();
 }
 
 std::vector<double> CommandArguments::numbers(const char* key, std::size_t count) {

@@ -15,21 +15,25 @@ namespace frangia {
 /// @errors   each function throws Error(Input) that names the key and what it should be
 class CommandArguments {
  public:
+  /// Beyond any length, angle or time of a rig, and small enough for times and sums of them.
+  static constexpr double kLargest = 1e7;
+
   /// Parses at most 1 MB of JSON.
   explicit CommandArguments(const std::string& text);
 
   [[nodiscard]] std::string text(const char* key);  ///< a string; required
   [[nodiscard]] std::string text_or(const char* key, const std::string& otherwise);
+  [[nodiscard]] std::optional<std::string> text_if_given(const char* key);
   /// A whole number from `least` to `most`; required.
   [[nodiscard]] std::size_t whole(const char* key, std::size_t least, std::size_t most);
   [[nodiscard]] std::size_t whole_or(const char* key,
                                      std::size_t otherwise,
                                      std::size_t least,
                                      std::size_t most);
-  /// A number above 0, or empty.
-  [[nodiscard]] std::optional<double> positive(const char* key);
-  [[nodiscard]] std::optional<double> zero_or_more(const char* key);  ///< likewise
-  [[nodiscard]] std::optional<double> number(const char* key);        ///< any finite number
+  /// A number of at most kLargest in size, or empty.
+  [[nodiscard]] std::optional<double> number(const char* key);
+  [[nodiscard]] std::optional<double> positive(const char* key);      ///< likewise, above 0
+  [[nodiscard]] std::optional<double> zero_or_more(const char* key);  ///< likewise, 0 or more
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count);  ///< required
   /// Likewise, or empty when the key is missing.
   [[nodiscard]] std::vector<double> numbers_or_none(const char* key, std::size_t count);

@@ -32,9 +32,8 @@ LiveSettings live_arguments(LiveSettings settings, CommandArguments& arguments) 
   static const std::map<std::string, LivePattern> kPatterns = {{"fringes", LivePattern::Fringes},
                                                                {"white", LivePattern::White},
                                                                {"dark", LivePattern::Dark}};
-  const std::string name = arguments.text_or("pattern", "");
-  if (!name.empty()) {
-    const auto found = kPatterns.find(name);
+  if (const auto name = arguments.text_if_given("pattern")) {
+    const auto found = kPatterns.find(*name);
     require(found != kPatterns.end(), "pattern: is fringes, white or dark");
     settings.pattern = found->second;
   }

@@ -34,6 +34,18 @@ void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
   }
 }
 
+/// Keeps other servers from editing the same project; null where nobody may write.
+///
+/// @errors   Error(Input) that names the process which has the project open
+std::shared_ptr<FolderLock> lock_of(const ProjectFolder& project) {
+  try {
+    return std::make_shared<FolderLock>(project.derived);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::File) return nullptr;  // it can be looked at
+    throw;
+  }
+}
+
 }  // namespace
 
 void Service::Implementation::open(const ProjectFolder& folder) {
@@ -41,6 +53,11 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   stop_live();
   OpenProject project;
   project.folder = folder;
+  {
+    const std::lock_guard lock(mutex_);
+    if (project_ && project_->folder.derived == folder.derived) project.lock = project_->lock;
+  }
+  if (!project.lock) project.lock = lock_of(folder);
   project.can_scan = names_devices(folder) && folder.scan != folder.folder;
   std::error_code ignored;
   project.scan_complete = std::filesystem::exists(folder.scan / "scan.toml", ignored);

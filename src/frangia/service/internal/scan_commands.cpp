@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
@@ -39,6 +40,8 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   }
   const std::size_t asked =
       arguments.whole_or("stations", stations.empty() ? 8 : stations.size(), 1, kMostStations);
+  CaptureSetup setup = options_.capture;
+  if (const auto angle = arguments.number("table_deg")) setup.table_at_rad = rad_from_deg(*angle);
   arguments.check_all_read();
   require(can_scan, "this project has no rig with devices; create one to scan");
   std::error_code ignored;
@@ -46,17 +49,26 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   require(!begun || asked == stations.size(),
           "the scan has begun; its number of stations cannot change");
   if (asked != stations.size()) stations = planned_stations(asked);
-  change([&](OpenProject& opened) { opened.scan_begun = true; });
-  return started("scan", [this, project, stations, settings](const Run& run) {
-    const CaptureReport report = capture_project(
-        project,
-        stations,
-        settings,
-        options_.capture,
-        [this](const std::vector<ProjectStation>& all) {
-          change([&](OpenProject& opened) { opened.stations = all; });
-        },
-        run);
+  change([&](OpenProject& opened) {
+    opened.scan_begun = true;
+    opened.unknown_angle.reset();
+  });
+  return started("scan", [this, project, stations, settings, setup](const Run& run) {
+    CaptureReport report;
+    try {
+      report = capture_project(
+          project,
+          stations,
+          settings,
+          setup,
+          [this](const std::vector<ProjectStation>& all) {
+            change([&](OpenProject& opened) { opened.stations = all; });
+          },
+          run);
+    } catch (const UnknownTableAngle& error) {
+      change([&](OpenProject& opened) { opened.unknown_angle = error; });
+      throw;
+    }
     change([&](OpenProject& opened) { opened.scan_complete = true; });
     refresh_projects();
     run.note(fmt::format("{} frames captured, {} already there", report.captured, report.resumed));

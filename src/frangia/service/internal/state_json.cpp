@@ -128,6 +128,11 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
       {"devices", json_of_devices(project.devices)},
       {"live", project.live ? json_of_live(*project.live) : Json()},
       {"calibration", project.wizard ? json_of_wizard(project.wizard->state()) : Json()},
+      {"table_angle",
+       project.unknown_angle
+           ? Json{{"last_deg",
+                   number_or_null(project.unknown_angle->last_deg().value_or(kMissing))}}
+           : Json()},
       {"stations", json_of_stations(project.stations)},
       {"surface", project.surface ? json_of_surface(*project.surface, project.summary) : Json()}};
   json["exports"] = Json::array();

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "frangia/core/folder_lock.h"
 #include "frangia/rig/rig.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
@@ -37,9 +38,10 @@ struct ProjectDevice {
 /// The open project as the service knows it.
 struct OpenProject {
   ProjectFolder folder;
-  bool can_scan = false;       ///< its rig names devices
-  bool scan_complete = false;  ///< scan.toml exists
-  bool scan_begun = false;     ///< frames were captured: settings are fixed
+  std::shared_ptr<FolderLock> lock;  ///< against other programs; null where nobody may write
+  bool can_scan = false;             ///< its rig names devices
+  bool scan_complete = false;        ///< scan.toml exists
+  bool scan_begun = false;           ///< frames were captured: settings are fixed
   CaptureSettings capture;
   std::optional<Rig> rig;
   std::string rig_fault;  ///< why there is no rig
@@ -47,6 +49,8 @@ struct OpenProject {
   std::shared_ptr<LivePreview> live;          ///< while a preview runs
   std::shared_ptr<CalibrationWizard> wizard;  ///< since a calibration began
   std::vector<ProjectStation> stations;
+  /// Why the scan did not go on: the angle of its turntable is unknown.
+  std::optional<UnknownTableAngle> unknown_angle;
   std::string summary;  ///< JSON of the reconstruction; empty without one
   SurfacePtr surface;   ///< null without one, or until it is read
   std::vector<ExportEntry> exports;

@@ -1,0 +1,41 @@
+"""The example script scans, reconstructs, edits and exports through a running server.
+
+    script_test.py PROGRAM examples/serve.py
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from serve_client import SLOWDOWN, Server
+
+EXAMPLE = pathlib.Path(sys.argv[2]).resolve()
+
+
+class Script(unittest.TestCase):
+    def test_the_example_exports_what_another_program_reads(self):
+        with tempfile.TemporaryDirectory() as folder:
+            server = Server(folder)
+            try:
+                done = subprocess.run([sys.executable, EXAMPLE], cwd=folder, env=server.environment, capture_output=True, text=True,
+                                      timeout=200 * SLOWDOWN)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertIn("wrote part.dxf", done.stdout)
+            finally:
+                self.assertEqual(server.stop(), 0)
+            text = (pathlib.Path(folder) / "part.dxf").read_text()
+            faces = text.count("\n3DFACE\n")
+            self.assertGreater(faces, 10_000)
+            try:
+                import ezdxf
+            except ImportError:
+                self.skipTest("ezdxf is not installed, so that only the faces of the DXF were counted")
+            document = ezdxf.readfile(pathlib.Path(folder) / "part.dxf")
+            self.assertEqual(document.audit().errors, [])
+            self.assertEqual(len(document.modelspace().query("3DFACE")), faces)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
