@@ -181,8 +181,10 @@ HttpResponse AppRoutes::answer(const HttpRequest& request) const {
 HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string& path) const {
   if (request.method != "GET" && request.method != "POST")
     return failure(kWrongMethod, "the methods are GET and POST");
-  if (request.method == "POST" && request.content_type != "application/json")
-    return failure(kWrongType, "the body is JSON; send Content-Type: application/json");
+  const bool is_file = path.starts_with("/api/reference/");
+  const char* type = is_file ? "application/octet-stream" : "application/json";
+  if (request.method == "POST" && request.content_type != type)
+    return failure(kWrongType, fmt::format("the wrong kind of body; send Content-Type: {}", type));
   if (path == "/api/session") {
     if (request.method != "POST") return failure(kWrongMethod, "a token is exchanged with POST");
     return begin_session(request.body);
@@ -206,6 +208,9 @@ HttpResponse AppRoutes::get(const std::string& path) const {
     return found(service_.level(*level), "the surface has no such level");
   if (const auto level = number_after(path, "/api/selection/"))
     return found(service_.selection(*level), "the surface has no such level");
+  if (const auto level = number_after(path, "/api/deviations/"))
+    return found(service_.deviations(*level), "there is no comparison of such a level");
+  if (path == "/api/preview") return found(service_.preview(), "no edit is previewed");
   if (const auto station = number_after(path, "/api/clouds/"))
     return found(service_.cloud(*station), "this station has no points");
   if (const auto text = rest_of(path, "/api/exports/")) {
@@ -230,12 +235,18 @@ HttpResponse AppRoutes::post(const std::string& path,
     return {.body = "{}"};
   }
   const auto command = rest_of(path, "/api/commands/");
-  if (!command && path != "/api/links") return failure(kNotFound, "there is no such resource");
+  const auto offset = number_after(path, "/api/reference/");
+  if (!command && !offset && path != "/api/links")
+    return failure(kNotFound, "there is no such resource");
   if (!keys_.may_act(key))
     return failure(kConflict, "another browser operates the scanner; take over to act here");
   if (path == "/api/links") {
     const nlohmann::json json{{"url", new_link()}};
     return {.body = json.dump()};
+  }
+  if (offset) {
+    service_.add_to_reference(*offset, body);
+    return {.body = "{}"};
   }
   return {.status = kOk, .body = service_.command(*command, body)};
 }

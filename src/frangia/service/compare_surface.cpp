@@ -55,8 +55,7 @@ SurfaceComparison compare_surface(const Mesh& mesh,
   found.moved_mm = pose.translation().norm();
   found.free_directions = alignment.free_directions;
   run.stage("deviations");
-  Mesh aligned = mesh;
-  transform_mesh(aligned, pose);
+  const Mesh aligned = transform_mesh(mesh, pose);
   DeviationOptions deviation;
   deviation.pose = alignment.pose.uncertainty;
   deviation.exact = cad.get();

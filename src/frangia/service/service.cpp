@@ -9,6 +9,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/service/encode_arrays.h"
+#include "frangia/service/internal/array_packer.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/pick_surface.h"
 
@@ -57,6 +58,11 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"capture-pose", &Implementation::capture_pose},
       {"end-poses", &Implementation::end_poses},
       {"edit", &Implementation::start_edit},
+      {"preview", &Implementation::start_preview},
+      {"drop-preview", &Implementation::drop_preview},
+      {"set-reference", &Implementation::set_reference},
+      {"compare", &Implementation::start_compare},
+      {"estimate-export", &Implementation::estimate_export},
       {"select-component-of", &Implementation::start_select_component},
       {"undo", &Implementation::start_undo},
       {"redo", &Implementation::start_redo},
@@ -199,6 +205,25 @@ std::string Service::selection() const {
 std::string Service::selection(std::size_t level) const {
   const SurfacePtr surface = implementation_->surface();
   return surface ? surface->picture->packed_selection(level, *surface->selection) : std::string();
+}
+
+std::string Service::preview() const {
+  const SurfacePtr surface = implementation_->surface();
+  return surface && surface->preview ? *surface->preview->arrays : std::string();
+}
+
+std::string Service::deviations(std::size_t level) const {
+  const SurfacePtr surface = implementation_->surface();
+  if (!surface || !surface->comparison || level >= surface->picture->levels().size()) return {};
+  const auto values =
+      values_of_level(surface->comparison->found.deviation_mm, *surface->picture->levels()[level]);
+  ArrayPacker packer;
+  packer.add("deviation_mm", "float32", values.data(), values.size());
+  return packer.pack();
+}
+
+void Service::add_to_reference(std::size_t offset, const std::string& bytes) {
+  implementation_->add_to_reference(offset, bytes);
 }
 
 std::string Service::pick(const std::string& text) const {

@@ -93,6 +93,16 @@ class Service {
   [[nodiscard]] std::string selection() const;
   /// The same for the triangles of a level of detail.
   [[nodiscard]] std::string selection(std::size_t level) const;
+  /// The triangles that the previewed edit creates and removes; empty without a preview.
+  [[nodiscard]] std::string preview() const;
+  /// The deviations from the reference at the vertices of a level; empty without a comparison.
+  [[nodiscard]] std::string deviations(std::size_t level) const;
+  /// Adds a piece to the file that becomes the reference by the command `set-reference`; at offset
+  /// 0 it begins anew.
+  ///
+  /// @errors   Error(Input) when a piece is missing, or beyond 512 MB; Error(File) when it cannot
+  ///          be written
+  void add_to_reference(std::size_t offset, const std::string& bytes);
   /// The point of the exact mesh on a ray, as JSON: "hit" is null where there is none. The ray is
   /// a JSON object with "eye", "direction" and, if something is cut away, "section".
   ///
