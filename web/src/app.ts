@@ -11,7 +11,7 @@ import { onKey } from './keyboard';
 import { currentLanguage, setLanguage, t } from './messages';
 import { Refusal, Session } from './session';
 import { editStep, type Combine } from './steps/edit';
-import { exportStep, type Format, type Limit, type Variant } from './steps/export';
+import { exportArguments, exportStep, type Exporting } from './steps/export';
 import { liveStep, type LiveLayer } from './steps/live';
 import { projectStep } from './steps/project';
 import { rigStep } from './steps/rig';
@@ -33,7 +33,15 @@ export class App extends LitElement {
   step: StepName = 'project';
   look: Look = { shading: 'smooth', coloring: 'plain', axis: 'off', share: 0.5, flipped: false };
   combine: Combine = 'replace';
-  exporting: { format: Format; variant: Variant; limit: Limit } = { format: 'dxf', variant: 'faces', limit: '200000' };
+  exporting: Exporting = { format: 'dxf', variant: 'faces', encoding: 'binary', limit: '200000' };
+  /** Size of the file that would be written; null while it is not known. */
+  estimate: { triangles: number; bytes: number } | null = null;
+  private estimated = '';
+  align: 'best-fit' | 'none' = 'best-fit';
+  /** Share of a reference that has been sent; null while none is. */
+  sent: number | null = null;
+  /** Holes that were chosen, by number, of the mesh of a revision. */
+  private chosen = { revision: -1, holes: new Set<number>() };
   layer: LiveLayer = 'camera';
   private rigDraft: RigDraft = {};
   viewer!: Viewer;
@@ -95,6 +103,7 @@ export class App extends LitElement {
   /** What the panel shows; it begins at its top when this changes. */
   private panelKey = '';
   protected override updated(): void {
+    void this.estimateExport();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;
     this.panelKey = key;
@@ -132,6 +141,7 @@ export class App extends LitElement {
     if (!at || holes.length === 0) return;
     const far = ([x, y, z]: readonly number[]) => Math.hypot((x as number) - at[0], (y as number) - at[1], (z as number) - at[2]);
     const nearest = holes.reduce((best, hole) => (far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best));
+    this.chooseHole(nearest.number, true);
     await this.selectBy('select-loop', String(nearest.number));
   }
   async pictureFile(): Promise<void> {
@@ -255,6 +265,65 @@ export class App extends LitElement {
   async open(name: string): Promise<void> {
     if (this.state.project?.name === name) this.go(this.project.surface ? 'surface' : 'scan');
     else await this.command('open-project', { name });
+  }
+  async sendReference(file: File): Promise<void> {
+    const format = /\.(stl|ply|obj|3mf|step|stp)$/i.exec(file.name)?.[1]?.toLowerCase();
+    if (!format) return this.say(t('compare.wrongFile'));
+    try {
+      this.sent = 0;
+      await this.session.sendReference(file, format, (share) => {
+        this.sent = share;
+        this.requestUpdate();
+      });
+      this.sent = null;
+      await this.compare(-0.1, 0.1);
+    } catch (error) {
+      this.say(error);
+    }
+    this.sent = null;
+    this.requestUpdate();
+  }
+  setAlign(align: App['align']): void {
+    this.align = align;
+    this.requestUpdate();
+  }
+  async compare(lower: number, upper: number): Promise<void> {
+    if (await this.command('compare', { align: this.align, lower_mm: lower, upper_mm: upper })) this.setLook({ coloring: 'deviation' });
+  }
+  get chosenHoles(): Set<number> {
+    const revision = this.project.surface?.mesh_revision ?? -1;
+    if (revision !== this.chosen.revision) this.chosen = { revision, holes: new Set() };
+    return this.chosen.holes;
+  }
+  chooseHole(hole: number, chosen: boolean): void {
+    if (chosen) this.chosenHoles.add(hole);
+    else this.chosenHoles.delete(hole);
+    this.requestUpdate();
+  }
+  /** Tries an edit; it is applied when it has been looked at. */
+  preview(operation: string, value = ''): void {
+    void this.command('preview', { operation, value });
+  }
+  applyPreview(): void {
+    const preview = this.project.surface?.preview;
+    if (preview) this.edit(preview.operation, preview.value);
+  }
+  /** Asks how large the file would be, when what decides it has changed. */
+  private async estimateExport(): Promise<void> {
+    const surface = this.session.state?.project?.surface;
+    if (this.step !== 'export' || !surface || this.session.watches || surface.triangles === 0) return;
+    const wanted = exportArguments(this.exporting);
+    const key = JSON.stringify([surface.mesh_revision, wanted]);
+    if (key === this.estimated) return;
+    this.estimated = key;
+    this.estimate = null;
+    try {
+      const estimate = await this.session.command<{ triangles: number; bytes: number }>('estimate-export', wanted);
+      if (key === this.estimated) this.estimate = estimate;
+    } catch {
+      // Without it, the file can still be written, and that says what is wrong.
+    }
+    this.requestUpdate();
   }
   async build(): Promise<void> {
     this.wantSurface = await this.command('reconstruct');

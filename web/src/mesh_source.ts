@@ -12,6 +12,7 @@ const drawn = (): Promise<void> => new Promise((resolve) => requestAnimationFram
 export class MeshSource {
   selectionShown = -1;
   private levelsSelected = 0;
+  private previewShown = -1;
   private deviationShown = -1;
   private levelsDeviating = 0;
   private running = false;
@@ -36,6 +37,8 @@ export class MeshSource {
 
   forget(): void {
     this.viewer.clearMesh();
+    this.viewer.setPreview(null);
+    this.previewShown = -1;
     this.selectionShown = this.deviationShown = -1;
   }
 
@@ -70,6 +73,7 @@ export class MeshSource {
       if (!viewer.recallMesh(surface.mesh_revision) && !(await this.addLevel(surface, 0))) return;
     }
     await this.select(surface);
+    await this.preview(surface);
     await this.compare(surface);
     if (viewer.levelsShown >= surface.levels.length) return;
     await drawn();
@@ -98,6 +102,13 @@ export class MeshSource {
       this.selectionShown = surface.selection_revision; // the coarsest level shows it already
     }
     this.levelsSelected = viewer.levelsShown;
+  }
+
+  private async preview(surface: Surface): Promise<void> {
+    const revision = surface.preview?.revision ?? -1;
+    if (revision === this.previewShown) return;
+    this.viewer.setPreview(surface.preview ? unpack(await this.session.bytes('/api/preview')) : null);
+    this.previewShown = revision;
   }
 
   private async compare(surface: Surface): Promise<void> {

@@ -5,6 +5,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { MeshArrays } from './arrays';
 import { viridis } from './colors';
 import { colorByHeight, type Coloring, type Legend } from './mesh_colors';
+import { EditPreview } from './edit_preview';
 import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
@@ -58,6 +59,7 @@ export class Viewer {
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
+  private readonly preview = new EditPreview();
   private readonly rig = new RigModel();
   private rigShown = 'null';
   private picks: THREE.Vector3[] = [];
@@ -101,7 +103,7 @@ export class Viewer {
       this.held = false;
       this.move();
     });
-    this.scene.add(this.lights, this.clouds, this.table, this.surface.group, this.ruler.group, this.rig.group);
+    this.scene.add(this.lights, this.clouds, this.table, this.surface.group, this.preview.group, this.ruler.group, this.rig.group);
     addLights(this.lights);
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
@@ -163,7 +165,7 @@ export class Viewer {
   }
 
   showSurface(shown: boolean): void {
-    this.surface.group.visible = shown;
+    this.surface.group.visible = this.preview.group.visible = shown;
     this.draw();
   }
   /** Draws the coarsest level until nothing has moved for a while. */
@@ -223,6 +225,11 @@ export class Viewer {
   setSelection(flags: readonly (Uint8Array | null)[]): void {
     this.surface.select(flags);
     this.move();
+    this.draw();
+  }
+  /** Shows what an edit would change; null shows nothing. */
+  setPreview(arrays: Map<string, ArrayLike<number>> | null): void {
+    this.preview.set(arrays);
     this.draw();
   }
   setDeviations(values: readonly (Float32Array | null)[], band: [number, number] | null): void {
