@@ -50,7 +50,7 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "fringe-projection 3D scanner\n${about}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfrangia-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "pkg-config, libeigen3-dev, libfmt-dev, libtomlplusplus-dev, libsodium-dev, libtbb-dev, libembree-dev, libspng-dev, libtiff-dev, libjpeg-dev, libminizip-dev, zlib1g-dev, libexpat1-dev")
+  "pkg-config, libeigen3-dev, libfmt-dev, libtomlplusplus-dev, libsodium-dev, libmeshoptimizer-dev, libtbb-dev, libembree-dev, libspng-dev, libtiff-dev, libjpeg-dev, libminizip-dev, zlib1g-dev, libexpat1-dev")
 if(FRANGIA_CGAL)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libcgal-dev")
 endif()

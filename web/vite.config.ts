@@ -8,6 +8,6 @@ export default defineConfig({
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1200,
-    rollupOptions: { output: { manualChunks: { three: ['three', 'three-mesh-bvh'] } } },
+    rollupOptions: { output: { manualChunks: { three: ['three'] } } },
   },
 });

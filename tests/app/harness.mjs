@@ -5,7 +5,7 @@ import { createRequire } from 'node:module';
 import os from 'node:os';
 import path from 'node:path';
 
-const require = createRequire(path.join(process.env.FRANGIA_WEB ?? 'web', 'package.json'));
+const require = createRequire(path.resolve(process.env.FRANGIA_WEB ?? 'web', 'package.json'));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
 
 export const problems = [];
@@ -96,6 +96,7 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
     if (origin !== new URL(url).origin && !request.url().startsWith('blob:')) fail(`the page asked for ${request.url()}`);
     const command = pathname.match(/^\/api\/commands\/(.+)$/);
     if (command) check(`commands/${command[1]}`, request.postDataJSON());
+    if (pathname === '/api/pick') check('ray', request.postDataJSON());
     if (pathname === '/api/session') check('session', request.postDataJSON());
   });
   page.on('websocket', (socket) => {

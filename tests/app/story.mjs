@@ -143,6 +143,8 @@ try {
   await page.waitForSelector('#delete[disabled]');
   await idle();
   await page.click('#fill');
+  await page.waitForSelector('#apply:not([disabled])');
+  await page.click('#apply');
   await page.waitForFunction(() => document.querySelectorAll('.history li').length === 3);
   await idle();
   const filled = (await state()).project.surface;

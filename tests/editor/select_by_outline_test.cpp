@@ -52,6 +52,20 @@ TEST(SelectByOutline, LeavesWhatAnotherPartHides) {
   EXPECT_EQ(count_selected(visible), 2U);  // the two triangles of the near box's top
 }
 
+TEST(SelectByOutline, LeavesWhatATriangleWithCornersFarFromTheOutlineHides) {
+  Mesh scene = testing::box({-1, -1, 0}, {1, 1, 1});
+  const ViewedOutline small{
+      .eye_mm = {0, 0, 50},
+      .corners_mm = {{-0.9, -0.9, 1}, {0.9, -0.9, 1}, {0.9, 0.9, 1}, {-0.9, 0.9, 1}}};
+  ASSERT_EQ(count_selected(select_by_outline(scene, small, true)), 2U);
+  // It passes below the eye at z = 14.8; one of its corners is behind the eye.
+  Mesh sail;
+  sail.vertices_mm = {{-50, -20, 10}, {50, -20, 10}, {0, 400, 110}};
+  sail.triangles = {{0, 2, 1}};
+  append_mesh(scene, sail);
+  EXPECT_EQ(count_selected(select_by_outline(scene, small, true)), 0U);
+}
+
 TEST(SelectByOutline, KeepsItsAnswerAtTenTimesTheSize) {
   Mesh ball = testing::sphere({3, 1, 2}, 10.0, 30);
   ViewedOutline lasso{.eye_mm = {60, 10, 30}, .corners_mm = {{5, 5, 0}, {5, -5, 2}, {4, -2, 9}}};

@@ -124,12 +124,12 @@ TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
   EXPECT_EQ(state().at("project").at("commands").at("edit"), Json::array({"box", "2"}));
   static_cast<void>(command("redo"));
   static_cast<void>(finish());
-  const std::string mesh = *service_->mesh();
+  const std::string mesh = service_->mesh();
 
   restart();
   static_cast<void>(command("open-project", {{"name", "box"}}));
   static_cast<void>(finish());
-  EXPECT_EQ(*service_->mesh(), mesh);
+  EXPECT_EQ(service_->mesh(), mesh);
   EXPECT_EQ(state().at("project").at("surface").at("steps_done"), 3);
 }
 
@@ -152,6 +152,150 @@ TEST_F(ServiceTest, ReplaysItsStepsByTheCommandLineToTheSameMesh) {
     EXPECT_NE(error_of([&] { static_cast<void>(service_->exported(name)); }), "") << name;
 }
 
+TEST_F(ServiceTest, ShowsLevelsOfALargeMeshAndKnowsAnUndoneMeshAgain) {
+  constexpr int kRings = 400;  // 638 400 triangles: more than are drawn at rest
+  open_box(kRings);
+  const Json before = state().at("project").at("surface");
+  ASSERT_EQ(before.at("levels").size(), 2U);
+  EXPECT_LE(before.at("levels")[0].at("triangles"), 100'000);
+  EXPECT_LE(before.at("levels")[1].at("triangles"), 500'000);
+  EXPECT_LT(service_->level(0).size(), service_->level(1).size());
+  EXPECT_TRUE(service_->level(2).empty());
+  static_cast<void>(
+      command("select-component-of", {{"triangle", before.at("triangles").get<int>() - 1}}));
+  static_cast<void>(command("edit", {{"operation", "delete"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const Json after = state().at("project").at("surface");
+  EXPECT_NE(after.at("mesh_revision"), before.at("mesh_revision"));
+  static_cast<void>(command("undo"));
+  static_cast<void>(finish());
+  const Json undone = state().at("project").at("surface");
+  EXPECT_EQ(undone.at("mesh_revision"), before.at("mesh_revision"));
+  EXPECT_EQ(undone.at("selected"), 11);
+  EXPECT_EQ(undone.at("levels"), before.at("levels"));
+  static_cast<void>(command("redo"));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("surface").at("mesh_revision"), after.at("mesh_revision"));
+}
+
+TEST_F(ServiceTest, SaysWhatEachStepChangedAlsoAfterARestart) {
+  open_box();
+  const auto triangles = state().at("project").at("surface").at("triangles").get<int>();
+  static_cast<void>(command("edit", {{"operation", "keep-largest"}, {"value", "1"}}));
+  static_cast<void>(command("edit", {{"operation", "fill-holes-flat"}, {"value", "30mm"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const Json steps = state().at("project").at("surface").at("steps");
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0].at("change").at("components"), -1);
+  EXPECT_EQ(steps[0].at("change").at("triangles"), 11 - triangles) << "the box has 11";
+  EXPECT_EQ(steps[1].at("change").at("holes"), -1);
+  EXPECT_EQ(steps[1].at("change").at("triangles"), 1);
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("surface").at("steps"), steps);
+}
+
+TEST_F(ServiceTest, PreviewsAnEditWithoutApplyingIt) {
+  open_box();
+  const Json before = state().at("project").at("surface");
+  EXPECT_TRUE(service_->preview().empty());
+  static_cast<void>(command("preview", {{"operation", "fill-hole-flat"}, {"value", "0"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const Json surface = state().at("project").at("surface");
+  EXPECT_EQ(surface.at("mesh_revision"), before.at("mesh_revision"));
+  EXPECT_EQ(surface.at("triangles"), before.at("triangles"));
+  EXPECT_TRUE(surface.at("steps").empty());
+  EXPECT_EQ(surface.at("preview").at("change").at("triangles"), 1);
+  EXPECT_EQ(surface.at("preview").at("change").at("holes"), -1);
+  EXPECT_FALSE(service_->preview().empty());
+  static_cast<void>(command("drop-preview"));
+  static_cast<void>(finish());
+  EXPECT_TRUE(state().at("project").at("surface").at("preview").is_null());
+  EXPECT_NE(refusal("preview", R"({"operation": "no-such"})"), "");
+}
+
+TEST_F(ServiceTest, ComparesTheSurfaceWithAReferenceThatArrivesInPieces) {
+  open_box();
+  EXPECT_NE(refusal("compare", "{}"), "") << "there is no reference";
+  const auto file = folder_.path() / "nominal.stl";
+  Mesh nominal = testing::sphere({20, 0, 0}, 3.0, 12);
+  append_mesh(nominal, testing::box({-5, -5, -5}, {5, 5, 4.75}));  // 0.25 mm lower than measured
+  write_mesh(file, nominal);
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t half = bytes.size() / 2;
+  service_->add_to_reference(0, bytes.substr(0, half));
+  EXPECT_NE(error_of([&] { service_->add_to_reference(half + 1, "x"); }), "") << "a gap";
+  EXPECT_NE(error_of([&] { service_->add_to_reference(600'000'000, "x"); }), "") << "too large";
+  Json asked = {{"name", "nominal.stl"}, {"format", "stl"}, {"bytes", bytes.size()}};
+  EXPECT_NE(refusal("set-reference", asked.dump()), "") << "it is incomplete";
+  service_->add_to_reference(half, bytes.substr(half));
+  asked["format"] = "../stl";
+  EXPECT_NE(refusal("set-reference", asked.dump()), "");
+  asked["format"] = "stl";
+  static_cast<void>(command("set-reference", asked));
+  EXPECT_NE(refusal("compare", R"({"lower_mm": 1, "upper_mm": 0})"), "");
+  static_cast<void>(command("compare", {{"align", "none"}, {"lower_mm", -0.1}, {"upper_mm", 0.2}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json found = state().at("project").at("surface").at("comparison");
+  EXPECT_EQ(found.at("reference"), "nominal.stl");
+  EXPECT_EQ(found.at("tolerance_mm"), Json::array({-0.1, 0.2}));
+  EXPECT_NEAR(found.at("max_mm").get<double>(), 0.25, 1e-6);
+  EXPECT_EQ(found.at("verdict"), "out");
+  EXPECT_FALSE(service_->deviations(0).empty());
+  EXPECT_TRUE(service_->deviations(1).empty());
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("reference").at("name"), "nominal.stl");
+}
+
+TEST_F(ServiceTest, EstimatesTheSizeOfAFileBeforeItIsWritten) {
+  open_box(60);
+  for (const char* format : {"dxf", "stl", "ply", "obj", "glb"}) {
+    const Json estimate = command("estimate-export", {{"format", format}});
+    static_cast<void>(command("export", {{"format", format}}));
+    ASSERT_EQ(finish().at("state"), "done") << format;
+    const auto size =
+        std::filesystem::file_size(service_->exported(std::string("box.") + format).path);
+    EXPECT_NEAR(estimate.at("bytes").get<double>() / static_cast<double>(size), 1.0, 0.1) << format;
+  }
+  EXPECT_NE(refusal("estimate-export", R"({"format": "zip"})"), "");
+  EXPECT_NE(refusal("estimate-export", R"({"format": "exe"})"), "");
+}
+
+TEST_F(ServiceTest, OpensASurfaceWithoutTrianglesAndSaysSoAtExport) {
+  const auto folder = folder_.path() / "projects" / "points";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "project.json") << "{}";
+  std::ofstream(folder / "surface.ply")
+      << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+         "float z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
+         "0\n0 1 0\n";
+  static_cast<void>(command("open-project", {{"name", "points"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("surface").at("triangles"), 0);
+  EXPECT_FALSE(service_->level(0).empty());
+  EXPECT_TRUE(Json::parse(service_->pick(R"({"eye": [0, 0, 9], "direction": [0, 0, -1]})"))
+                  .at("hit")
+                  .is_null());
+  static_cast<void>(command("export", {{"format", "dxf"}}));
+  const Json job = finish();
+  EXPECT_EQ(job.at("state"), "failed");
+  EXPECT_NE(job.at("error").get<std::string>().find("triangles"), std::string::npos);
+}
+
+TEST_F(ServiceTest, PicksPointsOfTheSurface) {
+  open_box();
+  const Json hit = Json::parse(service_->pick(R"({"eye": [0, 0, 50], "direction": [0, 0, -1]})"));
+  EXPECT_NEAR(hit.at("hit").at("point_mm")[2].get<double>(), 5.0, 1e-6);
+  EXPECT_TRUE(hit.at("hit").at("sigma_mm").is_null());
+  EXPECT_EQ(hit.at("mesh_revision"), state().at("project").at("surface").at("mesh_revision"));
+  for (const char* wrong : {"", "{}", R"({"eye": [0, 0, 1]})", R"({"eye": [0], "direction": [1]})"})
+    EXPECT_NE(error_of([&] { static_cast<void>(service_->pick(wrong)); }), "") << wrong;
+}
+
 TEST_F(ServiceTest, FitsShapesToTheSelection) {
   open_box(96);
   EXPECT_NE(refusal("fit", R"({"kind": "egg"})"), "");
@@ -171,12 +315,12 @@ TEST_F(ServiceTest, FitsShapesToTheSelection) {
 
 TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
   open_box();
-  const std::string mesh = *service_->mesh();
+  const std::string mesh = service_->mesh();
   static_cast<void>(command("edit", {{"operation", "delete"}}));  // nothing is selected
   const Json job = finish();
   EXPECT_EQ(job.at("state"), "failed");
   EXPECT_NE(job.at("error").get<std::string>().find("select"), std::string::npos);
-  EXPECT_EQ(*service_->mesh(), mesh);
+  EXPECT_EQ(service_->mesh(), mesh);
   EXPECT_NE(refusal("edit", R"({"operation": "decimate", "value": "much"})"), "");
 }
 

@@ -2,7 +2,7 @@
 import { html, LitElement, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 
-import { meshOf, unpack } from './arrays';
+import { unpack } from './arrays';
 import type { StepName } from './app_steps';
 import { arranged, type RigDraft } from './arrange';
 import { dialogs, footer, header, picture } from './frame_parts';
@@ -11,17 +11,18 @@ import { onKey } from './keyboard';
 import { currentLanguage, setLanguage, t } from './messages';
 import { Refusal, Session } from './session';
 import { editStep, type Combine } from './steps/edit';
-import { exportStep, type Format, type Limit, type Variant } from './steps/export';
+import { exportArguments, exportStep, type Exporting } from './steps/export';
 import { liveStep, type LiveLayer } from './steps/live';
 import { projectStep } from './steps/project';
 import { rigStep } from './steps/rig';
 import { scanStep } from './steps/scan';
 import { surfaceStep } from './steps/surface';
 import type { Coloring } from './mesh_colors';
+import { MeshSource } from './mesh_source';
 import type { Measurement } from './ruler';
 import type { Job, Project, RigGeometry, State } from './types';
 import { plain } from './ui';
-import { type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
+import { type Hit, type Ray, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
 import { LiveView } from './live_view';
 
 interface Look { shading: Shading; coloring: Coloring; axis: SectionAxis; share: number; flipped: boolean }
@@ -32,7 +33,15 @@ export class App extends LitElement {
   step: StepName = 'project';
   look: Look = { shading: 'smooth', coloring: 'plain', axis: 'off', share: 0.5, flipped: false };
   combine: Combine = 'replace';
-  exporting: { format: Format; variant: Variant; limit: Limit } = { format: 'dxf', variant: 'faces', limit: '200000' };
+  exporting: Exporting = { format: 'dxf', variant: 'faces', encoding: 'binary', limit: '200000' };
+  /** Size of the file that would be written; null while it is not known. */
+  estimate: { triangles: number; bytes: number } | null = null;
+  private estimated = '';
+  align: 'best-fit' | 'none' = 'best-fit';
+  /** Share of a reference that has been sent; null while none is. */
+  sent: number | null = null;
+  /** Holes that were chosen, by number, of the mesh of a revision. */
+  private chosen = { revision: -1, holes: new Set<number>() };
   layer: LiveLayer = 'camera';
   private rigDraft: RigDraft = {};
   viewer!: Viewer;
@@ -42,8 +51,7 @@ export class App extends LitElement {
   measurement: Measurement | null = null;
   private problem = '';
   private seenFailure = 0;
-  private meshShown = -1;
-  private selectionShown = -1;
+  meshes!: MeshSource;
   private cloudsShown = new Map<number, number>();
   private projectShown = '';
   private wantSurface = false;
@@ -61,6 +69,7 @@ export class App extends LitElement {
     document.documentElement.dataset.theme = theme;
     this.host.className = 'view';
     this.viewer = new Viewer(this.host, {
+      pick: (ray) => this.pick(ray),
       measured: (result) => {
         this.measurement = result;
         this.requestUpdate();
@@ -69,6 +78,7 @@ export class App extends LitElement {
       partPicked: (triangle) => void this.selectPart(triangle),
       picked: (tool, points) => void this.onPicked(tool, points),
     });
+    this.meshes = new MeshSource(this.session, this.viewer, () => this.requestUpdate(), (error) => this.say(error));
     addEventListener('keydown', (event) => onKey(this, event));
     void this.session.begin();
   }
@@ -93,6 +103,7 @@ export class App extends LitElement {
   /** What the panel shows; it begins at its top when this changes. */
   private panelKey = '';
   protected override updated(): void {
+    void this.estimateExport();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;
     this.panelKey = key;
@@ -130,6 +141,7 @@ export class App extends LitElement {
     if (!at || holes.length === 0) return;
     const far = ([x, y, z]: readonly number[]) => Math.hypot((x as number) - at[0], (y as number) - at[1], (z as number) - at[2]);
     const nearest = holes.reduce((best, hole) => (far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best));
+    this.chooseHole(nearest.number, true);
     await this.selectBy('select-loop', String(nearest.number));
   }
   async pictureFile(): Promise<void> {
@@ -159,7 +171,7 @@ export class App extends LitElement {
       }
       this.chooseLayer();
       if (this.step === 'rig') this.viewer.setRig(this.drawnRig);
-      void this.showSurface();
+      void this.meshes.follow();
       void this.showClouds();
     }
     this.requestUpdate();
@@ -183,9 +195,8 @@ export class App extends LitElement {
 
   private onProject(state: State): void {
     this.projectShown = state.project?.name ?? '';
-    this.meshShown = this.selectionShown = -1;
     this.cloudsShown.clear();
-    this.viewer.setMesh(null);
+    this.meshes.forget();
     this.viewer.clearClouds();
     this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
     this.problem = '';
@@ -194,29 +205,12 @@ export class App extends LitElement {
     this.viewer.frame([0.9, -1.1, 0.6]);
   }
 
-  private async showSurface(): Promise<void> {
-    const surface = this.state.project?.surface;
-    if (!surface) {
-      if (this.meshShown !== -1) this.viewer.setMesh(null);
-      this.meshShown = -1;
-      return;
-    }
+  private async pick(ray: Ray): Promise<Hit | null> {
     try {
-      if (surface.mesh_revision !== this.meshShown) {
-        this.meshShown = surface.mesh_revision;
-        const arrays = meshOf(await this.session.bytes('/api/mesh'));
-        if (this.meshShown !== surface.mesh_revision) return;
-        this.viewer.setMesh(arrays);
-        this.selectionShown = -1;
-        this.requestUpdate();
-      }
-      if (surface.selection_revision !== this.selectionShown) {
-        this.selectionShown = surface.selection_revision;
-        const flags = surface.selected ? unpack(await this.session.bytes('/api/selection')).get('selected') : undefined;
-        this.viewer.setSelection((flags as Uint8Array | undefined) ?? null);
-      }
+      return await this.session.pick(ray);
     } catch (error) {
       this.say(error);
+      return null;
     }
   }
 
@@ -271,6 +265,65 @@ export class App extends LitElement {
   async open(name: string): Promise<void> {
     if (this.state.project?.name === name) this.go(this.project.surface ? 'surface' : 'scan');
     else await this.command('open-project', { name });
+  }
+  async sendReference(file: File): Promise<void> {
+    const format = /\.(stl|ply|obj|3mf|step|stp)$/i.exec(file.name)?.[1]?.toLowerCase();
+    if (!format) return this.say(t('compare.wrongFile'));
+    try {
+      this.sent = 0;
+      await this.session.sendReference(file, format, (share) => {
+        this.sent = share;
+        this.requestUpdate();
+      });
+      this.sent = null;
+      await this.compare(-0.1, 0.1);
+    } catch (error) {
+      this.say(error);
+    }
+    this.sent = null;
+    this.requestUpdate();
+  }
+  setAlign(align: App['align']): void {
+    this.align = align;
+    this.requestUpdate();
+  }
+  async compare(lower: number, upper: number): Promise<void> {
+    if (await this.command('compare', { align: this.align, lower_mm: lower, upper_mm: upper })) this.setLook({ coloring: 'deviation' });
+  }
+  get chosenHoles(): Set<number> {
+    const revision = this.project.surface?.mesh_revision ?? -1;
+    if (revision !== this.chosen.revision) this.chosen = { revision, holes: new Set() };
+    return this.chosen.holes;
+  }
+  chooseHole(hole: number, chosen: boolean): void {
+    if (chosen) this.chosenHoles.add(hole);
+    else this.chosenHoles.delete(hole);
+    this.requestUpdate();
+  }
+  /** Tries an edit; it is applied when it has been looked at. */
+  preview(operation: string, value = ''): void {
+    void this.command('preview', { operation, value });
+  }
+  applyPreview(): void {
+    const preview = this.project.surface?.preview;
+    if (preview) this.edit(preview.operation, preview.value);
+  }
+  /** Asks how large the file would be, when what decides it has changed. */
+  private async estimateExport(): Promise<void> {
+    const surface = this.session.state?.project?.surface;
+    if (this.step !== 'export' || !surface || this.session.watches || surface.triangles === 0) return;
+    const wanted = exportArguments(this.exporting);
+    const key = JSON.stringify([surface.mesh_revision, wanted]);
+    if (key === this.estimated) return;
+    this.estimated = key;
+    this.estimate = null;
+    try {
+      const estimate = await this.session.command<{ triangles: number; bytes: number }>('estimate-export', wanted);
+      if (key === this.estimated) this.estimate = estimate;
+    } catch {
+      // Without it, the file can still be written, and that says what is wrong.
+    }
+    this.requestUpdate();
   }
   async build(): Promise<void> {
     this.wantSurface = await this.command('reconstruct');

@@ -29,6 +29,8 @@ export interface MeshArrays {
   sigma: Float32Array | null;
   views: Uint16Array | null;
   marks: Uint8Array | null;
+  /** From the reference, mm; NaN where it was not compared. */
+  deviation: Float32Array | null;
 }
 
 export function meshOf(buffer: ArrayBuffer): MeshArrays {
@@ -40,5 +42,6 @@ export function meshOf(buffer: ArrayBuffer): MeshArrays {
     sigma: (arrays.get('sigma_mm') as Float32Array | undefined) ?? null,
     views: (arrays.get('views') as Uint16Array | undefined) ?? null,
     marks: (arrays.get('marks') as Uint8Array | undefined) ?? null,
+    deviation: null,
   };
 }

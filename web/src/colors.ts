@@ -17,6 +17,23 @@ export function viridis(share: number): Rgb {
   return [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t];
 }
 
+/**
+ * Deviations: green within the tolerance, to blue below and to red above it. The order is that of metrology's usual
+ * legends; lightness falls to both sides, so that it is read without colour vision as well.
+ */
+export function deviationColor(value: number, [lower, upper]: [number, number], reach: number): Rgb {
+  const ramp = (share: number, colors: readonly Rgb[]): Rgb => {
+    const at = Math.min(1, Math.max(0, share)) * (colors.length - 1);
+    const low = Math.min(colors.length - 2, Math.floor(at));
+    const [a, b] = [colors[low] as Rgb, colors[low + 1] as Rgb];
+    return [0, 1, 2].map((i) => (a[i] as number) + ((b[i] as number) - (a[i] as number)) * (at - low)) as Rgb;
+  };
+  if (value > upper) return ramp((value - upper) / (reach - upper || 1), [[250, 214, 92], [240, 134, 55], [190, 35, 45]]);
+  if (value < lower) return ramp((lower - value) / (reach + lower || 1), [[120, 214, 226], [62, 138, 214], [44, 52, 150]]);
+  const within = value >= 0 ? value / (upper || 1) : value / (lower || 1);
+  return ramp(within, value >= 0 ? [[112, 190, 118], [176, 208, 110]] : [[112, 190, 118], [112, 205, 166]]);
+}
+
 export const css = ([r, g, b]: Rgb): string => `rgb(${Math.round(r)} ${Math.round(g)} ${Math.round(b)})`;
 
 /** The value below which a share of the finite values lies. */

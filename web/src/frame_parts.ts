@@ -6,6 +6,7 @@ import { icon, type IconName, logo } from './icons';
 import { KEYS } from './keyboard';
 import { linkDialog } from './link_dialog';
 import { currentLanguage, type MessageKey, number, t } from './messages';
+import { previewBar } from './preview_bar';
 import { liveOverlay } from './steps/live';
 import { plain, quoted } from './ui';
 
@@ -78,13 +79,15 @@ export function picture(app: App): TemplateResult {
     ${viewer.supported ? app.host : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
     ${app.showsCamera ? html`<div class="camera">${app.live.canvas}</div>` : ''} ${app.step === 'live' ? liveOverlay(app) : ''}
     <div class="floating">
+      ${previewBar(app)}
       ${viewer.tool === 'measure' && !measurement ? html`<div class="chip">${t('surface.measureHint')}</div>` : ''}
       ${viewer.tool === 'angle' && !measurement ? html`<div class="chip">${t('surface.angleHint')}</div>` : ''}
       ${viewer.tool === 'align' ? html`<div class="chip">${t('edit.alignHint')}</div>` : ''}
       ${viewer.tool === 'loop' ? html`<div class="chip">${t('edit.loopHint')}</div>` : ''}
       ${measurement
         ? html`<div class="chip"><div class="big">${measurement.angle_deg === null ? html`${number(measurement.distance_mm ?? 0, 3)} mm` : html`${number(measurement.angle_deg, 2)}°`}</div>
-            ${measurement.sigma_mm === null ? '' : html`<div class="num quiet">± ${number(1000 * measurement.sigma_mm, 1)} µm (k = 1)</div>`}</div>`
+            ${measurement.u95_mm === null ? '' : html`<div class="num quiet">± ${number(1000 * measurement.u95_mm, 1)} µm (k = 2)</div>`}
+            ${measurement.u95_deg === null ? '' : html`<div class="num quiet">± ${number(measurement.u95_deg, 3)}° (k = 2)</div>`}</div>`
         : ''}
     </div>
     ${viewer.supported && !app.showsCamera

@@ -41,6 +41,8 @@ export function onKey(app: App, event: KeyboardEvent): void {
   } else if (key === '?') app.dialog('keys').showModal();
   else if (key === 'd') app.toggleTheme();
   else if (key === 'f') app.viewer.frame();
+  else if (key === 'escape' && app.step === 'edit' && surface?.preview) void app.command('drop-preview');
+  else if (key === 'enter' && app.step === 'edit' && surface?.preview && !target.matches('button, summary')) app.applyPreview();
   else if (key === 'escape') app.setTool('orbit');
   else if (key === 'enter' && app.step === 'rig' && app.state.project?.calibration?.waiting && !target.matches('button, summary')) void app.command('capture-pose');
   else if (!surface) return;

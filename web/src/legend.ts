@@ -1,7 +1,7 @@
 import { html, svg, type TemplateResult } from 'lit';
-import { css, viridis } from './colors';
+import { css } from './colors';
 import { number, t } from './messages';
-import type { Legend } from './mesh_colors';
+import { type Legend, shade } from './mesh_colors';
 
 /** A colour scale whose histogram stands on it. */
 export function legend(title: string, scale: Legend, factor: number, digits: number): TemplateResult {
@@ -13,9 +13,13 @@ export function legend(title: string, scale: Legend, factor: number, digits: num
     <svg viewBox="0 0 280 68" preserveAspectRatio="none" aria-hidden="true">
       ${scale.counts.map((count, i) => {
         const height = 58 * Math.sqrt(count / most);
-        const color = css(viridis(bins > 1 ? i / (bins - 1) : 0));
+        const color = css(shade(scale, scale.band ? (i + 0.5) / bins : bins > 1 ? i / (bins - 1) : 0));
         return svg`<rect x=${i * width} y=${60 - height} width=${width + 0.4} height=${height} fill=${color} />
           <rect x=${i * width} y="61.500" width=${width + 0.4} height="6.500" fill=${color} />`;
+      })}
+      ${(scale.band ?? []).map((limit) => {
+        const x = (280 * (limit - scale.low)) / (scale.high - scale.low);
+        return svg`<line class="legend-limit" x1=${x} x2=${x} y1="0" y2="68" />`;
       })}
     </svg>
     <div class="legend-range num">

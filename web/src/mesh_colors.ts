@@ -1,67 +1,94 @@
 import * as THREE from 'three';
 
 import type { MeshArrays } from './arrays';
-import { MARK_COLORS, quantile, type Rgb, viridis } from './colors';
+import { deviationColor, MARK_COLORS, quantile, type Rgb, viridis } from './colors';
 
-export type Coloring = 'plain' | 'sigma' | 'views' | 'marks';
-export type ColoredMesh = THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
+export type Coloring = 'plain' | 'sigma' | 'views' | 'marks' | 'deviation';
 export interface Legend {
   low: number;
   high: number;
   counts: number[];
+  /** Share of the vertices beyond the scale, or without a value. */
   beyond: number;
+  /** Tolerance, of deviations only. */
+  band: [number, number] | null;
 }
 const BINS = 48;
+const SHADES = 512;
+const UNKNOWN: Rgb = [128, 128, 128];
 
-/** Colours by a value of each vertex, with the legend and its histogram. */
-export function colorMesh(mesh: ColoredMesh, arrays: MeshArrays, coloring: Coloring): Legend | null {
+function valuesFor(arrays: MeshArrays, coloring: Coloring): ArrayLike<number> | null {
+  if (coloring === 'sigma') return arrays.sigma;
+  if (coloring === 'views') return arrays.views;
+  return coloring === 'deviation' ? arrays.deviation : null;
+}
+
+/** The scale of a colouring and its histogram; null where colours are no scale. */
+export function scaleOf(arrays: MeshArrays, coloring: Coloring, band: [number, number] | null): Legend | null {
+  const values = valuesFor(arrays, coloring);
+  if (!values || values.length === 0) return null;
+  const whole = coloring === 'views';
+  const deviates = coloring === 'deviation';
+  const reach = band && 2 * Math.max(Math.abs(band[0]), Math.abs(band[1]));
+  const low = deviates && reach ? -reach : whole ? 0 : quantile(values, 0.02);
+  const high = deviates && reach ? reach : whole ? Math.max(1, quantile(values, 1)) : quantile(values, 0.95);
+  const counts = new Array<number>(whole ? Math.min(BINS, high + 1) : BINS).fill(0);
+  let beyond = 0;
+  for (let v = 0; v < values.length; v++) {
+    const value = values[v] as number;
+    const share = (value - low) / (high - low || 1);
+    if (!Number.isFinite(value)) beyond += deviates ? 0 : 1;
+    else if (share > 1 || (deviates && share < 0)) beyond++;
+    else if (share >= 0) {
+      const bin = Math.min(counts.length - 1, Math.floor(share * (whole ? high : counts.length)));
+      counts[bin] = (counts[bin] as number) + 1;
+    }
+  }
+  return { low, high, counts, beyond: beyond / values.length, band: deviates ? band : null };
+}
+
+const linear = (color: Rgb): THREE.Color => new THREE.Color().setRGB(color[0] / 255, color[1] / 255, color[2] / 255, THREE.SRGBColorSpace);
+
+/** The colour at a share of a scale. */
+export function shade(scale: Legend, share: number): Rgb {
+  return scale.band ? deviationColor(scale.low + share * (scale.high - scale.low), scale.band, scale.high) : viridis(share);
+}
+
+/** Colours of the vertices, as bytes of linear light; null for the plain one. */
+export function vertexColors(arrays: MeshArrays, coloring: Coloring, scale: Legend | null): Uint8Array | null {
+  const values = valuesFor(arrays, coloring);
   const vertices = arrays.positions.length / 3;
-  const values = coloring === 'sigma' ? arrays.sigma : coloring === 'views' ? arrays.views : null;
-  const marks = coloring === 'marks' ? arrays.marks : null;
-  if (!values && !marks) {
-    mesh.geometry.deleteAttribute('color');
-    mesh.material.vertexColors = false;
-    mesh.material.color.set(0xd6d2c9);
-    mesh.material.needsUpdate = true;
-    return null;
-  }
-  let legend: Legend | null = null;
-  const colors = new Float32Array(3 * vertices);
-  const linear = new THREE.Color();
-  const put = (vertex: number, [r, g, b]: Rgb) => {
-    linear.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace).toArray(colors, 3 * vertex);
-  };
-  if (marks) {
-    for (let v = 0; v < vertices; v++) put(v, MARK_COLORS[0] as Rgb);
-    for (let t = 0; t < marks.length; t++) {
-      const mark = marks[t] as number;
-      if (mark === 0) continue;
-      for (let c = 0; c < 3; c++) put(arrays.triangles[3 * t + c] as number, MARK_COLORS[mark] as Rgb);
+  const byte = (value: number) => Math.round(255 * value);
+  if (coloring === 'marks' && arrays.marks) {
+    const palette = MARK_COLORS.map((color) => linear(color));
+    const marks = new Uint8Array(vertices);
+    for (let t = 0; t < arrays.marks.length; t++) {
+      const mark = arrays.marks[t] as number;
+      if (mark > 0) for (let c = 0; c < 3; c++) marks[arrays.triangles[3 * t + c] as number] = mark;
     }
-  } else if (values) {
-    const whole = coloring === 'views';
-    const low = whole ? 0 : quantile(values, 0.02);
-    const high = whole ? Math.max(1, quantile(values, 1)) : quantile(values, 0.95);
-    const counts = new Array<number>(whole ? Math.min(BINS, high + 1) : BINS).fill(0);
-    let beyond = 0;
-    const unknown: Rgb = [128, 128, 128];
+    const colors = new Uint8Array(3 * vertices);
     for (let v = 0; v < vertices; v++) {
-      const value = values[v] as number;
-      const share = (value - low) / (high - low || 1);
-      put(v, Number.isFinite(value) ? viridis(share) : unknown);
-      if (share > 1 || !Number.isFinite(value)) beyond++;
-      else if (share >= 0) {
-        const bin = Math.min(counts.length - 1, Math.floor(share * (whole ? high : counts.length)));
-        counts[bin] = (counts[bin] as number) + 1;
-      }
+      const color = palette[marks[v] as number] as THREE.Color;
+      colors.set([byte(color.r), byte(color.g), byte(color.b)], 3 * v);
     }
-    legend = { low, high, counts, beyond: beyond / vertices };
+    return colors;
   }
-  mesh.geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
-  mesh.material.vertexColors = true;
-  mesh.material.color.set(0xffffff);
-  mesh.material.needsUpdate = true;
-  return legend;
+  if (!values || !scale) return null;
+  const shades = new Uint8Array(3 * (SHADES + 1));
+  for (let i = 0; i <= SHADES; i++) {
+    const color = linear(i < SHADES ? shade(scale, i / (SHADES - 1)) : UNKNOWN);
+    shades.set([byte(color.r), byte(color.g), byte(color.b)], 3 * i);
+  }
+  const colors = new Uint8Array(3 * vertices);
+  const factor = (SHADES - 1) / (scale.high - scale.low || 1);
+  for (let v = 0; v < vertices; v++) {
+    const value = values[v] as number;
+    const i = Number.isFinite(value) ? Math.min(SHADES - 1, Math.max(0, Math.round((value - scale.low) * factor))) : SHADES;
+    colors[3 * v] = shades[3 * i] as number;
+    colors[3 * v + 1] = shades[3 * i + 1] as number;
+    colors[3 * v + 2] = shades[3 * i + 2] as number;
+  }
+  return colors;
 }
 
 /** Colours points by their height above the turntable. */
@@ -69,10 +96,8 @@ export function colorByHeight(geometry: THREE.BufferGeometry, positions: Float32
   const heights = positions.filter((_, i) => i % 3 === 2);
   const [low, high] = [quantile(heights, 0), quantile(heights, 1)];
   const colors = new Float32Array(positions.length);
-  const linear = new THREE.Color();
   heights.forEach((height, i) => {
-    const [r, g, b] = viridis(0.25 + (0.7 * (height - low)) / (high - low || 1));
-    linear.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace).toArray(colors, 3 * i);
+    linear(viridis(0.25 + (0.7 * (height - low)) / (high - low || 1))).toArray(colors, 3 * i);
   });
   geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
 }

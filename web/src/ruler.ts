@@ -3,8 +3,11 @@ import * as THREE from 'three';
 export type MeasureKind = 'distance' | 'angle' | 'points';
 export interface Measurement {
   distance_mm: number | null;
-  sigma_mm: number | null;
+  /** Expanded uncertainty of the distance, k = 2. */
+  u95_mm: number | null;
   angle_deg: number | null;
+  /** Expanded uncertainty of the angle, k = 2. */
+  u95_deg: number | null;
 }
 
 const COLOR = 0xff8a4c;
@@ -39,11 +42,19 @@ export class Ruler {
     line.renderOrder = 3;
     this.group.add(line);
     const [a, b, c] = this.ends as [THREE.Vector3, THREE.Vector3, THREE.Vector3 | undefined];
+    const known = (value: number): number | null => (Number.isFinite(value) ? 2 * value : null);
+    const [sa, sb, sc] = this.sigmas as [number, number, number | undefined];
     if (kind === 'angle' && c) {
-      const angle = a.clone().sub(b).angleTo(c.clone().sub(b));
-      return { distance_mm: null, sigma_mm: null, angle_deg: (angle * 180) / Math.PI };
+      const [u, v] = [a.clone().sub(b), c.clone().sub(b)];
+      const angle = u.angleTo(v);
+      // The angle moves with the part of each error across its leg, in the plane of both legs.
+      const axis = u.clone().cross(v).normalize();
+      const ga = axis.clone().cross(u).divideScalar(-u.lengthSq());
+      const gc = axis.clone().cross(v).divideScalar(v.lengthSq());
+      const sigma = Math.hypot(sa * ga.length(), (sc as number) * gc.length(), sb * ga.add(gc).length());
+      const u95 = known(sigma);
+      return { distance_mm: null, u95_mm: null, angle_deg: (angle * 180) / Math.PI, u95_deg: u95 === null ? null : (u95 * 180) / Math.PI };
     }
-    const combined = Math.hypot(...this.sigmas);
-    return { distance_mm: a.distanceTo(b), sigma_mm: Number.isFinite(combined) ? combined : null, angle_deg: null };
+    return { distance_mm: a.distanceTo(b), u95_mm: known(Math.hypot(sa, sb)), angle_deg: null, u95_deg: null };
   }
 }

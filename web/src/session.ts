@@ -1,4 +1,5 @@
 import type { State } from './types';
+import type { Hit, Ray } from './viewer';
 
 const KEY = 'frangia-key';
 const ID = 'frangia-id';
@@ -98,6 +99,26 @@ export class Session {
   async command<T = Record<string, unknown>>(name: string, argument: object = {}): Promise<T> {
     const response = await this.post(`/api/commands/${name}`, argument);
     return (await response.json()) as T;
+  }
+
+  /** Sends a file to compare with, in pieces; `sent` hears the share that has arrived. */
+  async sendReference(file: File, format: string, sent: (share: number) => void): Promise<void> {
+    const piece = 768 * 1024;
+    for (let offset = 0; offset < file.size || offset === 0; offset += piece) {
+      await this.request(`/api/reference/${offset}`, {
+        method: 'POST',
+        headers: { 'Content-Type': 'application/octet-stream' },
+        body: await file.slice(offset, offset + piece).arrayBuffer(),
+      });
+      sent(Math.min(1, (offset + piece) / Math.max(1, file.size)));
+    }
+    await this.command('set-reference', { name: file.name.slice(0, 120), format, bytes: file.size });
+  }
+
+  /** The point of the exact mesh on a ray. */
+  async pick(ray: Ray): Promise<Hit | null> {
+    const response = await this.post('/api/pick', ray);
+    return ((await response.json()) as { hit: Hit | null }).hit;
   }
 
   async newLink(): Promise<string> {

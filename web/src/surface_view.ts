@@ -1,98 +1,115 @@
 import * as THREE from 'three';
 
 import type { MeshArrays } from './arrays';
-import { colorMesh, type Coloring, type Legend } from './mesh_colors';
+import { type Coloring, type Legend, scaleOf } from './mesh_colors';
+import { MeshLevel } from './mesh_level';
 
 export type Shading = 'smooth' | 'flat' | 'wire';
 export type SectionAxis = 'off' | 'x' | 'y' | 'z';
 
-/** The mesh in the scene: shading, colours, section plane and selection. */
+/** Wires of more triangles than these are a grey area. */
+const MOST_WIRED = 300_000;
+
+/** The levels of one mesh, the coarsest first. */
+interface Picture { revision: number; levels: MeshLevel[] }
+
+/**
+ * The mesh in the scene: levels of detail, shading, colours, section plane and selection. The last meshes stay in memory, so
+ * that undo and redo show them without asking for them again.
+ */
 export class SurfaceView {
   readonly group = new THREE.Group();
   readonly plane = new THREE.Plane(new THREE.Vector3(1, 0, 0), 0);
   readonly box = new THREE.Box3();
-  arrays: MeshArrays | null = null;
-  mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial> | null = null;
   legend: Legend | null = null;
   section: { axis: SectionAxis; share: number; flipped: boolean } = { axis: 'off', share: 0.5, flipped: false };
-  private inside: THREE.Mesh | null = null;
-  private wire: THREE.LineSegments | null = null;
-  private picked: THREE.Mesh | null = null;
+  private pictures: Picture[] = [];
+  private current: Picture | null = null;
+  private moving = false;
   private shading: Shading = 'smooth';
   private coloring: Coloring = 'plain';
-  private surfaceShown = true;
+  private band: [number, number] | null = null;
 
-  /** Hides the surface while a scan is looked at. */
-  show(shown: boolean): void {
-    this.surfaceShown = shown;
-    for (const part of [this.mesh, this.inside, this.picked]) if (part) part.visible = shown;
-    if (this.wire) this.wire.visible = shown && this.shading === 'wire';
+  private static readonly KEPT = 4;
+
+  get revision(): number {
+    return this.current?.revision ?? -1;
+  }
+  get levels(): readonly MeshLevel[] {
+    return this.current?.levels ?? [];
+  }
+  /** The level that is drawn now. */
+  get shown(): MeshLevel | null {
+    const { levels } = this;
+    return (this.moving || this.wiresCoarsely ? levels[0] : levels.at(-1)) ?? null;
+  }
+  /** Whether wires are drawn of fewer triangles than the mesh has. */
+  get wiresCoarsely(): boolean {
+    return this.shading === 'wire' && (this.levels.at(-1)?.triangles ?? 0) > MOST_WIRED;
+  }
+  /** Draws the coarsest level while something moves. */
+  setMoving(moving: boolean): void {
+    this.moving = moving;
+    this.showLevel();
+  }
+  private showLevel(): void {
+    const { shown } = this;
+    for (const level of this.levels) level.group.visible = level === shown;
   }
 
-  setMesh(arrays: MeshArrays | null): void {
-    for (const part of [this.mesh, this.inside, this.wire, this.picked]) if (part) this.group.remove(part);
-    this.mesh?.geometry.disposeBoundsTree();
-    this.mesh?.geometry.dispose();
-    this.wire?.geometry.dispose();
-    this.mesh = this.inside = this.wire = this.picked = null;
-    this.arrays = arrays;
-    if (!arrays || arrays.triangles.length === 0) return;
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(arrays.positions, 3));
-    geometry.setAttribute('normal', new THREE.BufferAttribute(arrays.normals, 3));
-    geometry.setIndex(new THREE.BufferAttribute(arrays.triangles, 1));
-    geometry.computeBoundingBox();
-    this.box.copy(geometry.boundingBox as THREE.Box3);
-    const material = new THREE.MeshStandardMaterial({ color: 0xd6d2c9, roughness: 0.62, metalness: 0.0 });
-    this.mesh = new THREE.Mesh(geometry, material);
-    this.inside = new THREE.Mesh(
-      geometry,
-      new THREE.MeshStandardMaterial({ color: 0x7a4a3f, roughness: 0.9, side: THREE.BackSide }),
-    );
-    this.group.add(this.mesh, this.inside);
-    this.legend = colorMesh(this.mesh, arrays, this.coloring);
-    this.shade();
+  /** Shows a mesh that is known already; returns false when it has to be added. */
+  recall(revision: number): boolean {
+    const known = this.pictures.find((one) => one.revision === revision);
+    if (!known) return false;
+    this.show(known);
+    return true;
+  }
+  clear(): void {
+    for (const picture of this.pictures) this.drop(picture);
+    this.pictures = [];
+    this.current = null;
+    this.legend = null;
+    this.group.clear();
+    this.box.makeEmpty();
+  }
+  /** Adds the next finer level of a mesh, or a new mesh. */
+  addLevel(revision: number, arrays: MeshArrays): void {
+    let picture = this.pictures.find((one) => one.revision === revision);
+    if (!picture) {
+      picture = { revision, levels: [] };
+      this.pictures.push(picture);
+    }
+    const level = new MeshLevel(arrays);
+    picture.levels.push(level);
+    this.show(picture);
+  }
+  private show(picture: Picture): void {
+    this.pictures = [...this.pictures.filter((one) => one !== picture), picture];
+    while (this.pictures.length > SurfaceView.KEPT) this.drop(this.pictures.shift() as Picture);
+    this.current = picture;
+    this.group.clear();
+    for (const level of picture.levels) this.group.add(level.group);
+    this.box.makeEmpty();
+    const coarsest = picture.levels[0];
+    if (coarsest) this.box.setFromBufferAttribute(coarsest.mesh.geometry.getAttribute('position') as THREE.BufferAttribute);
+    this.select([]);
+    this.colorAll();
+    this.shadeAll();
     this.cut();
-    this.show(this.surfaceShown);
-    // After the first picture: rays are needed when someone points at the mesh.
-    setTimeout(() => {
-      // Indirect: the triangles keep their order, by which the server numbers them.
-      if (this.mesh?.geometry === geometry) geometry.computeBoundsTree({ indirect: true });
-    }, 50);
+  }
+  private drop(picture: Picture): void {
+    for (const level of picture.levels) level.dispose();
   }
 
-  setSelection(flags: Uint8Array | null): void {
-    if (this.picked) {
-      this.picked.geometry.dispose();
-      this.group.remove(this.picked);
-      this.picked = null;
-    }
-    if (flags && this.mesh && this.arrays && flags.length * 3 === this.arrays.triangles.length) {
-      let count = 0;
-      for (const flag of flags) count += flag;
-      if (count > 0) {
-        const index = new Uint32Array(count * 3);
-        let at = 0;
-        for (let i = 0; i < flags.length; i++) {
-          if (!flags[i]) continue;
-          index.set(this.arrays.triangles.subarray(3 * i, 3 * i + 3), at);
-          at += 3;
-        }
-        const geometry = new THREE.BufferGeometry();
-        geometry.setAttribute('position', this.mesh.geometry.getAttribute('position'));
-        geometry.setAttribute('normal', this.mesh.geometry.getAttribute('normal'));
-        geometry.setIndex(new THREE.BufferAttribute(index, 1));
-        this.picked = new THREE.Mesh(
-          geometry,
-          new THREE.MeshStandardMaterial({
-            color: 0x9a6bff, emissive: 0x43208f, roughness: 0.7, side: THREE.DoubleSide,
-            polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -2,
-            clippingPlanes: this.section.axis === 'off' ? [] : [this.plane],
-          }),
-        );
-        this.group.add(this.picked);
-      }
-    }
+  /** One array of flags for each level, the coarsest first. */
+  select(flags: readonly (Uint8Array | null)[]): void {
+    this.levels.forEach((level, i) => level.select(flags[i] ?? null));
+  }
+  /** One array of deviations for each level, within a tolerance. */
+  setDeviations(deviations: readonly (Float32Array | null)[], band: [number, number] | null): void {
+    this.band = band;
+    this.levels.forEach((level, i) => (level.arrays.deviation = deviations[i] ?? null));
+    this.colorAll();
   }
 
   /** Position of the section plane, mm. */
@@ -101,28 +118,13 @@ export class SurfaceView {
     if (axis === 'off' || this.box.isEmpty()) return 0;
     return this.box.min[axis] + share * (this.box.max[axis] - this.box.min[axis]);
   }
+  /** Normal and offset of the half-space that stays; null without a section. */
+  get kept(): [number, number, number, number] | null {
+    return this.section.axis === 'off' ? null : [...this.plane.normal.toArray(), this.plane.constant];
+  }
 
   get size(): THREE.Vector3 {
     return this.box.isEmpty() ? new THREE.Vector3() : this.box.getSize(new THREE.Vector3());
-  }
-
-  shade(): void {
-    if (!this.mesh) return;
-    const material = this.mesh.material;
-    material.flatShading = this.shading === 'flat';
-    material.needsUpdate = true;
-    if (this.shading === 'wire' && !this.wire) {
-      this.wire = new THREE.LineSegments(
-        new THREE.WireframeGeometry(this.mesh.geometry),
-        new THREE.LineBasicMaterial({ color: 0x0c2a20, transparent: true, opacity: 0.42 }),
-      );
-      material.polygonOffset = true;
-      material.polygonOffsetFactor = 1;
-      material.polygonOffsetUnits = 1;
-      this.group.add(this.wire);
-      this.cut();
-    }
-    if (this.wire) this.wire.visible = this.shading === 'wire';
   }
 
   cut(): void {
@@ -132,21 +134,27 @@ export class SurfaceView {
       this.plane.normal.set(axis === 'x' ? sign : 0, axis === 'y' ? sign : 0, axis === 'z' ? sign : 0);
       this.plane.constant = -sign * this.sectionAt;
     }
-    for (const part of [this.mesh, this.inside, this.wire, this.picked]) {
-      if (!part) continue;
-      const material = part.material as THREE.Material;
-      material.clippingPlanes = axis === 'off' ? [] : [this.plane];
-      material.needsUpdate = true;
-    }
+    for (const level of this.levels) level.cut(axis === 'off' ? [] : [this.plane]);
   }
 
   setShading(shading: Shading): void {
     this.shading = shading;
-    this.shade();
+    this.shadeAll();
+    this.cut();
+  }
+  private shadeAll(): void {
+    this.showLevel();
+    for (const level of this.levels) level.shade(this.shading === 'flat', this.shading === 'wire' && level === this.shown);
   }
 
   setColoring(coloring: Coloring): void {
     this.coloring = coloring;
-    this.legend = this.mesh && this.arrays ? colorMesh(this.mesh, this.arrays, coloring) : null;
+    this.colorAll();
+  }
+  /** All levels share the scale of the finest one. */
+  private colorAll(): void {
+    const finest = this.levels.at(-1);
+    this.legend = finest ? scaleOf(finest.arrays, this.coloring, this.band) : null;
+    for (const level of this.levels) level.color(this.coloring, this.legend);
   }
 }

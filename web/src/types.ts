@@ -3,7 +3,7 @@ export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
 export interface LogLine { warning: boolean; sentence: string }
 export interface Job {
   number: number;
-  kind: 'open' | 'live' | 'devices' | 'calibrate' | 'scan' | 'reconstruct' | 'edit' | 'export';
+  kind: 'open' | 'live' | 'devices' | 'calibrate' | 'scan' | 'reconstruct' | 'edit' | 'preview' | 'compare' | 'export';
   state: JobState;
   progress: number;
   stage: string;
@@ -28,7 +28,9 @@ export interface Hole {
   length_mm: number;
   center_mm: [number, number, number];
 }
-export interface Step { operation: string; value: string }
+/** What a step did; counts are those after it less those before. */
+export interface Change { triangles: number; holes: number; components: number; moved: number; selected: number }
+export interface Step { operation: string; value: string; change: Change }
 export interface Summary {
   points: number;
   views: number;
@@ -108,7 +110,38 @@ export interface Calibration {
   poses: { points: number; expected: number }[];
   verdict: Verdict | null;
 }
+/** Deviations of the surface from a reference; shares are of the compared area. */
+export interface Comparison {
+  revision: number;
+  reference: string;
+  reference_triangles: number;
+  best_fit: boolean;
+  tolerance_mm: [number, number];
+  scale_mm: [number, number];
+  histogram: number[];
+  verdict: 'in' | 'out' | 'undecided';
+  in_share: number;
+  out_share: number;
+  undecided_share: number;
+  rms_mm: number | null;
+  mean_mm: number | null;
+  min_mm: number | null;
+  max_mm: number | null;
+  median_u_mm: number | null;
+  area_mm2: number;
+  overlap: number;
+  fit_rms_mm: number | null;
+  turned_deg: number;
+  moved_mm: number;
+  left_out: number;
+  free_directions: string[];
+}
+export interface Preview extends Step { revision: number }
 export interface Surface {
+  /** Levels of detail, the coarsest first. */
+  levels: { triangles: number; error_mm: number }[];
+  comparison: Comparison | null;
+  preview: Preview | null;
   mesh_revision: number;
   selection_revision: number;
   vertices: number;
@@ -138,6 +171,7 @@ export interface Project {
   stations: Station[];
   surface: Surface | null;
   exports: { name: string; bytes: number }[];
+  reference: { name: string; format: string } | null;
   commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[] };
 }
 export interface ProjectEntry {

@@ -1,11 +1,11 @@
 // Above 250 lines: one scene, whose camera, lights, tools and pictures share their state.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { acceleratedRaycast, computeBoundsTree, disposeBoundsTree } from 'three-mesh-bvh';
 
 import type { MeshArrays } from './arrays';
 import { viridis } from './colors';
 import { colorByHeight, type Coloring, type Legend } from './mesh_colors';
+import { EditPreview } from './edit_preview';
 import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
@@ -15,16 +15,19 @@ import type { RigGeometry } from './types';
 
 export type { SectionAxis, Shading } from './surface_view';
 
-THREE.Mesh.prototype.raycast = acceleratedRaycast;
-THREE.BufferGeometry.prototype.computeBoundsTree = computeBoundsTree;
-THREE.BufferGeometry.prototype.disposeBoundsTree = disposeBoundsTree;
-
 export type Tool = 'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align';
 
 /** A lasso in space: the eye, then the corners, as `frangia edit --select-outline` takes them. */
 export type Outline = string;
 
+/** A ray through the picture, and the half-space that a section leaves. */
+export interface Ray { eye: number[]; direction: number[]; section?: number[] }
+/** A point of the exact mesh. */
+export interface Hit { point_mm: [number, number, number]; triangle: number; sigma_mm: number | null }
+
 interface Events {
+  /** Asks for the point of the exact mesh on a ray. */
+  pick(ray: Ray): Promise<Hit | null>;
   measured(result: Measurement | null): void;
   outlined(outline: Outline, through: boolean): void;
   partPicked(triangle: number): void;
@@ -33,6 +36,8 @@ interface Events {
 }
 
 const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
+/** After a move, until the finest level is drawn, ms. */
+const REST_MS = 160;
 const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align']);
 
 /** The 3D picture. It draws when something changes, not all the time. */
@@ -54,10 +59,14 @@ export class Viewer {
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
+  private readonly preview = new EditPreview();
   private readonly rig = new RigModel();
   private rigShown = 'null';
   private picks: THREE.Vector3[] = [];
   private due = false;
+  private resting = 0;
+  private held = false;
+  private incomplete = false;
   private stroke: Point[] = [];
   private down: Point | null = null;
 
@@ -86,7 +95,15 @@ export class Viewer {
     this.controls.enableDamping = false;
     this.controls.target.set(0, 0, 40);
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.lights, this.clouds, this.table, this.surface.group, this.ruler.group, this.rig.group);
+    this.controls.addEventListener('start', () => {
+      this.held = true;
+      this.move();
+    });
+    this.controls.addEventListener('end', () => {
+      this.held = false;
+      this.move();
+    });
+    this.scene.add(this.lights, this.clouds, this.table, this.surface.group, this.preview.group, this.ruler.group, this.rig.group);
     addLights(this.lights);
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
@@ -124,9 +141,11 @@ export class Viewer {
 
   /** Shows the clouds of the stations, or that of the live preview alone. */
   showClouds(shown: boolean, live = false): void {
+    const visible = () => [this.clouds, ...this.clouds.children].map((one) => one.visible).join();
+    const before = visible();
     this.clouds.visible = shown;
     for (const cloud of this.clouds.children) cloud.visible = (cloud.name === '-1') === live;
-    this.draw();
+    if (visible() !== before) this.draw();
   }
 
   /** The rig around the turntable; null hides it. */
@@ -140,23 +159,81 @@ export class Viewer {
 
   /** A picture of the present view, as the screen shows it. */
   async snapshot(): Promise<Blob | null> {
-    this.renderer.render(this.scene, this.camera);
+    this.surface.setMoving(false);
+    this.drawNow();
     return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
   }
 
   showSurface(shown: boolean): void {
-    this.surface.show(shown);
+    this.surface.group.visible = this.preview.group.visible = shown;
     this.draw();
   }
-  setMesh(arrays: MeshArrays | null): void {
-    const first = this.surface.arrays === null;
+  /** Draws the coarsest level until nothing has moved for a while. */
+  private move(): void {
+    this.surface.setMoving(true);
+    clearTimeout(this.resting);
+    if (this.held || this.incomplete) return;
+    this.resting = window.setTimeout(() => {
+      this.surface.setMoving(false);
+      this.draw();
+    }, REST_MS);
+  }
+
+  /** Holds back the finest level until everything that it shows has arrived. */
+  setIncomplete(incomplete: boolean): void {
+    if (incomplete === this.incomplete) return;
+    this.incomplete = incomplete;
+    this.move();
+  }
+
+  get meshShown(): number {
+    return this.surface.revision;
+  }
+  /** Whether a mesh is in the picture, and its finest level. */
+  get shown(): boolean {
+    return this.surface.shown !== null;
+  }
+  get levelsShown(): number {
+    return this.surface.levels.length;
+  }
+  get trianglesShown(): number {
+    return this.surface.shown?.triangles ?? 0;
+  }
+  get wiresCoarsely(): boolean {
+    return this.surface.wiresCoarsely;
+  }
+  clearMesh(): void {
     this.clearMeasurement();
-    this.surface.setMesh(arrays);
-    if (first && arrays) this.frame();
+    this.surface.clear();
     this.draw();
   }
-  setSelection(flags: Uint8Array | null): void {
-    this.surface.setSelection(flags);
+  /** Shows a mesh of the last ones again. */
+  recallMesh(revision: number): boolean {
+    if (!this.surface.recall(revision)) return false;
+    this.clearMeasurement();
+    this.move();
+    this.draw();
+    return true;
+  }
+  addLevel(revision: number, arrays: MeshArrays): void {
+    const first = this.surface.levels.length === 0;
+    if (this.surface.revision !== revision) this.clearMeasurement();
+    this.surface.addLevel(revision, arrays);
+    if (first) this.frame();
+    this.draw();
+  }
+  setSelection(flags: readonly (Uint8Array | null)[]): void {
+    this.surface.select(flags);
+    this.move();
+    this.draw();
+  }
+  /** Shows what an edit would change; null shows nothing. */
+  setPreview(arrays: Map<string, ArrayLike<number>> | null): void {
+    this.preview.set(arrays);
+    this.draw();
+  }
+  setDeviations(values: readonly (Float32Array | null)[], band: [number, number] | null): void {
+    this.surface.setDeviations(values, band);
     this.draw();
   }
   setShading(shading: Shading): void {
@@ -168,7 +245,9 @@ export class Viewer {
     this.draw();
   }
   setSection(axis: SectionAxis, share: number, flipped: boolean): void {
+    const before = JSON.stringify(this.surface.section);
     this.surface.section = { axis, share, flipped };
+    if (before !== JSON.stringify(this.surface.section)) this.move();
     this.surface.cut();
     this.draw();
   }
@@ -249,8 +328,10 @@ export class Viewer {
       const outline = this.tool === 'brush' ? brushOutline(stroke, this.brush) : stroke;
       if (DRAWING.has(this.tool) && outline.length >= 3) return this.events.outlined(this.outlineOf(outline), this.through);
       if (!still || !CLICKING.has(this.tool)) return;
-      const hit = this.hit(point);
-      if (hit) this.onHit(hit);
+      const { tool } = this;
+      void this.events.pick(this.pickRay(point)).then((hit) => {
+        if (hit && tool === this.tool) this.onHit(hit);
+      });
     });
     this.canvas.addEventListener('pointercancel', () => {
       this.stroke = [];
@@ -259,16 +340,14 @@ export class Viewer {
     });
   }
 
-  private onHit(hit: THREE.Intersection): void {
-    if (this.tool === 'part') return this.events.partPicked(hit.faceIndex as number);
-    if (this.tool === 'loop') return this.events.picked('loop', [hit.point.toArray()]);
-    const sigma = this.surface.arrays?.sigma;
-    const corners = [hit.face?.a, hit.face?.b, hit.face?.c].filter((i): i is number => i !== undefined);
-    const hitSigma = sigma ? Math.max(...corners.map((i) => sigma[i] as number)) : NaN;
+  private onHit(hit: Hit): void {
+    if (this.tool === 'part') return this.events.partPicked(hit.triangle);
+    if (this.tool === 'loop') return this.events.picked('loop', [hit.point_mm]);
     const kind: MeasureKind = this.tool === 'measure' ? 'distance' : this.tool === 'angle' ? 'angle' : 'points';
-    this.events.measured(this.ruler.add(hit.point, hitSigma, kind, this.size.length() / 260));
+    const point = new THREE.Vector3(...hit.point_mm);
+    this.events.measured(this.ruler.add(point, hit.sigma_mm ?? NaN, kind, this.size.length() / 260));
     if (this.tool === 'align') {
-      this.picks.push(hit.point.clone());
+      this.picks.push(point);
       if (this.picks.length === 3) {
         this.events.picked('align', this.picks.map((one) => one.toArray()));
         this.clearMeasurement();
@@ -291,25 +370,18 @@ export class Viewer {
     line.setAttribute('points', points);
   }
 
-  private rayAt([x, y]: [number, number]): THREE.Raycaster {
+  private rayAt([x, y]: [number, number]): THREE.Ray {
     const ray = new THREE.Raycaster();
     const width = this.canvas.clientWidth;
     const height = this.canvas.clientHeight;
     ray.setFromCamera(new THREE.Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
-    ray.firstHitOnly = this.surface.section.axis === 'off';
-    return ray;
+    return ray.ray;
   }
 
-  private hit(point: [number, number]): THREE.Intersection | null {
-    const { mesh } = this.surface;
-    if (!mesh) return null;
-    const material = mesh.material;
-    const side = material.side;
-    material.side = THREE.DoubleSide;
-    const hits = this.rayAt(point).intersectObject(mesh, false);
-    material.side = side;
-    const seen = hits.find((one) => this.surface.section.axis === 'off' || this.surface.plane.distanceToPoint(one.point) >= 0);
-    return seen ?? null;
+  private pickRay(point: [number, number]): Ray {
+    const { origin, direction } = this.rayAt(point);
+    const { kept } = this.surface;
+    return { eye: origin.toArray(), direction: direction.toArray(), ...(kept ? { section: kept } : {}) };
   }
 
   /** The stroke in space, at most 72 corners with a tenth of a micrometre at arm's length. */
@@ -319,7 +391,7 @@ export class Viewer {
     const numbers: number[] = [...this.camera.position.toArray()];
     const depth = this.camera.position.distanceTo(this.controls.target);
     for (let i = 0; i < stroke.length; i += step) {
-      const ray = this.rayAt(stroke[Math.floor(i)] as [number, number]).ray;
+      const ray = this.rayAt(stroke[Math.floor(i)] as [number, number]);
       numbers.push(...ray.at(depth, new THREE.Vector3()).toArray());
     }
     return numbers.map((value) => String(Math.round(value * 1000) / 1000)).join(',');
@@ -339,8 +411,11 @@ export class Viewer {
     this.due = true;
     requestAnimationFrame(() => {
       this.due = false;
-      this.lights.quaternion.copy(this.camera.quaternion);
-      this.renderer.render(this.scene, this.camera);
+      this.drawNow();
     });
+  }
+  drawNow(): void {
+    this.lights.quaternion.copy(this.camera.quaternion);
+    this.renderer.render(this.scene, this.camera);
   }
 }

@@ -64,6 +64,21 @@ std::optional<std::string> percent_decoded(const std::string& text) {
   return out;
 }
 
+/// The whole number that follows `prefix` in a path; empty when something else does.
+std::optional<std::size_t> number_after(const std::string& path, std::string_view prefix) {
+  const auto text = rest_of(path, prefix);
+  if (!text) return std::nullopt;
+  std::size_t number = 0;
+  const char* end = text->data() + text->size();
+  const auto [last, error] = std::from_chars(text->data(), end, number);
+  return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
+}
+
+/// Arrays, or that there are none.
+HttpResponse found(std::string bytes, const char* otherwise) {
+  return bytes.empty() ? failure(kNotFound, otherwise) : binary(std::move(bytes));
+}
+
 HttpResponse asset_at(const std::string& path) {
   const std::string wanted = path == "/" ? "/index.html" : path;
   for (const WebAsset& asset : web_assets()) {
@@ -166,8 +181,10 @@ HttpResponse AppRoutes::answer(const HttpRequest& request) const {
 HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string& path) const {
   if (request.method != "GET" && request.method != "POST")
     return failure(kWrongMethod, "the methods are GET and POST");
-  if (request.method == "POST" && request.content_type != "application/json")
-    return failure(kWrongType, "the body is JSON; send Content-Type: application/json");
+  const bool is_file = path.starts_with("/api/reference/");
+  const char* type = is_file ? "application/octet-stream" : "application/json";
+  if (request.method == "POST" && request.content_type != type)
+    return failure(kWrongType, fmt::format("the wrong kind of body; send Content-Type: {}", type));
   if (path == "/api/session") {
     if (request.method != "POST") return failure(kWrongMethod, "a token is exchanged with POST");
     return begin_session(request.body);
@@ -184,17 +201,18 @@ HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string
 HttpResponse AppRoutes::get(const std::string& path) const {
   if (path == "/api/state") return {.body = service_.state()};
   if (path == "/api/mesh" || path == "/api/selection") {
-    const auto bytes = path == "/api/mesh" ? service_.mesh() : service_.selection();
-    return bytes ? binary(*bytes) : failure(kNotFound, "there is no surface");
+    return found(path == "/api/mesh" ? service_.mesh() : service_.selection(),
+                 "there is no surface");
   }
-  if (const auto text = rest_of(path, "/api/clouds/")) {
-    std::size_t station = 0;
-    const char* end = text->data() + text->size();
-    const auto [last, error] = std::from_chars(text->data(), end, station);
-    std::string bytes;
-    if (error == std::errc() && last == end) bytes = service_.cloud(station);
-    return bytes.empty() ? failure(kNotFound, "this station has no points") : binary(bytes);
-  }
+  if (const auto level = number_after(path, "/api/levels/"))
+    return found(service_.level(*level), "the surface has no such level");
+  if (const auto level = number_after(path, "/api/selection/"))
+    return found(service_.selection(*level), "the surface has no such level");
+  if (const auto level = number_after(path, "/api/deviations/"))
+    return found(service_.deviations(*level), "there is no comparison of such a level");
+  if (path == "/api/preview") return found(service_.preview(), "no edit is previewed");
+  if (const auto station = number_after(path, "/api/clouds/"))
+    return found(service_.cloud(*station), "this station has no points");
   if (const auto text = rest_of(path, "/api/exports/")) {
     const auto name = percent_decoded(*text);
     if (!name) return failure(kBadRequest, "the name is not percent-encoded");
@@ -210,18 +228,25 @@ HttpResponse AppRoutes::get(const std::string& path) const {
 HttpResponse AppRoutes::post(const std::string& path,
                              const std::string& body,
                              const std::string& key) const {
+  if (path == "/api/pick") return {.body = service_.pick(body)};
   if (path == "/api/operator") {
     keys_.take_over(key);
     on_operator_();
     return {.body = "{}"};
   }
   const auto command = rest_of(path, "/api/commands/");
-  if (!command && path != "/api/links") return failure(kNotFound, "there is no such resource");
+  const auto offset = number_after(path, "/api/reference/");
+  if (!command && !offset && path != "/api/links")
+    return failure(kNotFound, "there is no such resource");
   if (!keys_.may_act(key))
     return failure(kConflict, "another browser operates the scanner; take over to act here");
   if (path == "/api/links") {
     const nlohmann::json json{{"url", new_link()}};
     return {.body = json.dump()};
+  }
+  if (offset) {
+    service_.add_to_reference(*offset, body);
+    return {.body = "{}"};
   }
   return {.status = kOk, .body = service_.command(*command, body)};
 }

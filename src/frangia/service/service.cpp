@@ -1,5 +1,6 @@
 #include "frangia/service/service.h"
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -7,7 +8,10 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/service/encode_arrays.h"
+#include "frangia/service/internal/array_packer.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/pick_surface.h"
 
 namespace frangia {
 namespace {
@@ -54,6 +58,11 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"capture-pose", &Implementation::capture_pose},
       {"end-poses", &Implementation::end_poses},
       {"edit", &Implementation::start_edit},
+      {"preview", &Implementation::start_preview},
+      {"drop-preview", &Implementation::drop_preview},
+      {"set-reference", &Implementation::set_reference},
+      {"compare", &Implementation::start_compare},
+      {"estimate-export", &Implementation::estimate_export},
       {"select-component-of", &Implementation::start_select_component},
       {"undo", &Implementation::start_undo},
       {"redo", &Implementation::start_redo},
@@ -178,14 +187,68 @@ std::string Service::state() const {
   return implementation_->state();
 }
 
-std::shared_ptr<const std::string> Service::mesh() const {
+std::string Service::mesh() const {
   const SurfacePtr surface = implementation_->surface();
-  return surface ? surface->mesh : nullptr;
+  return surface ? encode_mesh(surface->picture->mesh()) : std::string();
 }
 
-std::shared_ptr<const std::string> Service::selection() const {
+std::string Service::level(std::size_t level) const {
   const SurfacePtr surface = implementation_->surface();
-  return surface ? surface->selection : nullptr;
+  return surface ? surface->picture->packed_level(level) : std::string();
+}
+
+std::string Service::selection() const {
+  const SurfacePtr surface = implementation_->surface();
+  return surface ? encode_selection(*surface->selection) : std::string();
+}
+
+std::string Service::selection(std::size_t level) const {
+  const SurfacePtr surface = implementation_->surface();
+  return surface ? surface->picture->packed_selection(level, *surface->selection) : std::string();
+}
+
+std::string Service::preview() const {
+  const SurfacePtr surface = implementation_->surface();
+  return surface && surface->preview ? *surface->preview->arrays : std::string();
+}
+
+std::string Service::deviations(std::size_t level) const {
+  const SurfacePtr surface = implementation_->surface();
+  if (!surface || !surface->comparison || level >= surface->picture->levels().size()) return {};
+  const auto values =
+      values_of_level(surface->comparison->found.deviation_mm, *surface->picture->levels()[level]);
+  ArrayPacker packer;
+  packer.add("deviation_mm", "float32", values.data(), values.size());
+  return packer.pack();
+}
+
+void Service::add_to_reference(std::size_t offset, const std::string& bytes) {
+  implementation_->add_to_reference(offset, bytes);
+}
+
+std::string Service::pick(const std::string& text) const {
+  CommandArguments arguments(text);
+  const auto vector = [&](const char* key) {
+    const auto values = arguments.numbers(key, 3);
+    return Eigen::Vector3d(values[0], values[1], values[2]);
+  };
+  PickRay ray{.eye_mm = vector("eye"), .direction = vector("direction")};
+  if (const auto section = arguments.numbers_or_none("section", 4); !section.empty()) {
+    ray.section_normal = {section[0], section[1], section[2]};
+    ray.section_offset_mm = section[3];
+  }
+  arguments.check_all_read();
+  const SurfacePtr surface = implementation_->surface();
+  require(surface != nullptr, "there is no surface to point at; reconstruct it first");
+  const auto picked = pick_surface(surface->picture->mesh(), ray);
+  nlohmann::ordered_json json{{"mesh_revision", surface->mesh_revision}, {"hit", nullptr}};
+  if (picked) {
+    const Eigen::Vector3d& p = picked->point_mm;
+    json["hit"] = {
+        {"point_mm", {p.x(), p.y(), p.z()}}, {"triangle", picked->triangle}, {"sigma_mm", nullptr}};
+    if (std::isfinite(picked->sigma_mm)) json["hit"]["sigma_mm"] = picked->sigma_mm;
+  }
+  return json.dump();
 }
 
 std::string Service::cloud(std::size_t station) const {

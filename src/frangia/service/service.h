@@ -84,11 +84,30 @@ class Service {
 
   /// The whole state as a JSON object.
   [[nodiscard]] std::string state() const;
-  /// The mesh of the surface as encode_mesh packs it; null without one. It changes with
+  /// The exact mesh of the surface as encode_mesh packs it; empty without one. It changes with
   /// "mesh_revision" of the state.
-  [[nodiscard]] std::shared_ptr<const std::string> mesh() const;
-  /// The selected triangles as encode_selection packs them; null without a surface.
-  [[nodiscard]] std::shared_ptr<const std::string> selection() const;
+  [[nodiscard]] std::string mesh() const;
+  /// A level of detail of the mesh as encode_level packs it, 0 the coarsest; empty without it.
+  [[nodiscard]] std::string level(std::size_t level) const;
+  /// The selected triangles as encode_selection packs them; empty without a surface.
+  [[nodiscard]] std::string selection() const;
+  /// The same for the triangles of a level of detail.
+  [[nodiscard]] std::string selection(std::size_t level) const;
+  /// The triangles that the previewed edit creates and removes; empty without a preview.
+  [[nodiscard]] std::string preview() const;
+  /// The deviations from the reference at the vertices of a level; empty without a comparison.
+  [[nodiscard]] std::string deviations(std::size_t level) const;
+  /// Adds a piece to the file that becomes the reference by the command `set-reference`; at offset
+  /// 0 it begins anew.
+  ///
+  /// @errors   Error(Input) when a piece is missing, or beyond 512 MB; Error(File) when it cannot
+  ///          be written
+  void add_to_reference(std::size_t offset, const std::string& bytes);
+  /// The point of the exact mesh on a ray, as JSON: "hit" is null where there is none. The ray is
+  /// a JSON object with "eye", "direction" and, if something is cut away, "section".
+  ///
+  /// @errors   Error(Input) that names what is missing
+  [[nodiscard]] std::string pick(const std::string& ray) const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
   /// The newest picture of a live preview or of a calibration, unless it has the revision `after`.

@@ -3,6 +3,7 @@ import type { App } from '../app';
 import { icon, type IconName } from '../icons';
 import { type MessageKey, number, t } from '../messages';
 import { choice } from '../ui';
+import { stepWords } from '../step_words';
 import type { Tool } from '../viewer';
 import { fitting, selectingByValue, shaping } from './edit_more';
 
@@ -58,33 +59,38 @@ function repairing(app: App): TemplateResult {
   if (!surface) return html``;
   const size = app.viewer.size.length();
   const more = surface.hole_count - SHOWN_HOLES;
+  const chosen = app.chosenHoles;
+  const [one] = chosen;
+  const off = app.busy;
+  const fill = (flat: string) =>
+    one === undefined ? app.preview(`fill-holes${flat}`, `${Math.ceil(2 * size)}mm`) : app.preview(`fill-hole${flat}`, String(one));
   const tolerance = Math.max(0.001, Number((size / 5000).toPrecision(1)));
   return html`<section class="group">
     <h2>${t('edit.holes')}<small class="num">${surface.hole_count || ''}</small></h2>
     ${surface.hole_count === 0 ? html`<p class="quiet">${t('edit.noHoles')}</p>` : ''}
-    <div>
+    ${surface.hole_count > 0 ? html`<p class="quiet">${t('edit.chooseHoles')}</p>` : ''}
+    <div class="holes">
       ${surface.holes.slice(0, SHOWN_HOLES).map(
-        (hole) => html`<div class="file">
-          <span class="num">⌀ ${number(hole.size_mm, 2)} mm</span>
-          <button class="btn small" ?disabled=${app.busy} @click=${() => app.edit('fill-hole', String(hole.number))}>${t('edit.fill')}</button>
-          <button class="btn small" ?disabled=${app.busy} @click=${() => app.edit('fill-hole-flat', String(hole.number))}>${t('edit.flat')}</button>
-        </div>`,
+        (hole) => html`<label class="hole"
+          ><input type="checkbox" data-hole=${hole.number} .checked=${chosen.has(hole.number)} aria-label=${t('edit.holeSize', { size: number(hole.size_mm, 2) })}
+            @change=${(event: Event) => app.chooseHole(hole.number, (event.target as HTMLInputElement).checked)} /><span class="num">⌀ ${number(hole.size_mm, 2)} mm</span></label>`,
       )}
     </div>
     ${more > 0 ? html`<p class="quiet">${t('edit.more', { count: more })}</p>` : ''}
     ${surface.hole_count > 0
-      ? html`<button class="btn wide" id="fill" ?disabled=${app.busy} @click=${() => app.edit('fill-holes', `${Math.ceil(2 * size)}mm`)}>
-          ${t('edit.fillAll', { count: surface.hole_count })}
-        </button>`
+      ? html`<div class="pair">
+            <button class="btn" id="fill" ?disabled=${off || chosen.size > 1} @click=${() => fill('')}>${one === undefined ? t('edit.fillAll', { count: surface.hole_count }) : t('edit.fillOne')}</button>
+            <button class="btn" id="fill-flat" ?disabled=${off || chosen.size > 1} @click=${() => fill('-flat')}>${t('edit.fillFlat')}</button>
+          </div>
+          ${surface.hole_count > 1
+            ? html`<button class="btn wide" id="bridge" ?disabled=${off || chosen.size !== 2} @click=${() => app.preview('bridge', [...chosen].join(','))}>${t('edit.bridgeTwo')}</button>`
+            : ''}`
       : ''}
   </section>
   <section class="group">
     <h2>${t('edit.repair')}</h2>
-    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.edit('remove-spikes')}>${t('edit.spikes')}</button>
-    ${surface.hole_count > 1
-      ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.edit('bridge', `${surface.holes[0]?.number},${surface.holes[1]?.number}`)}>${t('edit.bridge')}</button>`
-      : ''}
-    <button class="btn wide" ?disabled=${app.busy || surface.components < 2} @click=${() => app.edit('keep-largest', '1')}>${t('edit.islands')}</button>
+    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.preview('remove-spikes')}>${t('edit.spikes')}</button>
+    <button class="btn wide" ?disabled=${app.busy || surface.components < 2} @click=${() => app.preview('keep-largest', '1')}>${t('edit.islands')}</button>
     <form class="row" @submit=${(event: SubmitEvent) => {
       event.preventDefault();
       app.edit('decimate', `${String(new FormData(event.target as HTMLFormElement).get('tolerance'))}mm`);
@@ -110,7 +116,7 @@ export function editStep(app: App): TemplateResult {
       <ol class="history">
         ${surface.steps.map(
           (step, i) => html`<li class=${i < surface.steps_done ? '' : 'undone'}>
-            <div><b>${step.operation}</b>${step.value ? html`<span class="num">${step.value}</span>` : ''}</div>
+            <div>${stepWords(step)}</div>
           </li>`,
         )}
       </ol>

@@ -11,16 +11,22 @@ export type Variant = 'faces' | 'polyface' | 'mesh';
 const LIMITS = ['200000', '50000', '0'] as const;
 export type Limit = (typeof LIMITS)[number];
 
+export type Encoding = 'binary' | 'ascii';
+export interface Exporting { format: Format; variant: Variant; encoding: Encoding; limit: Limit }
+
+/** What the commands `export` and `estimate-export` take. */
+export const exportArguments = (exporting: Exporting): object => ({
+  format: exporting.format,
+  ...(exporting.format === 'dxf' ? { dxf: exporting.variant } : {}),
+  ...(exporting.format === 'stl' ? { stl: exporting.encoding } : {}),
+  ...(exporting.limit === '0' ? {} : { triangles: Number(exporting.limit) }),
+});
+
 export function exportStep(app: App): TemplateResult {
-  const { project, exporting } = app;
+  const { project, exporting, estimate } = app;
   if (!project.surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
   const format = exporting.format;
-  const start = () =>
-    app.command('export', {
-      format,
-      ...(format === 'dxf' ? { dxf: exporting.variant } : {}),
-      ...(exporting.limit === '0' ? {} : { triangles: Number(exporting.limit) }),
-    });
+  const start = () => app.command('export', exportArguments(exporting));
   return html`<section class="group">
       <h2>${t('export.format')}</h2>
       <div class="formats" role="radiogroup" aria-label=${t('export.format')}>
@@ -41,6 +47,10 @@ export function exportStep(app: App): TemplateResult {
               (variant) => app.setExport({ variant }),
             )}`
         : ''}
+      ${format === 'stl'
+        ? html`<h2>${t('export.encoding')}</h2>
+            ${choice<Encoding>(t('export.encoding'), exporting.encoding, [['binary', t('export.binary')], ['ascii', t('export.ascii')]], (encoding) => app.setExport({ encoding }))}`
+        : ''}
       <h2>${t('export.limit')}<small>${t('export.triangles')}</small></h2>
       ${choice<Limit>(
         t('export.limit'),
@@ -48,6 +58,7 @@ export function exportStep(app: App): TemplateResult {
         LIMITS.map((limit) => [limit, limit === '0' ? t('export.all') : html`<span class="num">${number(Number(limit))}</span>`] as const),
         (limit) => app.setExport({ limit }),
       )}
+      <p class="quiet num" id="estimate">${estimate ? t('export.about', { size: bytes(estimate.bytes, number), triangles: number(estimate.triangles) }) : html`&nbsp;`}</p>
       <button class="btn primary wide" id="export" ?disabled=${app.busy} @click=${start}>${t('export.write', { format: format.toUpperCase() })}</button>
     </section>
     <section class="group">

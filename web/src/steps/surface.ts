@@ -6,6 +6,7 @@ import { legend } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
 import { choice } from '../ui';
+import { comparing } from './compare';
 import type { SectionAxis, Shading } from '../viewer';
 
 const um = (value: number | null): TemplateResult =>
@@ -22,15 +23,20 @@ export function appearance(app: App): TemplateResult {
       [['smooth', t('surface.smooth')], ['flat', t('surface.flat')], ['wire', t('surface.wire')]],
       (shading) => app.setLook({ shading }),
     )}
+    ${viewer.wiresCoarsely ? html`<p class="quiet">${t('surface.wiresOf', { shown: number(viewer.trianglesShown), count: number(app.project.surface?.triangles ?? 0) })}</p>` : ''}
     <h2>${t('surface.color')}</h2>
     ${choice<Coloring>(
       t('surface.color'),
       look.coloring,
-      [['plain', t('surface.plain')], ['sigma', t('surface.sigma')], ['views', t('surface.views')], ['marks', t('surface.marks')]],
+      [
+        ['plain', t('surface.plain')], ['sigma', t('surface.sigma')], ['views', t('surface.views')], ['marks', t('surface.marks')],
+        ...(app.project.surface?.comparison ? ([['deviation', t('surface.deviation')]] as const) : []),
+      ],
       (coloring) => app.setLook({ coloring }),
     )}
     ${look.coloring === 'sigma' && scale ? legend(t('surface.sigmaLegend'), scale, 1000, 1) : ''}
     ${look.coloring === 'views' && scale ? legend(t('surface.viewsLegend'), scale, 1, 0) : ''}
+    ${look.coloring === 'deviation' && scale ? legend(t('surface.deviationLegend'), scale, 1, 2) : ''}
     ${look.coloring === 'marks'
       ? html`<div class="swatches">
           ${(['surface.measured', 'surface.displaced', 'surface.synthesized'] as const).map(
@@ -71,6 +77,7 @@ export function surfaceStep(app: App): TemplateResult {
         </button>`,
       )}
     </section>
+    ${comparing(app)}
     <section class="group">
       <h2>${t('surface.figures')}</h2>
       <dl class="figures">

@@ -1,6 +1,9 @@
 #include "frangia/editor/internal/select_by_outline.h"
 
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -36,6 +39,23 @@ class OutlinePlane {
       corners_.push_back(project(corner));
       box_.extend(corners_.back());
     }
+    constexpr double kRoundingOfRays = 1e-4;  // Embree searches in single precision
+    const Vector2d margin = Vector2d::Constant(kRoundingOfRays * box_.sizes().maxCoeff());
+    wide_ = {box_.min() - margin, box_.max() + margin};
+  }
+
+  /// Whether a triangle may hide something within the outline: it is not beside the box of it.
+  [[nodiscard]] bool may_hide(const Vector3d& a, const Vector3d& b, const Vector3d& c) const {
+    Eigen::AlignedBox2d box;
+    int before = 0;
+    for (const Vector3d* corner : {&a, &b, &c}) {
+      if (!((*corner - eye_mm_).dot(axis_) > 0.0)) continue;
+      ++before;
+      box.extend(project(*corner));
+    }
+    constexpr int kCorners = 3;
+    if (before < kCorners) return before > 0;
+    return box.intersects(wide_);
   }
 
   /// Whether a point is in front of the eye and appears within the outline.
@@ -62,8 +82,36 @@ class OutlinePlane {
   Vector3d eye_mm_;
   Vector3d axis_, across_, up_;
   std::vector<Vector2d> corners_;
-  Eigen::AlignedBox2d box_;
+  Eigen::AlignedBox2d box_, wide_;
 };
+
+/// The triangles between the eye and the outline, without the others, for which a search structure
+/// would take longest to build.
+struct Occluders {
+  std::vector<std::uint32_t> triangle;  ///< in the whole mesh
+  Mesh mesh;
+};
+
+Occluders occluders_of(const Mesh& mesh, const OutlinePlane& plane) {
+  Selection near(mesh.triangles.size());
+  const auto corner = [&](std::uint32_t vertex) {
+    return Vector3d(mesh.vertices_mm[vertex].cast<double>());
+  };
+  parallel_chunks(near.size(), kOutlineChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [a, b, c] = mesh.triangles[i];
+      near[i] = plane.may_hide(corner(a), corner(b), corner(c)) ? 1 : 0;
+    }
+  });
+  Occluders part;
+  part.mesh.vertices_mm = mesh.vertices_mm;
+  for (std::uint32_t i = 0; i < near.size(); ++i) {
+    if (near[i] == 0) continue;
+    part.triangle.push_back(i);
+    part.mesh.triangles.push_back(mesh.triangles[i]);
+  }
+  return part;
+}
 
 }  // namespace
 
@@ -84,7 +132,8 @@ Selection select_by_outline(const Mesh& mesh,
   });
   if (!visible_only || count_selected(selection) == 0) return selection;
   run.check();
-  const RayScene scene(mesh, run);
+  Occluders part = occluders_of(mesh, plane);
+  const RayScene scene(std::move(part.mesh), run);
   parallel_chunks(selection.size(), kOutlineChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (selection[i] == 0) continue;
@@ -98,7 +147,8 @@ Selection select_by_outline(const Mesh& mesh,
       // The first surface on the way from the eye is the triangle itself, up to rounding.
       constexpr double kRounding = 1e-5;
       const auto hit = scene.first_hit(outline.eye_mm, -to_eye);
-      selection[i] = hit && hit->triangle != i && hit->distance < 1.0 - kRounding ? 0 : 1;
+      selection[i] =
+          hit && part.triangle[hit->triangle] != i && hit->distance < 1.0 - kRounding ? 0 : 1;
     }
   });
   return selection;

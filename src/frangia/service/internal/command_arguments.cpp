@@ -89,6 +89,16 @@ std::vector<double> CommandArguments::numbers(const char* key, std::size_t count
   return value->get<std::vector<double>>();
 }
 
+std::vector<double> CommandArguments::numbers_or_none(const char* key, std::size_t count) {
+  return find(key) == nullptr ? std::vector<double>() : numbers(key, count);
+}
+
+bool CommandArguments::flag(const char* key) {
+  const nlohmann::json* value = find(key);
+  if (value != nullptr && !value->is_boolean()) fail_argument(key, "is true or false");
+  return value != nullptr && value->get<bool>();
+}
+
 void CommandArguments::check_all_read() const {
   for (const auto& [key, value] : json_.items())
     if (!read_.contains(key)) fail_argument(key.c_str(), "the command has no such argument");

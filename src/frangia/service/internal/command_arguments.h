@@ -35,6 +35,9 @@ class CommandArguments {
   [[nodiscard]] std::optional<double> positive(const char* key);      ///< likewise, above 0
   [[nodiscard]] std::optional<double> zero_or_more(const char* key);  ///< likewise, 0 or more
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count);  ///< required
+  /// Likewise, or empty when the key is missing.
+  [[nodiscard]] std::vector<double> numbers_or_none(const char* key, std::size_t count);
+  [[nodiscard]] bool flag(const char* key);  ///< true or false; false when the key is missing
   /// Fails when a key is left that no function has read.
   void check_all_read() const;
 

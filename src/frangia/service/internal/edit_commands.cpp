@@ -9,6 +9,7 @@
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/files/zip_folder.h"
+#include "frangia/service/export_size.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
@@ -35,6 +36,18 @@ nlohmann::ordered_json Service::Implementation::start_edit(CommandArguments& arg
   return started_edit(
       [step](SurfaceModel& model, const Run& run) { return model.apply(step, run); });
 }
+nlohmann::ordered_json Service::Implementation::start_preview(CommandArguments& arguments) {
+  const EditStep step{arguments.text("operation"), arguments.text_or("value", "")};
+  arguments.check_all_read();
+  check_step(step);
+  return started_edit(
+      "preview", [step](SurfaceModel& model, const Run& run) { return model.preview(step, run); });
+}
+nlohmann::ordered_json Service::Implementation::drop_preview(CommandArguments& arguments) {
+  arguments.check_all_read();
+  return started_edit("preview",
+                      [](SurfaceModel& model, const Run&) { return model.drop_preview(); });
+}
 nlohmann::ordered_json Service::Implementation::start_select_component(
     CommandArguments& arguments) {
   const std::size_t triangle = arguments.whole("triangle", 0, UINT32_MAX);
@@ -45,11 +58,11 @@ nlohmann::ordered_json Service::Implementation::start_select_component(
 }
 nlohmann::ordered_json Service::Implementation::start_undo(CommandArguments& arguments) {
   arguments.check_all_read();
-  return started_edit([](SurfaceModel& model, const Run&) { return model.undo(); });
+  return started_edit([](SurfaceModel& model, const Run& run) { return model.undo(run); });
 }
 nlohmann::ordered_json Service::Implementation::start_redo(CommandArguments& arguments) {
   arguments.check_all_read();
-  return started_edit([](SurfaceModel& model, const Run&) { return model.redo(); });
+  return started_edit([](SurfaceModel& model, const Run& run) { return model.redo(run); });
 }
 nlohmann::ordered_json Service::Implementation::start_fit(CommandArguments& arguments) {
   const std::string kind = arguments.text("kind");
@@ -70,48 +83,90 @@ nlohmann::ordered_json Service::Implementation::start_zip(const ProjectFolder& p
   });
 }
 
-nlohmann::ordered_json Service::Implementation::start_export(CommandArguments& arguments) {
-  const ProjectFolder project = folder();
-  const std::string format = arguments.text("format");
+namespace {
+
+/// What is written where.
+struct ExportRequest {
+  std::string format;         ///< ending of the file, or "zip"
+  WriteOptions options;       ///< of the format
+  std::size_t triangles = 0;  ///< at most; 0: all
+};
+
+ExportRequest export_arguments(CommandArguments& arguments) {
   static const std::map<std::string, DxfVariant> kVariants = {
       {"faces", DxfVariant::Faces}, {"polyface", DxfVariant::Polyface}, {"mesh", DxfVariant::Mesh}};
+  ExportRequest request;
+  request.format = arguments.text("format");
   const auto variant = kVariants.find(arguments.text_or("dxf", "faces"));
-  const std::size_t triangles = arguments.whole_or("triangles", 0, 0, UINT32_MAX);
+  const std::string stl = arguments.text_or("stl", "binary");
+  request.triangles = arguments.whole_or("triangles", 0, 0, UINT32_MAX);
   arguments.check_all_read();
-  if (format == "zip") return start_zip(project);
-  const std::string name = project.name + "." + format;
-  require(format.find('/') == std::string::npos && find_mesh_format("x." + format) != nullptr,
-          "there is no such format; choose one of the list");
   require(variant != kVariants.end(), "dxf: is faces, polyface or mesh");
-  WriteOptions options;
-  options.dxf.variant = variant->second;
-  return started("export", [this, project, name, options, triangles](const Run& run) {
+  require(stl == "binary" || stl == "ascii", "stl: is binary or ascii");
+  request.options.dxf.variant = variant->second;
+  request.options.stl.ascii = stl == "ascii";
+  require(request.format == "zip" || (request.format.find('/') == std::string::npos &&
+                                      find_mesh_format("x." + request.format) != nullptr),
+          "there is no such format; choose one of the list");
+  return request;
+}
+
+}  // namespace
+
+nlohmann::ordered_json Service::Implementation::estimate_export(CommandArguments& arguments) {
+  const ExportRequest request = export_arguments(arguments);
+  require(request.format != "zip", "format: the size of a zip is known when it is written");
+  const SurfacePtr shown = surface();
+  require(shown != nullptr, "there is no surface to export; reconstruct it first");
+  const Mesh& mesh = shown->picture->mesh();
+  const std::size_t all = mesh.triangles.size();
+  const std::size_t triangles = request.triangles == 0 ? all : std::min(all, request.triangles);
+  return {{"triangles", triangles},
+          {"bytes", export_size(mesh, request.format, triangles, request.options)}};
+}
+
+nlohmann::ordered_json Service::Implementation::start_export(CommandArguments& arguments) {
+  const ProjectFolder project = folder();
+  const ExportRequest request = export_arguments(arguments);
+  if (request.format == "zip") return start_zip(project);
+  return started("export", [this, project, request](const Run& run) {
     require(model_ != nullptr, "there is no surface to export; reconstruct it first");
+    require(!model_->mesh().triangles.empty(),
+            "the surface has no triangles to export; undo, or scan again");
     run.stage("files");
     make_folder(project.exports());
-    if (triangles > 0 && model_->mesh().triangles.size() > triangles) {
+    const auto path = project.exports() / (project.name + "." + request.format);
+    if (request.triangles > 0 && model_->mesh().triangles.size() > request.triangles) {
       EditState reduced{.mesh = model_->mesh(), .selection = {}};
-      apply_step(reduced, {"decimate-to", std::to_string(triangles)}, run);
-      write_mesh(project.exports() / name, reduced.mesh, options, run);
+      apply_step(reduced, {"decimate-to", std::to_string(request.triangles)}, run);
+      write_mesh(path, reduced.mesh, request.options, run);
     } else {
-      write_mesh(project.exports() / name, model_->mesh(), options, run);
+      write_mesh(path, model_->mesh(), request.options, run);
     }
     change([&](OpenProject& opened) { opened.exports = exports_of(project); });
   });
 }
 nlohmann::ordered_json Service::Implementation::started_edit(
     std::function<SurfacePtr(SurfaceModel&, const Run&)> work) {
+  return started_edit("edit", std::move(work));
+}
+nlohmann::ordered_json Service::Implementation::started_edit(
+    const char* kind, std::function<SurfacePtr(SurfaceModel&, const Run&)> work) {
   static_cast<void>(folder());
-  return started("edit", [this, work = std::move(work)](const Run& run) {
+  return started(kind, [this, work = std::move(work)](const Run& run) {
     require(model_ != nullptr, "there is no surface to edit; reconstruct it first");
-    const SurfacePtr surface = work(*model_, run);
-    change([&](OpenProject& opened) { opened.surface = surface; });
+    show_surface(work(*model_, run), run);
   });
+}
+void Service::Implementation::show_surface(const SurfacePtr& surface, const Run& run) {
+  change([&](OpenProject& opened) { opened.surface = surface; });
+  const SurfacePtr refined = model_->refine(run);
+  if (refined) change([&](OpenProject& opened) { opened.surface = refined; });
 }
 void Service::Implementation::load_surface(const ProjectFolder& project, const Run& run) {
   drop_model();
   model_ = std::make_unique<SurfaceModel>(project, revision_, run);
-  change([&](OpenProject& opened) { opened.surface = model_->snapshot(); });
+  show_surface(model_->snapshot(), run);
 }
 void Service::Implementation::drop_model() {
   if (model_) revision_ = model_->snapshot()->selection_revision;

@@ -32,6 +32,7 @@ class Service::Implementation {
   /// @errors   Error(Input) when no project is open
   [[nodiscard]] ProjectFolder folder() const;
   [[nodiscard]] std::string cloud(std::size_t station) const;
+  void add_to_reference(std::size_t offset, const std::string& bytes);
   [[nodiscard]] ExportedFile exported(const std::string& name) const;
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
 
@@ -56,6 +57,11 @@ class Service::Implementation {
   Json end_poses(CommandArguments& arguments);
 
   Json start_edit(CommandArguments& arguments);
+  Json start_preview(CommandArguments& arguments);
+  Json drop_preview(CommandArguments& arguments);
+  Json set_reference(CommandArguments& arguments);
+  Json start_compare(CommandArguments& arguments);
+  Json estimate_export(CommandArguments& arguments);
   Json start_select_component(CommandArguments& arguments);
   Json start_undo(CommandArguments& arguments);
   Json start_redo(CommandArguments& arguments);
@@ -66,11 +72,14 @@ class Service::Implementation {
 
   /// Starts a job. A live preview that runs is stopped first: it holds the devices and the thread.
   Json started(const char* kind, std::function<void(const Run&)> work);
+  Json started_edit(const char* kind, std::function<SurfacePtr(SurfaceModel&, const Run&)> work);
   Json started_edit(std::function<SurfacePtr(SurfaceModel&, const Run&)> work);
   void stop_live();
   void require_idle() const;
   /// On the queue's thread.
   void load_surface(const ProjectFolder& project, const Run& run);
+  /// On the queue's thread. Shows a surface, and then its finer level.
+  void show_surface(const SurfacePtr& surface, const Run& run);
   /// On the queue's thread. The next model counts on, so that no two meshes share a revision.
   void drop_model();
   void change(const std::function<void(OpenProject&)>& edit);

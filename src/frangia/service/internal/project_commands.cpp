@@ -63,6 +63,7 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.scan_complete = std::filesystem::exists(folder.scan / "scan.toml", ignored);
   project.stations = read_stations(folder);
   project.exports = exports_of(folder);
+  project.reference = reference_of(folder);
   project.scan_begun = std::filesystem::exists(folder.scan / "capture", ignored);
   read_rig_of(folder, project);
   try {

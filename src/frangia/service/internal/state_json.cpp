@@ -9,6 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/phase/published_algorithms.h"
 #include "frangia/service/internal/rig_json.h"
+#include "frangia/service/internal/surface_json.h"
 #include "frangia/simulate/parts.h"
 
 namespace frangia {
@@ -51,50 +52,6 @@ Json json_of_stations(const std::vector<ProjectStation>& stations) {
   return all;
 }
 
-Json json_of_fit(const SurfaceFit& fit) {
-  const auto vector = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
-  return {{"kind", fit.kind},
-          {"center_mm", vector(fit.center_mm)},
-          {"axis", vector(fit.axis)},
-          {"diameter_mm", number_or_null(fit.diameter_mm)},
-          {"u95_mm", number_or_null(fit.u95_mm)},
-          {"rms_mm", fit.rms_mm},
-          {"form_mm", fit.form_mm},
-          {"points", fit.points}};
-}
-
-Json json_of_surface(const SurfaceSnapshot& surface, const std::string& summary) {
-  Json json{{"mesh_revision", surface.mesh_revision},
-            {"selection_revision", surface.selection_revision},
-            {"vertices", surface.vertices},
-            {"triangles", surface.triangles},
-            {"selected", surface.selected},
-            {"components", surface.components},
-            {"sigma_mm",
-             {{"combined", number_or_null(surface.sigma.combined_mm)},
-              {"noise", number_or_null(surface.sigma.noise_mm)},
-              {"systematic", number_or_null(surface.sigma.systematic_mm)}}},
-            {"hole_count", surface.hole_count}};
-  json["holes"] = Json::array();
-  for (const SurfaceHole& hole : surface.holes) {
-    json["holes"].push_back(
-        {{"number", hole.number},
-         {"size_mm", hole.size_mm},
-         {"length_mm", hole.length_mm},
-         {"center_mm", {hole.center_mm.x(), hole.center_mm.y(), hole.center_mm.z()}}});
-  }
-  json["steps"] = Json::array();
-  for (const EditStep& step : surface.steps)
-    json["steps"].push_back({{"operation", step.operation}, {"value", step.value}});
-  json["steps_done"] = surface.done;
-  json["fits"] = Json::array();
-  for (const SurfaceFit& fit : surface.fits)
-    json["fits"].push_back(json_of_fit(fit));
-  json["summary"] = summary.empty() ? Json() : Json::parse(summary, nullptr, false);
-  if (json["summary"].is_discarded()) json["summary"] = Json();
-  return json;
-}
-
 Json json_of_live(const LivePreview& live) {
   static constexpr std::array kPatterns = {"fringes", "white", "dark"};
   const LiveSettings settings = live.settings();
@@ -132,6 +89,9 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
   json["exports"] = Json::array();
   for (const ExportEntry& file : project.exports)
     json["exports"].push_back({{"name", file.name}, {"bytes", file.bytes}});
+  json["reference"] = project.reference.name.empty() ? Json()
+                                                     : Json{{"name", project.reference.name},
+                                                            {"format", project.reference.format}};
   json["commands"] = Json::object();
   for (const auto& [step, words] : commands)
     json["commands"][step] = words;

@@ -35,6 +35,15 @@ struct ProjectDevice {
   std::string fault;   ///< instead of an answer
 };
 
+/// A file that the surface is compared with.
+struct ProjectReference {
+  std::string name;    ///< for people, as the file was called; empty: there is none
+  std::string format;  ///< one of reference_formats
+};
+
+/// The reference of a project; without a name when there is none.
+[[nodiscard]] ProjectReference reference_of(const ProjectFolder& project);
+
 /// The open project as the service knows it.
 struct OpenProject {
   ProjectFolder folder;
@@ -54,6 +63,7 @@ struct OpenProject {
   std::string summary;  ///< JSON of the reconstruction; empty without one
   SurfacePtr surface;   ///< null without one, or until it is read
   std::vector<ExportEntry> exports;
+  ProjectReference reference;
 };
 
 /// All that the state of a service shows.

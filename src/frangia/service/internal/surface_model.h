@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include "frangia/core/run.h"
 #include "frangia/editor/edit_history.h"
 #include "frangia/geometry/median_sigma.h"
+#include "frangia/geometry/selection.h"
+#include "frangia/service/compare_surface.h"
+#include "frangia/service/internal/surface_picture.h"
 #include "frangia/service/project_folder.h"
 
 namespace frangia {
@@ -36,6 +40,33 @@ struct SurfaceFit {
   std::size_t points = 0;
 };
 
+/// What a step did to the surface, for a sentence about it.
+struct StepChange {
+  std::ptrdiff_t triangles = 0;   ///< more than before
+  std::ptrdiff_t holes = 0;       ///< more than before
+  std::ptrdiff_t components = 0;  ///< more than before
+  std::size_t moved = 0;          ///< vertices whose place changed, while the triangles stayed
+  std::size_t selected = 0;       ///< triangles that are selected after it
+};
+
+/// An edit that was tried and not applied.
+struct SurfacePreview {
+  EditStep step;
+  StepChange change;
+  int revision = 0;  ///< of these arrays
+  /// Packed: `added_positions`, `added_triangles` and `added_normals` are the triangles that the
+  /// edit would create, `removed_...` those that it would remove.
+  std::shared_ptr<const std::string> arrays;
+};
+
+/// A comparison with a reference and its revision.
+struct ShownComparison {
+  int revision = 0;
+  std::string reference;  ///< name of its file, for people
+  bool best_fit = true;
+  SurfaceComparison found;
+};
+
 /// What clients see of a surface. Immutable, so that a client reads it while an edit runs.
 struct SurfaceSnapshot {
   int mesh_revision = 0;       ///< changes with the mesh
@@ -49,9 +80,12 @@ struct SurfaceSnapshot {
   std::size_t hole_count = 0;
   std::vector<EditStep> steps;  ///< those after the first `done` were undone
   std::size_t done = 0;
-  std::vector<SurfaceFit> fits;  ///< of the present mesh, the newest last, at most kMostFits
-  std::shared_ptr<const std::string> mesh;       ///< packed
-  std::shared_ptr<const std::string> selection;  ///< packed
+  std::vector<StepChange> changes;  ///< one for each step
+  std::vector<SurfaceFit> fits;     ///< of the present mesh, the newest last, at most kMostFits
+  PicturePtr picture;
+  std::shared_ptr<const Selection> selection;         ///< of the exact mesh
+  std::shared_ptr<const SurfacePreview> preview;      ///< null without one
+  std::shared_ptr<const ShownComparison> comparison;  ///< of the present mesh; null without one
 
   static constexpr std::size_t kMostHoles = 100;
   static constexpr std::size_t kMostFits = 12;
@@ -77,18 +111,41 @@ class SurfaceModel {
   /// @errors   Error(Input) for another kind, for too small a selection, or when its points do not
   ///          determine the shape
   SurfacePtr fit(const std::string& kind, const Run& run);
-  SurfacePtr undo();  ///< Error(Input) without a step to undo
-  SurfacePtr redo();  ///< Error(Input) without a step to redo
+  /// Tries a step and shows what it would change; the next edit drops the preview.
+  SurfacePtr preview(const EditStep& step, const Run& run);
+  SurfacePtr drop_preview();
+  /// Compares the surface with a reference, whose name is for people.
+  ///
+  /// @errors   as compare_surface
+  SurfacePtr compare(const std::filesystem::path& reference,
+                     const std::string& name,
+                     const CompareOptions& options,
+                     const Run& run);
+  SurfacePtr undo(const Run& run);  ///< Error(Input) without a step to undo
+  SurfacePtr redo(const Run& run);  ///< Error(Input) without a step to redo
   [[nodiscard]] SurfacePtr snapshot() const { return snapshot_; }
+  /// Adds the level that is drawn at rest, which a client does not have to wait for. Null when the
+  /// picture has it.
+  SurfacePtr refine(const Run& run);
 
  private:
-  SurfacePtr publish(const EditState* before);
+  /// Pictures of the steps nearest to the present one that are kept, so that undo shows them at
+  /// once.
+  static constexpr std::size_t kMostPictureBytes = 512UL * 1024 * 1024;
+
+  SurfacePtr publish(const Run& run);
+  SurfacePtr show(std::shared_ptr<SurfaceSnapshot> next);
+  void forget_far_pictures();
   void save() const;
 
   ProjectFolder project_;
   std::optional<EditHistory> history_;
   int revision_ = 0;
+  int previews_ = 0;
+  int comparisons_ = 0;
   SurfacePtr snapshot_;
+  std::vector<StepChange> changes_;
+  std::vector<SurfacePtr> shown_;  ///< after so many steps; null: not known any more
 };
 
 }  // namespace frangia

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/service/compare_surface.h"
+#include "frangia/service/internal/implementation.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kMostReferenceBytes = 512UL * 1024 * 1024;
+constexpr std::size_t kMostNameBytes = 120;
+
+void require_reference_format(const std::string& format) {
+  const auto& known = reference_formats();
+  require(std::find(known.begin(), known.end(), format) != known.end(),
+          "a reference is an STL, PLY, OBJ, 3MF or STEP file; choose another file");
+}
+
+}  // namespace
+
+ProjectReference reference_of(const ProjectFolder& project) {
+  try {
+    const auto json = nlohmann::json::parse(read_text_file(project.reference_name()));
+    ProjectReference known{json.at("name"), json.at("format")};
+    require_reference_format(known.format);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(project.reference(known.format), ignored)) return known;
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): there is none
+  }
+  return {};
+}
+
+void Service::Implementation::add_to_reference(std::size_t offset, const std::string& bytes) {
+  const ProjectFolder project = folder();
+  require(offset + bytes.size() <= kMostReferenceBytes,
+          "a reference has at most 512 MB; choose a smaller file");
+  const auto path = project.reference_part();
+  std::error_code error;
+  if (offset == 0) {
+    make_folder(project.derived);
+    std::filesystem::remove(path, error);  // also what is no file
+  }
+  const auto present = std::filesystem::file_size(path, error);
+  require(offset == (error ? 0 : present), "the pieces of a file arrive in order; begin at 0");
+  std::ofstream file(path, std::ios::binary | std::ios::app);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (file.good()) return;
+  std::filesystem::remove(path, error);
+  throw Error(ErrorKind::File,
+              fmt::format("{}: cannot be written; is the disk full?", path.string()));
+}
+
+nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& arguments) {
+  const ProjectFolder project = folder();
+  const ProjectReference wanted{arguments.text("name"), arguments.text("format")};
+  const std::size_t bytes = arguments.whole("bytes", 1, kMostReferenceBytes);
+  arguments.check_all_read();
+  require_reference_format(wanted.format);
+  require(!wanted.name.empty() && wanted.name.size() <= kMostNameBytes,
+          "name: has 1 to 120 letters; shorten it");
+  require_idle();
+  std::error_code error;
+  const auto present = std::filesystem::file_size(project.reference_part(), error);
+  require(!error && present == bytes, "the file has not arrived completely; send it again");
+  for (const std::string& format : reference_formats())
+    std::filesystem::remove(project.reference(format), error);
+  std::filesystem::rename(project.reference_part(), project.reference(wanted.format), error);
+  if (error)
+    throw Error(
+        ErrorKind::File,
+        fmt::format(
+            "{}: cannot be renamed: {}", project.reference_part().string(), error.message()));
+  AtomicFile file(project.reference_name());
+  const nlohmann::json json{{"name", wanted.name}, {"format", wanted.format}};
+  file.stream() << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  file.commit();
+  change([&](OpenProject& opened) { opened.reference = wanted; });
+  return Json::object();
+}
+
+nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& arguments) {
+  const ProjectFolder project = folder();
+  CompareOptions options;
+  const std::string align = arguments.text_or("align", "best-fit");
+  const auto lower = arguments.number("lower_mm");
+  const auto upper = arguments.number("upper_mm");
+  arguments.check_all_read();
+  require(align == "best-fit" || align == "none", "align: is best-fit or none");
+  options.best_fit = align == "best-fit";
+  options.tolerance = {lower.value_or(options.tolerance.lower),
+                       upper.value_or(options.tolerance.upper)};
+  options.tolerance.check();
+  const ProjectReference reference = opened().reference;
+  require(!reference.name.empty(), "there is no reference; choose a file to compare with first");
+  return started("compare", [this, project, reference, options](const Run& run) {
+    require(model_ != nullptr, "there is no surface to compare; reconstruct it first");
+    show_surface(model_->compare(project.reference(reference.format), reference.name, options, run),
+                 run);
+  });
+}
+
+}  // namespace frangia

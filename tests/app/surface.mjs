@@ -1,0 +1,185 @@
+// The steps Surface, Edit and Export of the operator's app in Debian's Chromium, on a part of which everything is known: a
+// slab with two holes below a separate tower, compared with the slab as it should be.
+//
+//   node surface.mjs PROGRAM FOLDER      FOLDER receives the screenshots
+//
+// FRANGIA_WEB as in story.mjs. Ends with 77 where Chromium is missing.
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { check, expect, fail, launch, look as lookAt, newHome, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+
+const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
+requireChromium();
+fs.mkdirSync(shots, { recursive: true });
+const home = newHome();
+
+/** A closed tower in one corner, inside of the slab's outline, so that the part fits in one pose only. */
+function tower() {
+  const corner = (i) => [i & 1 ? 12 : 4, i & 2 ? 10 : 4, i & 4 ? 24 : 10.5];
+  return [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]].map((face) => face.map(corner));
+}
+
+/** The triangles of a slab of 60 x 40 x 10 mm in cells of 1 mm; `keep` leaves out cells of its top. */
+function slab(keep, lift = () => 0) {
+  const triangles = tower();
+  const quad = (a, b, c, d) => triangles.push([a, b, c], [a, c, d]);
+  for (let x = 0; x < 60; x++)
+    for (let y = 0; y < 40; y++) {
+      const top = (i, j) => [i, j, 10 + lift(i, j)];
+      if (keep(x, y)) quad(top(x, y), top(x + 1, y), top(x + 1, y + 1), top(x, y + 1));
+      quad([x, y, 0], [x, y + 1, 0], [x + 1, y + 1, 0], [x + 1, y, 0]);
+    }
+  for (let x = 0; x < 60; x++) {
+    quad([x, 0, 0], [x + 1, 0, 0], [x + 1, 0, 10], [x, 0, 10]);
+    quad([x + 1, 40, 0], [x, 40, 0], [x, 40, 10], [x + 1, 40, 10]);
+  }
+  for (let y = 0; y < 40; y++) {
+    quad([0, y + 1, 0], [0, y, 0], [0, y, 10], [0, y + 1, 10]);
+    quad([60, y, 0], [60, y + 1, 0], [60, y + 1, 10], [60, y, 10]);
+  }
+  return triangles;
+}
+function stlOf(triangles) {
+  const bytes = Buffer.alloc(84 + 50 * triangles.length);
+  bytes.writeUInt32LE(triangles.length, 80);
+  triangles.forEach((corners, i) => corners.flat().forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k)));
+  return bytes;
+}
+const within = (x, y, cx, cy, r) => Math.hypot(x + 0.5 - cx, y + 0.5 - cy) < r;
+const edge = (x, y) => x === 0 || y === 0 || x === 60 || y === 40;
+const part = slab(
+  (x, y) => !within(x, y, 15, 20, 5) && !within(x, y, 32, 20, 4),
+  (x, y) => (edge(x, y) ? 0 : 0.3 * Math.exp(-((x - 48) ** 2 + (y - 20) ** 2) / 30)), // a bump 0.3 mm high
+);
+const folder = path.join(home, 'projects', 'slab');
+fs.mkdirSync(folder, { recursive: true });
+fs.writeFileSync(path.join(folder, 'project.json'), '{"format": "frangia-project", "version": 1}\n');
+const stl = path.join(home, 'part.stl');
+fs.writeFileSync(stl, stlOf(part));
+const made = spawnSync(program, ['edit', stl, '-o', path.join(folder, 'surface.ply')], { encoding: 'utf8' });
+if (made.status !== 0) throw new Error(made.stderr);
+const reference = path.join(home, 'slab as designed.stl');
+fs.writeFileSync(reference, stlOf(slab(() => true)));
+
+const server = await startServer(program, home);
+let browser;
+let code = 1;
+try {
+  browser = await launch();
+  const page = await openPage(browser, server.url);
+  const look = (name) => lookAt(page, shots, name);
+  const state = async () => (await stateOf(page)).project;
+  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 90_000 * slowdown });
+  const until = async (what, wanted) => {
+    const end = Date.now() + 60_000 * slowdown;
+    for (;;) {
+      const now = await state();
+      if (wanted(now)) return now;
+      const failed = (await stateOf(page)).jobs.at(-1);
+      expect(failed?.state !== 'failed', `${what}: ${failed?.error}`);
+      expect(Date.now() < end, `${what} does not come`);
+      await page.waitForTimeout(60);
+    }
+  };
+  const words = async () => (await page.locator('.history li').last().innerText()).replace(/\s+/g, ' ');
+  await page.waitForSelector('#try');
+  await page.getByText('slab', { exact: true }).click();
+  await page.waitForSelector('.figures');
+  await idle();
+
+  // A file that is no reference is refused in words; one that is cut short, too.
+  await page.setInputFiles('#reference', { name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('x') });
+  await page.waitForSelector('text=no STL, PLY, OBJ');
+  await page.setInputFiles('#reference', { name: 'broken.stl', mimeType: 'model/stl', buffer: fs.readFileSync(reference).subarray(0, 5000) });
+  await page.waitForFunction(() => document.querySelector('frangia-app').state.jobs.at(-1)?.state === 'failed');
+  await idle();
+  const failures = async () => (await stateOf(page)).jobs.filter((job) => job.state === 'failed').length;
+  expect((await failures()) === 1, 'a broken file was taken');
+  await page.setInputFiles('#reference', reference);
+  await page.waitForFunction(() => document.querySelector('frangia-app').state.jobs.filter((job) => job.kind === 'compare').length === 2);
+  const compared = await until('the comparison', (project) => project.surface.comparison);
+  const found = compared.surface.comparison;
+  expect(compared.reference.name === 'slab as designed.stl', 'the reference has another name');
+  expect(found.overlap > 0.9 && Math.abs(found.max_mm - 0.3) < 0.03, `the bump of 0.3 mm was found as ${found.max_mm} mm`);
+  await page.waitForSelector('.legend');
+  await page.waitForTimeout(500);
+  await page.locator('#compare-group .verdict-line').scrollIntoViewIfNeeded();
+  await look('deviation');
+  await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
+  await look('deviation-legend');
+  passed(`the largest deviation is ${found.max_mm.toFixed(3)} mm`);
+
+  // Repairs are previewed; what they did is said in words.
+  await page.keyboard.press('6');
+  await page.waitForSelector('#bridge');
+  const before = (await state()).surface;
+  expect(before.hole_count === 2, `the slab has ${before.hole_count} holes`);
+  await page.locator('[data-hole]').first().check();
+  await page.click('#fill');
+  await page.waitForSelector('#apply:not([disabled])');
+  expect((await state()).surface.triangles === before.triangles, 'a preview changed the surface');
+  expect((await page.locator('.chip.preview .words').innerText()).startsWith('Filled 1 hole with'), 'the preview is not worded');
+  await look('preview');
+  await page.click('#cancel-preview');
+  await until('the end of the preview', (project) => project.surface.preview === null);
+  await page.click('#fill');
+  await page.waitForSelector('#apply:not([disabled])');
+  await page.keyboard.press('Enter');
+  await until('the filled hole', (project) => project.surface.hole_count === 1);
+  expect(/Filled 1 hole with \d+ triangles/.test(await words()), `the history says ${await words()}`);
+  await page.keyboard.press('Control+z');
+  await until('the hole again', (project) => project.surface.hole_count === 2);
+  await idle();
+  for (const hole of await page.locator('[data-hole]').all()) await hole.check();
+  await page.click('#bridge');
+  await page.waitForSelector('#apply:not([disabled])');
+  await page.click('#apply');
+  await until('the bridge', (project) => project.surface.steps.at(-1)?.operation === 'bridge' && project.surface.steps_done === 1);
+  expect(/Bridged two holes with \d+ triangles/.test(await words()), `the history says ${await words()}`);
+  await page.keyboard.press('Control+z');
+  await until('both holes', (project) => project.surface.steps_done === 0);
+  await idle();
+  await page.click('#fill-flat');
+  await page.waitForSelector('#apply:not([disabled])');
+  await page.click('#apply');
+  const filled = await until('no hole', (project) => project.surface.hole_count === 0);
+  expect(/Filled 2 holes flat with/.test(await words()), `the history says ${await words()}`);
+  expect(filled.surface.comparison === null, 'a comparison of another mesh stays');
+
+  // The command line that is shown makes the same bytes.
+  await page.keyboard.press('7');
+  await page.waitForSelector('#estimate');
+  await page.waitForFunction(() => /about/.test(document.querySelector('#estimate').textContent));
+  const about = await page.evaluate(() => document.querySelector('frangia-app').estimate);
+  await look('export');
+  await page.click('#export');
+  const written = (await until('the file', (project) => project.exports.length === 1)).exports[0];
+  expect(Math.abs(about.bytes / written.bytes - 1) < 0.1, `${about.bytes} bytes were announced, ${written.bytes} written`);
+  const { edit } = (await state()).commands;
+  const again = path.join(home, 'again.dxf');
+  const line = edit.map((word, i) => (edit[i - 1] === '-o' ? again : word));
+  const run = spawnSync(program, line.slice(1), { encoding: 'utf8' });
+  expect(run.status === 0, run.stderr);
+  expect(fs.readFileSync(again).equals(fs.readFileSync(path.join(folder, 'exports', written.name))), 'the command line makes other bytes');
+  passed('the command line makes the same bytes');
+  check('state', await stateOf(page));
+
+  await page.setViewportSize({ width: 1024, height: 700 });
+  await page.keyboard.press('d');
+  for (const [key, name] of [['5', 'surface-small'], ['6', 'edit-small'], ['7', 'export-small']]) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(300);
+    await look(name);
+  }
+  code = problems.length === 0 ? 0 : 1;
+} catch (error) {
+  fail(error.stack ?? String(error));
+} finally {
+  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
+  await browser?.close();
+  await server.end('SIGTERM');
+  fs.rmSync(home, { recursive: true, force: true });
+}
+passed(code === 0 ? 'the surface is told' : 'it broke off');
+process.exit(problems.length ? 1 : code);

@@ -1,0 +1,128 @@
+import { meshOf, unpack, valuesOf } from './arrays';
+import type { Session } from './session';
+import type { Surface } from './types';
+import type { Viewer } from './viewer';
+
+const drawn = (): Promise<void> => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
+
+/**
+ * Brings the levels of detail of the surface and what is selected of them into the picture, as the state names them: the
+ * coarsest level first, so that there is a picture at once.
+ */
+export class MeshSource {
+  selectionShown = -1;
+  private levelsSelected = 0;
+  private previewShown = -1;
+  private deviationShown = -1;
+  private levelsDeviating = 0;
+  private running = false;
+  private again = false;
+
+  constructor(
+    private readonly session: Session,
+    private readonly viewer: Viewer,
+    private readonly changed: () => void,
+    private readonly failed: (error: unknown) => void,
+  ) {}
+
+  private get surface(): Surface | null {
+    return this.session.state?.project?.surface ?? null;
+  }
+  /** Whether the level that is drawn at rest is there. */
+  get fine(): boolean {
+    const { surface, viewer } = this;
+    const levels = surface?.levels ?? [];
+    return levels.length > 0 && viewer.levelsShown === levels.length && (levels.length > 1 || levels[0]?.triangles === surface?.triangles);
+  }
+
+  forget(): void {
+    this.viewer.clearMesh();
+    this.viewer.setPreview(null);
+    this.previewShown = -1;
+    this.selectionShown = this.deviationShown = -1;
+  }
+
+  /** Follows the state. */
+  async follow(): Promise<void> {
+    this.again = true;
+    if (this.running) return;
+    this.running = true;
+    try {
+      while (this.again) {
+        const { surface, viewer } = this;
+        viewer.setIncomplete(surface !== null && (viewer.meshShown !== surface.mesh_revision || this.selectionShown !== surface.selection_revision));
+        this.again = false;
+        await this.step();
+      }
+    } catch (error) {
+      this.failed(error);
+    } finally {
+      this.viewer.setIncomplete(false);
+      this.running = false;
+    }
+  }
+
+  private async step(): Promise<void> {
+    const { surface, viewer } = this;
+    if (!surface) {
+      if (viewer.shown) this.forget();
+      return;
+    }
+    if (viewer.meshShown !== surface.mesh_revision) {
+      this.selectionShown = this.deviationShown = -1;
+      if (!viewer.recallMesh(surface.mesh_revision) && !(await this.addLevel(surface, 0))) return;
+    }
+    await this.select(surface);
+    await this.preview(surface);
+    await this.compare(surface);
+    if (viewer.levelsShown >= surface.levels.length) return;
+    await drawn();
+    if (viewer.meshShown !== this.surface?.mesh_revision || !(await this.addLevel(surface, viewer.levelsShown))) return;
+    this.again = true;
+  }
+
+  private async addLevel(surface: Surface, level: number): Promise<boolean> {
+    const bytes = await this.session.bytes(`/api/levels/${level}`);
+    if (valuesOf<{ revision: number }>(bytes).revision !== surface.mesh_revision) return false; // a newer state comes
+    this.viewer.addLevel(surface.mesh_revision, meshOf(bytes));
+    this.selectionShown = this.deviationShown = -1;
+    this.changed();
+    return true;
+  }
+
+  private async select(surface: Surface): Promise<void> {
+    const { viewer } = this;
+    if (surface.selection_revision === this.selectionShown && this.levelsSelected === viewer.levelsShown) return;
+    const flags: (Uint8Array | null)[] = [];
+    for (let level = 0; level < viewer.levelsShown; level++) {
+      if (surface.selected)
+        flags.push((unpack(await this.session.bytes(`/api/selection/${level}`)).get('selected') as Uint8Array | undefined) ?? null);
+      if (viewer.meshShown !== surface.mesh_revision) return;
+      viewer.setSelection(flags);
+      this.selectionShown = surface.selection_revision; // the coarsest level shows it already
+    }
+    this.levelsSelected = viewer.levelsShown;
+  }
+
+  private async preview(surface: Surface): Promise<void> {
+    const revision = surface.preview?.revision ?? -1;
+    if (revision === this.previewShown) return;
+    this.viewer.setPreview(surface.preview ? unpack(await this.session.bytes('/api/preview')) : null);
+    this.previewShown = revision;
+  }
+
+  private async compare(surface: Surface): Promise<void> {
+    const { viewer } = this;
+    const revision = surface.comparison?.revision ?? -1;
+    if (revision === this.deviationShown && this.levelsDeviating === viewer.levelsShown) return;
+    const values: (Float32Array | null)[] = [];
+    if (surface.comparison) {
+      for (let level = 0; level < viewer.levelsShown; level++)
+        values.push((unpack(await this.session.bytes(`/api/deviations/${level}`)).get('deviation_mm') as Float32Array | undefined) ?? null);
+    }
+    viewer.setDeviations(values, surface.comparison?.tolerance_mm ?? null);
+    this.deviationShown = revision;
+    this.levelsDeviating = viewer.levelsShown;
+    this.changed();
+  }
+}
