@@ -72,11 +72,12 @@ export function newLink(program, home) {
   return asked.stdout.trim();
 }
 
-export const launch = () =>
+/** Chromium, without WebGL if that is wanted. */
+export const launch = ({ webgl = true } = {}) =>
   require('playwright-core').chromium.launch({
     executablePath: chromiumPath,
-    args: ['--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage'],
+    args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage',
+      ...(webgl ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-3d-apis'])],
   });
 
 /** A page all of whose messages are checked. */

@@ -41,6 +41,15 @@ class TomlWriter {
   void put(std::string_view key, const std::vector<double>& values) {
     text_ << key << " = " << text_of(values) << '\n';
   }
+  /// Writes a list of strings.
+  void put(std::string_view key, const std::vector<std::string>& values) {
+    toml::array list;
+    for (const std::string& value : values)
+      list.push_back(value);
+    toml::toml_formatter in_double_quotes(
+        list, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings);
+    text_ << key << " = " << in_double_quotes << '\n';
+  }
   /// Writes a list of integers.
   void put(std::string_view key, const std::vector<int>& values) {
     text_ << key << fmt::format(" = [{}]\n", fmt::join(values, ", "));

@@ -9,6 +9,7 @@
 #include "frangia/phase/assess_frames.h"
 #include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/triangulate_view.h"
+#include "frangia/rig/has_geometry.h"
 
 namespace frangia {
 namespace {
@@ -74,7 +75,8 @@ LiveDecode decode_live(std::span<const FrameStack> stacks,
 
 LivePreview::LivePreview(Rig rig, LiveSettings settings, std::function<void()> on_change)
     : rig_(std::move(rig)),
-      rays_(rays_of(rig_.camera.model)),
+      calibrated_(has_geometry(rig_)),
+      rays_(calibrated_ ? rays_of(rig_.camera.model) : Image<Eigen::Vector2f>()),
       on_change_(std::move(on_change)),
       settings_(std::move(settings)) {}
 
@@ -103,6 +105,7 @@ std::optional<PreviewSettings> LivePreview::next_settings() {
   }
   PreviewSettings wanted;
   wanted.camera = active_.capture.camera;
+  active_.capture.exposures_ms.clear();  // of the scan
   wanted.table_rad = active_.table_rad;
   wanted.patterns = active_.pattern == LivePattern::Fringes
                         ? patterns_of(active_.capture, rig_)
@@ -135,7 +138,7 @@ void LivePreview::take(PreviewFrame captured, int white_level) {
       next->decodes_per_s = snapshot_->decodes_per_s;
     }
   }
-  if (missing_ == 0 && active_.pattern == LivePattern::Fringes) {
+  if (missing_ == 0 && active_.pattern == LivePattern::Fringes && calibrated_) {
     // Each frame replaces its predecessor, so that every one gives a new decoded view.
     for (FrameStack& stack : stacks_)
       stack.white_level = white_level;

@@ -28,6 +28,10 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path edits() const { return derived / "edits.json"; }
   /// Quality of each station, JSON.
   [[nodiscard]] std::filesystem::path stations() const { return derived / "stations.json"; }
+  /// Poses of a board, see CalibrationWizard.
+  [[nodiscard]] std::filesystem::path calibration() const { return derived / "calibration"; }
+  /// Residuals of the calibration, JSON.
+  [[nodiscard]] std::filesystem::path residuals() const { return derived / "residuals.json"; }
   /// Folder of the exported files.
   [[nodiscard]] std::filesystem::path exports() const { return derived / "exports"; }
   /// Points of a station, packed by encode_points.
