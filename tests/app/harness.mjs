@@ -80,8 +80,8 @@ export const launch = ({ webgl = true } = {}) =>
       ...(webgl ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-3d-apis'])],
   });
 
-/** A page all of whose messages are checked. */
-export async function openPage(browser, url, viewport = { width: 1440, height: 900 }) {
+/** A page all of whose messages are checked. `expected` matches what the console may say beside what it always may. */
+export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, expected = /^$/) {
   const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB' });
   const page = await context.newPage();
   page.setDefaultTimeout(30_000 * slowdown);
@@ -90,7 +90,7 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
   page.on('pageerror', (error) => fail(`the page: ${error.message}`));
   page.on('console', (message) => {
     const text = message.text();
-    if (message.type() === 'error' && !/GL Driver|404|409|ERR_CONNECTION|WebSocket/.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
+    if (message.type() === 'error' && !/GL Driver|404|409|ERR_CONNECTION|WebSocket/.test(text) && !expected.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
   });
   page.on('request', (request) => {
     const { pathname, origin } = new URL(request.url());

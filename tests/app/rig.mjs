@@ -36,7 +36,8 @@ async function create(page, name, source) {
 
 try {
   browser = await launch();
-  const page = await openPage(browser, server.url);
+  const refusals = /status of 400/;  // of a bad rig.toml and of a deleted folder
+  const page = await openPage(browser, server.url, undefined, refusals);
   await page.waitForSelector('input[name=name]');
 
   // An example first: the text explains what it is.
@@ -114,6 +115,7 @@ try {
   const plain = await openPage(browser, newLink(program, home));
   await plain.waitForSelector('#take-over');
   await plain.click('#take-over');
+  await plain.waitForSelector('#take-over', { state: 'detached' });
   await plain.getByText('WebGL is off').waitFor();
   await plain.keyboard.press('3');
   await plain.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 1000, null, { timeout: 60_000 * slowdown });

@@ -30,7 +30,7 @@ TEST(FindDevices, KeepsSearchingWhenOneDriverFails) {
   Driver blind = finding("blind", {});
   blind.find = nullptr;
   std::vector<std::string> warnings;
-  Run run;
+  frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const auto found =
       find_devices({broken, blind, finding("grbl", {{"a port", "driver = \"grbl\"\n"}})}, run);
@@ -45,7 +45,7 @@ TEST(FindDevices, KeepsSearchingWhenOneDriverFails) {
 TEST(FindDevices, EndsWhenItIsStopped) {
   std::stop_source stop;
   stop.request_stop();
-  Run run;
+  frangia::Run run;
   run.stop = stop.get_token();
   EXPECT_THROW(static_cast<void>(find_devices({finding("grbl", {{"a port", ""}})}, run)), Error);
 }

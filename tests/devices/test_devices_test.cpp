@@ -24,7 +24,7 @@ TEST(TestDevices, ReportsEachDeviceThoughOneFails) {
          "[devices.light]\ndriver = \"grbl\"\nport = \"/dev/no-such-port\"\n"
          "[devices.turntable]\ndriver = \"nothing\"\n";
   std::vector<std::string> warnings;
-  Run run;
+  frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const auto tests = test_devices(file, rig, testing::all_drivers(), nullptr, run);
   ASSERT_EQ(tests.size(), 4U);

@@ -1,8 +1,11 @@
 #include "service/live_service.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include <gtest/gtest.h>
+
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -73,7 +76,17 @@ TEST_F(LiveServiceTest, FindsTheExposureAndThePreviewReturns) {
   ASSERT_TRUE(wait([&] { return !project().at("live").is_null(); })) << "the preview returns";
   EXPECT_LT(saturated(found_ms), 0.005);
   EXPECT_GT(saturated(2.0 * found_ms), 0.005);
+}
 
+TEST_F(LiveServiceTest, FindsSeveralExposuresForAGlossyPart) {
+  command("create-project", {{"name", "glossy"}, {"part", "bust"}, {"stations", 2}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const auto rig = folder_.path() / "glossy" / "rig.toml";
+  std::string text = testing::text_of(rig);
+  const std::string heading = "[devices.camera]\n";
+  text.insert(text.find(heading) + heading.size(), "gloss = 0.9\nshininess = 60\n");
+  std::ofstream(rig) << text;
+  const auto exposure_ms = [&] { return project().at("capture").at("exposure_ms").get<double>(); };
   command("find-exposure", {{"bracket", true}});
   ASSERT_TRUE(wait([&] { return !project().at("capture").at("exposures_ms").empty(); }));
   const Json exposures = project().at("capture").at("exposures_ms");

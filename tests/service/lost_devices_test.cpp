@@ -25,8 +25,9 @@ class LostDevicesTest : public LiveServiceTest {
     std::ofstream(rig()) << text;
   }
   [[nodiscard]] Json last_job(const std::string& kind) const {
+    const Json state = Json::parse(service_.state());
     Json found;
-    for (const Json& job : Json::parse(service_.state()).at("jobs"))
+    for (const Json& job : state.at("jobs"))
       if (job.at("kind") == kind) found = job;
     return found;
   }
@@ -51,20 +52,25 @@ TEST_F(LostDevicesTest, ACameraThatVanishesInAScanLosesItsViewOnly) {
   add_to("camera", "faults = [\"unplugged 1 always\"]\n");
   command("start-scan");
   ASSERT_TRUE(wait([&] { return !busy(); }));
-  EXPECT_EQ(last_job("scan").at("state"), "done");
+  EXPECT_EQ(last_job("scan").at("state"), "failed");
+  EXPECT_EQ(last_job("scan").at("error").get<std::string>().find("simulated camera"), 0U)
+      << last_job("scan");
   Json stations = project().at("stations");
   EXPECT_EQ(stations[0].at("state"), "done");
   EXPECT_TRUE(stations[0].at("has_cloud").get<bool>());
-  EXPECT_EQ(stations[1].at("state"), "skipped");
-  EXPECT_NE(stations[1].at("verdict").get<std::string>().find("camera"), std::string::npos)
-      << stations[1];
-  std::ofstream(rig()) << before;
-  command("rescan-station", {{"station", 1}});
+  EXPECT_EQ(stations[1].at("state"), "waiting");
+  std::ofstream(rig()) << before;  // plugged in again
+  command("start-scan");
   ASSERT_TRUE(wait([&] { return !busy(); }));
   ASSERT_EQ(last_job("scan").at("state"), "done") << last_job("scan");
   stations = project().at("stations");
   EXPECT_EQ(stations[1].at("state"), "done");
   EXPECT_TRUE(project().at("scan_complete").get<bool>());
+  const auto notes = last_job("scan").at("log");
+  EXPECT_NE(notes.back().at("sentence").get<std::string>().find("already there"),
+            std::string::npos);
+  EXPECT_EQ(notes.back().at("sentence").get<std::string>().find(" 0 already"), std::string::npos)
+      << "the frames of the first view are kept";
 }
 
 TEST_F(LostDevicesTest, ADeletedProjectFolderIsNamedAndOthersStayUsable) {

@@ -30,9 +30,10 @@ const DARK = 26;
 const WHITE = 255;
 const STRIPE_PX = 4;
 
-/** Camera pixels as the screen shows them, and the same under a stripe that marks dark and saturated ones. */
+/** Camera pixels as the screen shows them, and the same with marks: dark ones are tinted, saturated ones striped. */
 const GRAY = table((value) => [value, value, value]);
-const MARKED = table((value) => (value === WHITE ? [255, 66, 58] : value < DARK ? [value * 0.75 + 10, value * 0.8 + 22, value * 0.7 + 84] : [value, value, value]));
+const TINTED = table((value) => (value < DARK ? [value * 0.9 + 4, value * 0.95 + 9, value + 30] : [value, value, value]));
+const STRIPED = table((value) => (value === WHITE ? [255, 66, 58] : value < DARK ? [value * 0.9 + 4, value * 0.95 + 9, value + 30] : [value, value, value]));
 
 /** A cyclic scale: -pi and pi look alike. */
 function cyclic(share: number): Rgb {
@@ -62,7 +63,7 @@ export class LiveView {
   figures: LiveFigures | null = null;
   histogram = new Uint32Array(64);
   positions: Float32Array | null = null;
-  /** Whether stripes mark the dark and the saturated pixels. */
+  /** Whether the dark and the saturated pixels are marked. */
   marks = true;
   private message: ArrayBuffer | null = null;
   private readonly pen = this.canvas.getContext('2d') as CanvasRenderingContext2D;
@@ -100,11 +101,11 @@ export class LiveView {
     return false;
   }
 
-  /** Diagonal stripes, so that the picture under a mark stays readable. */
+  /** The picture under the marks stays readable. */
   private paintCamera(picture: Uint8Array, pixels: Uint32Array, width: number): void {
     for (let i = 0, x = 0, y = 0; i < pixels.length; i++) {
-      const striped = this.marks && (x + y) % (2 * STRIPE_PX) < STRIPE_PX;
-      pixels[i] = (striped ? MARKED : GRAY)[picture[i] as number] as number;
+      const colors = !this.marks ? GRAY : (x + y) % (2 * STRIPE_PX) < STRIPE_PX ? STRIPED : TINTED;
+      pixels[i] = colors[picture[i] as number] as number;
       if (++x === width) {
         x = 0;
         y++;

@@ -43,12 +43,14 @@ class TomlWriter {
   }
   /// Writes a list of strings.
   void put(std::string_view key, const std::vector<std::string>& values) {
-    toml::array list;
-    for (const std::string& value : values)
-      list.push_back(value);
-    toml::toml_formatter in_double_quotes(
-        list, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings);
-    text_ << key << " = " << in_double_quotes << '\n';
+    text_ << key << " = [";
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const toml::value<std::string> node(values[i]);
+      toml::toml_formatter in_double_quotes(
+          node, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings);
+      text_ << (i > 0 ? ", " : "") << in_double_quotes;
+    }
+    text_ << "]\n";
   }
   /// Writes a list of integers.
   void put(std::string_view key, const std::vector<int>& values) {

@@ -63,13 +63,15 @@ function newProject(app: App): TemplateResult {
     else if (files) await app.create({ ...common, ...(await rigOf(files)) });
   };
   return html`<form class="form" @submit=${(event: SubmitEvent) => void create(event)}>
-    <label class="field"><span>${t('home.name')}</span><input name="name" required maxlength="60" autocomplete="off" /></label>
+    <div class="name">
+      <label class="field"><span>${t('home.name')}</span><input name="name" required maxlength="60" autocomplete="off" /></label>
+      <label class="field"><span>${t('home.stations')}</span
+        ><input name="stations" class="num" type="number" min="2" max="360" value="8" required /></label>
+    </div>
     <div class="field"><span>${t('home.source')}</span>
       ${choice<Source>(t('home.source'), app.source, SOURCES.map((source) => [source, t(`home.source.${source}` as MessageKey)] as const), (source) => app.setSource(source))}
     </div>
     ${sourceFields(app)}
-    <label class="field"><span>${t('home.stations')}</span
-      ><input name="stations" class="num" type="number" min="2" max="360" value="8" required /></label>
     <button class="btn wide">${t('home.create')}</button>
   </form>`;
 }
