@@ -62,7 +62,7 @@ try {
   expect((await page.locator('.residual-map > svg line').count()) === 70 * poses, 'the map does not show every residual');
   check('residuals', await page.evaluate(async () => (await fetch('/api/residuals', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json()));
   await look('residuals');
-  await page.getByText('Rig', { exact: true }).last().click();
+  await page.locator('.layers').getByText('Rig', { exact: true }).click();
 
   // Live: the camera, and what is decoded from its frames as they come.
   await page.click('[data-next=live]');

@@ -45,7 +45,7 @@ export function poseTable(app: App): TemplateResult | string {
   const bar = (value: number, kind: string) => svg`<rect class=${kind} y=${kind === 'camera' ? 1 : 6} width=${(100 * value) / worst} height="4" rx="1" />`;
   const outliers = poses.flatMap((pose, i) => (pose.outlier ? [i + 1] : []));
   return html`<table class="table poses">
-      <thead><tr><th>${t('rig.poseNoun')}</th><th class="word">${t('rig.residualPx')}</th><th></th><th>${t('rig.changeMm')}</th></tr></thead>
+      <thead><tr><th>${t('rig.poseNoun')}</th><th class="word" colspan="2">${t('rig.residualPx')}</th><th>${t('rig.changeMm')}</th></tr></thead>
       <tbody>
         ${poses.map(
           (pose, i) => html`<tr class=${pose.outlier ? 'outlier' : ''}>
