@@ -20,10 +20,12 @@ function figure(map: ResidualMap): TemplateResult {
   return html`<figure class="residual-map">
     <svg viewBox="0 0 ${map.width} ${map.height}" role="img" aria-label=${t('rig.residualsOf', { device: titleOf(map) })} stroke-width=${map.width / 420}>
       <rect width=${map.width} height=${map.height} />
-      ${map.arrows.map(([x, y, dx, dy]) => svg`<line x1=${x} y1=${y} x2=${x + scale * dx} y2=${y + scale * dy} stroke="hsl(${hue(Math.hypot(dx, dy), map.rms_px)} 72% 52%)" />`)}
+      ${map.arrows.map(([x, y, dx, dy]) => {
+        const color = `hsl(${hue(Math.hypot(dx, dy), map.rms_px)} 72% 52%)`;
+        return svg`<circle cx=${x} cy=${y} r=${map.width / 380} fill=${color} /><line x1=${x} y1=${y} x2=${x + scale * dx} y2=${y + scale * dy} stroke=${color} />`;
+      })}
     </svg>
-    <figcaption><svg class="arrow-key" viewBox="0 0 ${map.width} 12" preserveAspectRatio="none" aria-hidden="true"><line x1="0" y1="6" x2=${ARROW * map.width} y2="6" /></svg>
-      ${t('rig.mapScale', { rms: number(map.rms_px, 3), points: number(map.points) })}</figcaption>
+    <figcaption>${t('rig.mapScale', { rms: number(map.rms_px, 3), points: number(map.points) })}</figcaption>
   </figure>`;
 }
 

@@ -105,15 +105,15 @@ function calibration(app: App): TemplateResult {
             <button class="btn" id="end-poses" ?disabled=${!state.waiting || state.with_board < 3} @click=${() => app.command('end-poses')}>${t('rig.end')}</button>
           </div>
           ${coverage(state)}`
-      : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`}
+      : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`} ${poseTable(app)}`}
+    ${state ? doctor(state) : ''}
+    ${state?.active
+      ? ''
+      : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
           <form class="form-plain" @submit=${start}>
             <div class="four">${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 14, 0.01)}${field('poses', t('rig.poses'), 12)}</div>
-            <button class="btn wide" id="calibrate" ?disabled=${app.occupied || !project.can_scan || project.scan_begun}>${t(state?.verdict ? 'rig.again' : 'rig.start')}</button>
+            <button class="btn wide" id="calibrate" ?disabled=${app.occupied || !project.can_scan || project.scan_begun}>${t(state?.verdict || known ? 'rig.again' : 'rig.start')}</button>
           </form>`}
-    ${state?.active ? '' : poseTable(app)} ${state ? doctor(state) : ''}
-    ${!state?.active && project.exports.some(({ name }) => name === REPORT)
-      ? html`<button class="btn wide" @click=${() => app.download(REPORT)}>${icon('download')}${t('rig.report')}</button>`
-      : ''}
   </section>`;
 }
 

@@ -54,9 +54,6 @@ struct NewRig {
     if (!given.rig.empty()) return write_given_rig(project, given);
     if (!example.empty()) return write_example_rig(project.rig(), example);
     write_simulated_rig(project.rig(), part);
-    CaptureSettings settings;
-    settings.camera.exposure_ms = kSimulatedExposure_ms;
-    write_capture_settings(project.capture(), settings);
   }
 };
 
@@ -91,7 +88,12 @@ void Service::Implementation::reload_rig(const ProjectFolder& folder) {
     now.rig = fresh.rig;
     now.start = fresh.start;
     now.rig_fault = fresh.rig_fault;
+    for (ProjectDevice& device : fresh.devices)
+      for (const ProjectDevice& known : now.devices)
+        if (known.test.table == device.test.table && known.settings == device.settings)
+          device.test = known.test;
     now.devices = fresh.devices;
+    now.exports = exports_of(folder);
     now.can_scan = fresh.can_scan;
     now.residuals_s = fresh.residuals_s;
   });
