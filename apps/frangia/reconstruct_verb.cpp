@@ -1,31 +1,18 @@
-// Above 250 lines: half of it are the options and their help.
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "frangia/core/angles.h"
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/files/ply.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/reconstruct.h"
 
 #include "check_can_write.h"
-#include "counted.h"
-#include "fixed_text.h"
-#include "mesh_result.h"
 #include "option_values.h"
-#include "print_text.h"
-#include "quality_json.h"
 #include "reconstruct_options.h"
+#include "reconstruct_result.h"
 #include "refinement_text.h"
-#include "text_table.h"
 #include "verbs.h"
 #include "write_options.h"
 
@@ -40,169 +27,6 @@ struct ReconstructArguments {
   bool ignore_indirect_light = false;
   ReconstructOptions options;
 };
-
-nlohmann::ordered_json json_of(const RegistrationReport& report) {
-  const auto number = [](double value) {  // JSON has no NaN
-    return std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
-  };
-  nlohmann::ordered_json json;
-  json["rms_before_mm"] = report.rms_before_mm;
-  json["rms_after_mm"] = report.rms_after_mm;
-  json["closure_before_deg"] = number(deg_from_rad(report.closure_before_rad));
-  json["closure_after_deg"] = number(deg_from_rad(report.closure_after_rad));
-  json["overlap"] = report.overlap;
-  json["condition"] = report.condition;
-  json["weakest"] = report.weakest;
-  json["axis"] = {report.table.axis.x(), report.table.axis.y(), report.table.axis.z()};
-  json["point_mm"] = {
-      report.table.point_mm.x(), report.table.point_mm.y(), report.table.point_mm.z()};
-  json["axis_sigma_mm"] = report.axis_sigma_mm;
-  json["axis_moved_mm"] = report.axis_moved_mm();
-  json["axis_turned_deg"] = deg_from_rad(report.axis_turned_rad());
-  json["angles_deg"] = nlohmann::ordered_json::array();
-  for (const double angle : report.angles_rad)
-    json["angles_deg"].push_back(deg_from_rad(angle));
-  json["part_poses"] = nlohmann::ordered_json::array();
-  for (const Eigen::Isometry3d& part_pose : report.part_poses) {
-    nlohmann::ordered_json rows;
-    for (int row = 0; row < 3; ++row)
-      rows.push_back({part_pose(row, 0), part_pose(row, 1), part_pose(row, 2), part_pose(row, 3)});
-    json["part_poses"].push_back(rows);
-  }
-  json["kept_rig"] = report.kept_rig;
-  json["not_determined"] = report.undetermined;
-  json["left_out"] = report.outliers;
-  return json;
-}
-
-nlohmann::ordered_json json_of(const std::vector<ViewSummary>& views) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const ViewSummary& view : views) {
-    json.push_back({{"view", view.name},
-                    {"angle_deg", deg_from_rad(view.angle_rad)},
-                    {"setup", view.setup},
-                    {"points", view.points},
-                    {"sigma_mm", view.sigma_mm},  // NaN is written as null
-                    {"left_out", view.left_out}});
-    json.back().update(json_of_quality(view.quality, view.left_out));
-  }
-  return json;
-}
-
-/// The median sigma of the vertices, with its parts where they are known.
-nlohmann::ordered_json json_of(const MedianSigma& sigma) {
-  nlohmann::ordered_json json{{"combined_mm", sigma.combined_mm}};  // NaN is written as null
-  if (std::isnan(sigma.systematic_mm)) return json;
-  json["noise_mm"] = sigma.noise_mm;
-  json["systematic_mm"] = sigma.systematic_mm;
-  return json;
-}
-
-/// ", median sigma 0.0123 mm (noise 0.0031, systematic 0.0119)"; empty without a known sigma.
-std::string text_of(const MedianSigma& sigma) {
-  if (std::isnan(sigma.combined_mm)) return "";
-  std::string text = fmt::format(", median sigma {:.4f} mm", sigma.combined_mm);
-  if (std::isnan(sigma.systematic_mm)) return text;
-  return text +
-         fmt::format(" (noise {:.4f}, systematic {:.4f})", sigma.noise_mm, sigma.systematic_mm);
-}
-
-/// One line for each view.
-std::string table_of(const std::vector<ViewSummary>& views) {
-  TextColumn name{"view", {}, false};
-  TextColumn setup{"setup", {}};
-  TextColumn angle{"angle deg", {}};
-  TextColumn points{"points", {}};
-  TextColumn sigma{"sigma mm", {}};
-  TextColumn state{"", {}, false};
-  bool several_setups = false;
-  for (const ViewSummary& view : views) {
-    several_setups = several_setups || view.setup != views.front().setup;
-    name.values.push_back(view.name);
-    setup.values.push_back(fmt::format("{}", view.setup));
-    angle.values.push_back(fixed_text(deg_from_rad(view.angle_rad), 2));
-    points.values.push_back(fmt::format("{}", view.points));
-    sigma.values.push_back(std::isnan(view.sigma_mm) ? "-" : fmt::format("{:.4f}", view.sigma_mm));
-    state.values.emplace_back(view.left_out ? "left out" : "");
-  }
-  if (several_setups) return text_table({name, setup, angle, points, sigma, state});
-  return text_table({name, angle, points, sigma, state});
-}
-
-/// What a disagreement over its noise says about the rig.
-const char* verdict(double over_noise) {
-  constexpr double kSound = 2.0;  // times the noise: calibrations of real rigs add as much again
-  return over_noise <= kSound ? "the rig is consistent"
-                              : "errors of the rig's calibration or of the phases exceed the noise";
-}
-
-/// The check of the rig by its cameras.
-void print_cameras(const Reconstruction& result) {
-  if (result.cameras < 2) return;
-  if (std::isnan(result.camera_disagreement_mm)) {
-    print_text("{} cameras: nothing compares them; fringes in both directions would\n",
-               result.cameras);
-    return;
-  }
-  print_text("{} cameras: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
-             result.cameras,
-             result.camera_disagreement_mm,
-             result.camera_disagreement_over_noise,
-             verdict(result.camera_disagreement_over_noise));
-}
-
-void print_result(const Reconstruction& result,
-                  const ReconstructArguments& arguments,
-                  Terminal& terminal) {
-  if (terminal.json) {
-    nlohmann::ordered_json json;
-    json["points"] = result.points;
-    json["views"] = result.views;
-    json["per_view"] = json_of(result.view_summaries);
-    json["vertices"] = result.mesh.vertices_mm.size();
-    json["triangles"] = result.mesh.triangles.size();
-    json["median_sigma"] = json_of(result.sigma);
-    if (!std::isnan(result.disagreement_mm)) {
-      json["directions"] = {{"disagreement_mm", result.disagreement_mm},
-                            {"over_noise", result.disagreement_over_noise}};
-    }
-    if (result.cameras > 1) {
-      json["cameras"] = {{"count", result.cameras},
-                         {"disagreement_mm", result.camera_disagreement_mm},  // NaN becomes null
-                         {"over_noise", result.camera_disagreement_over_noise}};
-    }
-    if (result.indirect_light) {
-      json["indirect_light"] = {{"reflectance", result.indirect_light->albedo},
-                                {"affected", result.indirect_light->affected},
-                                {"largest_mm", result.indirect_light->largest_mm}};
-    }
-    if (!result.raw.points_mm.empty()) json["raw"] = arguments.raw.string();
-    if (result.refinement) json["refinement"] = json_of(*result.refinement);
-    if (result.registration) json["registration"] = json_of(*result.registration);
-    if (!std::isnan(result.turntable_top_height_mm))
-      json["turntable_top_height_mm"] = result.turntable_top_height_mm;
-    print_mesh_result(std::move(json), result.untrusted_reason, terminal, arguments.outputs.paths);
-    return;
-  }
-  if (terminal.quiet) return;
-  terminal.finish();
-  print_cameras(result);
-  write_output(table_of(result.view_summaries));
-  print_text("{} points from {} -> {} triangles{}\n",
-             result.points,
-             counted(result.views, "view"),
-             result.mesh.triangles.size(),
-             text_of(result.sigma));
-  if (result.refinement) print_refinement(*result.refinement);
-  if (!std::isnan(result.disagreement_mm)) {
-    print_text("directions of fringes: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
-               result.disagreement_mm,
-               result.disagreement_over_noise,
-               verdict(result.disagreement_over_noise));
-  }
-  print_mesh_summary(terminal, arguments.outputs.paths);
-  if (!arguments.raw.empty()) terminal.print_written(arguments.raw.string());
-}
 
 void write_outputs(const Reconstruction& result,
                    const ReconstructArguments& arguments,
@@ -238,7 +62,7 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   run.stage("files");
   write_outputs(result, arguments, run);
   terminal.assess(result.untrusted_reason);
-  print_result(result, arguments, terminal);
+  print_reconstruction(result, arguments.outputs.paths, arguments.raw, terminal);
 }
 
 void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {

@@ -1,22 +1,19 @@
 #include "frangia/pipeline/reconstruct.h"
 
 #include <cmath>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "frangia/core/angles.h"
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/pipeline/internal/calibration_part.h"
+#include "frangia/pipeline/internal/check_geometry.h"
 #include "frangia/pipeline/internal/correct_indirect_light.h"
 #include "frangia/pipeline/internal/explain_no_surface.h"
 #include "frangia/pipeline/internal/mark_left_out.h"
@@ -26,25 +23,10 @@
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
 #include "frangia/pipeline/internal/tie_cameras.h"
 #include "frangia/pipeline/refine_scan_rig.h"
-#include "frangia/rig/fringe_parallax.h"
 #include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
-
-void warn_of_relative_distances(const Scan& scan, const Run& run) {
-  if (has_absolute_phase(scan.patterns, scan.rig.projector)) return;
-  if (scan.rig.projector.is_label) {
-    throw Error(
-        ErrorKind::Input,
-        fmt::format("{}: the patterns do not determine fringe orders, which label the points "
-                    "that two cameras see; capture Gray code or coarser fringes, too",
-                    scan.folder.string()));
-  }
-  run.warn(
-      "the scan holds neither an absolute pattern nor the laser sheet: distances are relative "
-      "to the fringe through the projection axis");
-}
 
 void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
   constexpr double kMedianOfNormal = 0.6745;  // of the absolute value, over the deviation
@@ -117,47 +99,11 @@ Reconstruction reconstruct_with_refined_rig(const Scan& scan,
   return out;
 }
 
-/// Views at different angles cannot be brought together without the axis that they turned about.
-void check_turntable(const Scan& scan) {
-  constexpr double kSame = 1e-6;  // rad
-  if (scan.rig.turntable) return;
-  std::map<int, double> angles;
-  for (const ScanView& view : scan.views) {
-    const double first = angles.emplace(view.setup, view.angle_rad).first->second;
-    if (std::abs(wrap_rad(view.angle_rad - first)) < kSame) continue;
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: the views are at different angles, but rig.toml has no "
-                            "[turntable]; find its axis with `frangia calibrate turntable`",
-                            scan.folder.string()));
-  }
-}
-
-/// Fringes along the line from camera to projector do not move with depth.
-void check_parallax(const Scan& scan) {
-  std::optional<FringeDirection> useless;
-  for (const Pattern& pattern : scan.patterns) {
-    if (pattern.kind != PatternKind::Fringe && pattern.kind != PatternKind::Gray) continue;
-    if (!lacks_parallax(scan.rig, pattern.direction)) return;
-    useless = pattern.direction;
-  }
-  if (!useless) return;
-  const bool vertical = *useless == FringeDirection::Vertical;
-  throw Error(ErrorKind::Input,
-              fmt::format("{}: its {} fringes do not measure depth, because the projector of "
-                          "rig.toml stands {} the camera; capture {} ones",
-                          scan.folder.string(),
-                          vertical ? "vertical" : "horizontal",
-                          vertical ? "above or below" : "beside",
-                          vertical ? "horizontal" : "vertical"));
-}
-
 }  // namespace
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
   if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
-  check_turntable(scan);
-  check_parallax(scan);
-  warn_of_relative_distances(scan, run);
+  check_geometry(scan, run);
   const auto rays = rays_of(scan.rig.camera.model);
   Reconstruction out;
   out.cameras = camera_count(scan.rig);

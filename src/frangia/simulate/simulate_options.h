@@ -11,7 +11,7 @@ namespace frangia {
 /// Brightness and faults of the simulated rig. All faults except camera noise are off by default.
 struct SimulateOptions {
   std::uint64_t seed = 1;  ///< of all random numbers
-  int samples_per_px = 1;  ///< rays per pixel on a sheared grid; rounded up to a square
+  int samples_per_px = 1;  ///< rays per pixel on a grid; rounded up to a square
 
   // The camera.
   int bits = 8;                  ///< 8, or 10, 12 or 16 in a 16-bit PNG

@@ -25,6 +25,16 @@ std::uint64_t hash_of(const std::string& text) {
   return value;
 }
 
+/// Where a sample lies in its pixel, from its middle, px. From three across on the grid is sheared:
+/// no two samples have the same x or y, so that an edge along a row or column of pixels darkens
+/// them in steps of 1 / across². The marks of boards need that; two across would gain two steps
+/// only.
+Eigen::Vector2d sample_offset(int column, int row, int across) {
+  const Eigen::Vector2d cell((column + 0.5) / across - 0.5, (row + 0.5) / across - 0.5);
+  if (across < 3) return cell;
+  return cell + Eigen::Vector2d(cell.y(), -cell.x()) / across;
+}
+
 /// Converts light as a share of white to counts. Electrons are limited to the full well.
 int counts_of(double light,
               int white_level,
@@ -85,12 +95,7 @@ LitRow ViewRenderer::sample_row(int y) const {
     }
     for (int row = 0; row < samples_across_; ++row) {
       for (int column = 0; column < samples_across_; ++column) {
-        // A sheared grid: no two samples of a pixel have the same x or y, so that an edge along a
-        // row or column of pixels darkens them by finer steps than 1 / samples_across_.
-        const Eigen::Vector2d cell((column + 0.5) / samples_across_ - 0.5,
-                                   (row + 0.5) / samples_across_ - 0.5);
-        const Eigen::Vector2d offset =
-            cell + Eigen::Vector2d(cell.y(), -cell.x()) / samples_across_;
+        const Eigen::Vector2d offset = sample_offset(column, row, samples_across_);
         samples.push_back(sample_light(scene_, pose_, center + ray_from_px * offset));
       }
     }

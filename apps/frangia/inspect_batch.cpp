@@ -1,0 +1,63 @@
+#include "inspect_batch.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/lowercase_extension.h"
+#include "frangia/report/batch.h"
+
+#include "exit_codes.h"
+#include "inspect_mesh.h"
+#include "inspect_reference.h"
+#include "json_number.h"
+#include "option_values.h"
+#include "print_text.h"
+
+namespace frangia {
+
+void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Terminal& terminal) {
+  const Run run = terminal.run();
+  require(arguments.qif.empty(), "--qif states one part, not a batch; leave out --batch");
+  require(!plan.features.empty(),
+          "--batch compares the characteristics of a --plan; give one with [[features]]");
+  const std::optional<Reference> reference = read_reference(arguments, run);
+  std::vector<BatchPart> parts;
+  bool out = false;
+  for (const auto& mesh : arguments.meshes) {
+    arguments.mesh = mesh;
+    InspectAnswer answer;
+    const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);
+    out = out || answer.verdict == Conformity::Out;
+    parts.push_back({mesh.filename().string(), part.characteristics});
+  }
+  const auto characteristics = batch_characteristics(parts);
+  const std::string csv = batch_csv(parts, characteristics);
+  const bool page = lowercase_extension(arguments.batch) == ".html";
+  const std::string title = plan.part.empty() ? "Batch" : "Batch: " + plan.part;
+  write_report_text(arguments.batch, page ? batch_html(title, parts, characteristics) : csv);
+  terminal.finish();
+  if (arguments.fail_out_of_tolerance && out) terminal.exit_code = OutOfTolerance;
+  if (terminal.json) {
+    nlohmann::ordered_json json;
+    json["parts"] = parts.size();
+    for (const BatchCharacteristic& one : characteristics) {
+      json["characteristics"].push_back({{"name", one.name},
+                                         {"mean", number_or_null(one.mean)},
+                                         {"standard_deviation", number_or_null(one.deviation)},
+                                         {"cp", number_or_null(one.cp)},
+                                         {"cpk", number_or_null(one.cpk)},
+                                         {"cpk_lower_95", number_or_null(one.cpk_lower_95)}});
+    }
+    json["batch"] = arguments.batch.string();
+    print_json(json);
+  } else {
+    write_output(csv);
+  }
+  terminal.print_written(arguments.batch.string());
+}
+
+}  // namespace frangia
