@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/devices/rig_devices.h"
+#include "frangia/devices/find_devices.h"
+#include "frangia/devices/test_devices.h"
 #include "frangia/rig/read_rig.h"
 
 #include "drivers.h"
@@ -19,8 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kTimeout_s = 10.0;
-
 Json list_drivers(const std::vector<Driver>& drivers) {
   Json all = Json::array();
   for (const Driver& driver : drivers) {
@@ -31,56 +30,31 @@ Json list_drivers(const std::vector<Driver>& drivers) {
   return all;
 }
 
-/// The devices that are connected. A driver whose search fails is reported; the others continue.
-Json find_devices(const std::vector<Driver>& drivers, const Run& run) {
+Json list_connected(const std::vector<Driver>& drivers, const Run& run) {
   Json all = Json::array();
-  for (const Driver& driver : drivers) {
-    if (!driver.find) continue;
-    try {
-      for (const FoundDevice& found : driver.find(Deadline::in(kTimeout_s, run.stop))) {
-        all.push_back({{"table", table_name(driver.kind)},
-                       {"driver", driver.name},
-                       {"name", found.name},
-                       {"settings", found.settings}});
-      }
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::Cancelled) throw;
-      run.warn(fmt::format("the search for {} devices failed: {}", driver.name, error.what()));
-    }
+  for (const ConnectedDevice& device : find_devices(drivers, run)) {
+    all.push_back({{"table", table_name(device.kind)},
+                   {"driver", device.driver},
+                   {"name", device.found.name},
+                   {"settings", device.found.settings}});
   }
   return all;
 }
 
 /// Opens and queries every device of a rig, even if another one fails.
-Json test_devices(const std::filesystem::path& rig_file,
-                  const std::vector<Driver>& drivers,
-                  const Run& run) {
+Json list_tests(const std::filesystem::path& rig_file,
+                const std::vector<Driver>& drivers,
+                const Run& run) {
   const Rig rig = read_rig(rig_file, run, RigContent::StartValues);
   DeviceSession session;
-  std::vector<Guardian::Watch> watches;
-  std::vector<std::unique_ptr<Device>> opened;  // kept open: tables may share a board
   Json all = Json::array();
-  for (DeviceSettings& settings : read_device_settings(rig_file)) {
-    Json entry{{"table", settings.device()}};
-    try {
-      const Driver& driver = driver_for(settings, drivers);
-      entry["driver"] = driver.name;
-      opened.push_back(driver.open(settings, rig, Deadline::in(kTimeout_s, run.stop)));
-      if (const auto how = opened.back()->safe_off())
-        watches.push_back(session.guardian.watch(*how));
-      settings.warn_of_unused_keys(run);
-      entry["name"] = opened.back()->name();
-      entry["answer"] = opened.back()->test(Deadline::in(kTimeout_s, run.stop));
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::Cancelled) throw;
-      entry["fault"] = error.what();
-    }
+  for (const DeviceTest& test : test_devices(rig_file, rig, drivers, &session.guardian, run)) {
+    Json entry{{"table", test.table}};
+    if (!test.driver.empty()) entry["driver"] = test.driver;
+    if (!test.name.empty()) entry["name"] = test.name;
+    entry[test.fault.empty() ? "answer" : "fault"] = test.fault.empty() ? test.answer : test.fault;
     all.push_back(entry);
   }
-  std::vector<Device*> devices;
-  for (const auto& device : opened)
-    devices.push_back(device.get());
-  make_safe(devices);
   return all;
 }
 
@@ -122,8 +96,8 @@ void print(const Json& drivers, const Json& found, const Json& tested) {
 void list(const std::filesystem::path& rig, bool search, Terminal& terminal) {
   const Run run = terminal.run();
   const std::vector<Driver> drivers = all_drivers();
-  const Json found = search ? find_devices(drivers, run) : Json::array();
-  const Json tested = rig.empty() ? Json::array() : test_devices(rig, drivers, run);
+  const Json found = search ? list_connected(drivers, run) : Json::array();
+  const Json tested = rig.empty() ? Json::array() : list_tests(rig, drivers, run);
   terminal.finish();
   if (terminal.json) {
     const Json all{{"drivers", list_drivers(drivers)}, {"connected", found}, {"rig", tested}};

@@ -103,7 +103,7 @@ const post = (page, action, encoding) =>
 let code = 1;
 let browser;
 try {
-  browser = await launch(`--host-resolver-rules=MAP evil.example 127.0.0.1`);
+  browser = await launch({ more: [`--host-resolver-rules=MAP evil.example 127.0.0.1`] });
   const page = await openPage(browser, server.url);
   await page.waitForSelector('#try');
   await page.click('#try');

@@ -72,15 +72,16 @@ export function newLink(program, home) {
   return asked.stdout.trim();
 }
 
-export const launch = (...more) =>
+/** Chromium with more arguments; without WebGL if that is wanted. */
+export const launch = ({ webgl = true, more = [] } = {}) =>
   require('playwright-core').chromium.launch({
     executablePath: chromiumPath,
-    args: ['--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage', ...more],
+    args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage',
+      ...(webgl ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-3d-apis']), ...more],
   });
 
-/** A page all of whose messages are checked. */
-export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, more = {}) {
+/** A page all of whose messages are checked. `expected` matches what the console may say beside what it always may. */
+export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, { expected = /^$/, ...more } = {}) {
   const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB', ...more });
   const page = await context.newPage();
   page.setDefaultTimeout(30_000 * slowdown);
@@ -89,7 +90,7 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
   page.on('pageerror', (error) => fail(`the page: ${error.message}`));
   page.on('console', (message) => {
     const text = message.text();
-    if (message.type() === 'error' && !/GL Driver|403|404|409|ERR_CONNECTION|WebSocket/.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
+    if (message.type() === 'error' && !/GL Driver|403|404|409|ERR_CONNECTION|WebSocket/.test(text) && !expected.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
   });
   page.on('request', (request) => {
     const { pathname, origin } = new URL(request.url());

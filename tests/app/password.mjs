@@ -5,7 +5,7 @@ import { axe, expect, launch, openPage, passed, problems, requireChromium, state
 
 const [origin, password] = process.argv.slice(2);
 requireChromium();
-const browser = await launch(`--host-resolver-rules=MAP ${new URL(origin).hostname} 127.0.0.1`);
+const browser = await launch({ more: [`--host-resolver-rules=MAP ${new URL(origin).hostname} 127.0.0.1`] });
 let code = 1;
 try {
   const page = await openPage(browser, origin, undefined, { ignoreHTTPSErrors: true });

@@ -44,6 +44,8 @@ try {
   await page.selectOption('select[name=part]', 'plate');
   await page.fill('input[name=stations]', String(STATIONS));
   await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('[data-next=live]');
+  await page.keyboard.press('4');
   await page.waitForSelector('#scan:not([disabled])');
   const project = path.join(home, 'projects', 'Plate');
   const rig = path.join(project, 'rig.toml');

@@ -37,10 +37,8 @@ try {
   await look('project');
 
   await page.click('#try');
-  await page.waitForSelector('#scan');
 
   // The rig: its devices, its geometry, and a calibration by a board that the simulated rig shows.
-  await page.keyboard.press('2');
   await page.waitForSelector('#test-devices');
   await page.click('#test-devices');
   await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 30_000 * slowdown });
@@ -59,9 +57,15 @@ try {
   await page.waitForSelector('.verdict', { timeout: 60_000 * slowdown });
   await idle();
   await look('calibrated');
+  await page.getByText('Residuals, camera', { exact: true }).click();
+  await page.waitForSelector('.residual-map line');
+  expect((await page.locator('.residual-map > svg line').count()) === 70 * poses, 'the map does not show every residual');
+  check('residuals', await page.evaluate(async () => (await fetch('/api/residuals', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json()));
+  await look('residuals');
+  await page.locator('.layers').getByText('Rig', { exact: true }).click();
 
   // Live: the camera, and what is decoded from its frames as they come.
-  await page.keyboard.press('3');
+  await page.click('[data-next=live]');
   await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000, null, { timeout: 60_000 * slowdown });
   await look('live');
   const layer = async (name) => {
@@ -80,7 +84,7 @@ try {
   await look('live-tablet');
   await page.setViewportSize({ width: 1440, height: 900 });
 
-  await page.keyboard.press('4');
+  await page.click('[data-next=scan]');
   await page.waitForSelector('#scan:not([disabled])', { timeout: 30_000 * slowdown });
   await page.click('#scan');
   await page.waitForFunction(() => document.querySelectorAll('.dial-station.done, .dial-station.poor').length >= 5, null, { timeout: 90_000 * slowdown });

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "service/live_service.h"
@@ -35,6 +39,39 @@ TEST_F(LiveServiceTest, CalibratesTheRigFromPosesThatItAsksFor) {
   EXPECT_NE(known.projector.position_mm.norm(), baseline);
   EXPECT_NEAR(known.projector.position_mm.norm(), baseline, 0.01 * baseline);
   ASSERT_TRUE(known.turntable) << "the turntable stays";
+
+  // The residuals by pose and over both images, and the report as a file.
+  EXPECT_GT(project().at("residuals_s").get<std::int64_t>(), 0);
+  const Json residuals = Json::parse(service_.residuals());
+  ASSERT_EQ(residuals.at("poses").size(), 4U);
+  ASSERT_EQ(residuals.at("maps").size(), 2U);
+  const Json& map = residuals.at("maps")[0];
+  EXPECT_EQ(map.at("width"), 640);
+  EXPECT_EQ(map.at("points"), 4 * 70);
+  double squares = 0.0;
+  for (const Json& arrow : map.at("arrows"))
+    squares += std::pow(arrow[2].get<double>(), 2) + std::pow(arrow[3].get<double>(), 2);
+  EXPECT_NEAR(std::sqrt(squares / (4 * 70)), verdict.at("camera_rms_px").get<double>(), 1e-3);
+  for (const Json& pose : residuals.at("poses"))
+    EXPECT_FALSE(pose.at("outlier").get<bool>()) << pose;
+  EXPECT_GT(std::filesystem::file_size(service_.exported("calibration.html").path), 10'000U);
+}
+
+TEST_F(LiveServiceTest, ShowsTheCameraOfARigThatIsNotCalibrated) {
+  command("create-project", {{"name", "maker"}, {"example", "simulated-maker"}, {"stations", 2}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_TRUE(project().at("rig").is_null());
+  EXPECT_TRUE(project().at("rig_begun").get<bool>());
+  EXPECT_TRUE(project().at("can_scan").get<bool>());
+  command("start-live");
+  const Json seen = header(LiveLayer::Depth, [](const Json&) { return true; });
+  EXPECT_EQ(seen.at("values").at("layer"), "camera") << "there is no depth without a calibration";
+  command("start-calibration", {{"square_mm", 14.0}, {"poses", 3}});
+  ASSERT_TRUE(wait([&] {
+    return project().at("calibration").is_object() && project().at("calibration").at("found") == 70;
+  })) << service_.state();
+  EXPECT_EQ(length_of(header(LiveLayer::Camera, [](const Json&) { return true; }), "corners"),
+            140U);
 }
 
 }  // namespace

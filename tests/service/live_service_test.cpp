@@ -1,6 +1,11 @@
 #include "service/live_service.h"
 
+#include <algorithm>
+#include <fstream>
+
 #include <gtest/gtest.h>
+
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -45,6 +50,97 @@ TEST_F(LiveServiceTest, DecodesFramesAsTheyComeAndFollowsTheSettings) {
   ASSERT_EQ(devices.size(), 3U);
   for (const Json& device : devices)
     EXPECT_NE(device.at("answer"), "") << device;
+}
+
+TEST_F(LiveServiceTest, FindsTheExposureAndThePreviewReturns) {
+  command("start-live");
+  static_cast<void>(header(LiveLayer::Camera, [](const Json&) { return true; }));
+  const auto exposure_ms = [&] { return project().at("capture").at("exposure_ms").get<double>(); };
+  command("set-capture", {{"exposure_ms", 2.0}});
+  command("find-exposure");
+  ASSERT_TRUE(wait([&] { return exposure_ms() != 2.0; })) << service_.state();
+  const double found_ms = exposure_ms();
+  EXPECT_GT(found_ms, 4.0);
+  const auto saturated = [&](double at_ms) {
+    command("set-capture", {{"exposure_ms", at_ms}});
+    command("set-live", {{"pattern", "fringes"}});
+    for (int i = 0; i < 12; ++i)  // the frames of all patterns
+      static_cast<void>(header(LiveLayer::Camera, [](const Json&) { return true; }));
+    double most = 0.0;
+    for (int i = 0; i < 12; ++i) {
+      const Json seen = header(LiveLayer::Camera, [](const Json&) { return true; });
+      most = std::max(most, seen.at("values").at("saturated").get<double>());
+    }
+    return most;
+  };
+  ASSERT_TRUE(wait([&] { return !project().at("live").is_null(); })) << "the preview returns";
+  EXPECT_LT(saturated(found_ms), 0.005);
+  EXPECT_GT(saturated(2.0 * found_ms), 0.005);
+}
+
+TEST_F(LiveServiceTest, FindsSeveralExposuresForAGlossyPart) {
+  command("create-project", {{"name", "glossy"}, {"part", "bust"}, {"stations", 2}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const auto rig = folder_.path() / "glossy" / "rig.toml";
+  std::string text = testing::text_of(rig);
+  const std::string heading = "[devices.camera]\n";
+  text.insert(text.find(heading) + heading.size(), "gloss = 0.9\nshininess = 60\n");
+  std::ofstream(rig) << text;
+  const auto exposure_ms = [&] { return project().at("capture").at("exposure_ms").get<double>(); };
+  command("find-exposure", {{"bracket", true}});
+  ASSERT_TRUE(wait([&] { return !project().at("capture").at("exposures_ms").empty(); }));
+  const Json exposures = project().at("capture").at("exposures_ms");
+  EXPECT_GT(exposures.size(), 1U);
+  EXPECT_EQ(exposures[0], exposure_ms());
+  EXPECT_NE(error_of([&] { command("set-capture", {{"exposures_ms", {1.0, 0.0}}}); }), "");
+  EXPECT_NE(error_of([&] { command("set-capture", {{"exposures_ms", 3.0}}); }), "");
+  command("set-capture", {{"exposures_ms", Json::array()}, {"stations", 5}});
+  EXPECT_TRUE(project().at("capture").at("exposures_ms").empty());
+  EXPECT_EQ(project().at("stations").size(), 5U);
+}
+
+TEST_F(LiveServiceTest, FindsAndTakesDevices) {
+  command("find-devices");
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const Json search = Json::parse(service_.state()).at("search");
+  EXPECT_EQ(search.at("drivers").size(), testing::all_drivers().size());
+  EXPECT_EQ(search.at("drivers")[0].at("table"), "camera");
+
+  const Json camera = project().at("devices")[0];
+  ASSERT_EQ(camera.at("table"), "camera");
+  EXPECT_NE(camera.at("settings").get<std::string>().find("part = \"plate\""), std::string::npos);
+  Json devices{{"camera", "driver = \"simulated\"\npart = \"shaft\"\n"},
+               {"fringes", "driver = \"simulated-display\"\n"}};
+  command("set-devices", {{"devices", devices}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  ASSERT_EQ(project().at("devices").size(), 2U) << service_.state();
+  for (const Json& device : project().at("devices"))
+    EXPECT_NE(device.at("answer"), "") << device;
+  EXPECT_FALSE(project().at("rig").is_null()) << "its geometry stays";
+
+  devices["camera"] = "driver = \"folder\"\nfolder = \"/\"\n";
+  command("set-devices", {{"devices", devices}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_NE(project().at("devices")[0].at("settings").get<std::string>().find("shaft"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { command("set-devices", {{"devices", {{"../x", "a = 1"}}}}); }), "");
+  EXPECT_NE(error_of([&] { command("set-devices", {{"devices", 3}}); }), "");
+
+  command("create-project", {{"name", "mine"}, {"devices", true}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_FALSE(project().at("can_scan").get<bool>());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "mine" / "rig.toml"));
+  EXPECT_NE(error_of([&] { command("start-live"); }).find("step Rig"), std::string::npos);
+  EXPECT_NE(
+      error_of([&] {
+        command("create-project", {{"name", "both"}, {"devices", true}, {"example", "lab-piezo"}});
+      }),
+      "");
+  EXPECT_NE(error_of([&] {
+              command("create-project", {{"name", "bad"}, {"rig", "format = \"x\"\n"}});
+            }),
+            "");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "bad"));
 }
 
 TEST_F(LiveServiceTest, MovesTheRigUntilTheScanBegins) {

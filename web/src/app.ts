@@ -13,14 +13,15 @@ import { Refusal, Session } from './session';
 import { editStep, type Combine } from './steps/edit';
 import { exportArguments, exportStep, type Exporting } from './steps/export';
 import { liveStep, type LiveLayer } from './steps/live';
-import { projectStep } from './steps/project';
+import { projectStep, type Source } from './steps/project';
 import { rigStep } from './steps/rig';
+import type { DeviceDraft } from './steps/rig_devices';
 import { scanStep } from './steps/scan';
 import { surfaceStep } from './steps/surface';
 import type { Coloring } from './mesh_colors';
 import { MeshSource } from './mesh_source';
 import type { Measurement } from './ruler';
-import type { Job, Project, RigGeometry, State } from './types';
+import type { Job, Project, Residuals, RigGeometry, State } from './types';
 import { plain } from './ui';
 import { type Hit, type Ray, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
 import { LiveView } from './live_view';
@@ -44,6 +45,14 @@ export class App extends LitElement {
   private chosen = { revision: -1, holes: new Set<number>() };
   layer: LiveLayer = 'camera';
   private rigDraft: RigDraft = {};
+  source: Source = 'simulated';
+  example = 'lab-piezo';
+  deviceDraft: DeviceDraft | null = null;
+  residuals: Residuals | null = null;
+  /** Index of the map on the stage; -1 shows the rig. */
+  residualMap = -1;
+  private residualsShown = 0;
+  private created = false;
   viewer!: Viewer;
   readonly live = new LiveView();
   readonly session = new Session(() => this.onState(), (picture) => this.onPicture(picture));
@@ -117,6 +126,10 @@ export class App extends LitElement {
     return this.step === 'live' && this.layer !== 'points';
   }
 
+  get showsResiduals(): boolean {
+    return this.step === 'rig' && !this.project.calibration?.active && Boolean(this.residuals?.maps[this.residualMap]);
+  }
+
   private onPicture(picture: ArrayBuffer): void {
     if (this.live.draw(picture) && this.live.positions) this.viewer.setCloud(-1, this.live.positions.slice());
     this.requestUpdate();
@@ -173,7 +186,46 @@ export class App extends LitElement {
       if (this.step === 'rig') this.viewer.setRig(this.drawnRig);
       void this.meshes.follow();
       void this.showClouds();
+      void this.readResiduals();
     }
+    this.requestUpdate();
+  }
+
+  private async readResiduals(): Promise<void> {
+    const at = this.state.project?.residuals_s ?? 0;
+    if (at === this.residualsShown) return;
+    this.residualsShown = at;
+    this.residuals = null;
+    this.residualMap = -1;
+    if (at === 0) return;
+    try {
+      this.residuals = JSON.parse(new TextDecoder().decode(await this.session.bytes('/api/residuals'))) as Residuals;
+      this.requestUpdate();
+    } catch (error) {
+      this.say(error);
+    }
+  }
+  showResiduals(map: number): void {
+    this.residualMap = map;
+    this.requestUpdate();
+  }
+  draftDevices(draft: DeviceDraft | null): void {
+    this.deviceDraft = draft;
+    this.requestUpdate();
+  }
+  async useDevices(devices: Partial<DeviceDraft>): Promise<void> {
+    if (await this.command('set-devices', { devices })) this.draftDevices(null);
+  }
+  setSource(source: Source): void {
+    this.source = source;
+    this.requestUpdate();
+  }
+  setExample(example: string): void {
+    this.example = example;
+    this.requestUpdate();
+  }
+  setMarks(marks: boolean): void {
+    this.live.setMarks(marks);
     this.requestUpdate();
   }
 
@@ -200,8 +252,11 @@ export class App extends LitElement {
     this.viewer.clearClouds();
     this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
     this.problem = '';
+    this.deviceDraft = null;
     if (!state.project) this.go('project');
-    else this.go(state.project.surface ? 'surface' : 'scan');
+    else if (state.project.surface) this.go('surface');
+    else this.go(this.created || (!state.project.can_scan && !state.project.scan_complete) ? 'rig' : 'scan');
+    this.created = false;
     this.viewer.frame([0.9, -1.1, 0.6]);
   }
 
@@ -259,8 +314,9 @@ export class App extends LitElement {
       return false;
     }
   }
-  async create(name: string, part: string, stations: number): Promise<void> {
-    await this.command('create-project', { name, part, stations });
+  async create(project: { name: string; stations: number } & Record<string, string | number | boolean>): Promise<void> {
+    this.created = true;
+    if (!(await this.command('create-project', project))) this.created = false;
   }
   async open(name: string): Promise<void> {
     if (this.state.project?.name === name) this.go(this.project.surface ? 'surface' : 'scan');
@@ -420,7 +476,7 @@ export class App extends LitElement {
     if (step === 'scan') return Boolean(project?.scan_complete);
     if (step === 'surface') return Boolean(project?.surface);
     if (step === 'edit') return (project?.surface?.steps_done ?? 0) > 0;
-    return (project?.exports.length ?? 0) > 0;
+    return (project?.exports ?? []).some(({ name }) => name !== 'calibration.html');
   }
 
   private panel(): TemplateResult {

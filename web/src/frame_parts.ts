@@ -7,6 +7,7 @@ import { KEYS } from './keyboard';
 import { linkDialog } from './link_dialog';
 import { currentLanguage, type MessageKey, number, t } from './messages';
 import { previewBar } from './preview_bar';
+import { residualStage } from './residuals';
 import { liveOverlay } from './steps/live';
 import { plain, quoted } from './ui';
 
@@ -75,9 +76,10 @@ export function footer(app: App): TemplateResult {
 /** The scene or the camera, and what floats on it. */
 export function picture(app: App): TemplateResult {
   const { viewer, measurement } = app;
-  return html`<div class="stage ${app.showsCamera ? 'with-camera' : ''}" role="region" aria-label=${t('app.view')}>
-    ${viewer.supported ? app.host : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
+  return html`<div class="stage ${app.showsCamera || app.showsResiduals ? 'with-camera' : ''}" role="region" aria-label=${t('app.view')}>
+    ${viewer.supported ? app.host : app.showsCamera || app.showsResiduals ? '' : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
     ${app.showsCamera ? html`<div class="camera">${app.live.canvas}</div>` : ''} ${app.step === 'live' ? liveOverlay(app) : ''}
+    ${app.step === 'rig' ? residualStage(app) : ''}
     <div class="floating">
       ${previewBar(app)}
       ${viewer.tool === 'measure' && !measurement ? html`<div class="chip">${t('surface.measureHint')}</div>` : ''}
@@ -90,7 +92,7 @@ export function picture(app: App): TemplateResult {
             ${measurement.u95_deg === null ? '' : html`<div class="num quiet">± ${number(measurement.u95_deg, 3)}° (k = 2)</div>`}</div>`
         : ''}
     </div>
-    ${viewer.supported && !app.showsCamera
+    ${viewer.supported && !app.showsCamera && !app.showsResiduals
       ? html`<div class="view-tools">
           <button class="icon-btn text" @click=${() => viewer.frame([0, -1, 0.18])}>${t('app.front')}</button>
           <button class="icon-btn text" @click=${() => viewer.frame([0, -0.02, 1])}>${t('app.top')}</button>

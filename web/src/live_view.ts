@@ -25,8 +25,15 @@ export const STATUS_COLORS: readonly Rgb[] = [
   [230, 230, 225], [110, 200, 120], [26, 31, 33], [220, 60, 50], [160, 80, 200], [240, 170, 40], [70, 130, 220], [240, 220, 90], [120, 100, 90],
 ];
 
-const DARK = 3;
+/** Light below a hundredth of white is dark: bytes of the sRGB curve below this one. */
+const DARK = 26;
 const WHITE = 255;
+const STRIPE_PX = 4;
+
+/** Camera pixels as the screen shows them, and the same with marks: dark ones are tinted, saturated ones striped. */
+const GRAY = table((value) => [value, value, value]);
+const TINTED = table((value) => (value < DARK ? [value * 0.9 + 4, value * 0.95 + 9, value + 30] : [value, value, value]));
+const STRIPED = table((value) => (value === WHITE ? [255, 66, 58] : value < DARK ? [value * 0.9 + 4, value * 0.95 + 9, value + 30] : [value, value, value]));
 
 /** A cyclic scale: -pi and pi look alike. */
 function cyclic(share: number): Rgb {
@@ -43,8 +50,7 @@ function table(color: (value: number) => Rgb): Uint32Array {
 
 const NOTHING: Rgb = [20, 25, 27];
 const scaled = (color: (share: number) => Rgb) => table((value) => (value === 0 ? NOTHING : color((value - 1) / 254)));
-const TABLES: Record<Exclude<Layer, 'none' | 'points'>, Uint32Array> = {
-  camera: table((value) => (value === WHITE ? [255, 66, 58] : value < DARK ? [13, 25, 62] : [value, value, value])),
+const TABLES: Record<Exclude<Layer, 'none' | 'points' | 'camera'>, Uint32Array> = {
   phase: scaled(cyclic),
   modulation: scaled(viridis),
   depth: scaled((share) => viridis(1 - share)),
@@ -57,6 +63,9 @@ export class LiveView {
   figures: LiveFigures | null = null;
   histogram = new Uint32Array(64);
   positions: Float32Array | null = null;
+  /** Whether the dark and the saturated pixels are marked. */
+  marks = true;
+  private message: ArrayBuffer | null = null;
   private readonly pen = this.canvas.getContext('2d') as CanvasRenderingContext2D;
 
   constructor() {
@@ -67,6 +76,7 @@ export class LiveView {
 
   /** Draws a message of the server; returns whether it holds points instead of a picture. */
   draw(message: ArrayBuffer): boolean {
+    this.message = message;
     const arrays = unpack(message);
     this.figures = valuesOf<LiveFigures>(message);
     this.histogram = arrays.get('histogram') as Uint32Array<ArrayBuffer>;
@@ -81,11 +91,26 @@ export class LiveView {
     }
     const image = this.pen.createImageData(width, height);
     const pixels = new Uint32Array(image.data.buffer);
-    const colors = TABLES[layer];
-    for (let i = 0; i < pixels.length; i++) pixels[i] = colors[picture[i] as number] as number;
+    if (layer === 'camera') this.paintCamera(picture, pixels, width);
+    else {
+      const colors = TABLES[layer];
+      for (let i = 0; i < pixels.length; i++) pixels[i] = colors[picture[i] as number] as number;
+    }
     this.pen.putImageData(image, 0, 0);
     this.drawCorners(arrays.get('corners') as Float32Array);
     return false;
+  }
+
+  /** The picture under the marks stays readable. */
+  private paintCamera(picture: Uint8Array, pixels: Uint32Array, width: number): void {
+    for (let i = 0, x = 0, y = 0; i < pixels.length; i++) {
+      const colors = !this.marks ? GRAY : (x + y) % (2 * STRIPE_PX) < STRIPE_PX ? STRIPED : TINTED;
+      pixels[i] = colors[picture[i] as number] as number;
+      if (++x === width) {
+        x = 0;
+        y++;
+      }
+    }
   }
 
   private drawCorners(corners: Float32Array): void {
@@ -99,7 +124,13 @@ export class LiveView {
     }
   }
 
+  setMarks(marks: boolean): void {
+    this.marks = marks;
+    if (this.message) this.draw(this.message);
+  }
+
   clear(): void {
+    this.message = null;
     this.figures = null;
     this.pen.clearRect(0, 0, this.canvas.width, this.canvas.height);
   }

@@ -3,7 +3,7 @@ export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
 export interface LogLine { warning: boolean; sentence: string }
 export interface Job {
   number: number;
-  kind: 'open' | 'live' | 'devices' | 'calibrate' | 'scan' | 'reconstruct' | 'edit' | 'preview' | 'compare' | 'export';
+  kind: 'open' | 'live' | 'find' | 'devices' | 'exposure' | 'calibrate' | 'scan' | 'reconstruct' | 'edit' | 'preview' | 'compare' | 'export';
   state: JobState;
   progress: number;
   stage: string;
@@ -68,15 +68,32 @@ export interface RigGeometry {
   turntable: { object_from_rig: number[]; distance_mm: number } | null;
   calibration: { date: string; poses: number; point_sigma_mm: number; distance_mm: number } | null;
 }
+/** The tables of rig.toml that hold devices. */
+export const TABLES = ['camera', 'fringes', 'turntable', 'light', 'line'] as const;
+export type Table = (typeof TABLES)[number];
+/** A device of the rig; `settings` are the lines of its table in rig.toml. */
 export interface Device {
   table: string;
   driver: string;
+  settings: string;
   name: string;
   answer: string;
   fault: string;
 }
+/** What a search for devices found, and the drivers of the program. */
+export interface DeviceSearch {
+  connected: { table: Table; driver: string; name: string; settings: string }[];
+  drivers: { table: Table; driver: string; description: string }[];
+  warnings: string[];
+}
+/** The residuals of a calibration; arrows are x, y and the residual in x and y, px. */
+export interface Residuals {
+  poses: { name: string; camera_rms_px: number; projector_rms_px: number; distance_mm: number; tilt_deg: number; change_mm: number; outlier: boolean }[];
+  maps: { title: string; width: number; height: number; rms_px: number; points: number; arrows: [number, number, number, number][] }[];
+}
 export interface CaptureSettings {
   exposure_ms: number;
+  exposures_ms: number[];
   gain_db: number;
   black_level_counts: number;
   shifts: number;
@@ -107,6 +124,7 @@ export interface Calibration {
   sufficient: boolean;
   next: string;
   findings: string[];
+  fault: string;
   poses: { points: number; expected: number }[];
   verdict: Verdict | null;
 }
@@ -164,6 +182,8 @@ export interface Project {
   capture: CaptureSettings;
   rig: RigGeometry | null;
   rig_fault: string;
+  rig_begun: boolean;
+  residuals_s: number;
   devices: Device[];
   live: { pattern: LivePattern; table_deg: number } | null;
   calibration: Calibration | null;
@@ -184,6 +204,8 @@ export interface State {
   version: string;
   parts: string[];
   algorithms: { name: string; frames: string }[];
+  examples: { name: string; description: string }[];
+  search: DeviceSearch | null;
   projects: ProjectEntry[];
   project: Project | null;
   jobs: Job[];

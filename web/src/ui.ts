@@ -1,4 +1,8 @@
 import { html, type TemplateResult } from 'lit';
+import type { App } from './app';
+import type { StepName } from './app_steps';
+import { icon } from './icons';
+import { t } from './messages';
 
 /** A row of choices, of which one is chosen. */
 export function choice<T extends string>(
@@ -15,6 +19,10 @@ export function choice<T extends string>(
     )}
   </div>`;
 }
+
+/** The button that leads to the next step. */
+export const nextStep = (app: App, step: StepName, ready = true): TemplateResult =>
+  html`<section class="group next-step"><button class="btn ${ready ? 'primary' : ''} wide" data-next=${step} @click=${() => app.go(step)}>${t('app.next', { step: t(`step.${step}`) })}${icon('arrow')}</button></section>`;
 
 export const bytes = (count: number, format: (value: number, digits: number) => string): string =>
   count < 1000 ? `${format(count, 0)} B` : count < 1e6 ? `${format(count / 1e3, 0)} kB` : `${format(count / 1e6, 1)} MB`;

@@ -81,6 +81,10 @@ export class Viewer {
     this.overlay.setAttribute('aria-hidden', 'true');
     host.append(this.canvas, this.overlay);
     try {
+      // three.js would complain on the console; the page says it in words.
+      const context = document.createElement('canvas').getContext('webgl2');
+      if (!context) throw new Error('no WebGL');
+      context.getExtension('WEBGL_lose_context')?.loseContext();
       this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
       this.supported = true;
     } catch {

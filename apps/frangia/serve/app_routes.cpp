@@ -200,6 +200,7 @@ HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string
 
 HttpResponse AppRoutes::get(const std::string& path) const {
   if (path == "/api/state") return {.body = service_.state()};
+  if (path == "/api/residuals") return {.body = service_.residuals()};
   if (path == "/api/mesh" || path == "/api/selection") {
     return found(path == "/api/mesh" ? service_.mesh() : service_.selection(),
                  "there is no surface");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace frangia {
 namespace {
@@ -17,6 +18,9 @@ void append_capture(const CaptureSettings& settings, std::vector<std::string>& w
   };
   append("--shifts", settings.shifts, usual.shifts);
   append("--exposure", settings.camera.exposure_ms, usual.camera.exposure_ms);
+  if (!settings.exposures_ms.empty())
+    words.insert(words.end(),
+                 {"--exposures", fmt::format("{:g}", fmt::join(settings.exposures_ms, ","))});
   append("--gain", settings.camera.gain_db, usual.camera.gain_db);
   append("--black-level", settings.camera.black_level_counts, usual.camera.black_level_counts);
 }

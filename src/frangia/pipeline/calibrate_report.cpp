@@ -13,6 +13,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/html_escaped.h"
+#include "frangia/pipeline/calibrate_residuals.h"
 #include "frangia/pipeline/internal/calibrate_report_page.h"
 
 namespace frangia {
@@ -145,37 +146,6 @@ void add_poses(const RigCalibration& result, std::string& html) {
   html += "</table>\n";
 }
 
-/// Arrows of all residuals over the image of one device: of a camera, 0 being the reference camera,
-/// or of the projector as the reference camera reads it.
-std::string map_of(const RigCalibration& result, std::size_t camera, bool by_projector) {
-  const RigSolution& solution = result.solution;
-  const FurtherCameraSolution* further = camera > 0 ? &solution.more_cameras[camera - 1] : nullptr;
-  const CameraModel& model = further != nullptr ? further->model
-                             : by_projector     ? solution.projector
-                                                : solution.camera;
-  const auto& residuals = further != nullptr ? further->residuals_px
-                          : by_projector     ? solution.projector_residuals_px
-                                             : solution.camera_residuals_px;
-  ResidualMap map{
-      .title = by_projector ? "Projector" : "Camera",
-      .width = model.width_px,
-      .height = model.height_px,
-      .rms = by_projector ? solution.projector_residuals.rms_px : solution.camera_residuals.rms_px};
-  if (further != nullptr) {
-    map.title = "camera \"" + further->name + "\"";
-    map.rms = further->residuals.rms_px;
-  }
-  for (std::size_t view = 0; view < result.views.size(); ++view) {
-    const std::vector<BoardPoint>& points = points_of(result.views[view], camera);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector2d& from = by_projector ? points[i].projector_px : points[i].camera_px;
-      if (from.allFinite() && residuals[view][i].allFinite())
-        map.arrows.push_back({from, residuals[view][i]});
-    }
-  }
-  return residual_figure(map);
-}
-
 /// Share of the cells of a grid over the image that hold a point.
 double coverage_of(const RigCalibration& result, const CameraModel& model) {
   constexpr int kColumns = 8;
@@ -268,12 +238,9 @@ void write_calibration_report(const std::filesystem::path& path,
   for (const std::string& warning : warnings)
     html += fmt::format("<p class=\"warning\">{}</p>\n", html_escaped(warning));
   add_poses(result, html);
-  const RigSolution& solution = result.solution;
   html += "<h2>Residuals and coverage</h2><div class=\"row\">\n";
-  html += map_of(result, 0, false);
-  if (solution.has_projector) html += map_of(result, 0, true);
-  for (std::size_t camera = 1; camera <= solution.more_cameras.size(); ++camera)
-    html += map_of(result, camera, false);
+  for (const ResidualMap& map : residual_maps(result))
+    html += residual_figure(map);
   add_coverage(result, board, html);
   html += "</div>\n";
   add_boards(result, html);

@@ -175,18 +175,14 @@ class TomlReader {
   std::set<std::string> used_;
 };
 
-/// Parses a file whose `format` key must equal `format` and whose version must be from 1 to
-/// `newest_version`.
+/// Parses TOML. `file` is named in messages.
 ///
-/// @errors   Error(Input) that names the file and the line or key
-[[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
-                                            const std::string& format,
-                                            int newest_version = 1) {
-  const std::string text = read_text_file(file);
+/// @errors   Error(Input) that names the line
+[[nodiscard]] inline toml::table parse_toml_text(const std::string& text,
+                                                 const std::filesystem::path& file) {
   check_toml_nesting(text, file);
-  toml::table table;
   try {
-    table = toml::parse(text, file.string());
+    return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: line {}: {}",
@@ -194,6 +190,16 @@ class TomlReader {
                             error.source().begin.line,
                             std::string(error.description())));
   }
+}
+
+/// Parses a file whose `format` key must equal `format` and whose version must be from 1 to
+/// `newest_version`.
+///
+/// @errors   Error(Input) that names the file and the line or key
+[[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
+                                            const std::string& format,
+                                            int newest_version = 1) {
+  toml::table table = parse_toml_text(read_text_file(file), file);
   TomlReader reader(file, "", table);
   if (reader.text("format") != format) reader.fail("format", fmt::format("must be \"{}\"", format));
   const int version = reader.integer("version", 1, std::numeric_limits<int>::max());

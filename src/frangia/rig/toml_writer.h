@@ -41,6 +41,17 @@ class TomlWriter {
   void put(std::string_view key, const std::vector<double>& values) {
     text_ << key << " = " << text_of(values) << '\n';
   }
+  /// Writes a list of strings.
+  void put(std::string_view key, const std::vector<std::string>& values) {
+    text_ << key << " = [";
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const toml::value<std::string> node(values[i]);
+      toml::toml_formatter in_double_quotes(
+          node, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings);
+      text_ << (i > 0 ? ", " : "") << in_double_quotes;
+    }
+    text_ << "]\n";
+  }
   /// Writes a list of integers.
   void put(std::string_view key, const std::vector<int>& values) {
     text_ << key << fmt::format(" = [{}]\n", fmt::join(values, ", "));

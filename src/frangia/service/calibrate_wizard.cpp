@@ -5,13 +5,17 @@
 
 #include "frangia/acquisition/calibrate_capture.h"
 #include "frangia/calibrate/find_board.h"
+#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
+#include "frangia/core/make_folder.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/calibrate_report.h"
 #include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/calibration_wizard.h"
+#include "frangia/service/internal/calibrate_residuals_json.h"
 #include "frangia/service/internal/opened_devices.h"
 #include "frangia/simulate/default_patterns.h"
 
@@ -28,7 +32,7 @@ void enter(const PoseCoverage& coverage, WizardState& state) {
 
 CalibrationWizard::CalibrationWizard(ProjectFolder project, std::function<void()> on_change)
     : project_(std::move(project)),
-      folder_(project_.derived / "calibration"),
+      folder_(project_.calibration()),
       on_change_(std::move(on_change)) {}
 
 void CalibrationWizard::capture_pose() {
@@ -104,6 +108,7 @@ bool CalibrationWizard::wait_for_answer(RigDevices& devices,
 
 void CalibrationWizard::capture(const Board& board,
                                 std::size_t poses,
+                                const CaptureSettings& settings,
                                 const CaptureSetup& setup,
                                 const Run& run) {
   Scan plan;
@@ -118,6 +123,7 @@ void CalibrationWizard::capture(const Board& board,
   RigDevices& devices = opened.devices();
   CalibrateCaptureOptions options;
   options.poses = poses;
+  options.capture.camera = settings.camera;
   options.wait_for_pose = [&](std::size_t number, const PoseCoverage& coverage) {
     return wait_for_answer(devices, board, number, coverage, run);
   };
@@ -131,15 +137,28 @@ void CalibrationWizard::capture(const Board& board,
   static_cast<void>(calibrate_capture(plan, devices, lock, options, run));
 }
 
-void CalibrationWizard::solve(const Run& run) {
+/// Keeps what the page and a report show of a calibration.
+void CalibrationWizard::keep(const RigCalibration& result, const Board& board) {
+  AtomicFile file(project_.residuals());
+  file.stream() << residuals_text(result);
+  file.commit();
+  make_folder(project_.exports());
+  write_calibration_report(
+      project_.exports() / "calibration.html", result, board, state().findings);
+}
+
+void CalibrationWizard::solve(const Board& board, const Run& run) {
   run.stage("calibrate");
   Run listening = run;
   listening.on_warning = [&](const std::string& sentence) {
     change([&](WizardState& state) { state.findings.push_back(sentence); });
     run.warn(sentence);
   };
+  CalibrateRigOptions options;
+  options.pose.keep_picture = true;
   const RigCalibration result =
-      calibrate_rig(read_scan(folder_, listening, RigContent::StartValues), {}, listening);
+      calibrate_rig(read_scan(folder_, listening, RigContent::StartValues), options, listening);
+  keep(result, board);
   const std::filesystem::path fresh = project_.folder / "rig-calibrated.toml";
   write_rig(fresh, result.rig, Durability::Synced, project_.rig());
   std::filesystem::rename(fresh, project_.rig());
@@ -158,6 +177,7 @@ void CalibrationWizard::solve(const Run& run) {
 
 void CalibrationWizard::run(const Board& board,
                             std::size_t poses,
+                            const CaptureSettings& settings,
                             const CaptureSetup& setup,
                             const Run& run) {
   change([&](WizardState& state) {
@@ -177,8 +197,14 @@ void CalibrationWizard::run(const Board& board,
     }
   };
   const AtEnd at_end(*this);
-  capture(board, poses, setup, run);
-  solve(run);
+  try {
+    capture(board, poses, settings, setup, run);
+    solve(board, run);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Cancelled)
+      change([&](WizardState& state) { state.fault = error.what(); });
+    throw;
+  }
 }
 
 }  // namespace frangia

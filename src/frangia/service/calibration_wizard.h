@@ -11,6 +11,7 @@
 
 #include "frangia/calibrate/pose_coverage.h"
 #include "frangia/core/run.h"
+#include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/board.h"
 #include "frangia/service/live_preview.h"
 #include "frangia/service/project_scan.h"
@@ -45,7 +46,8 @@ struct WizardState {
   PoseCoverage coverage;              ///< of all poses
   double field = 0.0;                 ///< share of the field that the poses cover
   bool sufficient = false;            ///< the poses determine a rig well
-  std::vector<std::string> findings;  ///< of the checks before the adjustment
+  std::vector<std::string> findings;  ///< of the checks before and after the adjustment
+  std::string fault;                  ///< why there is no result; empty otherwise
   WizardVerdict verdict;              ///< of the last calibration
 };
 
@@ -73,10 +75,16 @@ class CalibrationWizard {
   void end_poses();
 
   /// Captures until `poses` show the board or `end_poses` is called, calibrates, and replaces the
-  /// project's rig.toml. The poses are kept in the project; a later run continues with them.
+  /// project's rig.toml. The poses are kept in the project; a later run continues with them. The
+  /// residuals are written to ProjectFolder::residuals, and the report of `frangia calibrate rig`
+  /// to the project's exports.
   ///
   /// @errors   as open_devices, calibrate_capture and calibrate_rig
-  void run(const Board& board, std::size_t poses, const CaptureSetup& setup, const Run& run);
+  void run(const Board& board,
+           std::size_t poses,
+           const CaptureSettings& settings,
+           const CaptureSetup& setup,
+           const Run& run);
 
  private:
   enum class Answer { None, Capture, End };
@@ -87,8 +95,13 @@ class CalibrationWizard {
                                      const PoseCoverage& coverage,
                                      const Run& run);
   void show(Frame frame, int white_level, const Board& board);
-  void capture(const Board& board, std::size_t poses, const CaptureSetup& setup, const Run& run);
-  void solve(const Run& run);
+  void capture(const Board& board,
+               std::size_t poses,
+               const CaptureSettings& settings,
+               const CaptureSetup& setup,
+               const Run& run);
+  void solve(const Board& board, const Run& run);
+  void keep(const RigCalibration& result, const Board& board);
   void change(const std::function<void(WizardState&)>& edit);
 
   ProjectFolder project_;

@@ -12,12 +12,16 @@ namespace frangia {
 
 /// How a project is captured and decoded; the file capture.json of its folder.
 struct CaptureSettings {
-  CameraSettings camera;           ///< exposure, gain and black level
+  CameraSettings camera;  ///< exposure, gain and black level
+  /// Exposures of each frame of the scan, which are merged; empty: that of `camera` alone. The
+  /// preview uses that of `camera` in any case.
+  std::vector<double> exposures_ms;
   int shifts = 4;                  ///< frames per fringe pattern
   std::string algorithm = "auto";  ///< name, see fit_algorithm
 
-  static constexpr int kFewestShifts = 3;  ///< that determine a phase
-  static constexpr int kMostShifts = 16;   ///< that the app offers
+  static constexpr int kFewestShifts = 3;           ///< that determine a phase
+  static constexpr int kMostShifts = 16;            ///< that the app offers
+  static constexpr std::size_t kMostExposures = 6;  ///< of a frame
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;

@@ -35,15 +35,28 @@ std::uint8_t byte_of(float value, float low, float high) {
   return static_cast<std::uint8_t>(1.5F + share * (kByteSpan - 0.01F));
 }
 
+/// The curve of sRGB, IEC 61966-2-1: screens show light that grows with the counts by it.
+double srgb_of(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+/// The byte of each pixel value up to white; 255 is white alone.
+std::vector<std::uint8_t> display_curve(int white_level) {
+  constexpr double kBelowWhite = 254.0;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(white_level) + 1, 255);
+  for (std::size_t counts = 0; counts + 1 < bytes.size(); ++counts) {
+    const double linear = static_cast<double>(counts) / white_level;
+    bytes[counts] = static_cast<std::uint8_t>(std::lround(kBelowWhite * srgb_of(linear)));
+  }
+  return bytes;
+}
+
 Bytes camera_picture(const LiveSnapshot& snapshot) {
+  const std::vector<std::uint8_t> curve = display_curve(std::max(1, snapshot.white_level));
   return std::visit(
       [&](const auto& image) {
-        const auto white = static_cast<unsigned>(snapshot.white_level);
         return reduced(image.width(), image.height(), [&](int x, int y) {
-          const unsigned counts = image(x, y);
-          constexpr unsigned kWhite = 255;  // saturated pixels alone
-          if (counts >= white) return static_cast<std::uint8_t>(kWhite);
-          return static_cast<std::uint8_t>(std::min(kWhite - 1, counts * kWhite / white));
+          return curve[std::min<std::size_t>(image(x, y), curve.size() - 1)];
         });
       },
       *snapshot.frame);

@@ -11,6 +11,7 @@
 #include "frangia/phase/wrap_phase.h"
 #include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/triangulate_view.h"
+#include "frangia/rig/has_geometry.h"
 
 namespace frangia {
 namespace {
@@ -98,7 +99,8 @@ LiveDecode decode_live(std::span<const FrameStack> stacks,
 
 LivePreview::LivePreview(Rig rig, LiveSettings settings, std::function<void()> on_change)
     : rig_(std::move(rig)),
-      rays_(rays_of(rig_.camera.model)),
+      calibrated_(has_geometry(rig_)),
+      rays_(calibrated_ ? rays_of(rig_.camera.model) : Image<Eigen::Vector2f>()),
       on_change_(std::move(on_change)),
       settings_(std::move(settings)) {}
 
@@ -127,6 +129,7 @@ std::optional<PreviewSettings> LivePreview::next_settings() {
   }
   PreviewSettings wanted;
   wanted.camera = active_.capture.camera;
+  active_.capture.exposures_ms.clear();  // of the scan
   wanted.table_rad = active_.table_rad;
   wanted.patterns = active_.pattern == LivePattern::Fringes
                         ? patterns_of(active_.capture, rig_)
@@ -159,7 +162,7 @@ void LivePreview::take(PreviewFrame captured, int white_level) {
       next->decodes_per_s = snapshot_->decodes_per_s;
     }
   }
-  if (missing_ == 0 && active_.pattern == LivePattern::Fringes) {
+  if (missing_ == 0 && active_.pattern == LivePattern::Fringes && calibrated_) {
     // Each frame replaces its predecessor, so that every one gives a new decoded view.
     for (FrameStack& stack : stacks_)
       stack.white_level = white_level;

@@ -23,7 +23,7 @@ namespace frangia {
 /// What a client looks at. A picture layer has one byte for each pixel.
 enum class LiveLayer {
   None,        ///< nothing: no messages
-  Camera,      ///< the newest frame; 255 is saturated
+  Camera,      ///< the newest frame by the curve of sRGB; 255 is saturated
   Phase,       ///< modulo 2 pi of the finest fringes: 1 to 255; 0 is not measured
   Modulation,  ///< of the finest fringes, 255 is half of white
   Status,      ///< PixelStatus of the absolute phase
@@ -74,12 +74,14 @@ struct LiveSnapshot {
 /// called from any thread.
 class LivePreview {
  public:
-  /// `on_change` is called after each snapshot, on the thread of `run`.
+  /// `on_change` is called after each snapshot, on the thread of `run`. Of a rig with start values
+  /// only, the frames are shown and not decoded.
   LivePreview(Rig rig, LiveSettings settings, std::function<void()> on_change);
 
   /// Changes the settings from the next frame on.
   void set(const LiveSettings& settings);
-  [[nodiscard]] LiveSettings settings() const;  ///< as last set
+  [[nodiscard]] LiveSettings settings() const;           ///< as last set
+  [[nodiscard]] const Rig& rig() const { return rig_; }  ///< whose frames are decoded
   /// The newest snapshot; null before the first frame. Asking keeps the preview alive.
   [[nodiscard]] std::shared_ptr<const LiveSnapshot> snapshot() const;
   /// Frames are captured and decoded until `run` is stopped, or until nobody has asked for a
@@ -96,7 +98,8 @@ class LivePreview {
   void take(PreviewFrame captured, int white_level);
 
   Rig rig_;
-  Image<Eigen::Vector2f> rays_;
+  bool calibrated_ = false;
+  Image<Eigen::Vector2f> rays_;  ///< empty for a rig that is not calibrated
   std::function<void()> on_change_;
   mutable std::mutex mutex_;
   LiveSettings settings_;

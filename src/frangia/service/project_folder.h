@@ -35,6 +35,10 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path reference_part() const { return derived / "reference.part"; }
   /// Name and format of the reference, JSON.
   [[nodiscard]] std::filesystem::path reference_name() const { return derived / "reference.json"; }
+  /// Poses of a board, see CalibrationWizard.
+  [[nodiscard]] std::filesystem::path calibration() const { return derived / "calibration"; }
+  /// Residuals of the calibration, JSON.
+  [[nodiscard]] std::filesystem::path residuals() const { return derived / "residuals.json"; }
   /// Folder of the exported files.
   [[nodiscard]] std::filesystem::path exports() const { return derived / "exports"; }
   /// Points of a station, packed by encode_points.

@@ -64,6 +64,16 @@ class StationBook {
     write_stations(project_, stations_);
     on_change_(stations_);
   }
+  /// After a fault or a stop: the station that was being captured is captured again later.
+  void wait_again() {
+    try {
+      change([](std::vector<ProjectStation>& stations) {
+        for (ProjectStation& station : stations)
+          if (station.state == StationState::Capturing) station.state = StationState::Waiting;
+      });
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the fault before says what is wrong
+    }
+  }
   /// The station that is captured when this share of the frames is stored.
   void at_share(double done) {
     const std::lock_guard lock(mutex_);
@@ -233,7 +243,13 @@ CaptureReport capture_project(
     if (run.progress) run.progress(done);
   };
   book.at_share(0.0);
-  const CaptureReport report = capture_scan(plan, devices, lock, options, watched);
+  CaptureReport report;
+  try {
+    report = capture_scan(plan, devices, lock, options, watched);
+  } catch (...) {
+    book.wait_again();
+    throw;
+  }
   book.change([&](std::vector<ProjectStation>& all) {
     for (ProjectStation& station : all)
       station.state = StationState::Done;

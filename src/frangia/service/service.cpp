@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -52,7 +53,10 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"start-scan", &Implementation::start_scan},
       {"rescan-station", &Implementation::rescan_station},
       {"reconstruct", &Implementation::start_reconstruct},
-      {"test-devices", &Implementation::test_devices},
+      {"find-devices", &Implementation::start_find_devices},
+      {"set-devices", &Implementation::start_set_devices},
+      {"test-devices", &Implementation::start_test_devices},
+      {"find-exposure", &Implementation::start_find_exposure},
       {"set-rig", &Implementation::set_rig},
       {"start-calibration", &Implementation::start_calibration},
       {"capture-pose", &Implementation::capture_pose},
@@ -71,6 +75,9 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"stop-job", &Implementation::stop_job}};
   const auto found = kCommands.find(name);
   require(found != kCommands.end(), "there is no such command");
+  static const std::set<std::string> kWithoutFolder = {
+      "create-project", "open-project", "close-project", "find-devices", "stop-job"};
+  if (!kWithoutFolder.contains(name)) require_folder();
   CommandArguments arguments(text);
   return (this->*found->second)(arguments).dump();
 }
@@ -82,6 +89,7 @@ std::string Service::Implementation::state() const {
     view.version = options_.version;
     view.projects = projects_;
     view.project = project_;
+    view.search = search_;
   }
   if (view.project && options_.command_lines)
     view.commands = options_.command_lines(progress_of(*view.project));
@@ -115,6 +123,13 @@ std::string Service::Implementation::cloud(std::size_t station) const {
   constexpr std::uint64_t kMostBytes = 16'000'000;
   return read_text_file(project.cloud(station), kMostBytes);
 }
+std::string Service::Implementation::residuals() const {
+  const auto file = folder().residuals();
+  std::error_code ignored;
+  require(std::filesystem::exists(file, ignored), "this rig was not calibrated in this project");
+  constexpr std::uint64_t kMostBytes = 64'000'000;
+  return read_text_file(file, kMostBytes);
+}
 ExportedFile Service::Implementation::exported(const std::string& name) const {
   const ProjectFolder project = folder();
   for (const ExportEntry& entry : exports_of(project))
@@ -122,20 +137,19 @@ ExportedFile Service::Implementation::exported(const std::string& name) const {
   throw Error(ErrorKind::Input, "there is no exported file of this name; export it first");
 }
 LivePicture Service::Implementation::live_picture(LiveLayer layer, std::uint64_t after) const {
-  std::optional<Rig> rig;
   std::shared_ptr<LivePreview> live;
   std::shared_ptr<CalibrationWizard> wizard;
   {
     const std::lock_guard lock(mutex_);
-    if (!project_ || !project_->rig || layer == LiveLayer::None) return {};
-    rig = project_->rig;
+    if (!project_ || layer == LiveLayer::None) return {};
     live = project_->live;
     wizard = project_->wizard;
   }
   const auto snapshot = live ? live->snapshot() : wizard ? wizard->snapshot() : nullptr;
   if (!snapshot || snapshot->revision == after) return {};
   return {snapshot->revision,
-          std::make_shared<const std::string>(encode_live(*snapshot, layer, *rig))};
+          std::make_shared<const std::string>(
+              encode_live(*snapshot, layer, live ? live->rig() : Rig{}))};
 }
 
 nlohmann::ordered_json Service::Implementation::stop_job(CommandArguments& arguments) {
@@ -257,6 +271,10 @@ std::string Service::cloud(std::size_t station) const {
 
 LivePicture Service::live_picture(LiveLayer layer, std::uint64_t after) const {
   return implementation_->live_picture(layer, after);
+}
+
+std::string Service::residuals() const {
+  return implementation_->residuals();
 }
 
 ExportedFile Service::exported(const std::string& name) const {

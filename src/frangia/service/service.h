@@ -112,6 +112,10 @@ class Service {
   [[nodiscard]] std::string cloud(std::size_t station) const;
   /// The newest picture of a live preview or of a calibration, unless it has the revision `after`.
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
+  /// The residuals of the open project's calibration as a JSON object.
+  ///
+  /// @errors   Error(Input) when no project is open, or it was not calibrated here
+  [[nodiscard]] std::string residuals() const;
   /// A file that was exported.
   ///
   /// @errors   Error(Input) when there is no export of this name

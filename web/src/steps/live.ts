@@ -7,7 +7,7 @@ import { STATUS_COLORS } from '../live_view';
 import { number, t } from '../messages';
 import type { Layer } from '../session';
 import type { LivePattern } from '../types';
-import { choice, plain } from '../ui';
+import { choice, nextStep, plain } from '../ui';
 
 export const LAYERS = ['camera', 'phase', 'modulation', 'status', 'depth', 'points'] as const satisfies readonly Layer[];
 export type LiveLayer = (typeof LAYERS)[number];
@@ -65,12 +65,15 @@ function light(app: App): TemplateResult {
       <dt>${t('scan.points')}</dt><dd class="num" id="live-points">${figures ? number(figures.points) : '·'}</dd>
       <dt>${t('live.decode')}</dt><dd class="num">${figures && figures.decode_ms ? html`${number(figures.decode_ms, 0)}<span>ms</span>` : '·'}</dd>
     </dl>
+    <label class="switch"><span>${t('live.marks')}</span><input id="marks" type="checkbox" .checked=${app.live.marks} @change=${(event: Event) => app.setMarks((event.target as HTMLInputElement).checked)} /></label>
     ${figures?.finding ? html`<p><span class="dot poor"></span>${plain(figures.finding)}</p>` : ''}
   </section>`;
 }
 
 function exposure(app: App): TemplateResult {
   const { capture, scan_begun } = app.project;
+  const several = capture.exposures_ms.length > 1;
+  const fixed = scan_begun || app.occupied;
   const set = (key: 'exposure_ms' | 'gain_db' | 'black_level_counts', value: number) => void app.command('set-capture', { [key]: value });
   const slider = (id: string, label: string, value: number, shown: string, least: number, most: number, step: number, change: (value: number) => void) =>
     html`<label class="slider"
@@ -81,9 +84,28 @@ function exposure(app: App): TemplateResult {
   return html`<section class="group">
     <h2>${t('live.exposure')}${scan_begun ? html`<small>${t('live.fixed')}</small>` : ''}</h2>
     ${slider('exposure', t('live.time'), stepOf(capture.exposure_ms), `${number(capture.exposure_ms, capture.exposure_ms < 10 ? 2 : 1)} ms`, -20, 50, 1, (step) => set('exposure_ms', exposureAt(step)))}
+    <div class="pair">
+      <button class="btn" id="auto-exposure" ?disabled=${fixed} title=${t('live.autoHint')} @click=${() => app.command('find-exposure')}>${icon('sun')}${t('live.auto')}</button>
+      <button class="btn" id="bracket" ?disabled=${fixed} title=${t('live.bracketHint')} @click=${() => app.command('find-exposure', { bracket: true })}>${icon('layers')}${t('live.bracket')}</button>
+    </div>
+    ${exposures(app, several, fixed)}
     ${slider('gain', t('live.gain'), capture.gain_db, `${number(capture.gain_db, 1)} dB`, 0, 24, 0.5, (value) => set('gain_db', value))}
     ${slider('black', t('live.black'), capture.black_level_counts, number(capture.black_level_counts, 0), 0, 32, 1, (value) => set('black_level_counts', value))}
   </section>`;
+}
+
+/** The exposures of each frame of the scan; what several of them measure is merged. */
+function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
+  const { exposures_ms } = app.project.capture;
+  const enter = (event: Event) => {
+    const text = (event.target as HTMLInputElement).value;
+    const values = text.split(/[;\s]+|,(?=\s)|,(?=\d+(?:[.;,\s]|$))/).filter(Boolean).map(Number);
+    if (values.every((value) => value > 0)) void app.command('set-capture', { exposures_ms: values.length > 1 ? values : [] });
+    else app.requestUpdate();
+  };
+  return html`<label class="field"><span>${t('live.exposures')}</span
+      ><input id="exposures" class="num" autocomplete="off" inputmode="decimal" placeholder=${t('live.exposuresHint')} ?disabled=${fixed}
+        .value=${several ? exposures_ms.map((value) => Number(value.toPrecision(3))).join(' ') : ''} @change=${enter} /></label>`;
 }
 
 function fringes(app: App): TemplateResult {
@@ -108,6 +130,9 @@ function fringes(app: App): TemplateResult {
           ${usable.map((one) => html`<option value=${one.name} title=${one.frames} ?selected=${one.name === capture.algorithm}>${one.name}</option>`)}
         </select></label>
     </div>
+    <label class="field"><span>${t('home.stations')}</span
+      ><input id="stations" class="num" type="number" min="1" max="360" ?disabled=${scan_begun} .value=${String(app.project.stations.length)}
+        @change=${(event: Event) => void app.command('set-capture', { stations: Number((event.target as HTMLInputElement).value) })} /></label>
     <label class="slider"
       ><span>${t('live.table')}</span><b class="num">${number(live?.table_deg ?? 0, 0)}°</b>
       <input id="table" type="range" min="0" max="345" step="15" .value=${String(live?.table_deg ?? 0)}
@@ -117,13 +142,14 @@ function fringes(app: App): TemplateResult {
 
 export function liveStep(app: App): TemplateResult {
   const { project } = app;
-  if (!project.can_scan) return html`<section class="group"><p class="quiet">${t('scan.noRig')}</p></section>`;
+  if (!project.can_scan)
+    return html`<section class="group"><p class="quiet">${t(project.scan_complete ? 'scan.noRig' : 'live.noDevices')}</p></section>${project.scan_complete ? '' : nextStep(app, 'rig')}`;
   const job = app.job('live');
   return html`<section class="group">
       ${job
         ? html`<button class="btn wide" id="live-stop" @click=${() => app.command('stop-job', { job: job.number })}>${icon('pause')}${t('live.stop')}</button>`
         : html`<button class="btn primary wide" id="live-start" ?disabled=${app.busy} @click=${() => app.command('start-live')}>${icon('play')}${t('live.start')}</button>`}
-      <p class="quiet">${t('live.lead')}</p>
+      <p class="quiet">${t(project.rig ? 'live.lead' : 'live.leadUncalibrated')}</p>
     </section>
-    ${light(app)}${exposure(app)}${fringes(app)}`;
+    ${light(app)}${exposure(app)}${fringes(app)}${nextStep(app, 'scan')}`;
 }

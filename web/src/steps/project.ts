@@ -2,7 +2,8 @@ import { html, svg, type TemplateResult } from 'lit';
 import type { App } from '../app';
 import { fringePaths } from '../fringes';
 import { icon } from '../icons';
-import { currentLanguage, t } from '../messages';
+import { currentLanguage, type MessageKey, t } from '../messages';
+import { choice } from '../ui';
 
 const FRINGES = fringePaths(720, 420);
 
@@ -18,14 +19,66 @@ function freeName(wanted: string, taken: string[]): string {
   }
 }
 
+/** Where the rig of a new project comes from. */
+export const SOURCES = ['simulated', 'devices', 'file', 'example'] as const;
+export type Source = (typeof SOURCES)[number];
+
+/** The rig.toml among chosen files, and the CSV file with its covariance. */
+async function rigOf(files: FileList): Promise<{ rig: string; covariance: string }> {
+  const texts = { rig: '', covariance: '' };
+  for (const file of files) {
+    const text = await file.text();
+    if (file.name.toLowerCase().endsWith('.csv')) texts.covariance = text;
+    else texts.rig = text;
+  }
+  return texts;
+}
+
+function sourceFields(app: App): TemplateResult {
+  const { state } = app;
+  if (app.source === 'simulated')
+    return html`<label class="field"><span>${t('home.part')}</span
+      ><select name="part">${state.parts.map((part) => html`<option ?selected=${part === 'bust'}>${part}</option>`)}</select></label>`;
+  if (app.source === 'file')
+    return html`<label class="field"><span>${t('home.file')}</span
+      ><input name="files" type="file" accept=".toml,.csv" multiple required /></label>`;
+  if (app.source === 'example')
+    return html`<label class="field"><span>${t('home.example')}</span
+        ><select name="example" @change=${(event: Event) => app.setExample((event.target as HTMLSelectElement).value)}>
+          ${state.examples.map(({ name }) => html`<option value=${name} ?selected=${name === app.example}>${name}</option>`)}
+        </select></label>
+      <p class="quiet note">${state.examples.find(({ name }) => name === app.example)?.description ?? ''}</p>`;
+  return html`<p class="quiet note">${t('home.devicesHint')}</p>`;
+}
+
+function newProject(app: App): TemplateResult {
+  const create = async (event: SubmitEvent) => {
+    event.preventDefault();
+    const form = new FormData(event.target as HTMLFormElement);
+    const common = { name: String(form.get('name')).trim(), stations: Number(form.get('stations')) };
+    const files = (event.target as HTMLFormElement).querySelector<HTMLInputElement>('input[type=file]')?.files;
+    if (app.source === 'simulated') await app.create({ ...common, part: String(form.get('part')) });
+    else if (app.source === 'devices') await app.create({ ...common, devices: true });
+    else if (app.source === 'example') await app.create({ ...common, example: String(form.get('example')) });
+    else if (files) await app.create({ ...common, ...(await rigOf(files)) });
+  };
+  return html`<form class="form" @submit=${(event: SubmitEvent) => void create(event)}>
+    <div class="name">
+      <label class="field"><span>${t('home.name')}</span><input name="name" required maxlength="60" autocomplete="off" /></label>
+      <label class="field"><span>${t('home.stations')}</span
+        ><input name="stations" class="num" type="number" min="2" max="360" value="8" required /></label>
+    </div>
+    <div class="field"><span>${t('home.source')}</span>
+      ${choice<Source>(t('home.source'), app.source, SOURCES.map((source) => [source, t(`home.source.${source}` as MessageKey)] as const), (source) => app.setSource(source))}
+    </div>
+    ${sourceFields(app)}
+    <button class="btn wide">${t('home.create')}</button>
+  </form>`;
+}
+
 export function projectStep(app: App): TemplateResult {
   const state = app.state;
   const taken = state.projects.map((one) => one.name);
-  const create = (event: SubmitEvent) => {
-    event.preventDefault();
-    const form = new FormData(event.target as HTMLFormElement);
-    void app.create(String(form.get('name')).trim(), String(form.get('part')), Number(form.get('stations')));
-  };
   return html`<main class="home">
     <section class="hero">
       <svg class="fringes" viewBox="0 0 760 420" preserveAspectRatio="xMidYMid slice" aria-hidden="true">
@@ -34,7 +87,7 @@ export function projectStep(app: App): TemplateResult {
       <div class="hero-text">
         <h1>${t('home.title')}</h1>
         <p>${t('home.lead')}</p>
-        <button class="btn primary big" id="try" @click=${() => app.create(freeName('bust', taken), 'bust', 8)}>
+        <button class="btn primary big" id="try" @click=${() => app.create({ name: freeName('bust', taken), part: 'bust', stations: 8 })}>
           ${icon('play')}${t('home.try')}
         </button>
         <p class="quiet">${t('home.tryHint')}</p>
@@ -58,16 +111,7 @@ export function projectStep(app: App): TemplateResult {
       </section>
       <section>
         <h2>${t('home.new')}</h2>
-        <form class="form" @submit=${create}>
-          <label class="field"><span>${t('home.name')}</span><input name="name" required maxlength="60" autocomplete="off" /></label>
-          <div class="pair">
-            <label class="field"><span>${t('home.part')}</span
-              ><select name="part">${state.parts.map((part) => html`<option ?selected=${part === 'bust'}>${part}</option>`)}</select></label>
-            <label class="field"><span>${t('home.stations')}</span
-              ><input name="stations" class="num" type="number" min="2" max="72" value="8" required /></label>
-          </div>
-          <button class="btn wide">${t('home.create')}</button>
-        </form>
+        ${newProject(app)}
       </section>
     </div>
   </main>`;

@@ -3,25 +3,13 @@ import type { App } from '../app';
 import type { RigFigure } from '../arrange';
 import { icon } from '../icons';
 import { number, t } from '../messages';
+import { poseTable } from '../residuals';
 import type { Calibration, RigGeometry } from '../types';
-import { plain } from '../ui';
+import { nextStep, plain } from '../ui';
+import { devices } from './rig_devices';
 
-function devices(app: App): TemplateResult {
-  const { project } = app;
-  return html`<section class="group">
-    <h2>${t('rig.devices')}</h2>
-    <div class="devices">
-      ${project.devices.map(
-        (device) => html`<div class="device">
-          <span class="dot ${device.fault ? 'poor' : device.answer ? 'done' : ''}"></span>
-          <div><b>${t(`table.${device.table.split('-')[0] as 'camera'}`)}</b><span class="quiet">${device.name || device.driver}</span>
-            ${device.fault || device.answer ? html`<p class=${device.fault ? 'bad' : 'quiet'}>${device.fault || device.answer}</p>` : ''}</div>
-        </div>`,
-      )}
-    </div>
-    <button class="btn wide" id="test-devices" ?disabled=${app.occupied || !project.can_scan} @click=${() => app.command('test-devices')}>${t('rig.test')}</button>
-  </section>`;
-}
+/** The report of `frangia calibrate rig`, which the calibration writes to the exports. */
+const REPORT = 'calibration.html';
 
 /** One figure of the rig; the picture follows while it is dragged, the rig when it is let go. */
 function figure(app: App, key: RigFigure, label: string, value: number, unit: string): TemplateResult {
@@ -86,6 +74,16 @@ function verdict(state: Calibration): TemplateResult | string {
   </div>`;
 }
 
+/** What the checks of the poses found, in words, and what to do. */
+function doctor(state: Calibration): TemplateResult | string {
+  const { findings, fault } = state;
+  if (!fault && findings.length === 0) return state.verdict ? html`<p class="quiet"><span class="dot done"></span>${t('rig.sound')}</p>` : '';
+  return html`<div class="doctor">
+    <h3>${t('rig.findings')}</h3>
+    ${fault ? html`<p class="bad">${plain(fault)}</p>` : ''} ${findings.map((sentence) => html`<p><span class="dot poor"></span>${plain(sentence)}</p>`)}
+  </div>`;
+}
+
 function calibration(app: App): TemplateResult {
   const { project } = app;
   const state = project.calibration;
@@ -107,17 +105,22 @@ function calibration(app: App): TemplateResult {
             <button class="btn" id="end-poses" ?disabled=${!state.waiting || state.with_board < 3} @click=${() => app.command('end-poses')}>${t('rig.end')}</button>
           </div>
           ${coverage(state)}`
-      : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`}
+      : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`} ${poseTable(app)}`}
+    ${state ? doctor(state) : ''}
+    ${state?.active
+      ? ''
+      : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
           <form class="form-plain" @submit=${start}>
             <div class="four">${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 14, 0.01)}${field('poses', t('rig.poses'), 12)}</div>
-            <button class="btn wide" id="calibrate" ?disabled=${app.occupied || !project.can_scan || project.scan_begun}>${t(state?.verdict ? 'rig.again' : 'rig.start')}</button>
+            <button class="btn wide" id="calibrate" ?disabled=${app.occupied || !project.can_scan || project.scan_begun}>${t(state?.verdict || known ? 'rig.again' : 'rig.start')}</button>
           </form>`}
-    ${state?.findings.map((sentence) => html`<p><span class="dot poor"></span>${plain(sentence)}</p>`) ?? ''}
   </section>`;
 }
 
 export function rigStep(app: App): TemplateResult {
-  const { rig_fault } = app.project;
+  const { project } = app;
   const rig = app.drawnRig;
-  return html`${calibration(app)}${rig ? geometry(app, rig) : html`<section class="group"><p class="quiet">${rig_fault || t('scan.noRig')}</p></section>`}${devices(app)}`;
+  const fault = project.rig_begun ? t('rig.uncalibrated') : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
+  return html`${devices(app)}${project.can_scan || project.calibration ? calibration(app) : ''}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
+    ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live') : ''}`;
 }

@@ -13,19 +13,20 @@
 namespace frangia {
 namespace {
 
+double median_rms_px(const std::vector<ResidualSummary>& by_view) {
+  std::vector<double> errors;
+  for (const ResidualSummary& summary : by_view)
+    if (summary.points > 0) errors.push_back(summary.rms_px);
+  return errors.empty() ? 0.0 : median(errors);
+}
+
 void warn_of_poses(const std::vector<BoardView>& views,
                    const std::vector<ResidualSummary>& by_view,
                    const std::string& device,
                    const CalibrateRigOptions& options,
                    const Run& run) {
-  std::vector<double> errors;
-  for (const ResidualSummary& summary : by_view)
-    if (summary.points > 0) errors.push_back(summary.rms_px);
-  if (errors.empty()) return;
-  const double typical = median(errors);
-  for (std::size_t i = 0; i < by_view.size(); ++i) {
-    if (!(by_view[i].rms_px > std::max(options.outlier_rms * typical, options.outlier_floor_px)))
-      continue;
+  const double typical = median_rms_px(by_view);
+  for (const std::size_t i : outlier_views(by_view, options)) {
     run.warn(fmt::format(
         "{}: the reprojection error of {} is {:.2f} px, {:.1f} times the median of all poses; "
         "the board or the camera moved during its capture, or its corners are blurred or badly lit",
@@ -107,6 +108,16 @@ bool compare_distance(const char* device,
 }
 
 }  // namespace
+
+std::vector<std::size_t> outlier_views(const std::vector<ResidualSummary>& by_view,
+                                       const CalibrateRigOptions& options) {
+  const double limit =
+      std::max(options.outlier_rms * median_rms_px(by_view), options.outlier_floor_px);
+  std::vector<std::size_t> outliers;
+  for (std::size_t i = 0; i < by_view.size(); ++i)
+    if (by_view[i].rms_px > limit) outliers.push_back(i);
+  return outliers;
+}
 
 void warn_of_outliers(const std::vector<BoardView>& views,
                       const RigSolution& solution,

@@ -93,10 +93,28 @@ std::vector<double> CommandArguments::numbers_or_none(const char* key, std::size
   return find(key) == nullptr ? std::vector<double>() : numbers(key, count);
 }
 
+std::optional<std::vector<double>> CommandArguments::list(const char* key, std::size_t most) {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (!value->is_array() || value->size() > most)
+    fail_argument(key, fmt::format("a list of at most {} numbers is missing here", most));
+  return numbers(key, value->size());
+}
+
 bool CommandArguments::flag(const char* key) {
   const nlohmann::json* value = find(key);
-  if (value != nullptr && !value->is_boolean()) fail_argument(key, "is true or false");
-  return value != nullptr && value->get<bool>();
+  if (value == nullptr) return false;
+  if (!value->is_boolean()) fail_argument(key, "true or false is missing here");
+  return value->get<bool>();
+}
+
+std::map<std::string, std::string> CommandArguments::texts(const char* key, std::size_t most) {
+  const nlohmann::json* value = find(key);
+  const auto is_text = [](const nlohmann::json& one) { return one.is_string(); };
+  if (value == nullptr || !value->is_object() || value->size() > most ||
+      !std::all_of(value->begin(), value->end(), is_text))
+    fail_argument(key, fmt::format("an object of at most {} texts is missing here", most));
+  return value->get<std::map<std::string, std::string>>();
 }
 
 void CommandArguments::check_all_read() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,7 +38,11 @@ class CommandArguments {
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count);  ///< required
   /// Likewise, or empty when the key is missing.
   [[nodiscard]] std::vector<double> numbers_or_none(const char* key, std::size_t count);
-  [[nodiscard]] bool flag(const char* key);  ///< true or false; false when the key is missing
+  /// A list of at most `most` numbers, or empty.
+  [[nodiscard]] std::optional<std::vector<double>> list(const char* key, std::size_t most);
+  [[nodiscard]] bool flag(const char* key);  ///< true or false; false without the key
+  /// Texts by name: an object of at most `most` texts; required.
+  [[nodiscard]] std::map<std::string, std::string> texts(const char* key, std::size_t most);
   /// Fails when a key is left that no function has read.
   void check_all_read() const;
 

@@ -33,6 +33,9 @@ class Service::Implementation {
   [[nodiscard]] ProjectFolder folder() const;
   [[nodiscard]] std::string cloud(std::size_t station) const;
   void add_to_reference(std::size_t offset, const std::string& bytes);
+  /// The residuals of the project's calibration, as docs/service-api.md describes them.
+  /// @errors   Error(Input) without a calibration
+  [[nodiscard]] std::string residuals() const;
   [[nodiscard]] ExportedFile exported(const std::string& name) const;
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
 
@@ -50,7 +53,10 @@ class Service::Implementation {
   Json rescan_station(CommandArguments& arguments);
   Json start_reconstruct(CommandArguments& arguments);
 
-  Json test_devices(CommandArguments& arguments);
+  Json start_find_devices(CommandArguments& arguments);
+  Json start_set_devices(CommandArguments& arguments);
+  Json start_test_devices(CommandArguments& arguments);
+  Json start_find_exposure(CommandArguments& arguments);
   Json set_rig(CommandArguments& arguments);
   Json start_calibration(CommandArguments& arguments);
   Json capture_pose(CommandArguments& arguments);
@@ -74,7 +80,14 @@ class Service::Implementation {
   Json started(const char* kind, std::function<void(const Run&)> work);
   Json started_edit(const char* kind, std::function<SurfacePtr(SurfaceModel&, const Run&)> work);
   Json started_edit(std::function<SurfacePtr(SurfaceModel&, const Run&)> work);
+  Json started_live(const LiveSettings& settings);
   void stop_live();
+  /// Reads the rig, its devices and the settings of the capture again.
+  void reload_rig(const ProjectFolder& folder);
+  /// On the queue's thread: tests the devices of the project's rig.
+  void run_device_test(const ProjectFolder& folder, const Run& run);
+  /// @errors   Error(Input) when the folder of the open project was deleted
+  void require_folder() const;
   void require_idle() const;
   /// On the queue's thread.
   void load_surface(const ProjectFolder& project, const Run& run);
@@ -93,11 +106,16 @@ class Service::Implementation {
   std::function<void()> on_change_;
   mutable std::mutex mutex_;
   std::vector<ProjectEntry> projects_;
+  std::shared_ptr<const DeviceSearch> search_;
   std::optional<OpenProject> project_;
   std::unique_ptr<SurfaceModel> model_;  ///< of the queue's thread
   int revision_ = 0;                     ///< of the queue's thread
   JobQueue queue_;                       ///< last: its thread uses everything else
 };
+
+/// Reads the rig of a project, its devices and the settings of the capture into `project`. A
+/// damaged file is reported by the step that needs it.
+void read_rig_of(const ProjectFolder& folder, OpenProject& project);
 
 /// Files in a project's exports, by name.
 [[nodiscard]] std::vector<ExportEntry> exports_of(const ProjectFolder& project);

@@ -1,9 +1,15 @@
+#include <chrono>
 #include <filesystem>
+
+#include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/devices/device_settings.h"
+#include "frangia/devices/device_table.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/service/example_rigs.h"
+#include "frangia/service/given_rig.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/simulated_rig.h"
 
@@ -20,17 +26,11 @@ bool names_devices(const ProjectFolder& project) {
   }
 }
 
-/// The rig and the settings of its capture. A damaged file is reported by the step that needs it.
-void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
-  std::error_code ignored;
+std::optional<Rig> start_values(const std::filesystem::path& file) {
   try {
-    project.rig = std::filesystem::exists(folder.rig(), ignored) ? read_rig(folder.rig())
-                                                                 : std::optional<Rig>();
-    for (DeviceSettings& device : read_device_settings(folder.rig()))
-      project.devices.push_back({.table = device.device(), .driver = device.text_or("driver", "")});
-    project.capture = read_capture_settings(folder.capture());
-  } catch (const Error& error) {
-    project.rig_fault = error.what();
+    return read_rig(file, {}, RigContent::StartValues);
+  } catch (const Error&) {
+    return std::nullopt;  // the complete reading has said what is wrong
   }
 }
 
@@ -46,7 +46,80 @@ std::shared_ptr<FolderLock> lock_of(const ProjectFolder& project) {
   }
 }
 
+std::int64_t written_s(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  if (error) return 0;
+  const auto system = std::chrono::file_clock::to_sys(time);
+  return std::chrono::duration_cast<std::chrono::seconds>(system.time_since_epoch()).count();
+}
+
+/// Writes the rig.toml of a new project.
+struct NewRig {
+  std::string part;      ///< of the simulated rig, unless one of the others is given
+  std::string example;   ///< name
+  GivenRig given;        ///< its text may be empty
+  bool devices = false;  ///< none yet: the devices are chosen in the step Rig
+
+  void write(const ProjectFolder& project) const {
+    if (devices) return;
+    if (!given.rig.empty()) return write_given_rig(project, given);
+    if (!example.empty()) return write_example_rig(project.rig(), example);
+    write_simulated_rig(project.rig(), part);
+  }
+};
+
 }  // namespace
+
+void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
+  project.rig.reset();
+  project.start.reset();
+  project.rig_fault.clear();
+  project.devices.clear();
+  project.can_scan = names_devices(folder) && folder.scan != folder.folder;
+  project.residuals_s = written_s(folder.residuals());
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder.rig(), ignored)) return;
+  try {
+    for (DeviceSettings& device : read_device_settings(folder.rig())) {
+      const DeviceTest untested{.table = device.device(), .driver = device.text_or("driver", "")};
+      project.devices.push_back({untested, device_table_lines(device)});
+    }
+    project.capture = read_capture_settings(folder.capture());
+    project.rig = read_rig(folder.rig());
+  } catch (const Error& error) {
+    project.rig_fault = error.what();
+    project.start = start_values(folder.rig());
+  }
+}
+
+void Service::Implementation::reload_rig(const ProjectFolder& folder) {
+  OpenProject fresh;
+  read_rig_of(folder, fresh);
+  change([&](OpenProject& now) {
+    now.rig = fresh.rig;
+    now.start = fresh.start;
+    now.rig_fault = fresh.rig_fault;
+    for (ProjectDevice& device : fresh.devices)
+      for (const ProjectDevice& known : now.devices)
+        if (known.test.table == device.test.table && known.settings == device.settings)
+          device.test = known.test;
+    now.devices = fresh.devices;
+    now.exports = exports_of(folder);
+    now.can_scan = fresh.can_scan;
+    now.residuals_s = fresh.residuals_s;
+  });
+}
+
+void Service::Implementation::require_folder() const {
+  const std::lock_guard lock(mutex_);
+  std::error_code ignored;
+  if (!project_ || std::filesystem::is_directory(project_->folder.folder, ignored)) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("{}: the folder of this project is gone; put it back, or close the "
+                          "project and open another one",
+                          project_->folder.folder.string()));
+}
 
 void Service::Implementation::open(const ProjectFolder& folder) {
   require_idle();
@@ -58,7 +131,6 @@ void Service::Implementation::open(const ProjectFolder& folder) {
     if (project_ && project_->folder.derived == folder.derived) project.lock = project_->lock;
   }
   if (!project.lock) project.lock = lock_of(folder);
-  project.can_scan = names_devices(folder) && folder.scan != folder.folder;
   std::error_code ignored;
   project.scan_complete = std::filesystem::exists(folder.scan / "scan.toml", ignored);
   project.stations = read_stations(folder);
@@ -84,14 +156,21 @@ void Service::Implementation::open(const ProjectFolder& folder) {
 }
 nlohmann::ordered_json Service::Implementation::create_project(CommandArguments& arguments) {
   const std::string name = arguments.text("name");
-  const std::string part = arguments.text_or("part", "bust");
+  const NewRig rig{.part = arguments.text_or("part", "bust"),
+                   .example = arguments.text_or("example", ""),
+                   .given = {.rig = arguments.text_or("rig", ""),
+                             .covariance = arguments.text_or("covariance", "")},
+                   .devices = arguments.flag("devices")};
   constexpr std::size_t kUsual = 8;
   const std::size_t stations = arguments.whole_or("stations", kUsual, 1, kMostStations);
   arguments.check_all_read();
+  const int sources =
+      (rig.example.empty() ? 0 : 1) + (rig.given.rig.empty() ? 0 : 1) + (rig.devices ? 1 : 0);
+  require(sources <= 1, "example, rig and devices exclude each other; give one of them");
   require_idle();
   const ProjectFolder project = library_.create(name);
   try {
-    write_simulated_rig(project.rig(), part);
+    rig.write(project);
     write_stations(project, planned_stations(stations));
   } catch (const Error&) {
     std::error_code ignored;
@@ -105,7 +184,12 @@ nlohmann::ordered_json Service::Implementation::create_project(CommandArguments&
 nlohmann::ordered_json Service::Implementation::open_project(CommandArguments& arguments) {
   const std::string name = arguments.text("name");
   arguments.check_all_read();
-  open(library_.find(name));
+  try {
+    open(library_.find(name));
+  } catch (const Error&) {
+    refresh_projects();  // it may have been deleted
+    throw;
+  }
   return Json::object();
 }
 nlohmann::ordered_json Service::Implementation::close_project(CommandArguments& arguments) {

@@ -1,54 +1,15 @@
 #include <filesystem>
 #include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/arrange_rig.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/internal/opened_devices.h"
 #include "frangia/service/simulated_rig.h"
 
 namespace frangia {
 namespace {
-
-/// Opens and queries every device of a rig, even if another one fails.
-std::vector<ProjectDevice> tested(const ProjectFolder& project,
-                                  const CaptureSetup& setup,
-                                  const Run& run) {
-  constexpr double kTimeout_s = 10.0;
-  const std::shared_ptr<void> hold = setup.hold_devices ? setup.hold_devices() : nullptr;
-  std::optional<Guardian> guardian;
-  if (setup.guardian) guardian.emplace(*setup.guardian);
-  const Rig rig = read_rig(project.rig(), run, RigContent::StartValues);
-  const auto drivers = setup.drivers();
-  std::vector<Guardian::Watch> watches;
-  std::vector<std::unique_ptr<Device>> opened;  // kept open: tables may share a board
-  std::vector<ProjectDevice> all;
-  for (DeviceSettings& settings : read_device_settings(project.rig())) {
-    ProjectDevice entry{.table = settings.device(), .driver = settings.text_or("driver", "")};
-    try {
-      opened.push_back(
-          driver_for(settings, drivers).open(settings, rig, Deadline::in(kTimeout_s, run.stop)));
-      if (const auto how = opened.back()->safe_off(); how && guardian)
-        watches.push_back(guardian->watch(*how));
-      entry.name = opened.back()->name();
-      entry.answer = opened.back()->test(Deadline::in(kTimeout_s, run.stop));
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::Cancelled) throw;
-      entry.fault = error.what();
-    }
-    all.push_back(std::move(entry));
-  }
-  std::vector<Device*> devices;
-  for (const auto& device : opened)
-    devices.push_back(device.get());
-  make_safe(devices);
-  return all;
-}
 
 /// Replaces a rig.toml; its [devices] tables stay.
 void replace_rig(const std::filesystem::path& file, const Rig& rig) {
@@ -58,20 +19,6 @@ void replace_rig(const std::filesystem::path& file, const Rig& rig) {
 }
 
 }  // namespace
-
-nlohmann::ordered_json Service::Implementation::test_devices(CommandArguments& arguments) {
-  arguments.check_all_read();
-  const OpenProject project = opened();
-  require(project.can_scan, "this project has no rig with devices");
-  return started("devices", [this, folder = project.folder](const Run& run) {
-    const auto found = tested(folder, options_.capture, run);
-    change([&](OpenProject& now) { now.devices = found; });
-    for (const ProjectDevice& device : found) {
-      if (!device.fault.empty())
-        throw Error(ErrorKind::Device, fmt::format("{}: {}", device.table, device.fault));
-    }
-  });
-}
 
 nlohmann::ordered_json Service::Implementation::set_rig(CommandArguments& arguments) {
   const OpenProject project = opened();
@@ -123,10 +70,10 @@ nlohmann::ordered_json Service::Implementation::start_calibration(CommandArgumen
   });
   change([&](OpenProject& now) { now.wizard = wizard; });
   return started("calibrate",
-                 [this, wizard, board, poses, folder = project.folder](const Run& run) {
-                   wizard->run(board, poses, options_.capture, run);
-                   const Rig rig = read_rig(folder.rig(), run);
-                   change([&](OpenProject& now) { now.rig = rig; });
+                 [this, wizard, board, poses, settings = project.capture, folder = project.folder](
+                     const Run& run) {
+                   wizard->run(board, poses, settings, options_.capture, run);
+                   reload_rig(folder);
                  });
 }
 

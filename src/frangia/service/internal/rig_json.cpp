@@ -68,13 +68,31 @@ RigJson json_of_rig(const Rig& rig) {
 RigJson json_of_devices(const std::vector<ProjectDevice>& devices) {
   RigJson all = RigJson::array();
   for (const ProjectDevice& device : devices) {
-    all.push_back({{"table", device.table},
-                   {"driver", device.driver},
-                   {"name", device.name},
-                   {"answer", device.answer},
-                   {"fault", device.fault}});
+    all.push_back({{"table", device.test.table},
+                   {"driver", device.test.driver},
+                   {"settings", device.settings},
+                   {"name", device.test.name},
+                   {"answer", device.test.answer},
+                   {"fault", device.test.fault}});
   }
   return all;
+}
+
+RigJson json_of_search(const DeviceSearch& search) {
+  RigJson json{{"connected", RigJson::array()}, {"drivers", RigJson::array()}};
+  for (const ConnectedDevice& device : search.connected) {
+    json["connected"].push_back({{"table", table_name(device.kind)},
+                                 {"driver", device.driver},
+                                 {"name", device.found.name},
+                                 {"settings", device.found.settings}});
+  }
+  for (const Driver& driver : search.drivers) {
+    json["drivers"].push_back({{"table", table_name(driver.kind)},
+                               {"driver", driver.name},
+                               {"description", driver.description}});
+  }
+  json["warnings"] = search.warnings;
+  return json;
 }
 
 RigJson json_of_wizard(const WizardState& state) {
@@ -92,7 +110,8 @@ RigJson json_of_wizard(const WizardState& state) {
       {"tilts_deg", coverage.tilts_deg},
       {"sufficient", state.sufficient},
       {"next", coverage.next},
-      {"findings", state.findings}};
+      {"findings", state.findings},
+      {"fault", state.fault}};
   json["poses"] = RigJson::array();
   for (const WizardPose& pose : state.poses)
     json["poses"].push_back({{"points", pose.points}, {"expected", pose.expected}});

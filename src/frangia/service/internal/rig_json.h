@@ -13,6 +13,7 @@ namespace frangia {
 /// The geometry of a rig as a client draws it: mm, in the rig frame; poses are row-major 4 x 4.
 [[nodiscard]] nlohmann::ordered_json json_of_rig(const Rig& rig);
 [[nodiscard]] nlohmann::ordered_json json_of_devices(const std::vector<ProjectDevice>& devices);
+[[nodiscard]] nlohmann::ordered_json json_of_search(const DeviceSearch& search);
 [[nodiscard]] nlohmann::ordered_json json_of_wizard(const WizardState& state);
 
 }  // namespace frangia

@@ -8,6 +8,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/phase/published_algorithms.h"
+#include "frangia/service/example_rigs.h"
 #include "frangia/service/internal/rig_json.h"
 #include "frangia/service/internal/surface_json.h"
 #include "frangia/simulate/parts.h"
@@ -63,6 +64,7 @@ Json json_of_capture(const CaptureSettings& settings) {
   return {{"exposure_ms", settings.camera.exposure_ms},
           {"gain_db", settings.camera.gain_db},
           {"black_level_counts", settings.camera.black_level_counts},
+          {"exposures_ms", settings.exposures_ms},
           {"shifts", settings.shifts},
           {"algorithm", settings.algorithm}};
 }
@@ -76,6 +78,8 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
       {"capture", json_of_capture(project.capture)},
       {"rig", project.rig ? json_of_rig(*project.rig) : Json()},
       {"rig_fault", project.rig_fault},
+      {"rig_begun", project.start.has_value()},
+      {"residuals_s", project.residuals_s},
       {"devices", json_of_devices(project.devices)},
       {"live", project.live ? json_of_live(*project.live) : Json()},
       {"calibration", project.wizard ? json_of_wizard(project.wizard->state()) : Json()},
@@ -107,6 +111,10 @@ std::string state_json(const ServiceView& view) {
   for (const PublishedAlgorithm& algorithm : published_algorithms())
     json["algorithms"].push_back(
         {{"name", algorithm.name}, {"frames", describe_frames(algorithm)}});
+  json["examples"] = Json::array();
+  for (const ExampleRig& example : example_rigs())
+    json["examples"].push_back({{"name", example.name}, {"description", description_of(example)}});
+  json["search"] = view.search ? json_of_search(*view.search) : Json();
   json["projects"] = Json::array();
   for (const ProjectEntry& entry : view.projects) {
     json["projects"].push_back({{"name", entry.name},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "frangia/core/folder_lock.h"
+#include "frangia/devices/find_devices.h"
+#include "frangia/devices/test_devices.h"
 #include "frangia/rig/rig.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
@@ -26,13 +29,17 @@ struct ExportEntry {
   std::size_t bytes = 0;
 };
 
-/// A device of the rig and its last test.
+/// A device of the rig and its last test, whose answer is empty before it.
 struct ProjectDevice {
-  std::string table;   ///< "camera", "fringes", ...
-  std::string driver;  ///< as rig.toml names it
-  std::string name;    ///< as the device names itself; empty before a test
-  std::string answer;  ///< to its test
-  std::string fault;   ///< instead of an answer
+  DeviceTest test;
+  std::string settings;  ///< lines of its table in rig.toml
+};
+
+/// What a search for devices found.
+struct DeviceSearch {
+  std::vector<ConnectedDevice> connected;
+  std::vector<Driver> drivers;        ///< all of the program
+  std::vector<std::string> warnings;  ///< of drivers whose search failed
 };
 
 /// A file that the surface is compared with.
@@ -52,8 +59,10 @@ struct OpenProject {
   bool scan_complete = false;        ///< scan.toml exists
   bool scan_begun = false;           ///< frames were captured: settings are fixed
   CaptureSettings capture;
-  std::optional<Rig> rig;
-  std::string rig_fault;  ///< why there is no rig
+  std::optional<Rig> rig;        ///< a calibrated one
+  std::optional<Rig> start;      ///< of one that is not calibrated: what is known before
+  std::string rig_fault;         ///< why there is no calibrated rig
+  std::int64_t residuals_s = 0;  ///< when the residuals of its calibration were written; 0: never
   std::vector<ProjectDevice> devices;
   std::shared_ptr<LivePreview> live;          ///< while a preview runs
   std::shared_ptr<CalibrationWizard> wizard;  ///< since a calibration began
@@ -70,6 +79,7 @@ struct OpenProject {
 struct ServiceView {
   std::string version;
   std::vector<ProjectEntry> projects;
+  std::shared_ptr<const DeviceSearch> search;  ///< null before the first one
   std::optional<OpenProject> project;
   CommandLines commands;  ///< of the project
   std::vector<Job> jobs;

@@ -1,0 +1,45 @@
+#include "frangia/devices/test_devices.h"
+
+#include <memory>
+#include <utility>
+
+#include "frangia/core/error.h"
+#include "frangia/devices/rig_devices.h"
+
+namespace frangia {
+
+std::vector<DeviceTest> test_devices(const std::filesystem::path& rig_file,
+                                     const Rig& rig,
+                                     const std::vector<Driver>& drivers,
+                                     Guardian* guardian,
+                                     const Run& run,
+                                     double timeout_s) {
+  std::vector<Guardian::Watch> watches;
+  std::vector<std::unique_ptr<Device>> opened;  // kept open: tables may share a board
+  std::vector<DeviceTest> all;
+  for (DeviceSettings& settings : read_device_settings(rig_file)) {
+    DeviceTest test{.table = settings.device(), .driver = settings.text_or("driver", "")};
+    try {
+      const Driver& driver = driver_for(settings, drivers);
+      opened.push_back(driver.open(settings, rig, Deadline::in(timeout_s, run.stop)));
+      if (const auto how = opened.back()->safe_off(); how && guardian != nullptr)
+        watches.push_back(guardian->watch(*how));
+      settings.warn_of_unused_keys(run);
+      test.name = opened.back()->name();
+      test.answer = opened.back()->test(Deadline::in(timeout_s, run.stop));
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::Cancelled) throw;
+      test.fault = error.what();
+    }
+    all.push_back(std::move(test));
+  }
+  std::vector<Device*> devices;
+  devices.reserve(opened.size());
+  for (const auto& device : opened)
+    devices.push_back(device.get());
+  make_safe(devices);
+  opened.clear();  // before the guardian's watches end
+  return all;
+}
+
+}  // namespace frangia

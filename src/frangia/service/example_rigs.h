@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace frangia {
+
+/// A rig.toml of the folder examples, as this program was built with it.
+struct ExampleRig {
+  std::string name;  ///< "lab-piezo": its file name without .toml
+  std::string text;  ///< of the file
+};
+
+/// The rigs of the folder examples, by name.
+[[nodiscard]] const std::vector<ExampleRig>& example_rigs();
+
+/// The comment at the beginning of a rig.toml as one paragraph.
+[[nodiscard]] std::string description_of(const ExampleRig& rig);
+
+/// Writes the rig.toml of an example. A simulated rig that names another example as what it is in
+/// truth gets that one as true-rig.toml beside it.
+///
+/// @errors   Error(Input) that lists the examples for an unknown one; Error(File)
+void write_example_rig(const std::filesystem::path& path, const std::string& name);
+
+}  // namespace frangia

@@ -1,0 +1,146 @@
+// The story of rigs: a rig.toml from the browser, devices that are searched for and chosen, a camera that vanishes from the
+// preview, a project folder that is deleted under the server, and a browser without WebGL that scans and exports.
+//
+//   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
+import fs from 'node:fs';
+import path from 'node:path';
+import { expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+
+const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
+const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
+requireChromium();
+const home = newHome();
+fs.mkdirSync(shots, { recursive: true });
+const server = await startServer(program, home);
+let browser;
+let code = 1;
+
+async function waitFor(page, wanted, timeout = 60_000 * slowdown) {
+  const end = Date.now() + timeout;
+  for (;;) {
+    const state = await stateOf(page);
+    if (wanted(state)) return state;
+    expect(Date.now() < end, `the state does not come: ${wanted}; it is ${JSON.stringify({ ...state, algorithms: 0, examples: 0, search: 0 }).slice(0, 2000)}`);
+    await page.waitForTimeout(50);
+  }
+}
+const idle = (page) => waitFor(page, (state) => state.jobs.every((job) => !['waiting', 'running'].includes(job.state)));
+const notice = async (page) => (await page.locator('.notice').first().innerText()).replace(/\s+/g, ' ');
+
+async function create(page, name, source) {
+  await page.keyboard.press('1');
+  await page.waitForSelector('input[name=name]');
+  await page.fill('input[name=name]', name);
+  await page.locator('.form').getByText(source, { exact: true }).click();
+}
+
+try {
+  browser = await launch();
+  const refusals = /status of 400/;  // of a bad rig.toml and of a deleted folder
+  const page = await openPage(browser, server.url, undefined, { expected: refusals });
+  await page.waitForSelector('input[name=name]');
+
+  // An example first: the text explains what it is.
+  await create(page, 'Laboratory', 'Example');
+  await page.waitForSelector('select[name=example]');
+  await page.selectOption('select[name=example]', 'maker-projector');
+  expect((await page.locator('.form .note').innerText()).includes('webcam'), 'the example is not described');
+  await look(page, shots, 'new-example');
+
+  // A project of the user's own devices begins with a search.
+  await create(page, 'Mine', 'My devices');
+  await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('#find-devices');
+  await page.click('#find-devices');
+  await waitFor(page, (state) => state.search !== null);
+  await page.waitForSelector('select[data-table=camera]');
+  await idle(page);
+  expect(await page.locator('#set-devices').isDisabled(), 'no devices are chosen yet');
+  await look(page, shots, 'find-devices');
+
+  // A rig.toml by upload, then other devices for it.
+  await create(page, 'Uploaded', 'rig.toml');
+  await page.setInputFiles('input[type=file]', { name: 'rig.toml', mimeType: 'text/plain', buffer: Buffer.from('format = "frangia-rig"\nversion = 1\n[devices.camera]\ndriver = "folder"\nfolder = "/etc"\n') });
+  await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('.notice');
+  expect((await notice(page)).includes('camera'), `a bad rig.toml is not explained: ${await notice(page)}`);
+  expect(!fs.existsSync(path.join(home, 'projects', 'Uploaded')), 'a refused project leaves a folder');
+  await page.setInputFiles('input[type=file]', path.join(here, '../../examples/simulated-digital.toml'));
+  await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('#choose-devices:not([disabled])');
+  await page.click('#choose-devices');
+  await page.waitForSelector('textarea.lines');
+  await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
+  await page.locator('h2').first().click();
+  await page.click('#set-devices');
+  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 60_000 * slowdown });
+  await idle(page);
+  await look(page, shots, 'chosen-devices');
+
+  // The camera vanishes from the preview: the page says it, and goes on when it is plugged in again.
+  const rig = path.join(home, 'projects', 'Uploaded', 'rig.toml');
+  const whole = fs.readFileSync(rig, 'utf8');
+  fs.writeFileSync(rig, whole.replace('[devices.camera]\n', '[devices.camera]\nfaults = ["unplugged 0 always"]\n'));
+  await page.keyboard.press('3');
+  await page.waitForSelector('.notice', { timeout: 60_000 * slowdown });
+  expect(/camera/.test(await notice(page)), `a camera that vanished is not named: ${await notice(page)}`);
+  await look(page, shots, 'vanished');
+  fs.writeFileSync(rig, whole);
+  await page.click('#live-start:not([disabled])');
+  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000, null, { timeout: 60_000 * slowdown });
+  passed('the preview returns after the camera');
+  await page.click('#auto-exposure');
+  const before = (await stateOf(page)).project.capture.exposure_ms;
+  await waitFor(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null, 90_000 * slowdown);
+  passed(`the exposure is ${(await stateOf(page)).project.capture.exposure_ms.toFixed(1)} ms`);
+
+  // The folder of the project is deleted under the server.
+  await page.keyboard.press('4');
+  await waitFor(page, (state) => state.jobs.every((job) => job.state !== 'running'));
+  fs.rmSync(path.join(home, 'projects', 'Uploaded'), { recursive: true });
+  await page.click('#scan');
+  await page.waitForSelector('.notice');
+  expect(/is gone/.test(await notice(page)), `a deleted folder is not named: ${await notice(page)}`);
+  await look(page, shots, 'deleted');
+  await create(page, 'Plate', 'Simulated');
+  await page.selectOption('select[name=part]', 'plate');
+  await page.fill('input[name=stations]', '3');
+  await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('[data-next=live]');
+  await page.context().close();
+
+  // A browser without WebGL says so; everything but the 3D picture works.
+  await browser.close();
+  browser = await launch({ webgl: false });
+  const plain = await openPage(browser, newLink(program, home));
+  await plain.waitForSelector('#take-over');
+  await plain.click('#take-over');
+  await plain.waitForSelector('#take-over', { state: 'detached' });
+  await plain.getByText('WebGL is off').waitFor();
+  await plain.keyboard.press('3');
+  await plain.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 1000, null, { timeout: 60_000 * slowdown });
+  await look(plain, shots, 'no-webgl-live');
+  await plain.keyboard.press('4');
+  await plain.click('#scan:not([disabled])');
+  await plain.waitForSelector('#build:not([disabled])', { timeout: 120_000 * slowdown });
+  await plain.click('#build');
+  await plain.waitForSelector('.figures', { timeout: 90_000 * slowdown });
+  await idle(plain);
+  await look(plain, shots, 'no-webgl');
+  await plain.keyboard.press('6');
+  await plain.waitForSelector('#undo');
+  await plain.keyboard.press('7');
+  await plain.click('#export');
+  await plain.waitForSelector('.file', { timeout: 60_000 * slowdown });
+  passed('a browser without WebGL scans and exports');
+  code = problems.length === 0 ? 0 : 1;
+} catch (error) {
+  console.log(error.stack ?? error);
+} finally {
+  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
+  await browser?.close();
+  await server.end('SIGTERM');
+  fs.rmSync(home, { recursive: true, force: true });
+}
+passed(code === 0 ? 'the story is told' : 'the story broke off');
+process.exit(code);
