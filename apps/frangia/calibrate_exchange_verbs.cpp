@@ -1,6 +1,8 @@
 #include "calibrate_exchange_verbs.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -31,6 +33,7 @@ struct ImportArguments {
   std::vector<int> camera_size;
   std::vector<int> projector_size;
   std::string unit;
+  std::string second_camera;
 };
 
 std::optional<std::array<int, 2>> size_of(const std::vector<int>& sides) {
@@ -44,6 +47,7 @@ void import_calibration(const ImportArguments& arguments, Terminal& terminal) {
   ImportRigOptions options;
   options.camera_size_px = size_of(arguments.camera_size);
   options.projector_size_px = size_of(arguments.projector_size);
+  options.second_camera = arguments.second_camera;
   if (!arguments.unit.empty()) options.mm_per_unit = parse_length_mm("1" + arguments.unit);
   if (!arguments.base.empty())
     options.base = read_rig(arguments.base, run, RigContent::StartValues);
@@ -52,7 +56,9 @@ void import_calibration(const ImportArguments& arguments, Terminal& terminal) {
   write_rig(arguments.output, rig, Durability::Synced, arguments.base);
   terminal.finish();
   const CameraModel& camera = rig.camera.model;
-  const double baseline_mm = rig.projector.position_mm.norm();
+  const double baseline_mm = arguments.second_camera.empty()
+                                 ? rig.projector.position_mm.norm()
+                                 : rig.more_cameras.front().position_mm.norm();
   if (terminal.json) {
     print_json(
         nlohmann::ordered_json{{"rig", arguments.output.string()},
@@ -84,7 +90,9 @@ void add_import_subcommand(CLI::App& calibrate, Terminal& terminal) {
       "Examples:\n  frangia calibrate import calibration.xml -o rig.toml\n"
       "  frangia calibrate import intrinsics.yml extrinsics.yml --camera-size 1280,1024 \\\n"
       "      --projector-size 1920,1080 -o rig.toml\n"
-      "The first camera of a stereo calibration is the camera, the second one the projector.\n"
+      "The first camera of a stereo calibration is the camera, the second one the projector, or "
+      "with\n"
+      "--second-camera another camera.\n"
       "See docs/calibration.md.");
   verb->add_option("FILES", arguments->files, "files of one calibration")->required();
   verb->add_option("-o,--output", arguments->output, "rig.toml to write")->required();
@@ -101,6 +109,20 @@ void add_import_subcommand(CLI::App& calibrate, Terminal& terminal) {
       ->delimiter(',')
       ->expected(2)
       ->check(from_to(1, 65535));
+  verb->add_option("--second-camera",
+                   arguments->second_camera,
+                   "name of the second camera of a calibration of two cameras; the projector is a "
+                   "label of --projector-size")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char letter) {
+              return std::isalnum(letter) != 0 || letter == '-' || letter == '_';
+            });
+            return plain && !name.empty() && name != "rejected"
+                       ? std::string()
+                       : std::string("use letters, digits, - and _ only");
+          },
+          "NAME"));
   verb->add_option("--unit", arguments->unit, "unit of the calibration: mm, cm, m or in")
       ->check(one_of({"mm", "cm", "m", "in"}));
   verb->callback([arguments, &terminal] { import_calibration(*arguments, terminal); });

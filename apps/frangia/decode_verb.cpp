@@ -126,6 +126,11 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   DecodeTask task{scan, arguments, {}, arguments.options};
   if (has_geometry(scan.rig)) {
     task.rays = rays_of(scan.rig.camera.model);
+    if (!has_absolute_phase(scan.patterns, scan.rig.projector)) {
+      run.warn(
+          "the scan holds neither an absolute pattern nor the laser sheet: phases and depths are "
+          "relative to the fringe through the projection axis, which sigma does not count");
+    }
   } else {
     run.note("rig.toml holds no geometry: no depth is computed");
   }

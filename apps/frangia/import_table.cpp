@@ -58,7 +58,7 @@ std::string import_table(const ImportPlan& plan) {
   };
   for (std::size_t i = 0; i < plan.patterns.size(); ++i) {
     const auto is_shown = [&](const ImportedFrame& frame) {
-      return frame.pattern == i && frame.view == 0;
+      return frame.pattern == i && frame.view == 0 && frame.camera == 0;
     };
     const auto begin = std::find_if(plan.frames.begin(), plan.frames.end(), is_shown);
     const auto end = std::find_if(plan.frames.rbegin(), plan.frames.rend(), is_shown);

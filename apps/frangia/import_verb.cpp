@@ -196,6 +196,8 @@ void add_import_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia import captures -o scan --names \"{pattern}_{frame:02}.bmp\" --fringes "
       "53,58,64 --projector 1280x800\n"
       "  frangia import captures -o scan --layout scan3d-capture --rig rig.toml\n"
+      "  frangia import captures -o scan --names \"{camera}/{frame}.png\" --patterns "
+      "patterns.toml\n"
       "  frangia import stack.tif -o scan --patterns patterns.toml\n"
       "docs/your-own-frames.md leads from a folder of images to a point cloud");
   verb->add_option("FOLDER", arguments->source, "folder with the images, or one file with several")
@@ -203,8 +205,12 @@ void add_import_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("-o,--output", arguments->scan, "new folder for the scan")->required();
   verb->add_option("--names",
                    arguments->options.names,
-                   "template of the file names with {pattern}, {frame} and {view}; {frame:02} is a "
-                   "number of two digits; guessed by default");
+                   "template of the file names with {pattern}, {frame}, {view} and {camera}; "
+                   "{frame:02} is a number of two digits; guessed by default");
+  verb->add_option("--reference",
+                   arguments->options.reference,
+                   "the reference camera among those of {camera}; by default the one that the rig "
+                   "does not name, or the first");
   verb->add_flag("--yes", arguments->yes, "accept a guessed template without a question");
   std::vector<std::string> layouts;
   std::string meanings = "sequence of another program:";

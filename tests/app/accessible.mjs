@@ -61,8 +61,8 @@ try {
   });
   await command(page, 'start-scan');
   await command(page, 'reconstruct');
-  await command(page, 'edit', { operation: 'select-below', value: '0,0,1,1000' }).catch(() => {});
   await command(page, 'edit', { operation: 'fill-holes', value: '5mm' });
+  await command(page, 'select-component-of', { triangle: 0 });
   await command(page, 'export', { format: 'stl' });
   await page.setViewportSize({ width: 1024, height: 700 });
   await inEachLook(async (which) => {

@@ -1,9 +1,9 @@
 // Times of the operator's app in Debian's Chromium with software rendering, for `./run bench` and `./run figures app`.
 //
-//   node figures.mjs PROGRAM [REPEATS]
+//   node figures.mjs PROGRAM [REPEATS] [--json]
 //
-// Prints one JSON object. first_paint_s: from the start of `frangia serve` to the first contentful paint in a browser that
-// is running. live: the preview replays a recorded scan at 640 x 512 through the driver `folder`, while the page shows a
+// Prints one JSON object. first_paint_s: the start of `frangia serve` until it prints its address, and from the navigation
+// there to the first contentful paint, in a browser that is running. live: the preview replays a recorded scan at 640 x 512 through the driver `folder`, while the page shows a
 // layer of it; what the page receives is counted.
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -11,7 +11,8 @@ import path from 'node:path';
 import { expect, launch, newHome, openPage, problems, requireChromium, startServer, stateOf } from './harness.mjs';
 
 const program = path.resolve(process.argv[2]);
-const repeats = Number(process.argv[3] ?? 5);
+const WATCHED_S = 6;
+const repeats = Number(process.argv.slice(3).find((word) => word !== '--json') ?? 5);
 requireChromium();
 const sorted = (values) => [...values].sort((a, b) => a - b);
 const median = (values) => sorted(values)[Math.floor(values.length / 2)];
@@ -20,17 +21,18 @@ async function firstPaint(browser) {
   const home = newHome();
   const begin = Date.now();
   const server = await startServer(program, home);
-  const page = await openPage(browser, server.url);
+  const started = Date.now();
+  const page = await openPage(browser, server.url);  // a tab of its own takes time that a person's browser does not
   const painted = await page.evaluate(async () => {
     const paint = () => performance.getEntriesByName('first-contentful-paint')[0];
     while (!paint()) await new Promise((resolve) => setTimeout(resolve, 10));
-    return performance.timeOrigin + paint().startTime;
+    return paint().startTime;
   });
   await page.waitForSelector('#try');
   await page.context().close();
   await server.end('SIGTERM');
   fs.rmSync(home, { recursive: true, force: true });
-  return (painted - begin) / 1000;
+  return (started - begin + painted) / 1000;
 }
 
 /** The "values" of a packed message. */
@@ -68,11 +70,11 @@ async function live(browser) {
     await page.locator('.layers').getByText(layer, { exact: true }).click();
     await page.waitForTimeout(3000);
     messages.length = 0;
-    await page.waitForTimeout(6000);
+    await page.waitForTimeout(1000 * WATCHED_S);
     const values = messages.filter((message) => message.layer === layer.toLowerCase());
-    expect(values.length > 1 && values.at(-1).points > 5000, `no ${layer} came: ${JSON.stringify(values.at(-1))}`);
+    expect(values.length > 0 && values.at(-1).points > 5000, `no ${layer} came: ${JSON.stringify(values.at(-1))}`);
     shown[layer.toLowerCase()] = {
-      messages_per_s: ((values.length - 1) * 1000) / (values.at(-1).at - values[0].at),
+      messages_per_s: values.length / WATCHED_S,
       decodes_per_s: median(values.map((value) => value.decodes_per_s)),
       decode_ms: median(values.map((value) => value.decode_ms)),
     };

@@ -103,6 +103,51 @@ TEST_F(ImportProgram, CountsTheNoiseOfJpegsInSigma) {
       << warned.output;
 }
 
+TEST_F(ImportProgram, ImportsTwoCamerasWithTheirRig) {
+  ASSERT_EQ(run_shell("mkdir -p " + path("both/left") + " " + path("both/right") + " && cp " +
+                      path("made/views/0") + "/*.png " + path("both/left") + " && cp " +
+                      path("made/views/0") + "/*.png " + path("both/right"))
+                .exit_code,
+            0);
+  const std::string patterns = " --yes --patterns " + path("made/scan.toml");
+  const Answer sizes = run_program("--json import " + path("both") + " -o " + path("sizes") +
+                                   " --reference right --projector 1280x800" + patterns);
+  ASSERT_EQ(sizes.exit_code, 0) << sizes.output;
+  const auto json = nlohmann::json::parse(sizes.output);
+  EXPECT_EQ(json["names"], "{camera}/{pattern}-{frame}.png");
+  EXPECT_TRUE(exists("sizes/views/000/left"));
+  // A calibration of two cameras, as OpenCV's stereo_calib writes it.
+  std::ofstream(path("stereo.yml").substr(1, path("stereo.yml").size() - 2))
+      << "%YAML:1.0\n---\n"
+         "M1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+         "   data: [ 900., 0., 99.5, 0., 900., 79.5, 0., 0., 1. ]\n"
+         "M2: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+         "   data: [ 910., 0., 98.5, 0., 910., 78.5, 0., 0., 1. ]\n"
+         "R: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+         "   data: [ 0.8, 0., 0.6, 0., 1., 0., -0.6, 0., 0.8 ]\n"
+         "T: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ -80., 0., 60. ]\n";
+  const std::string size =
+      fmt::format("{},{}", json["size_px"][0].get<int>(), json["size_px"][1].get<int>());
+  const Answer rig =
+      run_program("calibrate import " + path("stereo.yml") + " -o " + path("rig.toml") +
+                  " --second-camera right --camera-size " + size + " --projector-size 1280,800");
+  ASSERT_EQ(rig.exit_code, 0) << rig.output;
+  EXPECT_NE(rig.output.find("baseline 100.00 mm"), std::string::npos) << rig.output;
+  const Answer scan = run_program("import " + path("both") + " -o " + path("scan") + patterns +
+                                  " --rig " + path("rig.toml"));
+  ASSERT_EQ(scan.exit_code, 0) << scan.output;
+  EXPECT_TRUE(exists("scan/views/000/right"));
+  // position = -R^T T
+  EXPECT_EQ(run_shell("grep -q 'position_mm = \\[100' " + path("scan/rig.toml")).exit_code, 0);
+  ASSERT_EQ(run_shell("mv " + path("both/right") + " " + path("both/camera")).exit_code, 0);
+  const Answer other = run_program("import " + path("both") + " -o " + path("other") + patterns +
+                                   " --rig " + path("rig.toml"));
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.output.find("2 of the cameras camera, left are not in more_cameras"),
+            std::string::npos)
+      << other.output;
+}
+
 TEST_F(ImportProgram, NamesTheOptionOfAFault) {
   const auto complaint = [&](const std::string& options) {
     const Answer answer =

@@ -17,6 +17,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/read_frames.h"
+#include "frangia/dataset/scan_of_camera.h"
 #include "frangia/frames/float_tiff.h"
 #include "frangia/frames/png.h"
 
@@ -99,6 +100,38 @@ TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
   EXPECT_EQ(counts_at(stacks[0].frames[2], 0, 0), 22);
   EXPECT_EQ(scan.rig.camera.model.width_px, 8);
   EXPECT_EQ(scan.rig.camera.white_level, 255);
+}
+
+TEST_F(ImportFrames, PutsEachCamerasFramesIntoAFolderOfItsName) {
+  options.names = "{camera}/{pattern}_{frame:02}.png";
+  options.projector_px = {1280, 800};
+  for (int k = 0; k < 4; ++k) {
+    std::filesystem::create_directories(images() / "left");
+    std::filesystem::create_directories(images() / "right");
+    write(fmt::format("left/a_{:02}.png", k), 10 + k);
+    write<std::uint16_t>(fmt::format("right/a_{:02}.png", k), 100 + k, 10, 4);
+  }
+  expect_complaint("frames of a scan have one depth");
+  for (int k = 0; k < 4; ++k)
+    write(fmt::format("right/a_{:02}.png", k), 100 + k, 10, 4);
+  const Scan scan = import();
+  ASSERT_EQ(scan.rig.more_cameras.size(), 1U);
+  EXPECT_EQ(scan.rig.more_cameras.front().camera.name, "right");
+  EXPECT_EQ(scan.rig.more_cameras.front().camera.model.width_px, 10);
+  EXPECT_TRUE(scan.rig.projector.is_label);
+  EXPECT_EQ(counts_at(read_frames(scan, 0)[0].frames[2], 0, 0), 12);
+  EXPECT_EQ(counts_at(read_frames(scan_of_camera(scan, 1), 0)[0].frames[3], 9, 3), 103);
+}
+
+TEST_F(ImportFrames, RefusesCamerasThatDoNotFitEachOther) {
+  options.names = "{camera}_{frame}.png";
+  for (int k = 0; k < 4; ++k) {
+    write(fmt::format("l_{}.png", k), 10 + k);
+    if (k < 3) write(fmt::format("r_{}.png", k), 10 + k);
+  }
+  expect_complaint("the patterns have 4 frames, but 3 were found, r_0.png to r_2.png");
+  options.reference = "middle";
+  expect_complaint("`reference` is \"middle\", but the cameras are l, r");
 }
 
 TEST_F(ImportFrames, KeepsTheColorOfAWhiteFrameBesideGreyFringes) {

@@ -66,6 +66,8 @@ TEST(GuessNameTemplate, FindsTheUsualForms) {
             "{pattern}-{frame:02}.png");
   EXPECT_EQ(guess_name_template({"v00/1.png", "v00/2.png", "v01/1.png", "v01/2.png"}),
             "v{view:02}/{frame}.png");
+  EXPECT_EQ(guess_name_template({"left/a_0.png", "left/a_1.png", "right/a_0.png"}),
+            "{camera}/a_{frame}.png");
   EXPECT_EQ(guess_name_template({"stack.tif"}), "stack.tif");
   EXPECT_EQ(guess_name_template({"shot0", "shot1"}), "shot{frame}");  // raw files
 }

@@ -29,13 +29,12 @@ Projector far_projector() {
 }
 
 /// Two walls that meet at a right angle in the plane x = 0, open towards the projector, as a mesh
-/// with many triangles along them.
-Mesh right_angle() {
-  constexpr int kAcross = 40;
+/// of this many triangles along each.
+Mesh right_angle(int across = 40) {
   constexpr float kHalf = 1000.0F;
   Mesh mesh;
-  for (int i = -kAcross; i <= kAcross; ++i) {
-    const auto x = static_cast<float>(kWall_mm / std::sqrt(2.0) * i / kAcross);
+  for (int i = -across; i <= across; ++i) {
+    const auto x = static_cast<float>(kWall_mm / std::sqrt(2.0) * i / across);
     for (const float y : {-kHalf, kHalf})
       mesh.vertices_mm.emplace_back(x, y, static_cast<float>(kFar_mm) - std::abs(x));
   }
@@ -75,6 +74,26 @@ View view_of_right_angle(const Image<Eigen::Vector2f>& rays) {
     }
   }
   return view;
+}
+
+TEST(LitSurface, ShadesLargeTrianglesAtACreaseAsTheirFaces) {
+  const auto patterns = patterns_with({16.0});
+  const LitSurface fine(right_angle(), far_projector(), patterns);
+  const LitSurface coarse(right_angle(1), far_projector(), patterns);
+  // 0.3 mm is near the crease: rays must not start farther away from the surface than that.
+  for (const double x_mm : {0.3, 1.0, 5.0, 12.0, 22.0}) {
+    const Eigen::Vector3d ray(x_mm / (kFar_mm - x_mm), 0.0, 1.0);
+    const auto light = [&](const LitSurface& surface) {
+      double distance = 0.0;
+      return surface.light_along(
+          Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), ray, distance);
+    };
+    const double s = x_mm * std::sqrt(2.0);
+    const double factor = 0.5 * (1.0 - s / std::hypot(s, kWall_mm));
+    const PointLight found = light(coarse);
+    EXPECT_NEAR(found.indirect / found.direct, factor, 0.015) << x_mm;
+    EXPECT_NEAR(found.direct / light(fine).direct, 1.0, 0.005) << x_mm;
+  }
 }
 
 TEST(LitSurface, PredictsTheFormFactorAndTheFringesOfARightAngle) {

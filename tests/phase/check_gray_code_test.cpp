@@ -27,7 +27,9 @@ struct CodedScene {
   FrameStack gray;
   FrameStack fringes;
 
-  explicit CodedScene(InvertedFrames inverted = InvertedFrames::None, bool is_binary = false) {
+  explicit CodedScene(InvertedFrames inverted = InvertedFrames::None,
+                      bool is_binary = false,
+                      double (*column_of)(int, int) = coded_column) {
     std::mt19937 generator(3);
     std::normal_distribution<double> noise(0.0, 1.5);
     const auto image_of = [&](const auto& light) {
@@ -35,7 +37,7 @@ struct CodedScene {
       for (int y = 0; y < kCodedHeight; ++y) {
         for (int x = 0; x < kCodedWidth; ++x) {
           image(x, y) = static_cast<std::uint8_t>(
-              std::lround(110.0 + 70.0 * light(coded_column(x, y)) + noise(generator)));
+              std::lround(110.0 + 70.0 * light(column_of(x, y)) + noise(generator)));
         }
       }
       return image;
@@ -89,6 +91,24 @@ TEST(CheckGrayCode, BlamesNoSoundCode) {
       EXPECT_GT(found.agreement, 0.95);
     }
   }
+}
+
+TEST(CheckGrayCode, TakesDepthEdgesForNoBorders) {
+  // The border of the widest stripes lies in the occluded gap, between columns that are no
+  // neighbours: all changes of the first frame are at the depth edge.
+  const auto occluded = [](int x, int y) {
+    return 20.0 + 1.85 * x + 0.37 * y + (x + y / 3 > 150 ? 67.0 : 0.0);
+  };
+  const SequenceCheck found = CodedScene(InvertedFrames::None, false, occluded).check();
+  EXPECT_TRUE(found.decided);
+  EXPECT_TRUE(found.consistent) << describe(found);
+}
+
+TEST(CheckGrayCode, NamesAStartBelowHalfAStripe) {
+  CodedScene scene;
+  for (double& shift : scene.fringes.pattern.shifts_rad)
+    shift -= rad_from_deg(37.0);
+  expect_only_fit(scene.check(), "a start of 0 degrees, not -37 degrees");
 }
 
 TEST(CheckGrayCode, NamesTwoFramesThatAreExchanged) {

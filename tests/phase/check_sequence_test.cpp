@@ -184,6 +184,18 @@ TEST(CheckSequence, NamesAWrongPeriod) {
   }
 }
 
+TEST(CheckSequence, NamesASmallStartOfTheFinestPattern) {
+  // 37 degrees of 64 fringes are 4.6 degrees of 8: much more than their mean, less than chance.
+  const auto declared = whole_counts({1.0, 8.0, 64.0});
+  auto shown = declared;
+  for (double& shift : shown[2].shifts_rad)
+    shift += rad_from_deg(37.0);
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    expect_only(checked(shown, declared, 10 * seed), "p2", "shifts_deg = [37, 127, 217, 307]");
+    EXPECT_TRUE(checked(declared, declared, 10 * seed, 2.2).consistent) << seed;
+  }
+}
+
 TEST(CheckSequence, NamesPatternsThatAreExchanged) {
   const auto declared = whole_counts({53.0, 58.0, 64.0});
   auto shown = declared;

@@ -116,8 +116,16 @@ TEST(FitWaveform, TakesMotionForNeitherHarmonicsNorFlicker) {
     const WaveformFit found = fit_waveform(stack, nominal, noise_of(scene));
     EXPECT_EQ(found.largest_harmonic(), 0) << frames;
     EXPECT_TRUE(found.gains.empty()) << frames;
-    EXPECT_EQ(found.flicker_error_rad, 0.0) << frames;
+    EXPECT_FALSE(found.is_flicker) << frames;
   }
+}
+
+TEST(FitWaveform, CountsFlickerThatLeavesTheResidualOfMotion) {
+  // I1 - I2 + I3 - I4 of gains g, g, -g, -g vanishes at multiple 0 of the phase.
+  const WaveformFit found = fit({.dark_counts = 0.5, .gains = {0.02, 0.02, -0.02, -0.02}}, 4);
+  EXPECT_FALSE(found.is_flicker);
+  // |sum of g_k exp(-i shift_k)| / 2 times A / B, as above; rms over the fringe.
+  EXPECT_NEAR(found.flicker_error_rad, 1.05 * 0.02, 0.004);
 }
 
 TEST(FitWaveform, IgnoresSaturatedPixelsAndCountsThoseCutOffAtZero) {

@@ -1,5 +1,7 @@
 #include "frangia/phase/share_waveforms.h"
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -32,6 +34,20 @@ TEST(ShareWaveforms, KeepsHarmonicsThatNoPatternDetermines) {
   share_waveforms(fits);
   EXPECT_EQ(fits[0].waveform.waveform.amplitude(2), 0.0);
   EXPECT_EQ(fits[1].waveform.waveform.amplitude(2), 0.03);
+}
+
+TEST(ShareWaveforms, GivesAFringeThatDoesNotShowFlickerThatOfTheOthers) {
+  std::vector<FittedAlgorithm> fits = {
+      fit_of(1280.0, 0.0, kUnknown), fit_of(160.0, 0.0, 0.001), fit_of(20.0, 0.0, 0.001)};
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    fits[i].shifts_rad = {0.0, 1.5, 3.0, 4.5};
+    if (i > 0) fits[i].waveform.offset_sigma = 0.001;
+  }
+  fits[1].waveform.flicker_error_rad = 0.03;
+  fits[2].waveform.flicker_error_rad = 0.01;
+  share_waveforms(fits);
+  EXPECT_NEAR(fits[0].waveform.flicker_error_rad, std::sqrt(5e-4), 1e-9);
+  EXPECT_EQ(fits[2].waveform.flicker_error_rad, 0.01);
 }
 
 }  // namespace

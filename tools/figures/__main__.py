@@ -19,7 +19,7 @@ SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misali
             "edits", "decimation", "calibration", "calibration_doctor", "calibration_angular", "maker_path",
             "refine_rig", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead",
             "import_frames", "batch", "file_readers", "harmonics", "indirect_light", "sequence_faults", "two_cameras",
-            "features", "alignment", "deviation", "blade", "cad", "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
+            "app", "features", "alignment", "deviation", "blade", "cad", "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
 
 
 def measure(program, name):

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <string>
@@ -86,6 +87,14 @@ std::string template_of_files(const std::vector<std::string>& files,
   return "{pattern}" + separator + end;
 }
 
+/// Whether a folder is called like a camera: left, right, cam0, camera-b.
+bool is_camera_name(const std::string& folder) {
+  std::string name;
+  for (const char letter : folder)
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return name == "left" || name == "right" || name == "l" || name == "r" || name.starts_with("cam");
+}
+
 }  // namespace
 
 std::string guess_name_template(const std::vector<std::string>& names) {
@@ -107,6 +116,9 @@ std::string guess_name_template(const std::vector<std::string>& names) {
     const std::string& folder = files.begin()->first;
     return folder.empty() ? of_files : with_doubled_braces(folder) + "/" + of_files;
   }
+  if (std::all_of(
+          files.begin(), files.end(), [](const auto& one) { return is_camera_name(one.first); }))
+    return "{camera}/" + of_files;
   std::vector<CutText> cuts;
   for (const auto& [folder, inside] : files) {
     cuts.push_back(cut_at_last_number(folder));

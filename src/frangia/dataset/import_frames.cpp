@@ -1,8 +1,11 @@
 #include "frangia/dataset/import_frames.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
+#include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,13 +83,56 @@ FrameStorage float_storage(const std::vector<WrittenFrame>& frames,
   return storage;
 }
 
+/// Sets the white level of a camera from its grey frames.
+void set_white_level(const ImportPlan& plan,
+                     const std::vector<WrittenFrame>& frames,
+                     Camera& camera,
+                     const Run& run) {
+  const int bits = frames.front().bits;
+  if (plan.options.white_level > 0) {
+    camera.white_level = plan.options.white_level;
+    return;
+  }
+  int largest = 0;
+  for (const WrittenFrame& frame : frames)
+    largest = std::max(largest, frame.largest);
+  const bool fits = camera.white_level >= largest && (bits == 16) == (camera.white_level > 255);
+  const bool computed = bits == 16 && plan.image.bits == 8;  // grey of 8-bit colours, times 257
+  if (computed) {
+    camera.white_level = 65535;
+  } else if (plan.options.rig.empty() || !fits) {
+    camera.white_level = white_level_of(frames, run);
+  }
+}
+
+/// The cameras beside the reference camera: those of the rig, or new ones of which the sizes alone
+/// are known.
+void add_cameras(const ImportPlan& plan, Scan& scan) {
+  if (!plan.options.rig.empty()) return;
+  const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
+  for (std::size_t i = 1; i < plan.cameras.size(); ++i) {
+    PosedCamera posed;
+    posed.camera.name = plan.cameras[i].name;
+    posed.camera.model.width_px = plan.cameras[i].image.width_px;
+    posed.camera.model.height_px = plan.cameras[i].image.height_px;
+    posed.camera.model.focal_px = posed.camera.model.principal_point_px = unknown;
+    posed.position_mm.setConstant(std::nan(""));
+    posed.rotation.setConstant(std::nan(""));
+    scan.rig.more_cameras.push_back(std::move(posed));
+  }
+  // Two cameras need no more of the projector than its size.
+  scan.rig.projector.is_label = !scan.rig.more_cameras.empty();
+}
+
 /// The scan of a plan whose frames were written.
 Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, const Run& run) {
   std::vector<WrittenFrame> frames;  // in grey
-  std::copy_if(
-      written.begin(), written.end(), std::back_inserter(frames), [](const WrittenFrame& frame) {
-        return !frame.is_color;
-      });
+  std::vector<std::vector<WrittenFrame>> of_cameras(plan.cameras.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    if (written[i].is_color) continue;
+    frames.push_back(written[i]);
+    of_cameras[plan.frames[i].camera].push_back(written[i]);
+  }
   require(!frames.empty(), "the images are white or ambient frames alone; add those of patterns");
   Scan scan;
   scan.rig = plan.rig;
@@ -95,31 +141,23 @@ Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, c
     const double angle = plan.options.angles_rad.empty() ? 0.0 : plan.options.angles_rad[view];
     scan.views.push_back({angle, view_folder(view)});
   }
-  Camera& camera = scan.rig.camera;
-  camera.model.width_px = plan.image.width_px;
-  camera.model.height_px = plan.image.height_px;
+  scan.rig.camera.model.width_px = plan.image.width_px;
+  scan.rig.camera.model.height_px = plan.image.height_px;
+  add_cameras(plan, scan);
   const int bits = frames.front().bits;
-  if (bits == 32) {
-    scan.frames = float_storage(frames, plan.options, run);
+  if (bits == 32) scan.frames = float_storage(frames, plan.options, run);
+  for (std::size_t i = 0; i < plan.cameras.size(); ++i) {
+    Camera& camera = i == 0 ? scan.rig.camera : scan.rig.more_cameras[i - 1].camera;
+    if (bits != 32) {
+      set_white_level(plan, of_cameras[i], camera, run);
+      continue;
+    }
     if (camera.noise) {
       run.warn(
           "camera.noise of the rig is left out: its counts are not those of floating-point frames");
     }
     camera.noise.reset();
     camera.white_level = kFloatWhiteLevel;
-  } else if (plan.options.white_level > 0) {
-    camera.white_level = plan.options.white_level;
-  } else {
-    int largest = 0;
-    for (const WrittenFrame& frame : frames)
-      largest = std::max(largest, frame.largest);
-    const bool fits = camera.white_level >= largest && (bits == 16) == (camera.white_level > 255);
-    const bool computed = bits == 16 && plan.image.bits == 8;  // grey of 8-bit colours, times 257
-    if (computed) {
-      camera.white_level = 65535;
-    } else if (plan.options.rig.empty() || !fits) {
-      camera.white_level = white_level_of(frames, run);
-    }
   }
   if (plan.jpeg_quality > 0) {
     const double scale = bits == 16 ? 257.0 : 1.0;  // computed grey values have 16 bits
@@ -128,14 +166,28 @@ Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, c
   return scan;
 }
 
-/// A rig.toml of the camera's size and white level alone.
-void write_camera_only(const fs::path& path, const Camera& camera) {
+/// A rig.toml of sizes and white levels alone.
+void write_sizes_only(const fs::path& path, const ImportPlan& plan, const Rig& rig) {
   TomlWriter writer;
   writer.put("format", std::string("frangia-rig"));
   writer.put("version", 1);
+  const auto put = [&](const Camera& camera) {
+    writer.put("size_px", std::vector<int>{camera.model.width_px, camera.model.height_px});
+    writer.put("white_level", camera.white_level);
+  };
   writer.begin_table("camera");
-  writer.put("size_px", std::vector<int>{camera.model.width_px, camera.model.height_px});
-  writer.put("white_level", camera.white_level);
+  put(rig.camera);
+  for (const PosedCamera& posed : rig.more_cameras) {
+    writer.begin_table_of_list("more_cameras");
+    writer.put("name", posed.camera.name);
+    put(posed.camera);
+  }
+  const auto* const model = std::get_if<PinholeModel>(&rig.projector.model);
+  if (plan.rig_has_projector && model != nullptr) {
+    writer.begin_table("projector");
+    writer.put("model", std::string("label"));
+    writer.put("size_px", std::vector<int>{model->width_px, model->height_px});
+  }
   writer.save(path);
 }
 
@@ -184,7 +236,9 @@ ImportResult import_frames(const ImportPlan& plan, const fs::path& target, const
   Scan inside = scan;
   inside.folder = folder.temporary();
   write_scan(inside);
-  if (!plan.rig_has_projector) write_camera_only(folder.temporary() / "rig.toml", scan.rig.camera);
+  const bool several = plan.options.rig.empty() && plan.cameras.size() > 1;
+  if (!plan.rig_has_projector || several)
+    write_sizes_only(folder.temporary() / "rig.toml", plan, scan.rig);
   folder.commit();
   return result;
 }

@@ -34,7 +34,10 @@ struct ImportOptions {
   std::filesystem::path rig;            ///< rig.toml; empty: sizes alone are known
   std::optional<ProjectorSize> projector_px{};  ///< size of the projector, without `rig`
   std::vector<double> angles_rad;               ///< turntable angles of the views
-  int white_level = 0;                          ///< full scale of the frames; 0: from the frames
+  /// Text of {camera} of the reference camera; empty: the one that `rig` does not name, or the
+  /// first.
+  std::string reference;
+  int white_level = 0;       ///< full scale of the frames; 0: from the frames
   double float_white = 0.0;  ///< full scale of floating-point frames; 0: from the frames
   ColorChoice color;         ///< how colour frames become grey
   ImageFileOptions files;    ///< raw layout, memory
@@ -47,6 +50,13 @@ struct ImportedFrame {
   std::size_t pattern = 0;     ///< index into the patterns
   std::size_t frame = 0;       ///< frame of the pattern
   std::size_t view = 0;        ///< index of the view
+  std::size_t camera = 0;      ///< index into `ImportPlan::cameras`
+};
+
+/// A camera of the images.
+struct ImportedCamera {
+  std::string name;  ///< text of {camera}; empty without that field
+  ImageInfo image;   ///< size and type of its images
 };
 
 /// What an import will do.
@@ -61,12 +71,14 @@ struct ImportPlan {
   std::size_t views = 1;                        ///< number of views
   std::vector<ImportedFrame> frames;            ///< view by view, pattern by pattern
   std::vector<std::filesystem::path> left_out;  ///< images that a scan does not hold
-  ImageInfo image;                              ///< size and type of every image
+  ImageInfo image;                              ///< size and type of the reference camera's images
+  std::vector<ImportedCamera> cameras;          ///< the reference camera first
   int jpeg_quality = 0;                         ///< the lowest of all JPEGs; 0: none is a JPEG
 };
 
 /// Finds the frames in a folder, and checks that they are complete and of one kind. `source` may
-/// also be one file, such as a multi-page TIFF.
+/// also be one file, such as a multi-page TIFF. With {camera} in the template, the images of
+/// several cameras are imported together; each takes all frames of all views.
 ///
 /// @errors   Error(Input) that names the file or option: a template that fits no file, or two files
 ///          for one frame; a missing frame number; frames of different sizes or depths; colour

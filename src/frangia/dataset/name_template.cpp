@@ -61,20 +61,24 @@ void NameTemplate::add_field(const std::string& field) {
   const std::size_t colon = field.find(':');
   const std::string name = field.substr(0, colon);
   std::string width = colon == std::string::npos ? "" : field.substr(colon + 1);
-  static const std::map<std::string, Kind> kKinds = {
-      {"pattern", Kind::PatternText}, {"frame", Kind::FrameNumber}, {"view", Kind::ViewNumber}};
+  static const std::map<std::string, Kind> kKinds = {{"pattern", Kind::PatternText},
+                                                     {"camera", Kind::CameraText},
+                                                     {"frame", Kind::FrameNumber},
+                                                     {"view", Kind::ViewNumber}};
   const auto kind = kKinds.find(name);
   if (kind == kKinds.end()) {
     refuse_template(
         text_,
-        fmt::format("in which {{{}}} is unknown; fields are {{pattern}}, {{frame}} and {{view}}",
+        fmt::format("in which {{{}}} is unknown; fields are {{pattern}}, {{camera}}, {{frame}} and "
+                    "{{view}}",
                     field));
   }
   if (has(kind->second)) refuse_template(text_, fmt::format("in which {{{}}} occurs twice", name));
   if (width.ends_with('d')) width.pop_back();
   const bool number = width.size() <= 2 && std::all_of(width.begin(), width.end(), is_digit);
   const std::size_t digits = number && !width.empty() ? std::stoul(width) : 0;
-  if (!number || digits > kMaxDigits || (kind->second == Kind::PatternText && digits > 0)) {
+  if (!number || digits > kMaxDigits ||
+      ((kind->second == Kind::PatternText || kind->second == Kind::CameraText) && digits > 0)) {
     refuse_template(
         text_,
         fmt::format("in which {{{}}} has no valid width; write a number as in {{frame:02}}",
@@ -120,16 +124,22 @@ void NameTemplate::read_on(std::size_t token, std::size_t at, Search& search) co
     if (fits) read_on(token + 1, at + now.literal.size(), search);
     return;
   }
-  if (now.kind != Kind::PatternText) {
+  if (now.kind == Kind::PatternText || now.kind == Kind::CameraText) {
+    read_text(token, at, search);
+  } else {
     read_number(token, at, search);
-    return;
   }
+}
+
+void NameTemplate::read_text(std::size_t token, std::size_t at, Search& search) const {
+  const std::string& name = search.name;
+  const bool is_pattern = tokens_[token].kind == Kind::PatternText;
+  std::string& field = is_pattern ? search.fields.pattern : search.fields.camera;
   for (std::size_t end = at + 1; end <= name.size() && name[end - 1] != '/'; ++end) {
-    search.fields.pattern = name.substr(at, end - at);
+    field = name.substr(at, end - at);
     const bool known =
-        search.patterns.empty() ||
-        std::find(search.patterns.begin(), search.patterns.end(), search.fields.pattern) !=
-            search.patterns.end();
+        !is_pattern || search.patterns.empty() ||
+        std::find(search.patterns.begin(), search.patterns.end(), field) != search.patterns.end();
     if (known) read_on(token + 1, end, search);
   }
 }

@@ -12,6 +12,7 @@ struct NameFields {
   std::string pattern;         ///< text of {pattern}; empty without that field
   std::optional<int> frame{};  ///< number of {frame}
   std::optional<int> view{};   ///< number of {view}
+  std::string camera{};        ///< text of {camera}; empty without that field
 
   /// Whether all fields are equal.
   friend bool operator==(const NameFields&, const NameFields&) = default;
@@ -19,9 +20,9 @@ struct NameFields {
 
 /// A template of file names such as "{pattern}_{frame:02}.bmp", relative to a folder.
 ///
-/// The fields are {pattern}, a text, {frame} and {view}, numbers. {frame:02} is a number that
-/// printf's "%02d" writes. "{{" and "}}" stand for braces. Other letters stand for themselves,
-/// small or capital. Names may lead into subfolders: "view{view:03}/{frame}.png".
+/// The fields are {pattern} and {camera}, texts, {frame} and {view}, numbers. {frame:02} is a
+/// number that printf's "%02d" writes. "{{" and "}}" stand for braces. Other letters stand for
+/// themselves, small or capital. Names may lead into subfolders: "view{view:03}/{frame}.png".
 class NameTemplate {
  public:
   /// Parses a template.
@@ -34,6 +35,7 @@ class NameTemplate {
   [[nodiscard]] bool has_pattern() const { return has(Kind::PatternText); }  ///< holds {pattern}
   [[nodiscard]] bool has_frame() const { return has(Kind::FrameNumber); }    ///< holds {frame}
   [[nodiscard]] bool has_view() const { return has(Kind::ViewNumber); }      ///< holds {view}
+  [[nodiscard]] bool has_camera() const { return has(Kind::CameraText); }    ///< holds {camera}
   [[nodiscard]] int depth() const;  ///< number of folders that names lead into
 
   /// Returns every reading of a name; none if it does not fit. A reading whose numbers have exactly
@@ -43,7 +45,7 @@ class NameTemplate {
                                               const std::vector<std::string>& patterns = {}) const;
 
  private:
-  enum class Kind { Literal, PatternText, FrameNumber, ViewNumber };
+  enum class Kind { Literal, PatternText, CameraText, FrameNumber, ViewNumber };
   struct Token {
     Kind kind = Kind::Literal;
     std::string literal;
@@ -53,6 +55,7 @@ class NameTemplate {
   [[nodiscard]] bool has(Kind kind) const;
   void add_field(const std::string& field);
   void read_on(std::size_t token, std::size_t at, Search& search) const;
+  void read_text(std::size_t token, std::size_t at, Search& search) const;
   void read_number(std::size_t token, std::size_t at, Search& search) const;
 
   std::string text_;
@@ -61,7 +64,7 @@ class NameTemplate {
 
 /// Guesses the template of a folder's image files: the last number of a name is the frame, what
 /// precedes it is the pattern where it differs, and a number in the names of subfolders is the
-/// view.
+/// view. Subfolders such as left and right, or cam0 and cam1, are cameras.
 ///
 /// @errors   Error(Input) when the names do not suggest a template
 [[nodiscard]] std::string guess_name_template(const std::vector<std::string>& names);

@@ -12,6 +12,7 @@
 #include "frangia/dataset/internal/import_patterns.h"
 #include "frangia/dataset/name_template.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -104,15 +105,42 @@ void check_views(const ImportPlan& plan) {
     refuse_import(
         fmt::format("the folder has {} views on a turntable; set `angles` to theirs", plan.views));
   }
-  const CameraModel& camera = plan.rig.camera.model;
-  if (!plan.options.rig.empty() &&
-      (camera.width_px != plan.image.width_px || camera.height_px != plan.image.height_px)) {
-    refuse_import(fmt::format("the images have {} x {} pixels, but camera.size_px in {} is {} x {}",
-                              plan.image.width_px,
-                              plan.image.height_px,
+  if (plan.options.rig.empty()) return;
+  for (std::size_t i = 0; i < plan.cameras.size(); ++i) {
+    const CameraModel& camera = model_of_camera(plan.rig, i);
+    const ImageInfo& image = plan.cameras[i].image;
+    if (camera.width_px == image.width_px && camera.height_px == image.height_px) continue;
+    refuse_import(fmt::format("the images{} have {} x {} pixels, but {}.size_px in {} is {} x {}",
+                              i == 0 ? "" : fmt::format(" of camera \"{}\"", plan.cameras[i].name),
+                              image.width_px,
+                              image.height_px,
+                              i == 0 ? "camera" : "more_cameras",
                               plan.options.rig.string(),
                               camera.width_px,
                               camera.height_px));
+  }
+}
+
+/// Opens the images of all cameras. They may differ in size, not in depth.
+void check_cameras(std::vector<std::vector<NamedFile>>& files, ImportPlan& plan, const Run& run) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    check_images(files[i], plan, run);
+    plan.cameras[i].image = plan.image;
+  }
+  plan.image = plan.cameras.front().image;
+  for (const ImportedCamera& camera : plan.cameras) {
+    if (camera.image.bits == plan.image.bits && camera.image.channels == plan.image.channels)
+      continue;
+    refuse_import(fmt::format(
+        "the images of camera \"{}\" have {} bits and {} channel{}, those of camera \"{}\" {} and "
+        "{}; frames of a scan have one depth",
+        camera.name,
+        camera.image.bits,
+        camera.image.channels,
+        camera.image.channels == 1 ? "" : "s",
+        plan.cameras.front().name,
+        plan.image.bits,
+        plan.image.channels));
   }
 }
 
@@ -142,10 +170,21 @@ ImportPlan plan_import(const fs::path& source, const ImportOptions& options, con
   std::vector<std::string> described;
   for (const Pattern& pattern : plan.patterns)
     described.push_back(pattern.name);
-  std::vector<NamedFile> files =
-      matching_files(plan.folder, NameTemplate(plan.names), described, run);
-  check_images(files, plan, run);
-  const auto views = sequences_of(files);
+  std::vector<std::vector<NamedFile>> files =
+      files_of_cameras(matching_files(plan.folder, NameTemplate(plan.names), described, run), plan);
+  check_cameras(files, plan, run);
+  std::vector<std::map<int, std::map<std::string, ImageSequence>>> of_cameras;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    of_cameras.push_back(sequences_of(files[i]));
+    if (of_cameras[i].size() == of_cameras[0].size()) continue;
+    refuse_import(fmt::format(
+        "camera \"{}\" has {} views, but camera \"{}\" has {}; each camera takes all views",
+        plan.cameras[i].name,
+        of_cameras[i].size(),
+        plan.cameras[0].name,
+        of_cameras[0].size()));
+  }
+  const auto& views = of_cameras.front();
   plan.views = views.size();
   check_views(plan);
   ImportLayout layout;
@@ -163,9 +202,13 @@ ImportPlan plan_import(const fs::path& source, const ImportOptions& options, con
                                           plan.rig,
                                           plan.rig_has_projector);
   }
-  std::size_t view = 0;
-  for (const auto& [number, images] : views)
-    assign_frames(plan, view++, images, files, known != nullptr ? &layout : nullptr);
+  for (std::size_t camera = 0; camera < files.size(); ++camera) {
+    std::size_t view = 0;
+    for (const auto& [number, images] : of_cameras[camera]) {
+      assign_frames(
+          plan, view++, camera, images, files[camera], known != nullptr ? &layout : nullptr);
+    }
+  }
   return plan;
 }
 

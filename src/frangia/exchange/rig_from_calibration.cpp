@@ -80,10 +80,15 @@ CameraModel imported_model_of(const ForeignLens& lens,
   return model;
 }
 
-void set_pose(Projector& projector,
-              const ForeignCalibration& calibration,
-              const ImportRigOptions& options,
-              const Run& run) {
+/// Pose of the second device in the frame of the first.
+struct ImportedPose {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d position_mm;
+};
+
+ImportedPose imported_pose(const ForeignCalibration& calibration,
+                           const ImportRigOptions& options,
+                           const Run& run) {
   const Eigen::Matrix3d& rotation = *calibration.rotation;
   const double departure = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (!(departure < kRotationTolerance) || rotation.determinant() < 0.0)
@@ -92,13 +97,48 @@ void set_pose(Projector& projector,
   const Eigen::Vector3d translation_mm = scale * *calibration.translation;
   if (!translation_mm.allFinite() || translation_mm.norm() == 0.0)
     fail_import("T of the calibration is 0 or not a number; triangulation needs a baseline");
-  projector.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
-  projector.position_mm = -(projector.rotation.transpose() * translation_mm);
   constexpr double kShortest_mm = 3.0;
   if (!options.mm_per_unit && translation_mm.norm() < kShortest_mm) {
     run.warn(fmt::format("the baseline is {:.4g} mm; if the calibration is in metres, set `unit`",
                          translation_mm.norm()));
   }
+  ImportedPose pose;
+  pose.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  pose.position_mm = -(pose.rotation.transpose() * translation_mm);
+  return pose;
+}
+
+/// Makes the second device of the calibration a camera of the rig, and the projector a label.
+void set_second_camera(const ForeignCalibration& calibration,
+                       const ImportRigOptions& options,
+                       const Run& run,
+                       Rig& rig) {
+  if (!calibration.projector.matrix || !calibration.rotation || !calibration.translation) {
+    fail_import(
+        "the calibration does not state the matrix of a second camera with R and T; name the file "
+        "that holds them as well");
+  }
+  PosedCamera posed;
+  posed.camera.name = options.second_camera;
+  posed.camera.white_level = rig.camera.white_level;
+  posed.camera.model =
+      imported_model_of(calibration.projector, options.camera_size_px, "camera", run);
+  const ImportedPose pose = imported_pose(calibration, options, run);
+  posed.position_mm = pose.position_mm;
+  posed.rotation = pose.rotation;
+  rig.more_cameras = {posed};
+  if (options.base) return;
+  if (!options.projector_size_px)
+    fail_import(
+        "a projector that labels the points of two cameras needs a size; set `projector_size`");
+  PinholeModel model;
+  model.width_px = (*options.projector_size_px)[0];
+  model.height_px = (*options.projector_size_px)[1];
+  model.focal_px = model.principal_point_px = Eigen::Vector2d::Constant(std::nan(""));
+  rig.projector.position_mm.setConstant(std::nan(""));
+  rig.projector.rotation.setConstant(std::nan(""));
+  rig.projector.model = model;
+  rig.projector.is_label = true;
 }
 
 }  // namespace
@@ -114,6 +154,12 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
   }
   if (calibration.camera.matrix)
     rig.camera.model = imported_model_of(calibration.camera, options.camera_size_px, "camera", run);
+  // What was known of the base's uncertainty is not true of the imported values.
+  rig.calibration.reset();
+  if (!options.second_camera.empty()) {
+    set_second_camera(calibration, options, run, rig);
+    return rig;
+  }
   if (calibration.projector.matrix) {
     rig.projector.model =
         imported_model_of(calibration.projector, options.projector_size_px, "projector", run);
@@ -123,14 +169,14 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
         "the projector");
   }
   if (calibration.rotation && calibration.translation) {
-    set_pose(rig.projector, calibration, options, run);
+    const ImportedPose pose = imported_pose(calibration, options, run);
+    rig.projector.rotation = pose.rotation;
+    rig.projector.position_mm = pose.position_mm;
   } else if (!options.base) {
     fail_import(
         "the calibration does not state R and T from camera to projector; name the file that holds "
         "them as well, or set `base` to a rig.toml");
   }
-  // What was known of the base's uncertainty is not true of the imported values.
-  rig.calibration.reset();
   return rig;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "frangia/core/run.h"
 #include "frangia/exchange/foreign_calibration.h"
@@ -14,6 +15,10 @@ struct ImportRigOptions {
   std::optional<std::array<int, 2>> camera_size_px;     ///< width and height
   std::optional<std::array<int, 2>> projector_size_px;  ///< width and height
   std::optional<double> mm_per_unit;                    ///< unit of the translation
+  /// Name of the second camera of a calibration of two cameras; empty: the second one is the
+  /// projector. With a name, `camera_size_px` holds for both cameras, and the projector is a label
+  /// of `projector_size_px`, or that of `base`.
+  std::string second_camera;
   std::optional<Rig> base;  ///< supplies what the calibration does not state, such as the table
 };
 

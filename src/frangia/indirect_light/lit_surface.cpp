@@ -70,22 +70,21 @@ LitSurface::LitSurface(Mesh mesh, Projector projector, std::vector<Pattern> patt
   for (const auto& vertex : scene_.mesh().vertices_mm)
     box.extend(vertex);
   const double size_mm = box.isEmpty() ? 0.0 : static_cast<double>(box.diagonal().norm());
-  step_off_mm_ = std::min(0.5 * step_off_mm_, 1e-3 * size_mm);
+  step_off_mm_ = std::min(0.5 * step_off_mm_, 1e-4 * size_mm);
 }
 
-/// The interpolated normal, unless it leaves the triangle's side.
+/// The interpolated normal. A corner on a crease takes part with the triangle's normal: the normal
+/// of its vertex belongs to neither side, and would tilt the whole triangle.
 Vector3d LitSurface::normal_at(const RayHit& hit) const {
+  constexpr double kMostTilt = 0.95;  // cosine of 18 degrees
   const auto& corners = scene_.mesh().triangles[hit.triangle];
   Vector3d normal = Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d corner = scene_.mesh().normals[corners[k]].cast<double>();
     normal += hit.barycentric[static_cast<Eigen::Index>(k)] *
-              scene_.mesh().normals[corners[k]].cast<double>();
+              (corner.dot(hit.normal) < kMostTilt ? hit.normal : corner);
   }
-  const double length = normal.norm();
-  // Across a crease the interpolated normal belongs to neither side.
-  constexpr double kMostTilt = 0.95;
-  if (!(length > 0.0) || normal.dot(hit.normal) < kMostTilt * length) return hit.normal;
-  return normal / length;
+  return normal.normalized();
 }
 
 double LitSurface::direct_light(const Eigen::Isometry3d& rig_from_object, const Hit& on) const {

@@ -57,7 +57,7 @@ class LitSurface {
   RayScene scene_;
   Projector projector_;
   std::vector<Pattern> patterns_;
-  double step_off_mm_ = 0.0;  ///< of ray origins from the surface: a quarter of an edge
+  double step_off_mm_ = 0.0;  ///< of ray origins from the surface, far below an edge
 };
 
 }  // namespace frangia

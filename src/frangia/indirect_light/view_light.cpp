@@ -36,6 +36,7 @@ ViewLight::ViewLight(const LitSurface& surface,
       rig_from_object_(view.rig_from_object),
       object_from_rig_(view.rig_from_object.inverse()),
       rays_(rays),
+      most_difference_(use == LightUse::Uncertainty ? 0.03 : 0.005),
       relative_(use == LightUse::Uncertainty ? 0.25 : 0.1) {
   constexpr double kSteepest = 3.7;  // tangent of 75 degrees
   const double px = rays.width() > 1 ? static_cast<double>((rays(1, 0) - rays(0, 0)).norm()) : 0.0;
@@ -133,7 +134,6 @@ ViewLight::Node ViewLight::interpolate(int x, int y, double depth_mm) const {
 /// At a crease it changes from node to node. Corners in shadow or in gaps of the surface say
 /// nothing.
 bool ViewLight::differ(const Grid& grid, std::size_t cell) const {
-  constexpr double kMostDifference = 0.03;  // of the direct light
   const std::size_t patterns = surface_.patterns().size();
   std::vector<const PointLight*> lit;
   std::vector<std::complex<double>> mean(patterns, 0.0);
@@ -151,7 +151,7 @@ bool ViewLight::differ(const Grid& grid, std::size_t cell) const {
     if (std::abs(light->direct * count / direct - 1.0) > 0.5) return true;
     for (std::size_t m = 0; m < patterns; ++m) {
       const std::complex<double> usual = mean[m] / count;
-      const double allowed = std::max(kMostDifference, relative_ * std::abs(usual));
+      const double allowed = std::max(most_difference_, relative_ * std::abs(usual));
       if (std::abs(light->fringes[m] / light->direct - usual) > allowed) return true;
     }
   }

@@ -21,11 +21,12 @@ struct IndirectShare {
 };
 
 /// What the prediction for the pixels of a view is for. Interpolated light differs from the nodes
-/// around it by at most 3 % of the direct light, or by the stated share of itself.
+/// around it by at most the stated share of the direct light, or of itself.
 enum class LightUse {
-  FewPixels,    ///< each is traced
-  Correction,   ///< of all pixels: a tenth
-  Uncertainty,  ///< of all pixels: a quarter
+  FewPixels,  ///< each is traced
+  /// Of all pixels: 0.5 % (0.005 rad, as the noise of fine fringes), or a tenth of itself.
+  Correction,
+  Uncertainty,  ///< of all pixels: 3 %, or a quarter of itself
 };
 
 /// The indirect light that one view sees, predicted at the nodes of grids of pixels and
@@ -76,6 +77,7 @@ class ViewLight {
   Eigen::Isometry3d object_from_rig_;
   const Image<Eigen::Vector2f>& rays_;
   double slope_per_px_;      ///< depth over distance of one pixel at 75 degrees of incidence
+  double most_difference_;   ///< of neighbouring nodes that is allowed, of the direct light
   double relative_;          ///< difference of neighbouring nodes that is allowed, of their light
   std::vector<Grid> grids_;  ///< coarse to fine
 };

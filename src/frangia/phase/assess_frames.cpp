@@ -125,6 +125,7 @@ FrameAssessment assess_frames(const FrameStack& stack,
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, nullptr);
   assessment.flicker = fitted.waveform.flicker();
   assessment.flicker_error_rad = fitted.waveform.flicker_error_rad;
+  assessment.is_flicker = fitted.waveform.is_flicker;
   return assessment;
 }
 
@@ -150,12 +151,19 @@ std::vector<std::string> findings(const FrameAssessment& assessment) {
                     "compensated",
                     100.0 * assessment.flicker));
   }
-  if (assessment.flicker_error_rad > 0.0) {
+  if (assessment.flicker_error_rad > 0.0 && !assessment.is_flicker) {
+    out.push_back(fmt::format(
+        "light or shifts that differed between the frames shift the phase by {:.3f} rad rms, which "
+        "is counted in sigma",
+        assessment.flicker_error_rad));
+  } else if (assessment.flicker_error_rad > 0.0) {
     out.push_back(fmt::format(
         "the light flickered between the frames, which shifts the phase by {:.3f} rad rms; {} "
-        "frames do not determine it: take 5 steps or more, or expose for whole periods of the lamp",
+        "frames do not determine it: take {} steps or more, or expose for whole periods of the "
+        "lamp",
         assessment.flicker_error_rad,
-        assessment.frames));
+        assessment.frames,
+        assessment.frames < 5 ? 5 : 8));
   }
   return out;
 }

@@ -35,6 +35,7 @@ struct FrameAssessment {
   bool harmonics_corrected = false;  ///< the effect of the harmonics is removed from the phase
   double flicker = 0.0;              ///< rms gain of the frames, which the algorithm compensates
   double flicker_error_rad = 0.0;    ///< rms phase error due to flicker that is not compensated
+  bool is_flicker = true;            ///< the frames do not suggest that this is motion instead
   /// `unexplained_ratio` exceeds the limit: the object or the rig moved between the frames.
   bool vibration_suspected = false;
 };

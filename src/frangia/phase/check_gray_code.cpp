@@ -1,3 +1,4 @@
+// Above 250 lines: one sample of the pixels, and what is measured on it.
 #include "frangia/phase/check_gray_code.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/missing.h"
 #include "frangia/pattern/gray_code.h"
 #include "frangia/phase/internal/gray_trials.h"
 
@@ -18,6 +20,12 @@ namespace frangia {
 namespace {
 
 constexpr int kGap = 3;  ///< px between the two sides of a border
+
+/// Difference of the phases on both sides of a border from what the slope beside it predicts, from
+/// which on the border is a depth edge.
+constexpr double kSmooth_rad = 0.8;
+/// Depth edges whose phases agree by chance, relative to those that are recognized.
+constexpr double kByChance = kSmooth_rad / (kPi - kSmooth_rad);
 
 /// One sampled pixel: which frames are bright, and the wrapped phase.
 struct CodedPixel {
@@ -74,6 +82,35 @@ class GrayCodeSample {
     return different < 0.005 * static_cast<double>(pixels.size());
   }
 
+  /// The start of the fringes relative to the declared one, from their phases at the borders of
+  /// the stripes; missing where these scatter.
+  [[nodiscard]] double start_offset(const GrayTrial& trial) const {
+    const double period = fringes_.pattern.period_px;
+    double cosine = 0.0;
+    double sine = 0.0;
+    double borders = 0.0;
+    for (std::size_t i = 1; i < pixels.size(); ++i) {
+      const CodedPixel& a = pixels[i - 1];
+      const CodedPixel& b = pixels[i];
+      if (a.line != b.line || b.place - a.place > kGap || !is_smooth(i)) continue;
+      const std::uint32_t first = stripe_of(trial, a);
+      const std::uint32_t second = stripe_of(trial, b);
+      if (first + 1 != second && second + 1 != first) continue;
+      const double column =
+          std::max(first, second) * trial.code.stripe_px - 0.5 - trial.code.offset_px;
+      const double step = wrap_rad(static_cast<double>(b.phase_rad - a.phase_rad));
+      const double found = a.phase_rad + 0.5 * step - kTwoPi * column / period;
+      cosine += std::cos(found);
+      sine += std::sin(found);
+      borders += 1.0;
+    }
+    constexpr double kMinConcentration = 0.7;
+    if (borders < static_cast<double>(options_.min_pixels) ||
+        std::hypot(cosine, sine) < kMinConcentration * borders)
+      return kMissing;
+    return std::atan2(sine, cosine);
+  }
+
   std::vector<CodedPixel> pixels;
 
  private:
@@ -112,11 +149,31 @@ class GrayCodeSample {
     }
     return static_cast<double>(agreeing) / static_cast<double>(pixels.size());
   }
+  /// Whether the phase continues from pixel `i - 1` to pixel `i`: both are on one surface. Depth
+  /// edges are no borders, and may be all of what a frame with wide stripes shows.
+  [[nodiscard]] bool is_smooth(std::size_t i) const {
+    const auto slope_from = [&](std::size_t k, double& sum, double& count) {
+      const CodedPixel& a = pixels[k];
+      const CodedPixel& b = pixels[k + 1];
+      if (a.line != b.line || b.place - a.place > kGap) return;
+      sum += wrap_rad(static_cast<double>(b.phase_rad - a.phase_rad)) / (b.place - a.place);
+      count += 1.0;
+    };
+    double sum = 0.0;
+    double count = 0.0;
+    if (i >= 2) slope_from(i - 2, sum, count);
+    if (i + 1 < pixels.size()) slope_from(i, sum, count);
+    if (count == 0.0) return true;
+    const double predicted = sum / count * (pixels[i].place - pixels[i - 1].place);
+    const auto change = static_cast<double>(pixels[i].phase_rad - pixels[i - 1].phase_rad);
+    return std::abs(wrap_rad(change - predicted)) < kSmooth_rad;
+  }
   /// The least share, over the frames, of the borders of their stripes that lie between
-  /// neighbouring stripes.
+  /// neighbouring stripes, without those at depth edges.
   [[nodiscard]] double border_agreement(const std::vector<std::uint32_t>& stripes) const {
-    std::vector<std::size_t> borders(gray_.frames.size());
-    std::vector<std::size_t> good(gray_.frames.size());
+    std::vector<double> edges(gray_.frames.size());
+    std::vector<double> good(gray_.frames.size());
+    std::vector<double> bad(gray_.frames.size());
     for (std::size_t i = 1; i < pixels.size(); ++i) {
       const CodedPixel& a = pixels[i - 1];
       const CodedPixel& b = pixels[i];
@@ -124,17 +181,18 @@ class GrayCodeSample {
       if (changed == 0 || a.line != b.line || b.place - a.place > kGap) continue;
       const bool neighbours = std::abs(static_cast<std::int64_t>(stripes[i]) -
                                        static_cast<std::int64_t>(stripes[i - 1])) <= 1;
-      for (std::size_t frame = 0; frame < borders.size(); ++frame) {
-        if ((changed >> frame & 1U) == 0) continue;
-        ++borders[frame];
-        good[frame] += neighbours ? 1 : 0;
-      }
+      std::vector<double>& kind = neighbours ? good : is_smooth(i) ? bad : edges;
+      for (std::size_t frame = 0; frame < good.size(); ++frame)
+        if ((changed >> frame & 1U) != 0) kind[frame] += 1.0;
     }
     double least = 1.0;
-    for (std::size_t frame = 0; frame < borders.size(); ++frame) {
-      if (borders[frame] < options_.min_borders) continue;
-      least =
-          std::min(least, static_cast<double>(good[frame]) / static_cast<double>(borders[frame]));
+    for (std::size_t frame = 0; frame < good.size(); ++frame) {
+      const double by_chance = kByChance * edges[frame];
+      constexpr double kSure = 3.0;  // standard deviations of a count
+      const double wrong = std::max(0.0, bad[frame] - by_chance - kSure * std::sqrt(by_chance));
+      const double borders = good[frame] + wrong;
+      if (borders < static_cast<double>(options_.min_borders)) continue;
+      least = std::min(least, good[frame] / borders);
     }
     return least;
   }
@@ -179,6 +237,19 @@ void add_missing_frames(const GrayCodeSample& sample, const Pattern& code, Seque
   }
 }
 
+/// The fringes began at another phase than declared.
+SequenceFault start_fault(const Pattern& fringes, double start_rad) {
+  const double declared_deg = deg_from_rad(fringes.shifts_rad.front());
+  const double start_deg = std::round(declared_deg + deg_from_rad(start_rad));
+  return {SequenceFaultKind::Start,
+          {fringes.name},
+          fmt::format("a start of {:g} degrees, not {:g} degrees",
+                      start_deg - 360.0 * std::floor(start_deg / 360.0),
+                      declared_deg),
+          {},
+          "by the Gray code"};
+}
+
 }  // namespace
 
 SequenceCheck check_gray_code(const FrameStack& gray,
@@ -196,7 +267,15 @@ SequenceCheck check_gray_code(const FrameStack& gray,
   const double declared = sample.score(declared_trial(code));
   out.decided = true;
   out.agreement = declared;
-  if (declared >= options.min_agreement) return out;
+  if (declared >= options.min_agreement) {
+    const double start_rad = sample.start_offset(declared_trial(code));
+    const bool few = fringes.pattern.shifts_rad.size() <= 3;
+    if (!(std::abs(start_rad) > (few ? options.max_start_three_rad : options.max_start_rad)))
+      return out;
+    out.consistent = false;
+    out.fits.push_back(start_fault(fringes.pattern, start_rad));
+    return out;
+  }
   out.consistent = false;
   std::vector<GrayTrial> trials = gray_trials(code, fringes.pattern);
   double best = std::max(options.min_agreement, declared + options.min_gain);

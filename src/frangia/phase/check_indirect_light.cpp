@@ -69,6 +69,16 @@ Image<float> disagreement_of(const WrappedPhase& map, const AbsolutePhase& phase
   return out;
 }
 
+/// The largest systematic error that is known of any pattern: harmonics, flicker, steps.
+double largest_known(std::span<const WrappedPhase> maps) {
+  double largest = 0.0;
+  for (const WrappedPhase& map : maps) {
+    for (const float known : map.systematic_rad.pixels())
+      if (known > largest) largest = static_cast<double>(known);
+  }
+  return largest;
+}
+
 double median_modulation(const WrappedPhase& map) {
   std::vector<float> values;
   constexpr std::size_t kSamples = 20'000;
@@ -88,6 +98,10 @@ IndirectLightCheck check_indirect_light(std::span<const WrappedPhase> coarse_to_
   constexpr double kMaterial_rad = 0.004;  // a third of the noise of bright 8-bit frames
   IndirectLightCheck out;
   if (coarse_to_fine.size() < 2) return out;
+  // Harmonics and flicker of one pattern show those of the others, which may be too small to be
+  // found in their own frames.
+  constexpr double kKnown = 2.0;
+  const double material_rad = std::max(kMaterial_rad, kKnown * largest_known(coarse_to_fine));
   const double coarse = median_modulation(coarse_to_fine.front());
   if (coarse > 0.0) out.modulation_ratio = median_modulation(coarse_to_fine.back()) / coarse;
   Image<float> square(phase.phase_rad.width(), phase.phase_rad.height(), 0.0F);
@@ -109,7 +123,7 @@ IndirectLightCheck check_indirect_light(std::span<const WrappedPhase> coarse_to_
     }
     if (affected == 0.0) continue;
     const double rms = std::sqrt(sum / affected);
-    if (affected / decided < kFound || rms < kMaterial_rad || rms < out.disagreement_rad) continue;
+    if (affected / decided < kFound || rms < material_rad || rms < out.disagreement_rad) continue;
     out.found = true;
     out.affected = affected / decided;
     out.disagreement_rad = rms;

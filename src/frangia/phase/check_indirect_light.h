@@ -10,7 +10,8 @@ namespace frangia {
 /// Whether coarse and fine patterns of a view disagree where the surface is smooth: light that
 /// reaches a point by way of other parts of the surface shifts coarse fringes more than fine ones.
 struct IndirectLightCheck {
-  bool found = false;             ///< more than 1 % of the pixels disagree
+  /// More than 1 % of the pixels disagree, by more than twice the known error of any pattern.
+  bool found = false;
   double affected = 0.0;          ///< share of the pixels that disagree beyond their noise
   double disagreement_rad = 0.0;  ///< RMS over these pixels, of the pattern that disagrees most
   std::string pattern;            ///< that pattern

@@ -8,6 +8,7 @@
 #include "frangia/phase/internal/rank_trials.h"
 #include "frangia/phase/internal/sequence_sample.h"
 #include "frangia/phase/internal/sequence_trials.h"
+#include "frangia/phase/internal/start_offset.h"
 #include "frangia/phase/unwrap_sequence.h"
 
 namespace frangia {
@@ -131,7 +132,13 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   }
   const bool disagree = out.decided && out.misfit_rad > options.max_misfit * out.chance_rad;
   if (out.decided && !disagree && absolute) out.split_rows = sample.split_lines();
-  if (!disagree && out.split_rows <= options.max_split_rows) return out;
+  if (!disagree && out.split_rows <= options.max_split_rows) {
+    if (!out.decided || !absolute) return out;
+    for (SequenceTrial& trial : trials_of_start_offset(sample))
+      out.fits.push_back(std::move(trial.fault));
+    out.consistent = out.fits.empty();
+    return out;
+  }
   out.consistent = false;
   constexpr double kNotWorse = 1.3;  // misfit of a declaration that does not split the surface
   const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);

@@ -39,13 +39,16 @@ void add_contrast_fit(const FringeBins& bins,
   if (amplitude > std::max(options.min_harmonic, kMinContrastHarmonic) &&
       amplitude > options.min_harmonic_sigmas * fit.harmonic_sigma)
     out.waveform.harmonics[i] = fit.harmonic;
+  if (!with_gains) return;
+  // Light that differed between the frames changes the contrast once per fringe, whatever residual
+  // it leaves. Motion may do so, too, and shifts the phase alike.
   const double offset = std::abs(fit.offset);
-  // Four frames tell flicker from motion by its residual; three frames leave none.
-  const bool few = with_gains && shifts_rad.size() < kMinGainFrames &&
-                   (shifts_rad.size() == 3 || residuals.gains_explain);
-  if (few && offset > kMinContrastHarmonic &&
-      offset > options.min_flicker_sigmas * fit.offset_sigma)
+  out.offset_sigma = fit.offset_sigma;
+  if (offset > kMinContrastHarmonic && offset > options.min_flicker_sigmas * fit.offset_sigma)
     out.flicker_error_rad = offset / std::numbers::sqrt2;
+  // Three frames leave no residual.
+  out.is_flicker =
+      out.flicker_error_rad > 0.0 && (shifts_rad.size() == 3 || residuals.gains_explain);
 }
 
 }  // namespace
@@ -93,8 +96,12 @@ WaveformFit fit_waveform(const FrameStack& stack,
   if (!with_gains || frames < kMinGainFrames || !residuals.gains_explain) return out;
   out.gains = residuals.gains;
   const double flicker = out.flicker();
-  if (flicker < options.min_flicker || flicker < options.min_flicker_sigmas * residuals.gain_sigma)
+  if (flicker < options.min_flicker ||
+      flicker < options.min_flicker_sigmas * residuals.gain_sigma) {
     out.gains.clear();
+  } else {
+    out.flicker_error_rad = 0.0;  // is compensated
+  }
   return out;
 }
 

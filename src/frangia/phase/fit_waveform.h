@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "frangia/frames/frame_stack.h"
@@ -20,11 +21,15 @@ struct WaveformFit {
   std::vector<double> gains;
   /// Mean ratio of mean to modulation of the sampled pixels; a gain error acts on the mean.
   double mean_over_modulation = 0.0;
-  /// Rms phase error due to flicker of three or four frames, which do not determine the gains; 0 if
-  /// not significant.
+  /// Rms phase error due to flicker that the frames do not determine, such as that of three or four
+  /// frames, or cannot tell from motion; 0 if not significant.
   ///
   /// @units    rad
   double flicker_error_rad = 0.0;
+  bool is_flicker = false;  ///< the frames do not suggest that it is motion instead
+  /// Standard deviation of the offset from which it follows, relative to the modulation; infinite
+  /// where the frames do not determine it.
+  double offset_sigma = std::numeric_limits<double>::infinity();
 
   /// Returns the order of the largest significant harmonic; 0 if there is none.
   [[nodiscard]] int largest_harmonic() const;

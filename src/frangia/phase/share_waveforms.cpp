@@ -19,6 +19,29 @@ bool determines(const WaveformFit& fit, std::size_t harmonic) {
          std::abs(fit.waveform.harmonics[harmonic]) > kMinSigmas * fit.sigma[harmonic];
 }
 
+/// Largest standard deviation of an offset that frames determine, relative to the modulation.
+constexpr double kMaxOffsetSigma = 0.005;
+
+/// Whether the frames of a digital projector neither determine flicker nor compensate it.
+bool lacks_flicker(const WaveformFit& fit) {
+  return fit.gains.empty() && !(fit.offset_sigma < kMaxOffsetSigma) && fit.flicker_error_rad == 0.0;
+}
+
+/// Rms effect of flicker on the patterns of as many frames that determine it; 0 without any.
+double shared_flicker(std::span<const FittedAlgorithm> fits,
+                      const std::vector<WaveformFit>& own,
+                      std::size_t frames) {
+  double square = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (fits[i].shifts_rad.size() != frames || lacks_flicker(own[i]) || !own[i].gains.empty())
+      continue;
+    square += own[i].flicker_error_rad * own[i].flicker_error_rad;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(square / count) : 0.0;
+}
+
 }  // namespace
 
 void share_waveforms(std::span<FittedAlgorithm> fits) {
@@ -27,6 +50,7 @@ void share_waveforms(std::span<FittedAlgorithm> fits) {
     own.push_back(fit.waveform);
   for (FittedAlgorithm& fit : fits) {
     WaveformFit& to = fit.waveform;
+    if (lacks_flicker(to)) to.flicker_error_rad = shared_flicker(fits, own, fit.shifts_rad.size());
     for (std::size_t harmonic = 0; harmonic < to.sigma.size(); ++harmonic) {
       if (determines(to, harmonic)) continue;
       const WaveformFit* nearest = nullptr;

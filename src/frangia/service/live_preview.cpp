@@ -7,6 +7,8 @@
 
 #include "frangia/core/error.h"
 #include "frangia/phase/assess_frames.h"
+#include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/wrap_phase.h"
 #include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/triangulate_view.h"
 
@@ -39,6 +41,24 @@ std::string finding_of(const DecodedView& view, const ViewFit& fit) {
   return {};
 }
 
+bool is_fringe(const FrameStack& stack) {
+  return stack.pattern.kind == PatternKind::Fringe;
+}
+
+/// The wrapped map of the finest fringes, which two layers show.
+WrappedPhase finest_map(std::span<const FrameStack> stacks,
+                        const NoiseModel& noise,
+                        const DecodeOptions& options) {
+  const auto finer = [](const FrameStack& a, const FrameStack& b) {
+    return is_fringe(b) &&
+           (!is_fringe(a) || a.pattern.fringes_per_unit() < b.pattern.fringes_per_unit());
+  };
+  const FrameStack& finest = *std::max_element(stacks.begin(), stacks.end(), finer);
+  if (!is_fringe(finest)) return {};
+  const FittedAlgorithm fitted = fit_algorithm(options.algorithm, finest, noise);
+  return wrap_phase(finest, fitted.algorithm, noise, options.wrap);
+}
+
 }  // namespace
 
 std::optional<LiveLayer> live_layer_of(const std::string& name) {
@@ -56,9 +76,13 @@ LiveDecode decode_live(std::span<const FrameStack> stacks,
   const auto begin = std::chrono::steady_clock::now();
   DecodeOptions options;
   options.algorithm = settings.capture.algorithm;
+  // One pass over the frames where that is possible: their maps serve reports, not a preview.
+  options.keep_maps = std::count_if(stacks.begin(), stacks.end(), is_fringe) < 2;
   LiveDecode decode;
   decode.angle_rad = settings.table_rad;
   decode.view = decode_view(stacks, rig, rays, options);
+  if (decode.view.wrapped.empty())
+    decode.view.wrapped.push_back(finest_map(stacks, decode.view.noise, options));
   const ViewFit fit = check_view(decode.view, rig, rays, false);
   decode.finding = finding_of(decode.view, fit);
   if (fit.fits()) {

@@ -51,7 +51,7 @@ struct LiveSettings {
 
 /// A decoded view of a preview.
 struct LiveDecode {
-  DecodedView view;          ///< with its wrapped maps
+  DecodedView view;          ///< with the wrapped map of the finest fringes last
   RangeGrid range;           ///< empty for a phase that does not fit the rig
   double angle_rad = 0.0;    ///< of the turntable
   std::size_t points = 0;    ///< measured pixels

@@ -34,8 +34,11 @@ std::string range_text(const ImageSequence& sequence, const std::vector<NamedFil
 /// Assigns the images of one view to the frames of the plan's patterns.
 class FrameAssigner {
  public:
-  FrameAssigner(ImportPlan& plan, const std::vector<NamedFile>& files, const ImportLayout* layout)
-      : plan_(plan), files_(files), layout_(layout) {}
+  FrameAssigner(ImportPlan& plan,
+                std::size_t camera,
+                const std::vector<NamedFile>& files,
+                const ImportLayout* layout)
+      : plan_(plan), camera_(camera), files_(files), layout_(layout) {}
 
   void assign(std::size_t view, const std::map<std::string, ImageSequence>& images) {
     if (images.begin()->first.empty()) {
@@ -47,7 +50,7 @@ class FrameAssigner {
 
  private:
   void add(const NamedImage& image, std::size_t pattern, std::size_t frame, std::size_t view) {
-    plan_.frames.push_back({files_[image.file].path, image.page, pattern, frame, view});
+    plan_.frames.push_back({files_[image.file].path, image.page, pattern, frame, view, camera_});
   }
   /// Images that are numbered through all patterns.
   void assign_sequence(std::size_t view, const ImageSequence& images) {
@@ -110,6 +113,7 @@ class FrameAssigner {
   }
 
   ImportPlan& plan_;
+  std::size_t camera_;
   const std::vector<NamedFile>& files_;
   const ImportLayout* layout_;
 };
@@ -118,10 +122,11 @@ class FrameAssigner {
 
 void assign_frames(ImportPlan& plan,
                    std::size_t view,
+                   std::size_t camera,
                    const std::map<std::string, ImageSequence>& images,
                    const std::vector<NamedFile>& files,
                    const ImportLayout* layout) {
-  FrameAssigner(plan, files, layout).assign(view, images);
+  FrameAssigner(plan, camera, files, layout).assign(view, images);
 }
 
 }  // namespace frangia

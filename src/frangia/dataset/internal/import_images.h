@@ -59,12 +59,21 @@ void check_images(std::vector<NamedFile>& files, ImportPlan& plan, const Run& ru
 [[nodiscard]] std::map<int, std::map<std::string, ImageSequence>> sequences_of(
     const std::vector<NamedFile>& files);
 
-/// Assigns the images of view number `view` to the frames of the plan's patterns, or to those of
-/// `layout`, the sequence of another program, if it is given.
+/// Splits files by their cameras, the reference camera first: sets the names of `plan.cameras`.
+///
+/// @errors   Error(Input) that names a camera that the rig of the options does not hold, or that
+/// the
+///          folder does not
+[[nodiscard]] std::vector<std::vector<NamedFile>> files_of_cameras(std::vector<NamedFile> files,
+                                                                   ImportPlan& plan);
+
+/// Assigns the images of view number `view` and a camera to the frames of the plan's patterns, or
+/// to those of `layout`, the sequence of another program, if it is given.
 ///
 /// @errors   Error(Input) that names a missing or surplus frame
 void assign_frames(ImportPlan& plan,
                    std::size_t view,
+                   std::size_t camera,
                    const std::map<std::string, ImageSequence>& images,
                    const std::vector<NamedFile>& files,
                    const ImportLayout* layout);

@@ -50,19 +50,26 @@ void note_range(const Samples& samples, WrittenFrame& written) {
   }
 }
 
+/// The folder of a view and a camera, relative to the scan.
+fs::path folder_of(const ImportPlan& plan, std::size_t view, std::size_t camera) {
+  const fs::path folder = view_folder(view);
+  return camera == 0 ? folder : folder / plan.cameras[camera].name;
+}
+
 /// Writes one frame into `folder`.
 WrittenFrame write_frame(const ImportPlan& plan,
                          const ImportedFrame& frame,
                          const fs::path& folder) {
   const ImageFile file(frame.file, plan.options.files);
   const ImageInfo& info = file.info();
-  if (info.width_px != plan.image.width_px || info.height_px != plan.image.height_px) {
+  const ImageInfo& planned = plan.cameras[frame.camera].image;
+  if (info.width_px != planned.width_px || info.height_px != planned.height_px) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: changed during the import; import again", frame.file.string()));
   }
   const Pattern& pattern = plan.patterns[frame.pattern];
-  fs::path name =
-      fs::path(view_folder(frame.view)) / frame_file_name(pattern, static_cast<int>(frame.frame));
+  fs::path name = folder_of(plan, frame.view, frame.camera) /
+                  frame_file_name(pattern, static_cast<int>(frame.frame));
   WrittenFrame written{.file = name.generic_string(),
                        .codec = info.codec,
                        .bytes = file.bytes(),
@@ -110,7 +117,8 @@ std::vector<WrittenFrame> write_imported_frames(const ImportPlan& plan,
                                                 const Run& run) {
   constexpr std::size_t kBatch = 8;  // between reports of progress
   for (std::size_t view = 0; view < plan.views; ++view)
-    make_folder(folder / view_folder(view));
+    for (std::size_t camera = 0; camera < plan.cameras.size(); ++camera)
+      make_folder(folder / folder_of(plan, view, camera));
   std::vector<WrittenFrame> written(plan.frames.size());
   for (std::size_t begin = 0; begin < plan.frames.size(); begin += kBatch) {
     run.report(static_cast<double>(begin) / static_cast<double>(plan.frames.size()));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -143,6 +144,12 @@ std::vector<TileEquations> tile_equations(const FringeBins& bins,
   return tiles;
 }
 
+/// Share of the fringe that the pixels of all tiles cover.
+double covered_share(const FringeBins& bins) {
+  const Eigen::ArrayXd counts = bins.tile_count.rowwise().sum();
+  return static_cast<double>((counts > 0.0).count()) / static_cast<double>(kPhaseBins);
+}
+
 }  // namespace
 
 ContrastFit fit_contrast(const FringeBins& bins,
@@ -205,7 +212,13 @@ ContrastFit fit_contrast(const FringeBins& bins,
   out.harmonic_sigma = std::hypot(std::sqrt(0.5 * (variance(0) + variance(1))), third_sigma / mean);
   out.offset = {unknown(2), unknown(3)};
   out.offset_sigma = std::sqrt(0.5 * (variance(2) + variance(3)));
-  out.determined = std::isfinite(out.harmonic_sigma) && std::isfinite(out.offset_sigma);
+  // On part of a fringe, the contrasts of two surfaces pass for an offset.
+  constexpr double kMinCovered = 0.75;
+  if (covered_share(bins) < kMinCovered || !std::isfinite(out.offset_sigma)) {
+    out.offset = 0.0;
+    out.offset_sigma = std::numeric_limits<double>::infinity();
+  }
+  out.determined = std::isfinite(out.harmonic_sigma);
   return out;
 }
 

@@ -15,7 +15,7 @@ struct ContrastFit {
   /// Added to modulation times exp(i phase), relative to the modulation: the effect of unequal
   /// gains of the frames.
   std::complex<double> offset = 0.0;
-  double offset_sigma = 0.0;  ///< of its amplitude
+  double offset_sigma = 0.0;  ///< of its amplitude; infinite if the pixels cover part of a fringe
   bool determined = false;    ///< enough tiles see enough of a fringe
 };
 

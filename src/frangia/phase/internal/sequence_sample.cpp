@@ -173,6 +173,29 @@ double SequenceSample::expected_misfit(std::span<const double> systematic_rad) c
   return median_distance(per_unit, phases);
 }
 
+std::vector<PlacedResiduals> SequenceSample::residuals() const {
+  const std::vector<double> per_unit = frequencies_of({});
+  const Phases phases = phases_of({}, compared_);
+  const auto width = static_cast<std::size_t>(maps_.front().status.width());
+  const auto height = static_cast<double>(maps_.front().status.height());
+  FringeCurve curve(per_unit, first_, last_);
+  std::vector<float> pixel(phases.size());
+  std::vector<PlacedResiduals> out;
+  for (std::size_t i = 0; i < compared_.size(); ++i) {
+    for (std::size_t m = 0; m < phases.size(); ++m)
+      pixel[m] = phases[m][i];
+    const auto unit = static_cast<double>(curve.nearest(pixel).unit);
+    PlacedResiduals placed{
+        .x = static_cast<double>(compared_[i] % width) / static_cast<double>(width),
+        .y = static_cast<double>(compared_[i] / width) / height,
+        .residuals_rad = {}};
+    for (std::size_t m = 0; m < phases.size(); ++m)
+      placed.residuals_rad.push_back(wrap_rad(pixel[m] - kTwoPi * per_unit[m] * unit));
+    out.push_back(std::move(placed));
+  }
+  return out;
+}
+
 double SequenceSample::split_lines(const SequenceTrial& trial) const {
   const int width = maps_.front().status.width();
   const double field = last_ - first_;

@@ -10,6 +10,14 @@
 
 namespace frangia {
 
+/// A sampled pixel: its place in the image, from 0 to 1, and the phase of each map beyond that of
+/// the nearest place of the field.
+struct PlacedResiduals {
+  double x = 0.0;
+  double y = 0.0;
+  std::vector<double> residuals_rad;
+};
+
 /// Lines of pixels of all maps of a sequence, across the fringes, and how well their phases agree.
 class SequenceSample {
  public:
@@ -37,6 +45,8 @@ class SequenceSample {
   /// Median over the pixels of the residual of the fringe fit, per frame, over the modulation; 0
   /// for three frames.
   [[nodiscard]] double fit_residual(const Pattern& pattern, std::size_t frames_of) const;
+  /// The residuals of all pixels as declared.
+  [[nodiscard]] std::vector<PlacedResiduals> residuals() const;
   /// The number of fringes per unit that the frames of a map show if the other maps are right; 0
   /// if the other maps do not determine the place in the field, or if no number fits.
   [[nodiscard]] double shown_frequency(std::size_t map) const;

@@ -61,7 +61,7 @@ Mesh continued_surface(const MeasuredViews& measured,
 FusionOptions coarse_fusion(const MeasuredViews& measured,
                             const Image<Eigen::Vector2f>& rays,
                             FusionOptions options) {
-  constexpr double kVoxel_px = 3.0;
+  constexpr double kVoxel_px = 1.5;
   const auto px = static_cast<double>((rays(1, 0) - rays(0, 0)).norm());
   for (std::size_t i = 0; i < measured.views.size(); ++i) {
     const float depth_mm = median_of_known(measured.views.load_depth_mm(i));

@@ -24,7 +24,8 @@ namespace frangia {
                                      const FusionOptions& fusion,
                                      const Run& run);
 
-/// Options for a surface of three pixels between samples, without systematic parts.
+/// Options for a surface of one and a half pixels between samples, as fine as a crease needs,
+/// without systematic parts.
 [[nodiscard]] FusionOptions coarse_fusion(const MeasuredViews& measured,
                                           const Image<Eigen::Vector2f>& rays,
                                           FusionOptions options);

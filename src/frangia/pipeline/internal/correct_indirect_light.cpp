@@ -67,7 +67,7 @@ bool correct_before_registration(MeasuredViews& measured,
   for (int pass = 0; pass < kPasses; ++pass) {
     // A coarser surface finds out whether there is anything to correct.
     FusionOptions fusion = coarse;
-    if (pass == 0) fusion.voxel_mm *= 2.0;
+    if (pass == 0) fusion.voxel_mm *= 4.0;
     const Mesh surface = surface_or_none(
         [&] { return fuse_views(measured.views, scan.rig.camera.model, fusion, quiet); });
     const auto indirect = predict(measured, surface, scan, rays, decode, coarse, quiet);

@@ -1,0 +1,64 @@
+"""The operator's app: first paint, live preview, large meshes."""
+import json
+import os
+import shutil
+import subprocess
+
+from study import ROOT, NotMeasured
+
+TITLE = "The operator's app"
+
+
+def by_node(study, script, *arguments):
+    """The JSON that a script of tests/app prints in its last line; nothing where that script is missing."""
+    path = ROOT / "tests" / "app" / script
+    if not path.exists():
+        return {}
+    done = subprocess.run(["node", path, study.program, *map(str, arguments)], capture_output=True, text=True,
+                          env={**os.environ, "FRANGIA_WEB": str(study.program.parent.parent / "web")})
+    if done.returncode == 77:
+        raise NotMeasured(done.stdout.strip())
+    if done.returncode != 0:
+        raise RuntimeError(done.stdout + done.stderr)
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def previews(study):
+    """Figures of bench_service by the name of the benchmark."""
+    bench = study.program.parent / "bench_service"
+    if not bench.exists():
+        raise NotMeasured("bench_service is not built: configure with -DFRANGIA_BENCHMARKS=ON")
+    done = subprocess.run([bench, "--benchmark_format=json", "--benchmark_min_time=2"], check=True, capture_output=True, text=True)
+    return {one["name"].split("/")[0]: one for one in json.loads(done.stdout)["benchmarks"]}
+
+
+def measure(study):
+    if not shutil.which("node"):
+        raise NotMeasured("node is missing")
+    page = by_node(study, "figures.mjs")
+    decoded = previews(study)
+    study.add(f"Measured on {os.cpu_count()} cores, in Debian's Chromium with software rendering.\n")
+    study.table("", "measured", "wanted")
+    paint = page["first_paint_s"]
+    study.row("first paint after `frangia serve`, in a browser that is running", f"{paint['median']:.2f} s ({paint['least']:.2f} to {paint['most']:.2f})", "1 s")
+    for layer, what in (("depth", "depth"), ("points", "points in 3D")):
+        live = page["live"][layer]
+        study.row(f"live preview of recorded frames, 640 x 512, shown as {what}: decoded previews", f"{live['decodes_per_s']:.1f} a second", "5 a second")
+    for name, what, wanted in (("preview_simulated_rig", "12 frames of 640 x 512 to points and message, without a browser", "200 ms"),
+                               ("preview_four_frames_1_3_mpx", "4 frames of 1280 x 1024 to points and message, without a browser", "125 ms")):
+        one = decoded[name]
+        study.row(what, f"{one['real_time']:.0f} ms, {one['processor_ms']:.0f} ms of processor", wanted)
+    large = by_node(study, "large_mesh.mjs", "--json")
+    for key, (what, unit, wanted) in LARGE.items():
+        if key in large:
+            study.row(what, f"{large[key]:.3g} {unit}", wanted)
+
+
+LARGE = {
+    "first_picture_s": ("a mesh of 1 M triangles on screen", "s", "3 s"),
+    "orbit_frame_ms": ("a frame while orbiting it", "ms", ""),
+    "rest_frame_ms": ("a frame of it at rest", "ms", ""),
+    "lasso_ms": ("lasso over 100 000 triangles, to its picture", "ms", "500 ms"),
+    "undo_ms": ("undo", "ms", "300 ms"),
+    "redo_ms": ("redo", "ms", "300 ms"),
+}
