@@ -139,7 +139,7 @@ try {
     return viewer(() => window.timing);
   };
   const selects = 'app.project.surface.selected > 0 && app.meshes.selectionShown === app.project.surface.selection_revision';
-  await lasso(0.1);
+  await lasso(0.15);
   figures.lasso_ms = await timed(() => page.mouse.up(), selects);
   figures.lasso_triangles = (await stateOf(page)).project.surface.selected;
   await page.waitForFunction(() => !document.querySelector('.foot .bar'));

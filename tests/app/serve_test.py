@@ -276,13 +276,22 @@ class Serve(unittest.TestCase):
         check("error", json.loads(self.server.ask("POST", "/api/commands/nothing", {})[2]))
         check("error", json.loads(self.server.ask("GET", "/api/state", key=None)[2]))
         check("error", json.loads(self.server.ask("GET", "/api/mesh")[2]))
+        def example(rule):
+            """A value that a rule of the schema allows."""
+            if "$ref" in rule:
+                return example(schema["definitions"][rule["$ref"].split("/")[-1]])
+            return rule["enum"][0] if "enum" in rule else {"string": "x", "integer": rule.get("minimum", 0)}.get(rule["type"], 1.5)
+
         # What the schema calls a command, the server knows; what it forbids, the server refuses.
         for name, arguments in schema["definitions"]["commands"].items():
             status, _, body = self.server.ask("POST", f"/api/commands/{name}", {"no such argument": 1})
             self.assertEqual(status, 400, name)
             self.assertNotIn("no such command", json.loads(body)["error"])
-            for missing in arguments.get("required", []):
-                self.assertIn(missing, json.loads(self.server.ask("POST", f"/api/commands/{name}", {})[2])["error"], name)
+            given = {key: example(arguments["properties"][key]) for key in arguments.get("required", [])}
+            for missing in given:
+                others = {key: value for key, value in given.items() if key != missing}
+                error = json.loads(self.server.ask("POST", f"/api/commands/{name}", others)[2])["error"]
+                self.assertIn(missing, error, name)
 
 
 if __name__ == "__main__":

@@ -69,7 +69,12 @@ try {
   browser = await launch();
   const page = await openPage(browser, server.url);
   const look = (name) => lookAt(page, shots, name);
-  const state = async () => (await stateOf(page)).project;
+  // As the page knows it, which hears of a change a moment after the server made it, and has drawn it.
+  const state = () => page.evaluate(async () => {
+    const app = document.querySelector('frangia-app');
+    await app.updateComplete;
+    return app.state.project;
+  });
   const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 90_000 * slowdown });
   const until = async (what, wanted) => {
     const end = Date.now() + 60_000 * slowdown;

@@ -1,3 +1,4 @@
+// Above 250 lines: the commands and resources of one class, side by side.
 #include "frangia/service/service.h"
 
 #include <cmath>

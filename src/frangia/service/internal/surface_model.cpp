@@ -1,3 +1,4 @@
+// Above 250 lines: the edits, previews and comparisons of one model share its history.
 #include "frangia/service/internal/surface_model.h"
 
 #include <algorithm>
