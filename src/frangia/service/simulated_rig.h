@@ -13,10 +13,6 @@ namespace frangia {
 /// @errors   Error(Input) that lists the parts for an unknown one; Error(File)
 void write_simulated_rig(const std::filesystem::path& path, const std::string& part);
 
-/// Exposure at which the simulated rig uses the range of its camera on its parts without
-/// saturation.
-inline constexpr double kSimulatedExposure_ms = 10.0;
-
 /// The file beside a rig.toml that states what its simulated devices are.
 [[nodiscard]] std::filesystem::path true_rig_beside(const std::filesystem::path& rig);
 
