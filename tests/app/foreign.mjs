@@ -107,7 +107,7 @@ try {
   const page = await openPage(browser, server.url);
   await page.waitForSelector('#try');
   await page.click('#try');
-  await page.waitForSelector('#scan');
+  await page.waitForSelector('#test-devices');  // of the step Rig, where a new project begins
   const before = JSON.stringify((await stateOf(page)).project);
   const key = await page.evaluate(() => sessionStorage.getItem('frangia-key'));
   const unchanged = async (after) => expect(JSON.stringify((await stateOf(page)).project) === before, `${after} acted`);

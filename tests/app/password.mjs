@@ -23,7 +23,7 @@ try {
   await page.click('#take-over');
   await page.waitForSelector('#take-over', { state: 'detached' });
   await page.click('#try');
-  await page.waitForSelector('#scan');
+  await page.waitForSelector('#test-devices');  // of the step Rig, where a new project begins
   expect((await stateOf(page)).project !== null, 'no project is open');
   passed('opened by the password');
   code = problems.length === 0 ? 0 : 1;

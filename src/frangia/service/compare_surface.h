@@ -21,15 +21,15 @@ struct CompareOptions {
 /// Deviations of a surface from a reference and what they amount to.
 struct SurfaceComparison {
   std::vector<float> deviation_mm;  ///< of each vertex, positive outside; NaN: not compared
-  DeviationSummary summary;
-  std::vector<float> histogram;              ///< shares of the area, from `low_mm` to `high_mm`
-  double low_mm = 0.0;                       ///< of the color scale: twice the tolerance
-  double high_mm = 0.0;                      ///< likewise
-  double overlap = 0.0;                      ///< share of the surface that lies on the reference
-  double fit_rms_mm = 0.0;                   ///< of that share
-  double turned_rad = 0.0;                   ///< by the alignment
-  double moved_mm = 0.0;                     ///< by the alignment
-  std::size_t left_out = 0;                  ///< vertices that were not compared
+  DeviationSummary summary;         ///< shares in and out of the tolerance
+  std::vector<float> histogram;     ///< shares of the area, from `low_mm` to `high_mm`
+  double low_mm = 0.0;              ///< of the color scale: twice the tolerance
+  double high_mm = 0.0;             ///< likewise
+  double overlap = 0.0;             ///< share of the surface that lies on the reference
+  double fit_rms_mm = 0.0;          ///< of that share
+  double turned_rad = 0.0;          ///< by the alignment
+  double moved_mm = 0.0;            ///< by the alignment
+  std::size_t left_out = 0;         ///< vertices that were not compared
   std::vector<std::string> free_directions;  ///< motions that the shape does not determine
   std::size_t triangles = 0;                 ///< of the reference
 };

@@ -12,7 +12,7 @@ namespace frangia {
 
 /// A ray from the eye, and what a section plane leaves of the surface.
 struct PickRay {
-  Eigen::Vector3d eye_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d eye_mm = Eigen::Vector3d::Zero();      ///< in the frame of the mesh
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< of any length above 0
   /// Points with normal * p + offset below 0 are cut away. A normal of 0 cuts nothing.
   Eigen::Vector3d section_normal = Eigen::Vector3d::Zero();
@@ -21,9 +21,9 @@ struct PickRay {
 
 /// The point of a surface that was pointed at.
 struct PickedPoint {
-  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
-  std::uint32_t triangle = 0;
-  double sigma_mm = kMissing;  ///< largest of the triangle's corners
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< in the frame of the mesh
+  std::uint32_t triangle = 0;                          ///< of the exact mesh
+  double sigma_mm = kMissing;                          ///< largest of the triangle's corners
 };
 
 /// Finds the first point of a surface on a ray, from either side of its triangles.

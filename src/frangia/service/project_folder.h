@@ -28,10 +28,11 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path edits() const { return derived / "edits.json"; }
   /// Quality of each station, JSON.
   [[nodiscard]] std::filesystem::path stations() const { return derived / "stations.json"; }
-  /// A reference of the surface, of one of `reference_formats`, and the file in which it arrives.
+  /// A reference of the surface, of one of `reference_formats`.
   [[nodiscard]] std::filesystem::path reference(const std::string& format) const {
     return derived / ("reference." + format);
   }
+  /// The file in which a reference arrives.
   [[nodiscard]] std::filesystem::path reference_part() const { return derived / "reference.part"; }
   /// Name and format of the reference, JSON.
   [[nodiscard]] std::filesystem::path reference_name() const { return derived / "reference.json"; }

@@ -54,9 +54,10 @@ struct CaptureSetup {
 /// A scan cannot go on before somebody states `CaptureSetup::table_at_rad`.
 class UnknownTableAngle : public Error {
  public:
+  /// `last_deg`: where the table was left; empty when it was turning.
   explicit UnknownTableAngle(std::optional<double> last_deg);
 
-  /// Where the table was left; empty when it was turning.
+  /// As given.
   [[nodiscard]] std::optional<double> last_deg() const { return last_deg_; }
 
  private:
