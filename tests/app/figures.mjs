@@ -49,7 +49,7 @@ async function live(browser) {
   const messages = [];
   await page.waitForSelector('#try');
   await page.click('#try');
-  await page.waitForSelector('#scan');
+  await page.waitForSelector('#test-devices');  // of the step Rig, where a new project begins
   const [name] = fs.readdirSync(path.join(home, 'projects'));
   const rig = path.join(home, 'projects', name, 'rig.toml');
   const recorded = spawnSync(program, ['scan', rig, '-o', path.join(home, 'recorded'), '--views', '1'], { encoding: 'utf8' });
@@ -63,7 +63,7 @@ async function live(browser) {
   (await watched).on('framereceived', ({ payload }) => {
     if (typeof payload !== 'string') messages.push({ at: Date.now(), ...valuesOf(payload) });
   });
-  await page.waitForSelector('#scan');
+  await page.waitForSelector('main.panel');
   await page.keyboard.press('3');
   const shown = {};
   for (const layer of ['Depth', 'Points']) {
