@@ -244,7 +244,7 @@ class Hostile(unittest.TestCase):
                             if opcode == 8:
                                 break
                 line.close()
-        # Another one is served all the time, and is told of changes.
+        # Another client is served all the time and receives changes.
         self.server.command("set-capture", exposure_ms=33.0)
         watcher.settimeout(10 * SLOWDOWN)
         while b"33.0" not in (message := read_frame(watcher)[1]):

@@ -115,7 +115,7 @@ class Proxies(unittest.TestCase):
         self.assertEqual(status, 200)
         self.assertGreater(len(page), 200)
         self.assertIn(f"wss://{server.host}", head)
-        # Another name of the proxy receives no page, whoever refuses it.
+        # Another name of the proxy receives no page, be it from the proxy or the server.
         for host in ("evil.example", f"evil.example:{server.proxy}", f"{NAME}.evil.example"):
             status, _, body = server.ask("GET", "/", key=None, Host=host)
             self.assertTrue(status in (400, 403, 404, 421) or body == b"", (host, status))

@@ -82,7 +82,7 @@ TEST_F(LostDevicesTest, ADeletedProjectFolderIsNamedAndOthersStayUsable) {
     EXPECT_NE(refusal.find("is gone"), std::string::npos) << refusal;
   }
   EXPECT_NE(error_of([&] { command("set-capture", {{"exposure_ms", 20.0}}); }), "");
-  EXPECT_FALSE(std::filesystem::exists(folder)) << "no command makes it anew";
+  EXPECT_FALSE(std::filesystem::exists(folder)) << "no command creates it again";
   static_cast<void>(service_.state());
   command("close-project");
   EXPECT_TRUE(Json::parse(service_.state()).at("projects").empty());

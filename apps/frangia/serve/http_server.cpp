@@ -32,8 +32,8 @@ struct HttpServer::Implementation {
     });
   }
 
-  /// Closes the connection that has waited longest, for a request if there is such a one, otherwise
-  /// for its client to take an answer; its memory follows.
+  /// Closes the connection that has waited longest, first among those that wait for a request,
+  /// otherwise for its client to take an answer; its memory follows.
   void make_room() const {
     for (const Connections* list : {&shared->idle, &shared->sending}) {
       if (list->empty()) continue;

@@ -19,7 +19,7 @@ struct ExampleRig {
 [[nodiscard]] std::string description_of(const ExampleRig& rig);
 
 /// Writes the rig.toml of an example. A simulated rig that names another example as what it is in
-/// truth gets that one as true-rig.toml beside it.
+/// truth gets that one as true-rig.toml in the same folder.
 ///
 /// @errors   Error(Input) that lists the examples for an unknown one; Error(File)
 void write_example_rig(const std::filesystem::path& path, const std::string& name);

@@ -20,7 +20,7 @@ struct GivenRig {
 /// @errors   Error(Input) that names the file and the key
 void check_given_devices(std::span<const DeviceSettings> devices);
 
-/// Writes the rig.toml of a project from a text, unchanged, and its covariance beside it.
+/// Writes the rig.toml of a project from a text, unchanged, and its covariance in the same folder.
 ///
 /// @errors   Error(Input) as `read_rig` with start values and `check_given_devices`, or when
 ///           [calibration] names a file elsewhere or one that was not given; Error(File)

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array kTables = {"camera", "fringes", "line", "light", "turntable"};
 
-/// Devices that a job uses: the program is told, and a guardian watches them.
+/// Devices that a job uses: the program learns of them, and a guardian watches them.
 struct WatchedDevices {
   std::shared_ptr<void> hold;
   std::optional<Guardian> guardian;

@@ -10,6 +10,7 @@
 #include "frangia/phase/published_algorithms.h"
 #include "frangia/service/example_rigs.h"
 #include "frangia/service/internal/rig_json.h"
+#include "frangia/service/internal/station_json.h"
 #include "frangia/service/internal/surface_json.h"
 #include "frangia/simulate/parts.h"
 
@@ -40,16 +41,8 @@ Json json_of_job(const Job& job) {
 
 Json json_of_stations(const std::vector<ProjectStation>& stations) {
   Json all = Json::array();
-  for (const ProjectStation& station : stations) {
-    all.push_back({{"angle_deg", station.angle_deg},
-                   {"state", name_of(station.state)},
-                   {"verdict", station.verdict},
-                   {"good", station.good},
-                   {"contrast", station.contrast},
-                   {"saturated", station.saturated},
-                   {"points", station.points},
-                   {"has_cloud", station.has_cloud}});
-  }
+  for (const ProjectStation& station : stations)
+    all.push_back(json_of(station));
   return all;
 }
 

@@ -6,7 +6,7 @@
 
 namespace frangia {
 
-/// A station as stations.json holds it.
+/// A station as stations.json and the state of the service hold it.
 [[nodiscard]] nlohmann::ordered_json json_of(const ProjectStation& station);
 
 /// The station that `json_of` wrote; one that was being captured waits again.
