@@ -109,8 +109,9 @@ Json json_of_view(const Scan& scan, const ViewResult& result, const ViewFigures&
   json["checks"] = Json::array();
   for (const SequenceCheck& check : result.decoded.checks)
     json["checks"].push_back(json_of(check));
-  json["trustworthy"] = result.reason.empty();
-  if (!result.reason.empty()) json["reason"] = with_flags(result.reason);
+  const std::string& reason = result.reason.empty() ? result.empty : result.reason;
+  json["trustworthy"] = reason.empty();
+  if (!reason.empty()) json["reason"] = with_flags(reason);
   json["files"] = Json::array();
   for (const StageFile& file : result.files) {
     json["files"].push_back(file.name);
@@ -147,7 +148,7 @@ void print_decoded_view(const Scan& scan,
                         const ViewResult& result,
                         const std::filesystem::path& folder,
                         Terminal& terminal) {
-  terminal.assess(result.reason);
+  terminal.assess(result.reason.empty() ? result.empty : result.reason);
   terminal.finish();
   if (terminal.json) {
     Json json = json_of_view(scan, result, figures_of(result));
@@ -172,6 +173,10 @@ void DecodedScan::add(const ViewResult& result) {
   if (!result.reason.empty()) {
     untrusted_.push_back(name + ": " + result.reason);
     terminal_.run().warn(untrusted_.back());
+  }
+  if (!result.empty.empty()) {
+    empty_.push_back(name + ": " + result.empty);
+    terminal_.run().warn(empty_.back());
   }
   if (terminal_.json) {
     views_->push_back(json_of_view(scan_, result, figures));
@@ -204,6 +209,8 @@ void DecodedScan::add(const ViewResult& result) {
 
 void DecodedScan::finish() {
   terminal_.finish();
+  if (untrusted_.empty() && empty_.size() == scan_.views.size())
+    untrusted_.push_back(empty_.front());
   if (!untrusted_.empty()) {
     terminal_.assess(
         untrusted_.size() == 1

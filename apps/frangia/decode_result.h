@@ -23,6 +23,7 @@ struct ViewResult {
   DecodedView decoded{};           ///< phase and what led to it
   RangeGrid range{};               ///< empty without geometry, or where nothing fits
   std::string reason{};            ///< why it is not trustworthy; empty otherwise
+  std::string empty{};             ///< why no pixel has a phase; empty if one has
   std::vector<StageFile> files{};  ///< in the view's folder
 };
 
@@ -50,6 +51,7 @@ class DecodedScan {
   Terminal& terminal_;
   std::unique_ptr<nlohmann::ordered_json> views_;
   std::vector<std::string> untrusted_;  ///< a clause for each view that is not trustworthy
+  std::vector<std::string> empty_;      ///< a clause for each view without a phase
 };
 
 }  // namespace frangia

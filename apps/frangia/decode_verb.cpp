@@ -15,6 +15,7 @@
 #include "frangia/dataset/scan_of_camera.h"
 #include "frangia/pipeline/check_view.h"
 #include "frangia/pipeline/decode_view.h"
+#include "frangia/pipeline/explain_no_phase.h"
 #include "frangia/pipeline/triangulate_view.h"
 #include "frangia/pipeline/write_stages.h"
 #include "frangia/range/remove_mixed_pixels.h"
@@ -68,6 +69,8 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
   ViewResult out{.view = view};
   const auto frames = read_frames(scan, view, run);
   out.decoded = decode_view(frames, scan.rig, task.rays, options_of_view(task.options, view), run);
+  if (!scan.patterns.empty() && !task.options.phase_files)
+    out.empty = explain_no_phase(frames, out.decoded.phase.status);
   if (task.rays.empty()) {
     out.reason = task.options.accept_inconsistent ? "" : describe(out.decoded.checks);
     return out;

@@ -48,6 +48,7 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
     json["part_poses"].push_back(rows);
   }
   json["kept_rig"] = report.kept_rig;
+  json["rests_on_rig"] = report.rests_on_rig;
   json["not_determined"] = report.undetermined;
   json["left_out"] = report.outliers;
   return json;

@@ -187,5 +187,30 @@ TEST(CheckGrayCode, NamesTheStartOfTheFringes) {
   EXPECT_EQ(found.fits.front().patterns, std::vector<std::string>{"f"});
 }
 
+TEST(CheckGrayCode, NamesAPeriodOfTheFringesByTheBordersOfTheStripes) {
+  CodedScene scene;  // of 20 px
+  scene.fringes.pattern.period_px = 17.0;
+  expect_only_fit(scene.check(), "a period of 20 px, not 17 px");
+}
+
+TEST(CheckGrayCode, NamesAnotherWidthOfTheStripesAndThePeriodThatWouldFitInstead) {
+  CodedScene scene;  // stripes of 10 px
+  scene.gray.pattern.stripe_px = 5.0;
+  const SequenceCheck found = scene.check();
+  EXPECT_FALSE(found.consistent);
+  ASSERT_EQ(found.fits.size(), 2U) << describe(found);
+  EXPECT_EQ(found.fits[0].keys, "stripe_px = 10");
+  EXPECT_EQ(found.fits[1].keys, "period_px = 10");  // fringes of 20 px for stripes of 10
+}
+
+TEST(CheckGrayCode, FindsStripesThatAreNarrowerThanDeclaredThoughTheyNeverContradictTheFringes) {
+  CodedScene scene;  // stripes of half a fringe
+  scene.gray.pattern.stripe_px = 20.0;
+  const SequenceCheck found = scene.check();
+  EXPECT_FALSE(found.consistent);
+  ASSERT_FALSE(found.fits.empty());
+  EXPECT_EQ(found.fits[0].keys, "stripe_px = 10");
+}
+
 }  // namespace
 }  // namespace frangia

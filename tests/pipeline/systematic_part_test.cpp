@@ -16,7 +16,10 @@ namespace {
 
 TEST(SystematicPart, OfTheCalibrationStandsBesideTheNoiseOfTheMesh) {
   const testing::TemporaryFolder folder;
-  const Scan exact = testing::small_scan(folder.path() / "scan", "bracket", "digital", 2);
+  Scan exact = testing::small_scan(folder.path() / "scan", "bracket", "digital", 2);
+  exact.rig.turntable->point_sigma_mm = 0.0;
+  exact.rig.turntable->axis_sigma_rad = 0.0;
+  exact.rig.turntable->angle_sigma_rad = 0.0;
   const Reconstruction before = reconstruct(exact, {.keep_raw = true});
   EXPECT_TRUE(before.mesh.sigma_systematic_mm.empty());
   EXPECT_TRUE(before.raw.systematic_mm.empty());

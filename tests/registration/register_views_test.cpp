@@ -156,6 +156,72 @@ TEST(RegisterViews, KeepsTheRigWhenViewsDoNotOverlap) {
   EXPECT_FALSE(report.trustworthy);  // the first view lies in front of what the second one measured
 }
 
+/// A plate seen from both sides: the views share the narrow top alone.
+const Shape kPlate = testing::box({3.0, 30.0, 30.0});
+
+TEST(RegisterViews, CountsTheTurntableWhereNothingVerifiesIt) {
+  Table table(2, 0.0);
+  table.given = table.truth;
+  ViewStore views = table.take(kPlate);
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const auto report =
+      register_views(views, small_camera_model(), {table.given, table.stations()}, {}, run);
+  EXPECT_TRUE(report.rests_on_rig) << report.overlap;
+  EXPECT_EQ(report.untrusted_reason(), "");
+  EXPECT_FALSE(report.sigma.stated);
+  EXPECT_NEAR(report.sigma.point_mm, 0.65, 0.05);  // 1/1000 of the working distance
+  ASSERT_EQ(report.motions.size(), 2U);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("rest on them alone"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("does not state point_sigma_mm"), std::string::npos) << warnings[0];
+
+  table.given.point_sigma_mm = 0.02;
+  table.given.axis_sigma_rad = 1e-4;
+  table.given.angle_sigma_rad = 2e-4;
+  ViewStore again = table.take(kPlate);
+  const auto stated =
+      register_views(again, small_camera_model(), {table.given, table.stations()}, {}, run);
+  EXPECT_TRUE(stated.sigma.stated);
+  EXPECT_EQ(stated.sigma.point_mm, 0.02);
+  EXPECT_EQ(warnings.back().find("does not state"), std::string::npos) << warnings.back();
+  EXPECT_EQ(stated.untrusted_reason(), "");
+}
+
+TEST(RegisterViews, LeavesLittleOpenWhereViewsOverlap) {
+  const Table table(8);
+  ViewStore views = table.take(knobbly);
+  const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
+  EXPECT_FALSE(report.rests_on_rig);
+  ASSERT_EQ(report.motions.size(), 8U);
+  for (const auto& motion : report.motions)
+    EXPECT_LT((motion - report.motions[0]).bottomRows<3>().norm(), 0.01);
+}
+
+TEST(RegisterViews, IsNotTrustedWhereALittleOverlapContradictsTheStatedAxis) {
+  Table table(2, 0.0);
+  // Seen from either side, the top slopes by 0.08 degrees to the other hand.
+  const Eigen::AngleAxisd tilt(rad_from_deg(0.08), Eigen::Vector3d::UnitZ());
+  table.given.axis = tilt * table.truth.axis;
+  table.given.point_mm = table.truth.point_mm;
+  table.given.point_sigma_mm = 0.01;
+  table.given.axis_sigma_rad = 1e-5;
+  table.given.angle_sigma_rad = 1e-5;
+  ViewStore views = table.take(kPlate);
+  const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
+  EXPECT_TRUE(report.rests_on_rig) << report.overlap;
+  EXPECT_GT(report.disagreement_over_sigma, 3.0);
+  EXPECT_NE(report.untrusted_reason().find("where the views overlap, they disagree by"),
+            std::string::npos)
+      << report.untrusted_reason();
+  table.given.axis_sigma_rad = rad_from_deg(0.08);
+  ViewStore again = table.take(kPlate);
+  const auto fits = register_views(again, small_camera_model(), {table.given, table.stations()});
+  EXPECT_LT(fits.disagreement_over_sigma, 2.0);
+  EXPECT_EQ(fits.untrusted_reason(), "");
+}
+
 TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
   const Table table(4);
   const auto find = [&](std::size_t threads) {

@@ -70,13 +70,17 @@ TEST(ReadRig, ReadsEveryTable) {
 TEST(ReadRig, ReadsBackAWrittenRig) {
   const TemporaryFolder folder;
   Rig rig = make_paper_rig({});
-  rig.turntable = Turntable{.point_mm = {1.0, 2.0, 480.0}};
+  rig.turntable = Turntable{.point_mm = {1.0, 2.0, 480.0}, .point_sigma_mm = 0.02};
+  rig.turntable->angle_sigma_rad = rad_from_deg(0.05);
   rig.camera.noise = NoiseModel::from_camera(40.0, 11.0);
   write_rig(folder.path() / "rig.toml", rig);
   const Rig back = read_rig(folder.path() / "rig.toml");
   EXPECT_TRUE(back.projector.rotation.isApprox(rig.projector.rotation, 1e-12));
   EXPECT_TRUE(back.projector.position_mm.isApprox(rig.projector.position_mm, 1e-15));
   EXPECT_TRUE(back.laser_sheet->normal.isApprox(rig.laser_sheet->normal, 1e-15));
+  EXPECT_EQ(back.turntable->point_sigma_mm, 0.02);
+  EXPECT_TRUE(std::isnan(back.turntable->axis_sigma_rad));
+  EXPECT_NEAR(back.turntable->angle_sigma_rad, rad_from_deg(0.05), 1e-12);
   EXPECT_NEAR(back.camera.noise->variance(100.0), rig.camera.noise->variance(100.0), 1e-9);
   EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
 }
@@ -194,6 +198,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"white_level = 4095", "white_level = 0", "camera.white_level"},
         Fault{"field_deg = [-12, 12]", "field_deg = [12, -12]", "projector.field_deg"},
         Fault{"axis = [0.008, -0.9999, 0.011]", "axis = [0, 0, 0]", "turntable.axis"},
+        Fault{"axis = [0.008, -0.9999, 0.011]",
+              "axis = [0.008, -0.9999, 0.011]\naxis_sigma_deg = -0.1",
+              "turntable.axis_sigma_deg"},
         Fault{"position_mm = [342.0, 0.0, -449.7]", "", "projector.position_mm"},
         Fault{"position_mm = [342.0, 0.0, -449.7]", "position_mm = [0, 0, 0]", "position_mm"},
         Fault{"version = 1", "version = 2", "version"},

@@ -251,6 +251,9 @@ TurntableSolution solve_turntable(const Board& board,
   for (const Eigen::Vector3d& place : problem.places)
     lowest = std::min(lowest, model.axis.dot(model.rig_from_board * place - model.point_mm));
   out.turntable.axis = model.axis;
+  out.turntable.axis_sigma_rad = out.axis_sigma_rad;
+  out.turntable.point_sigma_mm = out.point_sigma_mm;
+  out.turntable.angle_sigma_rad = out.angle_rms_rad;
   out.turntable.point_mm = model.point_mm + lowest * model.axis;
   return out;
 }

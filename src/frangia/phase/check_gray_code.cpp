@@ -1,4 +1,4 @@
-// Above 250 lines: one sample of the pixels, and what is measured on it.
+// Above 250 lines: one sample of the pixels, and all that is measured on it.
 #include "frangia/phase/check_gray_code.h"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/pattern/gray_code.h"
+#include "frangia/phase/internal/best_frequency.h"
 #include "frangia/phase/internal/gray_trials.h"
 
 namespace frangia {
@@ -82,13 +83,13 @@ class GrayCodeSample {
     return different < 0.005 * static_cast<double>(pixels.size());
   }
 
-  /// The start of the fringes relative to the declared one, from their phases at the borders of
-  /// the stripes; missing where these scatter.
-  [[nodiscard]] double start_offset(const GrayTrial& trial) const {
-    const double period = fringes_.pattern.period_px;
-    double cosine = 0.0;
-    double sine = 0.0;
-    double borders = 0.0;
+  /// The phases of the fringes at the borders of neighbouring stripes.
+  struct Borders {
+    std::vector<double> columns;
+    std::vector<float> phases_rad;
+  };
+  [[nodiscard]] Borders borders(const GrayTrial& trial) const {
+    Borders found;
     for (std::size_t i = 1; i < pixels.size(); ++i) {
       const CodedPixel& a = pixels[i - 1];
       const CodedPixel& b = pixels[i];
@@ -96,19 +97,56 @@ class GrayCodeSample {
       const std::uint32_t first = stripe_of(trial, a);
       const std::uint32_t second = stripe_of(trial, b);
       if (first + 1 != second && second + 1 != first) continue;
-      const double column =
-          std::max(first, second) * trial.code.stripe_px - 0.5 - trial.code.offset_px;
       const double step = wrap_rad(static_cast<double>(b.phase_rad - a.phase_rad));
-      const double found = a.phase_rad + 0.5 * step - kTwoPi * column / period;
+      found.columns.push_back(std::max(first, second) * trial.code.stripe_px - 0.5 -
+                              trial.code.offset_px);
+      found.phases_rad.push_back(a.phase_rad + static_cast<float>(0.5 * step));
+    }
+    return found;
+  }
+
+  /// The start of the fringes relative to the declared one, from their phases at the borders of
+  /// the stripes; `scattered` where these say nothing of it.
+  struct Start {
+    double offset_rad = kMissing;
+    bool scattered = false;
+  };
+  [[nodiscard]] Start start_offset(const GrayTrial& trial) const {
+    const double period = fringes_.pattern.period_px;
+    const Borders at = borders(trial);
+    double cosine = 0.0;
+    double sine = 0.0;
+    for (std::size_t i = 0; i < at.columns.size(); ++i) {
+      const double found = static_cast<double>(at.phases_rad[i]) - kTwoPi * at.columns[i] / period;
       cosine += std::cos(found);
       sine += std::sin(found);
-      borders += 1.0;
     }
     constexpr double kMinConcentration = 0.7;
-    if (borders < static_cast<double>(options_.min_pixels) ||
-        std::hypot(cosine, sine) < kMinConcentration * borders)
-      return kMissing;
-    return std::atan2(sine, cosine);
+    const auto count = static_cast<double>(at.columns.size());
+    if (at.columns.size() < options_.min_pixels) return {};
+    if (std::hypot(cosine, sine) < kMinConcentration * count) return {kMissing, true};
+    return {std::atan2(sine, cosine), false};
+  }
+  /// The period that the fringes show at the borders of the stripes, if the code is as declared; 0
+  /// if none fits. It is rounded as far as the borders allow.
+  [[nodiscard]] double shown_period_px(const GrayTrial& trial) const {
+    const Borders at = borders(trial);
+    if (at.columns.size() < options_.min_pixels) return 0.0;
+    const auto [low, high] = std::minmax_element(at.columns.begin(), at.columns.end());
+    const double field = *high - *low;
+    if (!(field > 0.0)) return 0.0;
+    // A stripe is no wider than a fringe; borders alone do not tell narrower fringes from wider
+    // ones.
+    constexpr double kFinest = 4.0;  // of the frequency that `best_frequency` expects
+    const double most = 1.02 / trial.code.stripe_px;
+    const double frequency = best_frequency(at.columns, at.phases_rad, most / kFinest, field);
+    if (!(frequency > 0.0)) return 0.0;
+    constexpr double kSame = 0.1;  // fringes over the field
+    for (const double unit : {1.0, 0.5, 0.1, 0.01}) {
+      const double rounded = unit * std::round(1.0 / frequency / unit);
+      if (rounded > 0.0 && std::abs(1.0 / rounded - frequency) * field < kSame) return rounded;
+    }
+    return 1.0 / frequency;
   }
 
   std::vector<CodedPixel> pixels;
@@ -237,6 +275,39 @@ void add_missing_frames(const GrayCodeSample& sample, const Pattern& code, Seque
   }
 }
 
+/// Widths of the stripes and periods of the fringes with which the fringes lie at the borders of
+/// the stripes where they should.
+std::vector<SequenceFault> other_scales(const GrayCodeSample& sample,
+                                        const Pattern& code,
+                                        const Pattern& fringes,
+                                        const GrayCodeCheckOptions& options) {
+  std::vector<SequenceFault> fits;
+  for (const double factor : {2.0, 0.5, 4.0, 0.25}) {
+    GrayTrial trial = declared_trial(code);
+    trial.code.stripe_px *= factor;
+    if (!(std::abs(sample.start_offset(trial).offset_rad) <= options.max_start_rad) ||
+        sample.score(trial) < options.min_agreement)
+      continue;
+    fits.push_back(
+        {SequenceFaultKind::Period,
+         {code.name},
+         fmt::format("stripes of {:g} px, not {:g} px", trial.code.stripe_px, code.stripe_px),
+         {},
+         fmt::format("stripe_px = {:g}", trial.code.stripe_px)});
+    break;
+  }
+  const double period_px = sample.shown_period_px(declared_trial(code));
+  if (period_px > 0.0 && std::abs(period_px - fringes.period_px) > 1e-3 * fringes.period_px) {
+    fits.push_back(
+        {SequenceFaultKind::Period,
+         {fringes.name},
+         fmt::format("a period of {:.6g} px, not {:.6g} px", period_px, fringes.period_px),
+         {},
+         fmt::format("period_px = {:.6g}", period_px)});
+  }
+  return fits;
+}
+
 /// The fringes began at another phase than declared.
 SequenceFault start_fault(const Pattern& fringes, double start_rad) {
   const double declared_deg = deg_from_rad(fringes.shifts_rad.front());
@@ -267,15 +338,18 @@ SequenceCheck check_gray_code(const FrameStack& gray,
   const double declared = sample.score(declared_trial(code));
   out.decided = true;
   out.agreement = declared;
-  if (declared >= options.min_agreement) {
-    const double start_rad = sample.start_offset(declared_trial(code));
+  const bool agrees = declared >= options.min_agreement;
+  const GrayCodeSample::Start start = sample.start_offset(declared_trial(code));
+  if (agrees && !start.scattered) {
     const bool few = fringes.pattern.shifts_rad.size() <= 3;
-    if (!(std::abs(start_rad) > (few ? options.max_start_three_rad : options.max_start_rad)))
-      return out;
+    const double allowed = few ? options.max_start_three_rad : options.max_start_rad;
+    if (!(std::abs(start.offset_rad) > allowed)) return out;
     out.consistent = false;
-    out.fits.push_back(start_fault(fringes.pattern, start_rad));
+    out.fits.push_back(start_fault(fringes.pattern, start.offset_rad));
     return out;
   }
+  std::vector<SequenceFault> scales = other_scales(sample, code, fringes.pattern, options);
+  if (agrees && scales.empty()) return out;
   out.consistent = false;
   std::vector<GrayTrial> trials = gray_trials(code, fringes.pattern);
   double best = std::max(options.min_agreement, declared + options.min_gain);
@@ -285,8 +359,11 @@ SequenceCheck check_gray_code(const FrameStack& gray,
     best = std::max(best, score);
     found.emplace_back(score, std::move(trial.fault));
   }
-  for (auto& [score, fault] : found)
-    if (score >= best - options.tie) out.fits.push_back(std::move(fault));
+  if (!agrees) {
+    for (auto& [score, fault] : found)
+      if (score >= best - options.tie) out.fits.push_back(std::move(fault));
+  }
+  if (out.fits.empty()) out.fits = std::move(scales);
   if (out.fits.empty()) add_missing_frames(sample, code, out);
   return out;
 }

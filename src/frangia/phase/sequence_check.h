@@ -33,6 +33,7 @@ struct SequenceFault {
   std::string keys;
   /// Two things differ, such as direction and start.
   bool is_compound = false;
+  std::vector<double> shifts_rad{};  ///< of the pattern that fits, where they differ
 };
 
 /// How well the patterns of one direction agree with each other.

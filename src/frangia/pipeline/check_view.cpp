@@ -1,5 +1,6 @@
 #include "frangia/pipeline/check_view.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "frangia/range/check_orientation.h"
@@ -19,10 +20,19 @@ bool check_direction(const AbsolutePhase& phase,
     out.decided = out.decided || sequence->decided;
     if (!sequence->consistent) reason = describe(*sequence);
   }
-  if (reason.empty() && has_geometry(rig)) {
+  // Rows that are exchanged with columns look like missing frames of a code.
+  const bool unexplained =
+      sequence != nullptr && !sequence->consistent &&
+      std::all_of(sequence->fits.begin(), sequence->fits.end(), [](const SequenceFault& fault) {
+        return fault.kind == SequenceFaultKind::Missing;
+      });
+  if ((reason.empty() || unexplained) && has_geometry(rig)) {
     const OrientationCheck orientation = check_orientation(phase, rig, rays);
     out.decided = out.decided || orientation.decided;
-    reason = orientation.fits;
+    constexpr double kExchanged = 3.0;  // change across the direction of the rig over that along it
+    if (reason.empty() || orientation.across > kExchanged) {
+      if (!orientation.fits.empty()) reason = orientation.fits;
+    }
   }
   if (reason.empty()) return true;
   out.reason += (out.reason.empty() ? "" : "; ") + reason;

@@ -1,5 +1,6 @@
 #include "frangia/pipeline/reconstruct.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -22,6 +23,7 @@
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
 #include "frangia/pipeline/internal/tie_cameras.h"
+#include "frangia/pipeline/internal/turntable_part.h"
 #include "frangia/pipeline/refine_scan_rig.h"
 #include "frangia/rig/rig_of_camera.h"
 
@@ -83,6 +85,23 @@ MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
                          scan.rig,
                          {scan.part_poses, options.register_views, options.registration},
                          run);
+}
+
+/// How uncertain the poses of the views on the turntable are: as the registration found, or without
+/// one as the rig states.
+ViewMotions motions_of_views(const MeasuredSetup& joined,
+                             const Rig& rig,
+                             const ReconstructOptions& options,
+                             const Run& run) {
+  if (joined.registration) return joined.registration->motions;
+  const std::vector<Station>& stations = joined.measured.stations;
+  const bool one_setup = std::all_of(
+      stations.begin(), stations.end(), [](const Station& station) { return station.setup == 0; });
+  if (!rig.turntable || stations.size() < 2 || !one_setup) return {};
+  RegistrationReport alone;
+  alone.sigma = sigma_of(*rig.turntable, options.registration, rig.turntable->point_mm.norm());
+  run.warn("the views are not registered; " + alone.rig_alone_text());
+  return motions_of_rig({*rig.turntable, stations}, alone.sigma);
 }
 
 /// Refines the rig and reconstructs with it from the frames on.
@@ -161,8 +180,12 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     out.indirect_light =
         correct_indirect_light(fused, joined.measured, scan, rays, options.decode, fusion, run);
   }
-  if (options.keep_raw)
+  const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
+  const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
+  if (options.keep_raw) {
     out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
+    if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
+  }
   color_vertices(fused, cameras, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.mesh.triangles.empty()) {

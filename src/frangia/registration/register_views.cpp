@@ -11,21 +11,16 @@
 #include "frangia/core/missing.h"
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/assess_observability.h"
+#include "frangia/registration/internal/assess_places.h"
 #include "frangia/registration/internal/find_moved_view.h"
 #include "frangia/registration/internal/make_bundle.h"
+#include "frangia/registration/internal/state_motions.h"
 
 namespace frangia {
 namespace {
 
 double closure_rad(const BundleSums& sums) {
   return sums.closing_weight > 0.0 ? -sums.closing_gradient / sums.closing_weight : kMissing;
-}
-
-/// The refined table with its point nearest to the given one.
-Turntable nearest_to(const Turntable& given, Turntable refined) {
-  const Eigen::Vector3d away = given.point_mm - refined.point_mm;
-  refined.point_mm += refined.axis * refined.axis.dot(away);
-  return refined;
 }
 
 /// Whether the given state fits the views as well as the refined one. Then the rig's calibration
@@ -128,12 +123,11 @@ void apply_state(RegistrationReport& report, ViewStore& views, const TableState&
   const Eigen::Isometry3d rig_from_table = report.table.rig_from_object(0.0);
   for (const Eigen::Isometry3d& part_pose : state.part_poses)
     report.part_poses.emplace_back(rig_from_table.inverse() * part_pose * rig_from_table);
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const std::size_t setup = state.setup_of(i);
-    const Eigen::Isometry3d rig_from_table_i = report.table.rig_from_object(report.angles_rad[i]);
-    views.set_rig_from_object(
-        i, setup == 0 ? rig_from_table_i : rig_from_table_i * report.part_poses[setup - 1]);
-  }
+  TableState in_frame = state;
+  in_frame.table = report.table;
+  const std::vector<Eigen::Isometry3d> poses = object_poses(in_frame);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views.set_rig_from_object(i, poses[i]);
 }
 
 /// Warns when the views fit nearly as well with the axis elsewhere, as with little overlap.
@@ -163,6 +157,7 @@ void RegisterOptions::check() const {
   require(relative_reach > 0.0, "RegisterOptions: relative_reach must be above 0");
   require(relative_systematic > 0.0, "RegisterOptions: relative_systematic must be above 0");
   require(max_contradiction >= 0.0, "RegisterOptions: max_contradiction must not be negative");
+  require(unverified_share >= 0.0, "RegisterOptions: unverified_share must not be negative");
   require(max_iterations >= 1, "RegisterOptions: max_iterations must be at least 1");
 }
 
@@ -171,7 +166,6 @@ RegistrationReport register_views(ViewStore& views,
                                   const TurntableStations& given,
                                   const RegisterOptions& options,
                                   const Run& run) {
-  // Of a view, to find outliers and moved views, and for the final poses.
   const std::size_t few_surfels = surfels_per_view(2500, views.size());
   const std::size_t many_surfels = surfels_per_view(20000, views.size());
   options.check();
@@ -198,9 +192,11 @@ RegistrationReport register_views(ViewStore& views,
   report.overlap = overlap_of(before, surfels);
   if (report.overlap < kMinOverlap) {
     assess_contradiction(report, before, work);
-    run.warn(report.trustworthy
-                 ? "the views do not overlap: the axis and angles of the rig are kept"
-                 : report.untrusted_reason() + "; the axis and angles of the rig are kept");
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(start.unknowns());
+    assess_places(report, bundle, before, options, Overlap::SaysNothing, none);
+    const std::string untrusted = report.untrusted_reason();
+    run.warn((untrusted.empty() ? "the views do not overlap" : untrusted) + "; " +
+             report.rig_alone_text());
     return report;
   }
   optimize_bundle(bundle, surfels, options.max_iterations, run);
@@ -223,16 +219,26 @@ RegistrationReport register_views(ViewStore& views,
   report_fit(report, after);
   report.overlap = overlap_of(after, surfels);
   report.iterations = bundle.iterations;
-  report.kept_rig = fits_as_well(bundle, surfels, after, options.as_good_as_given) ||
-                    has_slid(bundle, surfels, report.contradiction);
+  const bool slid = has_slid(bundle, surfels, report.contradiction);
+  report.kept_rig = slid || fits_as_well(bundle, surfels, after, options.as_good_as_given);
+  BundleSums final_sums = after;
+  Eigen::VectorXd offset = Eigen::VectorXd::Zero(start.unknowns());
   if (report.kept_rig) {
+    if (!slid) offset = deviation(bundle.state, bundle.given);
     bundle.state = bundle.given;
-    const BundleSums kept = sum(bundle, surfels);
-    assess_contradiction(report, kept, work);
-    report_fit(report, kept);
-    report.overlap = overlap_of(kept, surfels);
+    final_sums = sum(bundle, surfels);
+    assess_contradiction(report, final_sums, work);
+    report_fit(report, final_sums);
+    report.overlap = overlap_of(final_sums, surfels);
   }
-  if (!report.trustworthy) run.warn(report.untrusted_reason());
+  assess_places(report,
+                bundle,
+                final_sums,
+                options,
+                slid ? Overlap::SaysNothing : Overlap::Determines,
+                offset);
+  if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
+  if (slid) run.warn(report.rig_alone_text());
   const PartScale scale = measure_part_scale(bundle, surfels, camera);
   assess_observability(report, bundle, after, scale.radius_mm);
   warn_of_uncertain_axis(report, scale, options, run);

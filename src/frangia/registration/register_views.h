@@ -37,6 +37,9 @@ struct RegisterOptions {
                                       ///< noise explains where few points overlap
   double max_axis_sigma_px = 0.1;     ///< of the axis, in distances of neighbouring pixels' points,
                                       ///< beyond which a warning is given
+  double unverified_share = 0.25;     ///< standard deviation of an axis and angles that the rig
+                                      ///< does not state, as a share of the priors above, which
+                                      ///< allow for a rig that was moved: 0.5 mm at 500 mm
   int max_iterations = 30;            ///< each linearizes once
   /// Starting values: the part pose of each further setup, as `RegistrationReport` has them.
   std::vector<Eigen::Isometry3d> part_poses{};

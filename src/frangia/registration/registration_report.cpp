@@ -11,9 +11,16 @@ namespace frangia {
 
 namespace {
 
+std::string text_of(const TurntableSigma& sigma) {
+  return fmt::format("axis {:.2g} mm and {:.2g}°, angles {:.2g}°",
+                     sigma.point_mm,
+                     deg_from_rad(sigma.axis_rad),
+                     deg_from_rad(sigma.angle_rad));
+}
+
 std::string residual_text(const RegistrationReport& report) {
   const double overlap_percent = 100.0 * report.overlap;
-  if (!report.trustworthy) {
+  if (!report.untrusted_reason().empty()) {
     return fmt::format("the registration is not trustworthy: {}; {:.0f} % of the points overlap",
                        report.untrusted_reason(),
                        overlap_percent);
@@ -36,12 +43,39 @@ std::string residual_text(const RegistrationReport& report) {
 }  // namespace
 
 std::string RegistrationReport::untrusted_reason() const {
+  constexpr double kContradicts = 3.0;  // standard deviations of a median, which noise never gives
+  if (trustworthy && disagreement_over_sigma > kContradicts) {
+    return fmt::format(
+        "where the views overlap, they disagree by {:.2g} mm, {:.1f} times what noise and the "
+        "standard deviations of the turntable ({}) explain: calibrate the turntable",
+        disagreement_mm,
+        disagreement_over_sigma,
+        text_of(sigma));
+  }
   if (trustworthy) return {};
   return fmt::format(
       "the views contradict each other, up to {:.0f} % of a view's points lie in front of the "
       "surface that another view measured: either the part moved between views, or the rig's "
       "calibration is wrong",
       100.0 * contradiction);
+}
+
+std::string RegistrationReport::rig_alone_text() const {
+  std::string words = fmt::format(
+      "the axis and angles of the rig are kept, and the places of the views rest on them alone: "
+      "sigma counts {} as their standard deviations",
+      text_of(sigma));
+  if (!sigma.stated) {
+    words +=
+        ", because rig.toml does not state point_sigma_mm, axis_sigma_deg and angle_sigma_deg of "
+        "[turntable]";
+  }
+  if (std::isnan(disagreement_over_noise)) return words + "; nothing verifies them";
+  return words + fmt::format(
+                     "; where the views overlap, they disagree by {:.2g} mm, {:.1f} times "
+                     "their noise",
+                     disagreement_mm,
+                     disagreement_over_noise);
 }
 
 std::string RegistrationReport::text() const {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/missing.h"
+#include "frangia/registration/view_motions.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
@@ -41,6 +42,15 @@ struct RegistrationReport {
   bool trustworthy = true;  ///< false when `contradiction` exceeds the limit of the options
   int iterations = 0;       ///< of the refinement; each linearizes once
   bool kept_rig = false;    ///< the given axis and angles fit as well and are kept
+  /// The overlap of the views says nothing of their places, which are those of the rig.
+  bool rests_on_rig = false;
+  TurntableSigma sigma;  ///< of the given axis and angles
+  ViewMotions motions;   ///< of the views by what their overlap leaves open; empty for one view
+  /// How far the views disagree where they overlap, if the places rest on the rig: the median over
+  /// the noise, and over the noise and `sigma`. NaN where fewer than 50 points overlap.
+  double disagreement_mm = kMissing;
+  double disagreement_over_noise = kMissing;
+  double disagreement_over_sigma = kMissing;
 
   /// Distance from `given.point_mm` to `table.point_mm`.
   [[nodiscard]] double axis_moved_mm() const;
@@ -48,6 +58,8 @@ struct RegistrationReport {
   [[nodiscard]] double largest_turn_rad() const;  ///< largest correction of an angle
   /// The findings in words: one sentence, or clauses separated by semicolons.
   [[nodiscard]] std::string text() const;
+  /// What the places of the views rest on where it is the rig alone, as a sentence.
+  [[nodiscard]] std::string rig_alone_text() const;
   /// Why the registration must not be trusted, as one clause; empty when it is trustworthy.
   [[nodiscard]] std::string untrusted_reason() const;
 };

@@ -48,6 +48,13 @@ Eigen::Vector3d direction(TomlReader& reader, std::string_view key) {
   return value.normalized();
 }
 
+/// A standard deviation, 0 or more; NaN without the key.
+double sigma_of(TomlReader& reader, std::string_view key) {
+  const double value = reader.number_or(key, kMissing);
+  if (value < 0.0) reader.fail(key, fmt::format("is {}; it must not be negative", value));
+  return value;
+}
+
 Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
   const auto rows = reader.rows(key, 3, 3);
   Eigen::Matrix3d matrix;
@@ -323,6 +330,9 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
   if (reader.has("turntable")) {
     TomlReader turntable = reader.table("turntable");
     rig.turntable = Turntable{vector3(turntable, "point_mm"), direction(turntable, "axis")};
+    rig.turntable->point_sigma_mm = sigma_of(turntable, "point_sigma_mm");
+    rig.turntable->axis_sigma_rad = rad_from_deg(sigma_of(turntable, "axis_sigma_deg"));
+    rig.turntable->angle_sigma_rad = rad_from_deg(sigma_of(turntable, "angle_sigma_deg"));
     turntable.warn_of_unused_keys(run);
   }
   if (reader.has("calibration"))

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/missing.h"
 #include "frangia/frames/noise_model.h"
 #include "frangia/rig/calibration.h"
 #include "frangia/rig/camera_model.h"
@@ -44,6 +45,12 @@ struct Turntable {
       -Eigen::Vector3d::UnitY();  ///< unit vector that points up from the turntable top
   /// Point towards which the object's x axis points: the centre of the reference camera.
   Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();
+  /// Standard deviations of what the rig states: of the axis' place at `point_mm` in each of the
+  /// two directions across it, of its direction in each of two, and of the angle of a view. NaN:
+  /// not stated.
+  double point_sigma_mm = kMissing;
+  double axis_sigma_rad = kMissing;   ///< of the direction, as above
+  double angle_sigma_rad = kMissing;  ///< of an angle, as above
 
   /// Returns the pose of the object at table angle `angle_rad`: point + [x y z] Rz(angle) p.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;

@@ -143,6 +143,12 @@ TomlWriter composed_rig(const Rig& rig) {
     writer.begin_table("turntable");
     writer.put("point_mm", list_of(rig.turntable->point_mm));
     writer.put("axis", list_of(rig.turntable->axis));
+    const auto put_sigma = [&](const char* key, double sigma) {
+      if (!std::isnan(sigma)) writer.put(key, sigma);
+    };
+    put_sigma("point_sigma_mm", rig.turntable->point_sigma_mm);
+    put_sigma("axis_sigma_deg", deg_from_rad(rig.turntable->axis_sigma_rad));
+    put_sigma("angle_sigma_deg", deg_from_rad(rig.turntable->angle_sigma_rad));
   }
   if (rig.calibration) put_calibration(writer, *rig.calibration);
   return writer;

@@ -17,6 +17,7 @@ enum class UncertaintyTerm {
   Quantization,         ///< whole counts of the frames
   IndirectLight,        ///< light that reaches a point by way of other parts of the surface
   Calibration,          ///< covariance of the parameters of the rig
+  Turntable,            ///< axis and angles of the turntable, as far as views do not determine them
   Temperature,          ///< thermal expansion of the part
 };
 

@@ -249,6 +249,57 @@ double SequenceSample::fit_residual(const Pattern& pattern, std::size_t frames_o
   return static_cast<double>(median_in_place(std::span(residuals)));
 }
 
+double SequenceSample::frequency_by_slopes(std::size_t map) const {
+  constexpr int kRun = 8;               // pixels over which slopes are averaged
+  constexpr double kMinChange = 0.8;    // rad over a run, of the reference
+  constexpr std::size_t kFewest = 100;  // runs
+  constexpr double kUncertain = 0.04;   // of the ratio of slopes
+  std::size_t reference = map == 0 ? 1 : 0;
+  for (std::size_t m = 0; m < maps_.size(); ++m) {
+    if (m != map && patterns_[m].fringes_per_unit() > patterns_[reference].fringes_per_unit())
+      reference = m;
+  }
+  const auto step = [&](std::size_t m, std::size_t pixel) {
+    const auto phases = maps_[m].phase_rad.pixels();
+    return wrap_rad(static_cast<double>(phases[pixel + 1] - phases[pixel]));
+  };
+  const int width = maps_.front().status.width();
+  std::vector<double> ratios;
+  for (int y = 0; y < maps_.front().status.height(); ++y) {
+    for (int x = 0; x + kRun < width; x += kRun) {
+      const auto first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                         static_cast<std::size_t>(x);
+      double change = 0.0;
+      double of_reference = 0.0;
+      bool measured = is_measured(first);
+      for (std::size_t pixel = first; measured && pixel < first + kRun; ++pixel) {
+        measured = is_measured(pixel + 1);
+        change += step(map, pixel);
+        of_reference += step(reference, pixel);
+      }
+      if (measured && std::abs(of_reference) > kMinChange) ratios.push_back(change / of_reference);
+    }
+  }
+  if (ratios.size() < kFewest) return 0.0;
+  const double about = median_in_place(std::span(ratios)) * patterns_[reference].fringes_per_unit();
+  if (!(about > 0.0)) return 0.0;
+  // The slopes tell it to some percent, the places within the beat of the other maps to more.
+  double best = 0.0;
+  double least = std::numeric_limits<double>::max();
+  const auto look = [&](double from, double to, double step_per_unit) {
+    for (double per_unit = from; per_unit <= to; per_unit += step_per_unit) {
+      const double found = misfit(period_trial(patterns_, map, per_unit));
+      if (found >= least) continue;
+      least = found;
+      best = per_unit;
+    }
+  };
+  const double fringe = 1.0 / (last_ - first_);
+  look((1.0 - kUncertain) * about, (1.0 + kUncertain) * about, 0.1 * fringe);
+  look(best - 0.1 * fringe, best + 0.1 * fringe, 0.02 * fringe);
+  return best;
+}
+
 double SequenceSample::shown_frequency(std::size_t map) const {
   std::vector<Pattern> others;
   Phases phases;
@@ -260,7 +311,7 @@ double SequenceSample::shown_frequency(std::size_t map) const {
     per_unit.push_back(patterns_[m].fringes_per_unit());
     phases.push_back(all[m]);
   }
-  if (!determine_absolute_phase(others, projector_)) return 0.0;
+  if (!determine_absolute_phase(others, projector_)) return frequency_by_slopes(map);
   FringeCurve curve(per_unit, first_, last_);
   std::vector<float> pixel(phases.size());
   std::vector<double> places;

@@ -48,7 +48,8 @@ class SequenceSample {
   /// The residuals of all pixels as declared.
   [[nodiscard]] std::vector<PlacedResiduals> residuals() const;
   /// The number of fringes per unit that the frames of a map show if the other maps are right; 0
-  /// if the other maps do not determine the place in the field, or if no number fits.
+  /// if no number fits. Where the other maps do not determine the place in the field, their slopes
+  /// do.
   [[nodiscard]] double shown_frequency(std::size_t map) const;
 
  private:
@@ -62,6 +63,9 @@ class SequenceSample {
   [[nodiscard]] std::vector<double> frequencies_of(const SequenceTrial& trial) const;
   [[nodiscard]] double median_distance(const std::vector<double>& per_unit,
                                        const Phases& phases) const;
+  /// The number of fringes per unit by which the phase of a map changes beside that of another one,
+  /// refined by the misfit.
+  [[nodiscard]] double frequency_by_slopes(std::size_t map) const;
   [[nodiscard]] bool is_measured(std::size_t pixel) const;  ///< in all maps
   void choose_pixels(const SequenceCheckOptions& options);
 

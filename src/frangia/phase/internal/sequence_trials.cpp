@@ -71,6 +71,7 @@ class ShiftTrials {
                    std::move(what),
                    {},
                    fmt::format("shifts_deg = [{:g}]", fmt::join(degrees, ", "))};
+    trial.fault.shifts_rad = shifts_rad;
     Pattern changed = declared_;
     changed.shifts_rad = std::move(shifts_rad);
     trial.changes.push_back({map_, std::move(changed), map_});

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "frangia/dataset/read_frames.h"
+#include "frangia/pipeline/explain_no_phase.h"
 
 namespace frangia {
 namespace {
@@ -17,6 +18,8 @@ class FirstView {
             const DecodeOptions& options,
             const Run& run)
       : status_(decoded(scan, rays, options, run)) {}
+  /// Why no pixel has a phase, if none has one.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
   [[nodiscard]] std::ptrdiff_t count(PixelStatus status) const {
     const auto pixels = status_.pixels();
     return std::count(pixels.begin(), pixels.end(), status);
@@ -27,16 +30,20 @@ class FirstView {
   }
 
  private:
-  [[nodiscard]] static Image<PixelStatus> decoded(const Scan& scan,
-                                                  const Image<Eigen::Vector2f>& rays,
-                                                  DecodeOptions options,
-                                                  const Run& run) {
+  [[nodiscard]] Image<PixelStatus> decoded(const Scan& scan,
+                                           const Image<Eigen::Vector2f>& rays,
+                                           DecodeOptions options,
+                                           const Run& run) {
     options.wrap = {};
     Run silent;
     silent.stop = run.stop;
-    return decode_view(read_frames(scan, 0, silent), scan.rig, rays, options, silent).phase.status;
+    const auto stacks = read_frames(scan, 0, silent);
+    auto status = decode_view(stacks, scan.rig, rays, options, silent).phase.status;
+    reason_ = explain_no_phase(stacks, status);
+    return status;
   }
 
+  std::string reason_;  // set by `decoded`
   Image<PixelStatus> status_;
 };
 
@@ -79,6 +86,8 @@ std::string explain_no_surface(const Scan& scan,
         scan.folder.string(),
         what);
   }
+  if (points == 0 && !view.reason().empty())
+    return fmt::format("{}: {}; in the first view {}", scan.folder.string(), what, view.reason());
   return fmt::format("{}: {}; check light, exposure and white_level", scan.folder.string(), what);
 }
 

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/check_gray_code.h"
 #include "frangia/phase/decode_gray_code.h"
+#include "frangia/phase/phase_algorithm.h"
 #include "frangia/phase/unwrap_levels.h"
 #include "frangia/phase/unwrap_sequence.h"
+#include "frangia/phase/wrap_phase.h"
 #include "frangia/pipeline/internal/select_stacks.h"
 #include "frangia/range/check_orientation.h"
 #include "frangia/range/fringe_ray.h"
@@ -71,6 +74,36 @@ void decide_by_orientation(const WrappedPhase& fringes,
     std::erase_if(check.fits, contradicts);
 }
 
+/// Of several orders of the frames of one pattern that fit, keeps those with which the Gray code
+/// agrees: orders that reverse or delay the fringes leave the same residual.
+void decide_by_code(const UnwrapInput& input,
+                    const Pattern& pattern,
+                    const DecodeOptions& options,
+                    const NoiseModel& noise,
+                    SequenceCheck& check) {
+  const auto stack = std::find_if(input.stacks.begin(), input.stacks.end(), [&](const auto& one) {
+    return one.pattern.name == pattern.name;
+  });
+  if (check.consistent || check.fits.size() < 2 || stack == input.stacks.end()) return;
+  const auto contradicts = [&](const SequenceFault& fault) {
+    if (fault.patterns != std::vector{pattern.name} ||
+        fault.shifts_rad.size() != pattern.shifts_rad.size())
+      return false;
+    FrameStack changed = *stack;
+    changed.pattern.shifts_rad = fault.shifts_rad;
+    const WrappedPhase map =
+        wrap_phase(changed, least_squares(fault.shifts_rad), noise, options.wrap);
+    const SequenceCheck code = check_gray_code(input.gray.front(), map);
+    return code.decided && !code.consistent;
+  };
+  std::vector<SequenceFault> fits;
+  std::copy_if(
+      check.fits.begin(), check.fits.end(), std::back_inserter(fits), [&](const auto& one) {
+        return !contradicts(one);
+      });
+  if (!fits.empty()) check.fits = std::move(fits);
+}
+
 /// The absolute phase that the caller's function finds.
 AbsolutePhase own_unwrapped(std::span<const WrappedPhase> maps, const DecodeOptions& options) {
   AbsolutePhase phase = options.own.unwrap(maps);
@@ -114,6 +147,7 @@ void unwrap_direction(const UnwrapInput& input,
     SequenceCheck code = check_gray_code(input.gray.front(), out.wrapped.front());
     decide_by_orientation(out.wrapped.front(), rig, input.rays, code);
     if (out.checks.front().consistent) out.checks = {code};
+    decide_by_code(input, out.wrapped.front().pattern, options, out.noise, out.checks.front());
     out.phase = unwrap_finer_levels(
         decode_gray_code(input.gray, out.wrapped.front(), out.noise, options.temporal),
         std::span(out.wrapped).subspan(1),

@@ -20,6 +20,12 @@ Eigen::Matrix<double, 3, 2> perpendicular_directions(const Turntable& table) {
   return sides;
 }
 
+Turntable nearest_to(const Turntable& given, Turntable refined) {
+  const Eigen::Vector3d away = given.point_mm - refined.point_mm;
+  refined.point_mm += refined.axis * refined.axis.dot(away);
+  return refined;
+}
+
 TableState apply_update(const TableState& state, const Eigen::VectorXd& step) {
   const Eigen::Matrix<double, 3, 2> sides = perpendicular_directions(state.table);
   TableState next = state;

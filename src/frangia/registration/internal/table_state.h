@@ -44,6 +44,9 @@ struct TableState {
 /// The two unit directions perpendicular to the axis in which it tilts and shifts.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> perpendicular_directions(const Turntable& table);
 
+/// The refined table with its point nearest to the given one.
+[[nodiscard]] Turntable nearest_to(const Turntable& given, Turntable refined);
+
 /// The state after a step in the unknowns.
 [[nodiscard]] TableState apply_update(const TableState& state, const Eigen::VectorXd& step);
 

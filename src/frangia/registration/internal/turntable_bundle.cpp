@@ -30,6 +30,7 @@ struct ChunkSums {
   double closing_weight = 0.0;
   double closing_gradient = 0.0;
   std::vector<float> distances_mm;
+  std::vector<float> over_sigma;
   std::size_t matched = 0;
   std::size_t observed = 0;
   std::vector<PairTally> tallies;  ///< by paired view
@@ -108,9 +109,9 @@ struct BundleAccumulator {
     const double distance = pair.distance_mm();
     if (!(std::abs(distance) < options.gate_mm)) return std::abs(distance);
     ++tally.agree;
-    const double weight = tukey_weight(distance, options.gate_mm) /
-                          (std::pow(static_cast<double>(surfel.sigma_mm), 2) +
-                           std::pow(static_cast<double>(target->sigma_mm), 2));
+    const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
+                            std::pow(static_cast<double>(target->sigma_mm), 2);
+    const double weight = tukey_weight(distance, options.gate_mm) / variance;
     const PairJacobian jacobian = transfer.jacobian(pair.normal, surfel.point_mm.cast<double>());
     add_row(jacobian, weight, distance, to);
     if (closing > 1 && std::min(from, to) == 0 && std::max(from, to) == closing) {
@@ -119,6 +120,7 @@ struct BundleAccumulator {
       sums.closing_gradient += weight * by_last * distance;
     }
     sums.distances_mm.push_back(static_cast<float>(std::abs(distance)));
+    sums.over_sigma.push_back(static_cast<float>(std::abs(distance) / std::sqrt(variance)));
     return std::abs(distance);
   }
 
@@ -183,6 +185,8 @@ void add_chunk(BundleSums& all,
   all.distances_mm.insert(
       all.distances_mm.end(), part.distances_mm.begin(), part.distances_mm.end());
   part.distances_mm = {};
+  all.over_sigma.insert(all.over_sigma.end(), part.over_sigma.begin(), part.over_sigma.end());
+  part.over_sigma = {};
   all.matched[from] += part.matched;
   all.observed[from] += part.observed;
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -229,6 +233,7 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
   for (const ChunkSums& part : parts)
     distances += part.distances_mm.size();
   all.distances_mm.reserve(distances);
+  all.over_sigma.reserve(distances);
   for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
     add_chunk(all, chunks[chunk].view, pairs[chunks[chunk].view], parts[chunk]);
   return all;

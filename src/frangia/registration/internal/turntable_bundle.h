@@ -31,6 +31,7 @@ struct BundleSums {
                                       ///< s is the derivative by the closing view's angle
   double closing_gradient = 0.0;      ///< sum of w s r of these pairs
   std::vector<float> distances_mm;    ///< absolute, of all pairs within the gate
+  std::vector<float> over_sigma;      ///< the same over the standard deviations of the pairs
   std::vector<std::size_t> matched;   ///< by view: its surfels on a surface that another view saw
   std::vector<std::size_t> observed;  ///< by view: its surfels that project onto another's surface
   std::vector<PairTally> pairs;       ///< by view and other view, row by row
