@@ -69,6 +69,8 @@ TEST(GuessNameTemplate, FindsTheUsualForms) {
   EXPECT_EQ(guess_name_template({"left/a_0.png", "left/a_1.png", "right/a_0.png"}),
             "{camera}/a_{frame}.png");
   EXPECT_EQ(guess_name_template({"stack.tif"}), "stack.tif");
+  EXPECT_EQ(guess_name_template({"coarse.tif", "fine.tif"}), "{pattern}.tif");  // of several pages
+  EXPECT_EQ(guess_name_template({"coarse.npy", "fine.npy"}), "{pattern}.npy");
   EXPECT_EQ(guess_name_template({"shot0", "shot1"}), "shot{frame}");  // raw files
 }
 

@@ -184,6 +184,15 @@ TEST(CheckSequence, NamesAWrongPeriod) {
   }
 }
 
+TEST(CheckSequence, NamesAWrongPeriodWhereTheOthersAloneDoNotTellThePlace) {
+  const auto declared = whole_counts({53.0, 58.0, 64.0});  // the beat of two repeats 5 to 11 times
+  for (const double period : {9.0, 11.5}) {
+    auto shown = declared;
+    shown[2].period_px = period;
+    expect_only(checked(shown, declared), "p2", fmt::format("period_px = {:g}", period));
+  }
+}
+
 TEST(CheckSequence, NamesASmallStartOfTheFinestPattern) {
   // 37 degrees of 64 fringes are 4.6 degrees of 8: much more than their mean, less than chance.
   const auto declared = whole_counts({1.0, 8.0, 64.0});

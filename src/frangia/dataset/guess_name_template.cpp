@@ -60,9 +60,28 @@ std::string number_field(const char* name, const std::vector<CutText>& cuts) {
   return one_width && padded ? fmt::format("{{{}:0{}}}", name, width) : fmt::format("{{{}}}", name);
 }
 
+/// The ending of files that may each hold all frames of a pattern and are called by its name alone,
+/// such as coarse.tif and fine.tif; empty for other names.
+std::string ending_of_stacks(const std::vector<std::string>& files) {
+  std::set<std::string> endings;
+  for (const std::string& file : files) {
+    const std::size_t dot = std::min(file.rfind('.'), file.size());
+    if (!cut_at_last_number(file.substr(0, dot)).number.empty()) return {};
+    endings.insert(file.substr(dot));
+  }
+  if (endings.size() != 1) return {};
+  std::string ending;
+  for (const char letter : *endings.begin())
+    ending += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  const bool has_pages = ending == ".tif" || ending == ".tiff" || ending == ".npy";
+  return has_pages ? *endings.begin() : std::string();
+}
+
 /// The template of the files of one folder.
 std::string template_of_files(const std::vector<std::string>& files,
                               const std::vector<std::string>& names) {
+  if (const std::string ending = ending_of_stacks(files); !ending.empty())
+    return "{pattern}" + ending;
   std::vector<CutText> cuts;
   std::set<std::string> prefixes;
   for (const std::string& file : files) {
