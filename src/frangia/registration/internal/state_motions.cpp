@@ -76,11 +76,14 @@ ViewMotions state_motions(const TableState& state,
     const auto eigen = symmetric_eigen(gain);
     const Eigen::VectorXd left = (1.0 + eigen.values.array().max(0.0)).rsqrt();
     factor = (factor * eigen.vectors * left.asDiagonal()).eval();
-    if (!offset.isZero(0.0)) {
-      const Eigen::VectorXd towards = factor * (factor.transpose() * (information * offset));
-      factor.conservativeResize(Eigen::NoChange, factor.cols() + 1);
-      factor.rightCols<1>() = towards;
-    }
+    // Where views overlap well, the offset is the error of the state that they fit best, and below
+    // what they distinguish.
+    constexpr double kWell = 400.0;  // information over that of the prior: 20 times less sigma
+    const Eigen::VectorXd weak = (eigen.values.array() < kWell).cast<double>();
+    const Eigen::VectorXd towards =
+        factor * weak.cwiseProduct(factor.transpose() * (information * offset));
+    factor.conservativeResize(Eigen::NoChange, factor.cols() + 1);
+    factor.rightCols<1>() = towards;
   }
   ViewMotions motions = motions_by_unknown(state);
   for (auto& motion : motions)

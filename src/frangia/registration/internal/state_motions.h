@@ -20,7 +20,8 @@ namespace frangia {
 
 /// Returns the motions of the views by what is left of `prior_sigma` where pairs of views add the
 /// `information`. Where these pairs fit best at an `offset` from the state that is kept, the part
-/// of it that they and the prior agree on is one motion more.
+/// of it that they and the prior agree on is one motion more,
+/// in directions that they determine badly.
 ///
 /// @shape    `prior_sigma`: the unknowns of the state, 0 for what is exact; `information`: a square
 ///           matrix of them, or empty for none; `offset`: the unknowns
