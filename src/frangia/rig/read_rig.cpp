@@ -48,11 +48,10 @@ Eigen::Vector3d direction(TomlReader& reader, std::string_view key) {
   return value.normalized();
 }
 
-/// A standard deviation, 0 or more; NaN without the key.
-double sigma_of(TomlReader& reader, std::string_view key) {
-  const double value = reader.number_or(key, kMissing);
-  if (value < 0.0) reader.fail(key, fmt::format("is {}; it must not be negative", value));
-  return value;
+/// A standard deviation, 0 or more; NaN is one that is not stated.
+double not_negative(const TomlReader& reader, std::string_view key, double sigma) {
+  if (sigma < 0.0) reader.fail(key, fmt::format("is {}; it must not be negative", sigma));
+  return sigma;
 }
 
 Eigen::Matrix3d rotation(TomlReader& reader, std::string_view key) {
@@ -330,9 +329,12 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
   if (reader.has("turntable")) {
     TomlReader turntable = reader.table("turntable");
     rig.turntable = Turntable{vector3(turntable, "point_mm"), direction(turntable, "axis")};
-    rig.turntable->point_sigma_mm = sigma_of(turntable, "point_sigma_mm");
-    rig.turntable->axis_sigma_rad = rad_from_deg(sigma_of(turntable, "axis_sigma_deg"));
-    rig.turntable->angle_sigma_rad = rad_from_deg(sigma_of(turntable, "angle_sigma_deg"));
+    rig.turntable->point_sigma_mm =
+        not_negative(turntable, "point_sigma_mm", turntable.number_or("point_sigma_mm", kMissing));
+    rig.turntable->axis_sigma_rad = rad_from_deg(
+        not_negative(turntable, "axis_sigma_deg", turntable.number_or("axis_sigma_deg", kMissing)));
+    rig.turntable->angle_sigma_rad = rad_from_deg(not_negative(
+        turntable, "angle_sigma_deg", turntable.number_or("angle_sigma_deg", kMissing)));
     turntable.warn_of_unused_keys(run);
   }
   if (reader.has("calibration"))
