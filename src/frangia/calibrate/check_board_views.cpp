@@ -1,4 +1,4 @@
-// Over 250 lines: the checks in the order in which one fault hides another.
+// Above 250 lines: the checks in the order in which one fault hides another.
 #include "frangia/calibrate/check_board_views.h"
 
 #include <algorithm>
