@@ -50,6 +50,19 @@ TEST(CheckBoardViews, NamesTheViewsWithoutTheBoard) {
   EXPECT_NE(message.find("not found in pose 1, pose 3"), std::string::npos) << message;
 }
 
+TEST(CheckBoardViews, NamesBlurWhereItHidesTheBoard) {
+  std::vector<PoseCapture> poses = captures(6);
+  for (PoseCapture& pose : poses)
+    pose.image = {.blur_px = 0.7, .contrast = 150.0};
+  poses[1].view.points.clear();  // somewhere else, and sharp
+  poses[2].view.points.clear();
+  poses[2].image.blur_px = 2.4;
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  ASSERT_EQ(checks.warnings.size(), 1U);
+  EXPECT_NE(checks.warnings[0].find("out of focus or moving in pose 2,"), std::string::npos)
+      << checks.warnings[0];
+}
+
 TEST(CheckBoardViews, NamesTheCornersThatTheImagesShow) {
   const std::string message = fault_of([](PoseCapture& pose) {
     pose.view.points.clear();

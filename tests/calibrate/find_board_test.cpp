@@ -89,6 +89,57 @@ TEST(FindBoard, FindsTheCentersOfCirclesWithinAFifthOfAPixel) {
   EXPECT_LT(error_px(found, board), 0.2);
 }
 
+/// The light falls off by 0.4 % a pixel across the board.
+Image<float> lit_from_the_left(Image<float> image) {
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      image(x, y) = static_cast<float>(image(x, y) * std::exp(-0.004 * x));
+  return image;
+}
+
+/// Root mean square of the distances from the pixels where `pixel_of` sees the nominal points.
+template <typename PixelOf>
+double rms_px(const std::vector<BoardPoint>& found, const Board& board, const PixelOf& pixel_of) {
+  const std::vector<Eigen::Vector2d> nominal = board_points_mm(board);
+  double forward = 0.0;
+  double backward = 0.0;
+  for (const BoardPoint& point : found) {
+    const auto index = static_cast<std::size_t>(point.index);
+    forward += (pixel_of(nominal[index]) - point.camera_px).squaredNorm();
+    backward += (pixel_of(nominal[nominal.size() - 1 - index]) - point.camera_px).squaredNorm();
+  }
+  return std::sqrt(std::min(forward, backward) / static_cast<double>(found.size()));
+}
+
+TEST(FindBoard, UnevenLightMovesCornersByLessThanAHundredthOfAPixel) {
+  const Board board{.kind = BoardKind::Checkerboard, .columns = 10, .rows = 7, .square_mm = 10.0};
+  const Image<float> image = picture_of(oblique(), checkerboard);
+  const auto even = find_board(image, board);
+  const auto uneven = find_board(lit_from_the_left(image), board);
+  ASSERT_EQ(even.size(), 70U);
+  ASSERT_EQ(uneven.size(), 70U);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < even.size(); ++i)
+    squares += (even[i].camera_px - uneven[i].camera_px).squaredNorm();
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(even.size())), 0.01);
+}
+
+/// The pixel on which the center of the ellipse of a circle lies: the last column of its dual
+/// conic.
+Eigen::Vector2d ellipse_center(const Eigen::Vector2d& mm, double radius_mm) {
+  Eigen::Matrix3d conic = -mm.homogeneous() * mm.homogeneous().transpose();
+  conic.topLeftCorner<2, 2>() += radius_mm * radius_mm * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix3d image = oblique() * conic * oblique().transpose();
+  return image.col(2).hnormalized();
+}
+
+TEST(FindBoard, FindsTheEllipsesOfCirclesInUnevenLightWithinAHundredthOfAPixel) {
+  const Board board{.kind = BoardKind::Circles, .columns = 10, .rows = 7, .square_mm = 10.0};
+  const auto found = find_board(lit_from_the_left(picture_of(oblique(), circles)), board);
+  ASSERT_EQ(found.size(), 70U);
+  EXPECT_LT(rms_px(found, board, [](const auto& mm) { return ellipse_center(mm, 3.0); }), 0.01);
+}
+
 /// A ChArUco board as picture_of wants it: black is 0.
 auto charuco(const Board& board) {
   return [&board](const Eigen::Vector2d& mm) { return is_printed_black(board, mm) ? 0.0 : 1.0; };
@@ -131,6 +182,24 @@ TEST(FindCharuco, TellsAMirroredBoard) {
   EXPECT_GT(sight.mirrored_markers, 30);
 }
 
+TEST(FindCharuco, TellsAMirroredBoardWhoseMarkersResembleOthersMirrored) {
+  // 40 of the 50 markers of four by four cells: some are, mirrored, within the distance of others.
+  const Board board{.kind = BoardKind::Charuco,
+                    .columns = 9,
+                    .rows = 7,
+                    .square_mm = 10.0,
+                    .dictionary = "DICT_4X4_50"};
+  const Image<float> image = picture_of(oblique(), charuco(board));
+  Image<float> mirrored(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      mirrored(image.width() - 1 - x, y) = image(x, y);
+  const CharucoSight sight = find_charuco(mirrored, board);
+  EXPECT_TRUE(sight.points.empty());
+  EXPECT_GT(sight.mirrored_markers, 25);
+  EXPECT_EQ(find_charuco(image, board).mirrored_markers, 0);
+}
+
 TEST(FindBoard, FindsNothingWhereTheBoardHasOtherCornersAndTheyAreCounted) {
   const Image<float> image = picture_of(oblique(), checkerboard);
   const Board board{.kind = BoardKind::Checkerboard, .columns = 9, .rows = 6, .square_mm = 10.0};
@@ -159,6 +228,18 @@ TEST(MeasureSharpness, FindsTheBlurAndTheMotionThatTheImageHas) {
   moved(0, 2) = 0.8;
   moved(1, 2) = -0.6;
   EXPECT_NEAR(measure_motion_px(picture_of(moved * oblique(), checkerboard), points, 8), 1.0, 0.05);
+}
+
+TEST(MeasureSharpness, ComparesImagesWithoutABoard) {
+  const Image<float> image = picture_of(oblique(), checkerboard);
+  Image<float> blurred(image.width(), image.height());
+  const cv::Mat from(
+      image.height(), image.width(), CV_32F, const_cast<float*>(image.pixels().data()));
+  cv::Mat to(image.height(), image.width(), CV_32F, blurred.pixels().data());
+  cv::GaussianBlur(from, to, {}, 2.5);
+  EXPECT_LT(measure_image_sharpness(image).blur_px, 1.0);
+  EXPECT_NEAR(measure_image_sharpness(blurred).blur_px, 2.5, 0.6);
+  EXPECT_NEAR(measure_image_sharpness(image).contrast, 180.0, 5.0);
 }
 
 /// Frames of fringes along x with equal shifts through a display of a given gamma.

@@ -9,6 +9,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/registration/internal/drift_model.h"
+#include "frangia/registration/internal/known_length.h"
 #include "frangia/registration/internal/retriangulate_views.h"
 
 #include "support/error_of.h"
@@ -271,6 +272,17 @@ TEST(DriftModel, AddsNothingToACovarianceThatIsNotMeasured) {
   // A measurement as good as the prior halves the variances.
   const RigCovariance half = model.updated(Eigen::MatrixXd::Identity(model.count(), model.count()));
   EXPECT_NEAR(half.covariance.trace(), 0.5 * prior.trace(), 1e-9 * prior.trace());
+}
+
+TEST(RefineRig, ScalesFurtherCamerasWithTheRig) {
+  Rig rig = true_rig();
+  rig.more_cameras.emplace_back();
+  rig.more_cameras[0].position_mm = {100.0, -20.0, 5.0};
+  const double distance_mm = (rig.more_cameras[0].position_mm - rig.projector.position_mm).norm();
+  scale_rig(rig, 1.01);
+  EXPECT_NEAR((rig.more_cameras[0].position_mm - rig.projector.position_mm).norm(),
+              1.01 * distance_mm,
+              1e-9);
 }
 
 }  // namespace

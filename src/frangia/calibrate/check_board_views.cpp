@@ -1,5 +1,4 @@
-// Above 250 lines: the faults that are told apart, side by side.
-// Over 250 lines: the checks in the order in which one fault hides another.
+// Above 250 lines: the checks in the order in which one fault hides another.
 #include "frangia/calibrate/check_board_views.h"
 
 #include <algorithm>
@@ -214,6 +213,13 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
                     list_of(unseen)));
   }
   PoseChecks checks;
+  const auto unfocused = blurred_unseen(poses, options);
+  if (!unfocused.empty()) {
+    checks.warnings.push_back(
+        fmt::format("the image is out of focus or moving in {}, so that the board is not found "
+                    "there; close the aperture or place the board nearer to the focus",
+                    list_of(unfocused)));
+  }
   std::string earlier;  // what is wrong with the poses left out so far
   const auto leave_out = [&](const std::vector<std::string>& names, const std::string& reason) {
     if (names.empty()) return;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/calibrate/board_view.h"
+#include "frangia/calibrate/measure_sharpness.h"
 #include "frangia/rig/board.h"
 #include "frangia/rig/rig.h"
 
@@ -23,6 +24,7 @@ struct PoseCapture {
   std::optional<std::array<int, 2>> counted;
   int mirrored_markers = 0;  ///< of a ChArUco board that only the mirrored image shows
   double blur_px = 0.0;      ///< of the edges at the corners, as `measure_blur_px`
+  ImageSharpness image;      ///< of the whole image
   double motion_px = 0.0;    ///< of the board between patterns, as `measure_motion_px`
   std::string moved_in;      ///< the pattern in which the board is farthest away
   double misfit = 0.0;       ///< of the worst pattern, as `measure_fringe_misfit`
@@ -41,6 +43,9 @@ struct PoseCheckOptions {
   double min_tilt_deg = 5.0;  ///< largest angle between two poses; smaller: parallel
   /// Blur above which an image is reported as out of focus; corners then lose half their accuracy.
   double max_blur_px = 2.5;
+  /// Blur of an image without the board, relative to images with it, above which it explains why
+  /// the board is not found: a ChArUco board is lost at 2.5 px, and sharp images have 0.7 px.
+  double unseen_blur = 1.7;
   /// Motion of the board between patterns above which a pose is left out: the reprojection error of
   /// good poses.
   double max_motion_px = 0.3;

@@ -9,6 +9,7 @@
 
 #include "frangia/calibrate/internal/opencv_image.h"
 #include "frangia/calibrate/internal/read_markers.h"
+#include "frangia/calibrate/internal/refine_corner.h"
 
 namespace frangia {
 namespace {
@@ -125,10 +126,15 @@ CharucoSight find_charuco(const Image<float>& counts, const Board& board) {
   std::vector<SeenMarker> again = read_markers(equalized(linear), board);
   if (again.size() > markers.size()) markers = std::move(again);
   sight.markers = static_cast<int>(markers.size());
-  if (markers.empty()) {
-    sight.mirrored_markers =
-        static_cast<int>(read_markers(display_bytes(linear), board, true).size());
-    return sight;
+  // In a mirrored image some markers of a small dictionary look like others of it.
+  const std::size_t half_of_board = marker_squares(board).size() / 2;
+  if (markers.size() < half_of_board) {
+    const std::size_t mirrored = read_markers(display_bytes(linear), board, true).size();
+    if (mirrored > 2 * markers.size()) {
+      sight.mirrored_markers = static_cast<int>(mirrored);
+      return sight;
+    }
+    if (markers.empty()) return sight;
   }
   cv::Mat smooth;
   cv::GaussianBlur(linear, smooth, {}, 1.0);
@@ -151,7 +157,8 @@ CharucoSight find_charuco(const Image<float>& counts, const Board& board) {
       continue;
     BoardPoint point;
     point.index = prediction.index;
-    point.camera_px = {corner[0].x, corner[0].y};
+    const cv::Point2f place = refine_corner(linear, corner[0], half);
+    point.camera_px = {place.x, place.y};
     sight.points.push_back(point);
   }
   return sight;

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "frangia/calibrate/internal/opencv_image.h"
+#include "frangia/calibrate/internal/refine_corner.h"
 
 namespace frangia {
 namespace {
@@ -73,8 +74,10 @@ std::optional<std::vector<Eigen::Vector2d>> find_checkerboard(const Image<float>
                    cv::Size(-1, -1),
                    cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-5));
   std::vector<Eigen::Vector2d> found;
-  for (const cv::Point2f& corner : *corners)
-    found.emplace_back(corner.x, corner.y);
+  for (const cv::Point2f& corner : *corners) {
+    const cv::Point2f place = refine_corner(linear, corner, reach);
+    found.emplace_back(place.x, place.y);
+  }
   return found;
 }
 

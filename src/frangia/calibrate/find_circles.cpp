@@ -1,10 +1,25 @@
 #include "frangia/calibrate/find_circles.h"
 
+#include <algorithm>
+
 #include <opencv2/calib3d.hpp>
 
 #include "frangia/calibrate/internal/opencv_image.h"
+#include "frangia/calibrate/internal/refine_circle.h"
 
 namespace frangia {
+namespace {
+
+/// The step from a circle to the next one, in columns or rows: the mean of those to both sides.
+cv::Point2f step_at(
+    const std::vector<cv::Point2f>& centers, int index, int stride, int place, int count) {
+  const int before = place > 0 ? index - stride : index;
+  const int after = place + 1 < count ? index + stride : index;
+  const auto at = [&](int i) { return centers[static_cast<std::size_t>(i)]; };
+  return (at(after) - at(before)) / std::max(1, (after - before) / stride);
+}
+
+}  // namespace
 
 std::optional<std::vector<Eigen::Vector2d>> find_circles(const Image<float>& counts,
                                                          const Board& board) {
@@ -25,8 +40,15 @@ std::optional<std::vector<Eigen::Vector2d>> find_circles(const Image<float>& cou
                                          cv::SimpleBlobDetector::create(blobs));
   if (!found) return std::nullopt;
   std::vector<Eigen::Vector2d> out;
-  for (const cv::Point2f& center : centers)
+  const cv::Mat linear = opencv_view(counts);
+  for (int i = 0; i < board.columns * board.rows; ++i) {
+    const cv::Point2f center =
+        refine_circle(linear,
+                      centers[static_cast<std::size_t>(i)],
+                      step_at(centers, i, 1, i % board.columns, board.columns),
+                      step_at(centers, i, board.columns, i / board.columns, board.rows));
     out.emplace_back(center.x, center.y);
+  }
   return out;
 }
 

@@ -15,7 +15,7 @@ namespace frangia {
 /// @shape    `counts` w x h; the centers in the order of `board_points_mm`
 /// @units    counts; pixels, (0, 0) at the center of the top-left one
 /// @missing  nothing when the grid is not seen whole
-/// @source   OpenCV's findCirclesGrid with clustering
+/// @source   OpenCV's findCirclesGrid with clustering, then `refine_circle`
 [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> find_circles(const Image<float>& counts,
                                                                        const Board& board);
 

@@ -42,6 +42,26 @@ double measure_blur_px(const Image<float>& counts,
   return blurs.empty() ? std::numeric_limits<double>::quiet_NaN() : median(blurs);
 }
 
+ImageSharpness measure_image_sharpness(const Image<float>& counts) {
+  const cv::Mat linear = opencv_view(counts);
+  cv::Mat along;
+  cv::Mat across;
+  cv::Mat slope;
+  cv::Sobel(linear, along, CV_32F, 1, 0, 3, 1.0 / 8.0);
+  cv::Sobel(linear, across, CV_32F, 0, 1, 3, 1.0 / 8.0);
+  cv::magnitude(along, across, slope);
+  const auto percentile = [](const cv::Mat& image, double share) {
+    std::vector<float> values(image.begin<float>(), image.end<float>());
+    const auto rank = values.begin() +
+                      static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), rank, values.end());
+    return static_cast<double>(*rank);
+  };
+  constexpr double kSteepest = 0.999;  // not the one pixel that is defect
+  const double contrast = percentile(linear, 0.95) - percentile(linear, 0.05);
+  return {contrast / (std::max(percentile(slope, kSteepest), 1e-9) * std::sqrt(kTwoPi)), contrast};
+}
+
 double measure_motion_px(const Image<float>& counts,
                          std::span<const BoardPoint> points,
                          int reach_px) {

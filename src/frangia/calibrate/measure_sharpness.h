@@ -16,6 +16,17 @@ namespace frangia {
                                      std::span<const BoardPoint> points,
                                      int reach_px);
 
+/// How sharp an image is as a whole, whatever it shows.
+struct ImageSharpness {
+  double blur_px = 0.0;   ///< of its steepest edges, as if they were as high as `contrast`
+  double contrast = 0.0;  ///< between its 5th and 95th percentile, counts
+};
+
+/// Measures an image in which no board is found, to compare it with others in which one is.
+///
+/// @units    px, counts
+[[nodiscard]] ImageSharpness measure_image_sharpness(const Image<float>& counts);
+
 /// Largest distance by which the corners of a board lie elsewhere in `counts` than in `points`; the
 /// median over all corners of each coordinate, so that noise averages out.
 ///

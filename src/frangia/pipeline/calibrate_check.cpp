@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/dataset/scan_of_camera.h"
 #include "frangia/pipeline/internal/calibrate_check_kinds.h"
+#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -46,13 +48,26 @@ RigCheck calibrate_check(const Scan& scan,
                             "turntable; remove [board] or name another scan",
                             (scan.folder / "scan.toml").string()));
   }
-  if (!scan.artifact) {
-    check_part_of(scan, rig, options, run, check);
-  } else if (std::holds_alternative<Plate>(*scan.artifact)) {
-    check_plate_of(scan, rig, options, run, check);
-  } else {
-    check_balls_of(scan, rig, options, run, check);
+  if (rig.projector.is_label) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: its projector is a label, and a check measures with each camera "
+                            "and the projector; calibrate the projector, too, or inspect a part of "
+                            "known size",
+                            (scan.folder / "scan.toml").string()));
   }
+  Scan checked = scan;
+  checked.rig = rig;
+  for (std::size_t camera = 0; camera < camera_count(rig); ++camera) {
+    const Scan own = scan_of_camera(checked, camera);
+    if (!scan.artifact) {
+      check_part_of(own, options, {rig, camera}, run, check);
+    } else if (std::holds_alternative<Plate>(*scan.artifact)) {
+      check_plate_of(own, options, {rig, camera}, run, check);
+    } else {
+      check_balls_of(own, options, {rig, camera}, run, check);
+    }
+  }
+  check_cameras_of(checked, options, run, check);
   return check;
 }
 

@@ -23,6 +23,8 @@ struct CheckRigOptions {
   /// distance from the camera. A rig that is further off has too few of them.
   double match_share = 0.02;
   int part_sites = 200;  ///< along the longer side of the image, on a part
+  /// Views in which several cameras are compared with each other, spread over the scan.
+  std::size_t compared_views = 3;
 };
 
 /// One figure of a check.
@@ -50,9 +52,11 @@ struct RigCheck {
 
 /// Compares what a rig measures with what is known: spacing and diameters of a ball bar and where
 /// the balls stand in each view, the flatness of a plate, and how far the views of a turned part
-/// disagree.
+/// disagree. Each camera of the rig is checked, and further ones are compared with the reference
+/// camera; their figures end with ", camera NAME".
 ///
-/// @errors   Error(Input) when the artifact is not found or is a screen, or no view of
+/// @errors   Error(Input) when the projector is a label, or the artifact is not found or is a
+/// screen, or no view of
 ///           a part to compare with, or the rig has no turntable and there are several views;
 ///           Error(Numeric) when the views of a part share too few points
 [[nodiscard]] RigCheck calibrate_check(const Scan& scan,

@@ -137,6 +137,30 @@ int corner_reach_px(const Board& board, const std::vector<BoardPoint>& points) {
       std::clamp(kForeshortened * std::min(free, 0.3) * median(steps), 2.0, 20.0));
 }
 
+/// Finds the points of the board in an image; false where there are too few.
+bool find_points(const Image<float>& image,
+                 const Board& board,
+                 const PoseOptions& options,
+                 PoseCapture& pose) {
+  if (board.kind == BoardKind::Charuco) {
+    CharucoSight sight = find_charuco(image, board);
+    pose.mirrored_markers = std::max(pose.mirrored_markers, sight.mirrored_markers);
+    if (sight.points.size() >= options.min_points) pose.view.points = std::move(sight.points);
+  } else {
+    pose.view.points = find_board(image, board);
+  }
+  return !pose.view.points.empty();
+}
+
+/// The fringes alone; empty where there are none.
+std::vector<FrameStack> without_white(std::span<const FrameStack> stacks) {
+  std::vector<FrameStack> fringes;
+  std::copy_if(stacks.begin(), stacks.end(), std::back_inserter(fringes), [](const auto& stack) {
+    return stack.pattern.kind == PatternKind::Fringe && stack.exposure == 0;
+  });
+  return fringes;
+}
+
 /// Measures what faults of the capture show: blur, motion between patterns, and frames that do not
 /// fit their pattern.
 void measure_faults(std::span<const FrameStack> stacks,
@@ -175,14 +199,15 @@ PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
                                    const Run& run) {
   PoseCapture pose;
   pose.view.name = name;
-  const Image<float> image = board_image(stacks);
-  if (board.kind == BoardKind::Charuco) {
-    CharucoSight sight = find_charuco(image, board);
-    pose.mirrored_markers = sight.mirrored_markers;
-    if (sight.points.size() >= options.min_points) pose.view.points = std::move(sight.points);
-  } else {
-    pose.view.points = find_board(image, board);
+  Image<float> image = board_image(stacks);
+  const bool found = find_points(image, board, options, pose);
+  // A white frame that holds something else: the frames are out of step, and the fringes say so.
+  if (const auto fringes = without_white(stacks);
+      !found && !fringes.empty() && fringes.size() < stacks.size()) {
+    Image<float> mean = board_image(fringes);
+    if (find_points(mean, board, options, pose)) image = std::move(mean);
   }
+  pose.image = measure_image_sharpness(image);
   if (options.keep_picture) pose.picture = picture_of(image);
   measure_light(stacks, image, known.camera.white_level, pose);
   if (pose.view.points.empty()) {

@@ -6,8 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "frangia/core/error.h"
 #include "frangia/core/release_cached_pixels.h"
+#include "frangia/pipeline/internal/calibrate_check_kinds.h"
 #include "frangia/pipeline/internal/measure_views.h"
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
@@ -69,6 +72,25 @@ void measure_direction(std::list<MeasuredSurface>& surfaces,
   }
 }
 
+/// Warns when a further camera does not measure what the refined rig measures.
+void compare_cameras(const Scan& scan, const Rig& refined, const Run& run) {
+  if (refined.more_cameras.empty()) return;
+  Scan own = scan;
+  own.rig = refined;
+  RigCheck check;
+  check_cameras_of(own, {}, run, check);
+  for (const RigCheckItem& item : check.items) {
+    if (item.passed()) continue;
+    run.warn(fmt::format(
+        "{}: its surfaces differ by {:.3g} mm from those of the refined rig, and {:.3g} "
+        "mm are expected at most; refining concerns the projector and the reference "
+        "camera, so that a further camera that moved needs `frangia calibrate rig`",
+        item.name,
+        item.deviation_mm,
+        item.limit_mm));
+  }
+}
+
 }  // namespace
 
 RigRefinement refine_scan_rig(const Scan& scan, const ReconstructOptions& options, const Run& run) {
@@ -104,7 +126,9 @@ RigRefinement refine_scan_rig(const Scan& scan, const ReconstructOptions& option
   run.stage("rig");
   RefineRigOptions how = options.refinement;
   how.table = options.registration;
-  return refine_rig(scan.rig, surfaces, stations, how, run);
+  RigRefinement refined = refine_rig(scan.rig, surfaces, stations, how, run);
+  compare_cameras(scan, refined.rig, run);
+  return refined;
 }
 
 }  // namespace frangia

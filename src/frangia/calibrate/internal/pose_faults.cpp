@@ -88,6 +88,24 @@ double plane_misfit_px(const Board& board, const BoardView& view) {
   return median(distances);
 }
 
+std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses,
+                                        const PoseCheckOptions& options) {
+  std::vector<double> blurs;
+  std::vector<double> contrasts;
+  for (const PoseCapture& pose : poses) {
+    if (pose.view.points.empty() || !(pose.image.contrast > 0.0)) continue;
+    blurs.push_back(pose.image.blur_px);
+    contrasts.push_back(pose.image.contrast);
+  }
+  if (blurs.empty()) return {};
+  const double most_blur = options.unseen_blur * median(blurs);
+  const double least_contrast = 0.5 * median(contrasts);
+  return names_of(poses, [&](const PoseCapture& pose) {
+    return pose.view.points.empty() && pose.image.blur_px > most_blur &&
+           pose.image.contrast > least_contrast;
+  });
+}
+
 void warn_of_quality(std::span<const PoseCapture> poses,
                      const PoseCheckOptions& options,
                      PoseChecks& checks) {

@@ -31,6 +31,10 @@ template <typename Condition>
 [[nodiscard]] std::string describe_moved(std::span<const PoseCapture> poses,
                                          const std::vector<std::string>& names);
 
+/// The poses without the board whose images are as bright as the others and less sharp.
+[[nodiscard]] std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses,
+                                                      const PoseCheckOptions& options);
+
 /// Whether the board is out of focus, or moved during single frames.
 [[nodiscard]] inline bool is_blurred(const PoseCapture& pose, const PoseCheckOptions& options) {
   return pose.blur_px > options.max_blur_px;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -62,13 +63,14 @@ Eigen::Vector3d center_of(const std::vector<Eigen::Vector3d>& points,
 }  // namespace
 
 void check_balls_of(const Scan& scan,
-                    const Rig& rig,
                     const CheckRigOptions& options,
+                    const CheckedCamera& camera,
                     const Run& run,
                     RigCheck& check) {
+  const Rig& rig = scan.rig;
   const auto& balls = std::get<Balls>(*scan.artifact);
   const ArtifactCapture capture = measure_balls(scan, rig, options.measure, run, check.left_out);
-  check.views = capture.views.size();
+  check.views = std::max(check.views, capture.views.size());
   const std::size_t count = capture.surfaces.size();
   std::vector<double> spacings;
   std::vector<std::vector<double>> diameters(count);
@@ -89,7 +91,7 @@ void check_balls_of(const Scan& scan,
     }
     if (count == 2) spacings.push_back((here[1] - here[0]).norm());
   }
-  CheckLimits limits(rig, all, options, check);
+  CheckLimits limits(camera, all, options, check);
   if (count == 2) {
     const MeanOf spacing = mean_of(spacings);
     limits.add("spacing",

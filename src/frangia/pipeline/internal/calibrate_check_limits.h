@@ -7,14 +7,15 @@
 #include <Eigen/Core>
 
 #include "frangia/pipeline/calibrate_check.h"
-#include "frangia/rig/rig.h"
+#include "frangia/pipeline/internal/calibrate_check_kinds.h"
 
 namespace frangia {
 
 /// Limits of the deviations of one check.
 class CheckLimits {
  public:
-  CheckLimits(const Rig& rig,
+  /// `points` are in the frame of the camera.
+  CheckLimits(const CheckedCamera& camera,
               const std::vector<Eigen::Vector3d>& points,
               const CheckRigOptions& options,
               RigCheck& check);
@@ -26,10 +27,21 @@ class CheckLimits {
  private:
   const CheckRigOptions& options_;
   RigCheck& check_;
+  std::string suffix_;  ///< names a further camera
+  double distance_mm_ = 0.0;
+  double calibration_sigma_mm_ = 0.0;
 };
 
 /// Standard deviation of heights by the median of their magnitudes, which the edges of a plate do
 /// not change.
 [[nodiscard]] double spread_of(std::span<const double> heights);
+
+/// Likewise by the median or the 80th percentile, whichever says more: a turntable whose axis moved
+/// displaces only the faces that look along the motion.
+[[nodiscard]] double wide_spread_of(std::span<const double> heights);
+
+/// The spread of sound patches is their noise of one standard deviation. Of many patches half of it
+/// more is not by chance: the share that three of are allowed.
+inline constexpr double kNoiseShare = 0.5;
 
 }  // namespace frangia

@@ -1,11 +1,9 @@
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
-#include "frangia/dataset/read_frames.h"
 #include "frangia/pipeline/internal/calibrate_artifact_sites.h"
 #include "frangia/pipeline/internal/calibrate_check_kinds.h"
 #include "frangia/pipeline/internal/calibrate_check_limits.h"
@@ -14,26 +12,17 @@
 namespace frangia {
 
 void check_part_of(const Scan& scan,
-                   const Rig& rig,
                    const CheckRigOptions& options,
+                   const CheckedCamera& camera,
                    const Run& run,
                    RigCheck& check) {
+  const Rig& rig = scan.rig;
   if (scan.views.size() < 2) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: one view of a part has nothing to be compared with; scan it from "
                             "several angles, or state a plate or ball bar in [board]",
                             (scan.folder / "scan.toml").string()));
   }
-  const CameraModel& model = rig.camera.model;
-  SiteGrid grid;
-  grid.step = std::max(1, std::max(model.width_px, model.height_px) / options.part_sites);
-  grid.columns = (model.width_px - grid.step / 2 + grid.step - 1) / grid.step;
-  grid.rows = (model.height_px - grid.step / 2 + grid.step - 1) / grid.step;
-  MeasureLightOptions light;
-  light.step_px = grid.step;
-  light.use_laser_line = true;
-  light.fit.radius_px = 2;
-  light.fit.min_pixels = 15;
   std::vector<PartView> views;
   std::vector<Eigen::Vector3d> all;
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
@@ -41,8 +30,8 @@ void check_part_of(const Scan& scan,
     run.check();
     // In another setup the part lies elsewhere on the table.
     if (scan.views[i].setup != scan.views.front().setup) continue;
-    const std::vector<LightSite> sites = measure_light(read_frames(scan, i, run), rig, light, run);
-    views.push_back({site_points(sites, rig), table_turn(rig, scan.views[i].angle_rad)});
+    views.push_back(measure_part_view(scan, i, options.part_sites, run));
+    views.back().camera_from_zero = table_turn(rig, scan.views[i].angle_rad);
     for (const Eigen::Vector3d& point : views.back().points)
       if (point.allFinite()) all.push_back(point);
   }
@@ -56,7 +45,7 @@ void check_part_of(const Scan& scan,
   PatchDistances patches;
   for (std::size_t a = 0; a < views.size(); ++a) {
     for (std::size_t b = 0; b < views.size(); ++b)
-      if (a != b) compare_views(views[a], views[b], grid, rig, options.match_share, patches);
+      if (a != b) compare_views(views[a], views[b], options.match_share, patches);
   }
   constexpr std::size_t kFewest = 20;
   if (patches.mean_mm.size() < kFewest) {
@@ -67,11 +56,11 @@ void check_part_of(const Scan& scan,
                             patches.mean_mm.size(),
                             options.match_share * all.front().norm()));
   }
-  CheckLimits limits(rig, all, options, check);
-  const double typical = spread_of(patches.mean_mm);
+  CheckLimits limits(camera, all, options, check);
+  const double typical = wide_spread_of(patches.mean_mm);
   limits.add("disagreement of the views",
              typical,
-             median(patches.sigma_mm),
+             kNoiseShare * median(patches.sigma_mm),
              2.0,
              fmt::format("{:.4f} mm, robust, over {} patches", typical, patches.mean_mm.size()));
 }

@@ -84,12 +84,13 @@ PatchHeights patch_heights(std::span<const double> heights,
 }  // namespace
 
 void check_plate_of(const Scan& scan,
-                    const Rig& rig,
                     const CheckRigOptions& options,
+                    const CheckedCamera& camera,
                     const Run& run,
                     RigCheck& check) {
+  const Rig& rig = scan.rig;
   const ArtifactCapture capture = measure_plate(scan, rig, options.measure, run, check.left_out);
-  check.views = capture.views.size();
+  check.views = std::max(check.views, capture.views.size());
   const double patch_px = 8.0 * std::max(rig.camera.model.width_px, rig.camera.model.height_px) /
                           options.measure.plate_sites;
   std::vector<Eigen::Vector3d> all;
@@ -124,7 +125,7 @@ void check_plate_of(const Scan& scan,
                             "third of it",
                             (scan.folder / "scan.toml").string()));
   }
-  CheckLimits limits(rig, all, options, check);
+  CheckLimits limits(camera, all, options, check);
   limits.add("flatness",
              worst,
              worst_sigma,

@@ -5,16 +5,13 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
 
-/// The grid of points of one view, and what is needed to compare another view with it.
-struct PartView {
-  std::vector<Eigen::Vector3d> points;  ///< by site, rig frame; NaN where missing
-  Eigen::Isometry3d rig_from_zero = Eigen::Isometry3d::Identity();
-};
-
+/// The sites of one camera at which a part is compared.
 struct SiteGrid {
   int step = 1;
   int columns = 0;
@@ -25,6 +22,21 @@ struct SiteGrid {
            static_cast<std::size_t>(column);
   }
 };
+
+/// The grid of points of one view of one camera, and what is needed to compare another with it.
+struct PartView {
+  SiteGrid grid;
+  CameraModel camera;
+  std::vector<Eigen::Vector3d> points;  ///< by site, in the frame of the camera; NaN where missing
+  Eigen::Isometry3d camera_from_zero =
+      Eigen::Isometry3d::Identity();  ///< from the rig frame, with the table at angle 0
+};
+
+/// Measures one view of a part. `scan` and its rig are those of one camera, see `scan_of_camera`.
+[[nodiscard]] PartView measure_part_view(const Scan& scan,
+                                         std::size_t view,
+                                         int part_sites,
+                                         const Run& run);
 
 /// Distances between the surfaces of two views, averaged over patches.
 struct PatchDistances {
@@ -38,8 +50,6 @@ struct PatchDistances {
 /// @units    mm
 void compare_views(const PartView& from,
                    const PartView& to,
-                   const SiteGrid& grid,
-                   const Rig& rig,
                    double match_share,
                    PatchDistances& out);
 
