@@ -38,6 +38,8 @@ CommandLines command_lines(const ProjectProgress& project) {
                      folder.scan.string(),
                      "--views",
                      std::to_string(project.stations)};
+    if (project.setup > 0)
+      lines["scan"].insert(lines["scan"].end(), {"--setup", std::to_string(project.setup)});
     append_capture(project.capture, lines["scan"]);
     lines["rig"] = {"frangia", "devices", folder.rig().string()};
   }

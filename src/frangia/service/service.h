@@ -21,7 +21,8 @@ namespace frangia {
 struct ProjectProgress {
   ProjectFolder folder;         ///< where its files are
   bool can_scan = false;        ///< its rig names devices
-  std::size_t stations = 0;     ///< planned or captured
+  std::size_t stations = 0;     ///< planned or captured, of the present setup
+  int setup = 0;                ///< the present one
   bool scan_complete = false;   ///< the scan can be reconstructed
   bool has_surface = false;     ///< a surface was reconstructed and read
   std::vector<EditStep> steps;  ///< applied edits
@@ -110,6 +111,9 @@ class Service {
   [[nodiscard]] std::string pick(const std::string& ray) const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
+  /// The registered points of a joined setup, counted from 0, as encode_points packs them; empty
+  /// without any.
+  [[nodiscard]] std::string setup_cloud(std::size_t joined) const;
   /// The newest picture of a live preview or of a calibration, unless it has the revision `after`.
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
   /// The residuals of the open project's calibration as a JSON object.
