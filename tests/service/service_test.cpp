@@ -324,6 +324,33 @@ TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
   EXPECT_NE(refusal("edit", R"({"operation": "decimate", "value": "much"})"), "");
 }
 
+TEST_F(ServiceTest, ScansTheTurnedPartAsASecondSetupOnceTheFirstIsComplete) {
+  static_cast<void>(
+      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
+  static_cast<void>(finish());
+  EXPECT_NE(refusal("start-scan", R"({"setup": 1})").find("not complete"), std::string::npos);
+  static_cast<void>(command("start-scan"));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_NE(refusal("start-scan", R"({"setup": 2})"), "");
+  static_cast<void>(command("start-scan", {{"setup", 1}, {"stations", 1}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json stations = state().at("project").at("stations");
+  ASSERT_EQ(stations.size(), 3U);
+  EXPECT_EQ(stations[1].at("setup"), 0);
+  EXPECT_EQ(stations[2].at("setup"), 1);
+  EXPECT_EQ(stations[2].at("angle_deg"), 0.0);
+  EXPECT_EQ(stations[2].at("state"), "done");
+  EXPECT_NE(refusal("rescan-station", R"({"station": 1})").find("turned over"), std::string::npos);
+  // The stations of both setups are found again, and the frames of neither are captured again.
+  restart();
+  static_cast<void>(command("open-project", {{"name", "try"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("stations"), stations);
+  static_cast<void>(command("rescan-station", {{"station", 2}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("stations"), stations);
+}
+
 TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
   static_cast<void>(
       command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));

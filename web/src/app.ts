@@ -17,6 +17,7 @@ import { projectStep, type Source } from './steps/project';
 import { rigStep } from './steps/rig';
 import type { DeviceDraft } from './steps/rig_devices';
 import { scanStep } from './steps/scan';
+import { presentSetup } from './steps/scan_setups';
 import { surfaceStep } from './steps/surface';
 import type { Coloring } from './mesh_colors';
 import { MeshSource } from './mesh_source';
@@ -44,6 +45,9 @@ export class App extends LitElement {
   /** Holes that were chosen, by number, of the mesh of a revision. */
   private chosen = { revision: -1, holes: new Set<number>() };
   layer: LiveLayer = 'camera';
+  private setup: number | null = null;
+  /** Whether the page guides through turning the part over. */
+  turning = false;
   private rigDraft: RigDraft = {};
   source: Source = 'simulated';
   example = 'lab-piezo';
@@ -181,6 +185,8 @@ export class App extends LitElement {
       if (this.wantSurface && surface && !this.job('reconstruct')) {
         this.wantSurface = false;
         this.go('surface');
+        if ((surface.summary?.setups ?? []).filter((setup) => setup.joined).length > 1) this.setLook({ coloring: 'setup' });
+        else if (this.look.coloring === 'setup') this.setLook({ coloring: 'plain' });
       }
       this.chooseLayer();
       if (this.step === 'rig') this.viewer.setRig(this.drawnRig);
@@ -253,6 +259,8 @@ export class App extends LitElement {
     this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
     this.problem = '';
     this.deviceDraft = null;
+    this.setup = null;
+    this.turning = false;
     if (!state.project) this.go('project');
     else if (state.project.surface) this.go('surface');
     else this.go(this.created || (!state.project.can_scan && !state.project.scan_complete) ? 'rig' : 'scan');
@@ -269,8 +277,33 @@ export class App extends LitElement {
     }
   }
 
+  /** The setup whose stations the step Scan shows. */
+  get setupShown(): number {
+    return Math.min(this.setup ?? Infinity, presentSetup(this.state.project?.stations ?? []));
+  }
+  showSetup(setup: number | null): void {
+    this.setup = setup;
+    this.chooseClouds();
+    this.requestUpdate();
+  }
+  turn(turning: boolean): void {
+    this.turning = turning;
+    this.requestUpdate();
+  }
+  async scanNextSetup(): Promise<void> {
+    const setup = presentSetup(this.project.stations) + 1;
+    if (!(await this.command('start-scan', { setup }))) return;
+    this.turn(false);
+    this.showSetup(null);
+  }
+  /** Each setup stands in its own pose on the table: clouds of two would mix. */
+  private chooseClouds(): void {
+    const stations = this.session.state?.project?.stations ?? [];
+    this.viewer.showClouds(this.step === 'scan' || this.step === 'live', this.step === 'live', (station) => (stations[station]?.setup ?? 0) === this.setupShown);
+  }
+
   private async showClouds(): Promise<void> {
-    this.viewer.showClouds(this.step === 'scan' || this.step === 'live', this.step === 'live');
+    this.chooseClouds();
     const stations = this.state.project?.stations ?? [];
     for (const [i, station] of stations.entries()) {
       if (!station.has_cloud || this.cloudsShown.get(i) === station.points) continue;
@@ -278,6 +311,7 @@ export class App extends LitElement {
       try {
         const arrays = unpack(await this.session.bytes(`/api/clouds/${i}`));
         this.viewer.setCloud(i, arrays.get('positions') as Float32Array);
+        this.chooseClouds();
       } catch (error) {
         if (!(error instanceof Refusal) || error.status !== 404) this.say(error);
       }
@@ -288,7 +322,7 @@ export class App extends LitElement {
     const before = this.step;
     this.step = step;
     this.setTool('orbit');
-    this.viewer.showClouds(step === 'scan' || step === 'live', step === 'live');
+    this.chooseClouds();
     this.viewer.showSurface(step === 'surface' || step === 'edit' || step === 'export');
     const project = this.session.state?.project ?? null;
     this.viewer.setRig(step === 'rig' ? (project?.rig ?? null) : null);
@@ -422,6 +456,7 @@ export class App extends LitElement {
     const { look, viewer } = this;
     if (change.shading) viewer.setShading(look.shading);
     if (change.coloring) viewer.setColoring(look.coloring);
+    if (look.coloring === 'setup') void this.meshes.showSetups();
     viewer.setSection(look.axis, look.share, look.flipped);
     this.requestUpdate();
   }

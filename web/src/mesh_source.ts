@@ -15,6 +15,7 @@ export class MeshSource {
   private previewShown = -1;
   private deviationShown = -1;
   private levelsDeviating = 0;
+  private setupsShown = '';
   private running = false;
   private again = false;
 
@@ -40,6 +41,22 @@ export class MeshSource {
     this.viewer.setPreview(null);
     this.previewShown = -1;
     this.selectionShown = this.deviationShown = -1;
+  }
+
+  /** Brings the points of the joined setups, which colour the mesh. */
+  async showSetups(): Promise<void> {
+    const key = JSON.stringify([this.session.state?.project?.name, this.surface?.summary]);
+    if (key === this.setupsShown) return;
+    this.setupsShown = key;
+    const joined = (this.surface?.summary?.setups ?? []).filter((setup) => setup.joined);
+    try {
+      const clouds: Float32Array[] = [];
+      for (let i = 0; i < joined.length; i++) clouds.push(unpack(await this.session.bytes(`/api/setups/${i}`)).get('positions') as Float32Array);
+      this.viewer.setSetups(clouds);
+    } catch (error) {
+      this.setupsShown = '';
+      this.failed(error);
+    }
   }
 
   /** Follows the state. */

@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import type { MeshArrays } from './arrays';
 import { type Coloring, type Legend, scaleOf } from './mesh_colors';
 import { MeshLevel } from './mesh_level';
+import { setupsAt } from './setup_cells';
 
 export type Shading = 'smooth' | 'flat' | 'wire';
 export type SectionAxis = 'off' | 'x' | 'y' | 'z';
@@ -28,6 +29,7 @@ export class SurfaceView {
   private moving = false;
   private shading: Shading = 'smooth';
   private coloring: Coloring = 'plain';
+  private setups: readonly Float32Array[] = [];
   private band: [number, number] | null = null;
 
   private static readonly KEPT = 4;
@@ -147,6 +149,12 @@ export class SurfaceView {
     for (const level of this.levels) level.shade(this.shading === 'flat', this.shading === 'wire' && level === this.shown);
   }
 
+  /** Points of each joined setup, by which the mesh is coloured. */
+  setSetups(clouds: readonly Float32Array[]): void {
+    this.setups = clouds;
+    for (const picture of this.pictures) for (const level of picture.levels) level.arrays.setups = null;
+    this.colorAll();
+  }
   setColoring(coloring: Coloring): void {
     this.coloring = coloring;
     this.colorAll();
@@ -155,6 +163,8 @@ export class SurfaceView {
   private colorAll(): void {
     const finest = this.levels.at(-1);
     this.legend = finest ? scaleOf(finest.arrays, this.coloring, this.band) : null;
+    for (const { arrays } of this.levels)
+      if (this.coloring === 'setup' && this.setups.length > 0) arrays.setups ??= setupsAt(arrays.positions, arrays.triangles, this.setups);
     for (const level of this.levels) level.color(this.coloring, this.legend);
   }
 }

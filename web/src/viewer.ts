@@ -143,12 +143,12 @@ export class Viewer {
     for (const child of [...this.clouds.children]) this.setCloud(Number(child.name), null);
   }
 
-  /** Shows the clouds of the stations, or that of the live preview alone. */
-  showClouds(shown: boolean, live = false): void {
+  /** Shows the clouds of some stations, or that of the live preview alone. */
+  showClouds(shown: boolean, live = false, isShown: (station: number) => boolean = () => true): void {
     const visible = () => [this.clouds, ...this.clouds.children].map((one) => one.visible).join();
     const before = visible();
     this.clouds.visible = shown;
-    for (const cloud of this.clouds.children) cloud.visible = (cloud.name === '-1') === live;
+    for (const cloud of this.clouds.children) cloud.visible = live ? cloud.name === '-1' : cloud.name !== '-1' && isShown(Number(cloud.name));
     if (visible() !== before) this.draw();
   }
 
@@ -242,6 +242,10 @@ export class Viewer {
   }
   setShading(shading: Shading): void {
     this.surface.setShading(shading);
+    this.draw();
+  }
+  setSetups(clouds: readonly Float32Array[]): void {
+    this.surface.setSetups(clouds);
     this.draw();
   }
   setColoring(coloring: Coloring): void {
