@@ -118,6 +118,18 @@ TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
   surface = state().at("project").at("surface");
   EXPECT_EQ(surface.at("triangles"), 12);
   EXPECT_EQ(surface.at("hole_count"), 0);
+  for (int i = 0; i < 2; ++i) {
+    static_cast<void>(command("undo"));
+    static_cast<void>(finish());
+  }
+  const Json undone = state().at("project").at("surface");
+  EXPECT_EQ(undone.at("mesh_revision"), selected.at("mesh_revision"));
+  EXPECT_EQ(undone.at("selection_revision"), selected.at("selection_revision"))
+      << "a client that knows them need not ask again";
+  for (int i = 0; i < 2; ++i) {
+    static_cast<void>(command("redo"));
+    static_cast<void>(finish());
+  }
   static_cast<void>(command("undo"));
   static_cast<void>(finish());
   EXPECT_EQ(state().at("project").at("surface").at("triangles"), 11);

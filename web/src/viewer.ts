@@ -212,8 +212,8 @@ export class Viewer {
     this.draw();
   }
   /** Shows a mesh of the last ones again. */
-  recallMesh(revision: number): boolean {
-    if (!this.surface.recall(revision)) return false;
+  recallMesh(revision: number, selection: number): boolean {
+    if (!this.surface.recall(revision, selection)) return false;
     this.clearMeasurement();
     this.move();
     this.draw();
@@ -226,8 +226,12 @@ export class Viewer {
     if (first) this.frame();
     this.draw();
   }
-  setSelection(flags: readonly (Uint8Array | null)[]): void {
-    this.surface.select(flags);
+  /** The selection that so many levels of the mesh show. */
+  get selected(): { revision: number; levels: number } {
+    return this.surface.selected;
+  }
+  setSelection(level: number, flags: Uint8Array | null, revision: number): void {
+    this.surface.select(level, flags, revision);
     this.move();
     this.draw();
   }

@@ -273,8 +273,10 @@ SurfacePtr SurfaceModel::publish(const Run& run) {
     describe(state.mesh, *next, run);
   }
   next->preview.reset();
+  if (shown_[done] && *next->selection == state.selection) return show(std::move(next));
   next->selected = count_selected(state.selection);
   next->selection = std::make_shared<const Selection>(state.selection);
+  next->selection_revision = revision_;
   return show(std::move(next));
 }
 
@@ -286,7 +288,6 @@ SurfacePtr SurfaceModel::refine(const Run& run) {
 }
 
 SurfacePtr SurfaceModel::show(std::shared_ptr<SurfaceSnapshot> next) {
-  next->selection_revision = revision_;
   next->steps = history_->steps();
   next->done = history_->done();
   next->changes = changes_;
