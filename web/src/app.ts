@@ -48,6 +48,7 @@ export class App extends LitElement {
   private setup: number | null = null;
   /** Whether the page guides through turning the part over. */
   turning = false;
+  private previewFocused = -1;
   private rigDraft: RigDraft = {};
   source: Source = 'simulated';
   example = 'lab-piezo';
@@ -117,6 +118,7 @@ export class App extends LitElement {
   private panelKey = '';
   protected override updated(): void {
     void this.estimateExport();
+    this.focusPreview();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;
     this.panelKey = key;
@@ -377,8 +379,8 @@ export class App extends LitElement {
     this.align = align;
     this.requestUpdate();
   }
-  async compare(lower: number, upper: number): Promise<void> {
-    if (await this.command('compare', { align: this.align, lower_mm: lower, upper_mm: upper })) this.setLook({ coloring: 'deviation' });
+  async compare(lower: number, upper: number, start = 1): Promise<void> {
+    if (await this.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper })) this.setLook({ coloring: 'deviation' });
   }
   get chosenHoles(): Set<number> {
     const revision = this.project.surface?.mesh_revision ?? -1;
@@ -389,6 +391,14 @@ export class App extends LitElement {
     if (chosen) this.chosenHoles.add(hole);
     else this.chosenHoles.delete(hole);
     this.requestUpdate();
+  }
+  /** Puts the focus on what applies a new preview, so that Enter does; the button that asked for it was disabled. */
+  private focusPreview(): void {
+    const revision = this.session.state?.project?.surface?.preview?.revision ?? -1;
+    const apply = this.querySelector<HTMLButtonElement>('#apply:not([disabled])');
+    if (revision === this.previewFocused || !apply) return;
+    this.previewFocused = revision;
+    if (!document.activeElement?.matches('input, select, textarea')) apply.focus({ preventScroll: true });
   }
   /** Tries an edit; it is applied when it has been looked at. */
   preview(operation: string, value = ''): void {

@@ -147,6 +147,10 @@ export interface Comparison {
   reference: string;
   reference_triangles: number;
   best_fit: boolean;
+  /** Of `poses`, from 1. */
+  start: number;
+  /** Poses that fit alike, the best first. */
+  poses: { turned_deg: number; moved_mm: number; overlap: number; rms_mm: number | null }[];
   tolerance_mm: [number, number];
   scale_mm: [number, number];
   histogram: number[];
@@ -205,7 +209,7 @@ export interface Project {
   surface: Surface | null;
   exports: { name: string; bytes: number }[];
   reference: { name: string; format: string } | null;
-  commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[] };
+  commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
 }
 export interface ProjectEntry {
   name: string;

@@ -35,6 +35,15 @@ ProjectProgress progress_of(const OpenProject& project) {
     const auto& steps = project.surface->steps;
     const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
     progress.steps.assign(steps.begin(), steps.begin() + done);
+    if (const auto& shown = project.surface->comparison) {
+      const ToleranceLimits& limits = shown->found.summary.limits;
+      progress.comparison = {project.folder.reference(project.reference.format),
+                             shown->best_fit,
+                             shown->start + 1,
+                             shown->found.poses.size(),
+                             limits.lower,
+                             limits.upper};
+    }
   }
   return progress;
 }

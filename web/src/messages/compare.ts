@@ -27,5 +27,10 @@ export const COMPARE = {
   'compare.stands': ['As it stands; {overlap} % of the surface lies on the reference.', 'Wie sie liegt; {overlap} % der Fläche liegen auf der Referenz.'],
   'compare.leftOut': ['{count} vertices were left out: edges, synthesized ones, or nothing opposite.', '{count} Punkte blieben außer Acht: Kanten, ergänzte, oder ohne Gegenüber.'],
   'compare.free': ['Not determined by the shape: {motion}', 'Durch die Form nicht bestimmt: {motion}'],
+  'compare.pose': ['Pose', 'Lage'],
+  'compare.poses': [
+    'The surface fits the reference alike in {count} poses. Choose the one in which the part is meant.',
+    'Die Fläche passt in {count} Lagen gleich gut auf die Referenz. Bitte die gemeinte wählen.',
+  ],
   'compare.wrongFile': ['This is no STL, PLY, OBJ, 3MF or STEP file. Choose another one.', 'Das ist keine STL-, PLY-, OBJ-, 3MF- oder STEP-Datei. Bitte eine andere wählen.'],
 } as const satisfies Rows;

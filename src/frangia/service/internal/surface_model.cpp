@@ -241,6 +241,7 @@ SurfacePtr SurfaceModel::compare(const std::filesystem::path& reference,
   shown->revision = ++comparisons_;
   shown->reference = name;
   shown->best_fit = options.best_fit;
+  shown->start = options.start;
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
   next->comparison = std::move(shown);
   return show(std::move(next));

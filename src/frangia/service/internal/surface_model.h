@@ -64,6 +64,7 @@ struct ShownComparison {
   int revision = 0;
   std::string reference;  ///< name of its file, for people
   bool best_fit = true;
+  std::size_t start = 0;  ///< index of the pose that was taken
   SurfaceComparison found;
 };
 
