@@ -37,7 +37,7 @@ export const SCAN = {
   'scan.turnOver2': ['Leave a third of the surface in view of both setups; a part that looks alike from all sides needs a mark of its shape.', 'Ein Drittel der Oberfläche soll in beiden Aufspannungen zu sehen sein; ein Teil, das von allen Seiten gleich aussieht, braucht ein Merkmal.'],
   'scan.turnOver3': ['Leave the turntable and the camera as they are.', 'Drehtisch und Kamera bleiben, wie sie sind.'],
   'scan.turnOverSimulated': ['The simulated part turns over by itself.', 'Das simulierte Teil dreht sich von selbst um.'],
-  'scan.startSetup': ['It is turned over: scan setup {number}', 'Ist umgedreht: Aufspannung {number} scannen'],
+  'scan.startSetup': ['Scan setup {number}', 'Aufspannung {number} scannen'],
   'scan.notYet': ['Not now', 'Jetzt nicht'],
   'scan.turnedSince': ['The part was turned over since', 'Das Teil wurde seither umgedreht'],
   'scan.good': ['good', 'gut'],
