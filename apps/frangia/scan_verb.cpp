@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/capture_scan.h"
+#include "frangia/acquisition/plan_setup.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
@@ -27,6 +28,7 @@ struct ScanArguments {
   std::filesystem::path rig;
   std::filesystem::path output;
   int views = 8;
+  int setup = 0;
   std::string exposure = "10";
   bool no_step_control = false;
   std::optional<double> table_at_deg;
@@ -43,6 +45,13 @@ void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
       ->required();
   verb.add_option("--views", arguments.views, "turntable stations, evenly over one turn")
       ->check(from_to(1, 3600))
+      ->capture_default_str();
+  verb.add_option(
+          "--setup",
+          arguments.setup,
+          "add a setup to the scan: 1 after the part was turned over, 2 after the next time; "
+          "the captured setups stay")
+      ->check(from_to(0, 999))
       ->capture_default_str();
   verb.add_option("--shifts", patterns.shifts, "frames per fringe pattern")
       ->check(from_to(3, 360))
@@ -141,7 +150,7 @@ Scan plan_of(const ScanArguments& arguments, const Run& run) {
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
   for (int i = 0; i < arguments.views; ++i)
     plan.views.push_back({kTwoPi * i / arguments.views, fmt::format("views/{:03}", i)});
-  return plan;
+  return plan_setup(plan, arguments.setup);
 }
 
 /// The command to continue with. The turntable has moved since its angle was stated.
@@ -158,6 +167,7 @@ void scan(const ScanArguments& arguments, Terminal& terminal) {
   run.stage("devices");
   const Scan plan = plan_of(arguments, run);
   CaptureOptions options = arguments.options;
+  options.setup = arguments.setup;
   options.control_steps = !arguments.no_step_control;
   if (arguments.table_at_deg) options.table_at_rad = rad_from_deg(*arguments.table_at_deg);
   if (arguments.exposure == "auto") {
@@ -195,7 +205,11 @@ void add_scan_verb(CLI::App& program, Terminal& terminal) {
       "Example:\n"
       "  frangia scan examples/simulated-digital.toml -o my-scan\n"
       "  frangia reconstruct my-scan -o part.ply\n"
-      "Repeat the same command to continue a scan that was interrupted.");
+      "Repeat the same command to continue a scan that was interrupted. Turn the part over and "
+      "add\n"
+      "--setup 1 to scan its other side into the same folder; reconstruct joins the setups by "
+      "their\n"
+      "shape.");
   auto arguments = std::make_shared<ScanArguments>();
   add_plan_options(*verb, *arguments);
   add_light_options(*verb, *arguments);

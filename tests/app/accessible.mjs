@@ -3,7 +3,7 @@
 //   node accessible.mjs PROGRAM
 import fs from 'node:fs';
 import path from 'node:path';
-import { axe, expect, launch, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+import { axe, coarsenCamera, expect, launch, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
 
 const program = path.resolve(process.argv[2]);
 requireChromium();
@@ -51,11 +51,12 @@ try {
   await inEachLook((which) => axe(page, `no project, ${which}`));
   passed('the first page');
 
-  await command(page, 'create-project', { name: 'Plate', part: 'plate', stations: 4 });
+  await command(page, 'create-project', { name: 'Plate', part: 'plate', stations: 3 });
+  coarsenCamera(path.join(home, 'projects', 'Plate'));
   await inEachLook(async (which) => {
     for (const key of ['2', '4']) {
       await page.keyboard.press(key);
-      await page.waitForTimeout(100);
+      await page.waitForTimeout(60);
       await axe(page, `step ${key} before the scan, ${which}`);
     }
   });
@@ -68,7 +69,7 @@ try {
   await inEachLook(async (which) => {
     for (const key of ['1', '2', '4', '5', '6', '7', '3']) {
       await page.keyboard.press(key);
-      await page.waitForTimeout(key === '3' ? 800 : 100);
+      await page.waitForTimeout(key === '3' ? 400 : 60);
       await axe(page, `step ${key}, ${which}`);
     }
     passed(`every step, ${which}`);

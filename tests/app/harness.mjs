@@ -39,6 +39,50 @@ export function check(name, value) {
   if (!valid(value)) fail(`${name}: ${ajv.errorsText(valid.errors).slice(0, 400)}`);
 }
 
+/** Makes the camera of a project's simulated rig coarser, so that a test renders and decodes less. */
+export function coarsenCamera(project, factor = 2) {
+  for (const name of ['rig.toml', 'true-rig.toml']) {
+    const file = path.join(project, name);
+    const scale = (text, key, change) => text.replace(new RegExp(`^${key} = \\[(.*)\\]$`, 'm'), (_, numbers) => `${key} = [${numbers.split(',').map(Number).map(change).join(', ')}]`);
+    let text = fs.readFileSync(file, 'utf8');
+    text = scale(text, 'size_px', (value) => value / factor);
+    text = scale(text, 'focal_px', (value) => value / factor);
+    text = scale(text, 'principal_point_px', (value) => (value + 0.5) / factor - 0.5);
+    fs.writeFileSync(file, text);
+  }
+}
+
+/** Creates a project on the page whose simulated rig has a part, and opens it. */
+export async function createProject(page, name, part, stations) {
+  await page.waitForSelector('input[name=name]');
+  await page.fill('input[name=name]', name);
+  await page.selectOption('select[name=part]', part);
+  await page.fill('input[name=stations]', String(stations));
+  await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('[data-next=live]');
+}
+
+/** Runs a story in a browser of its own; prints what went wrong, cleans up, and ends the process. */
+export async function tell(home, story, ending) {
+  let code = 1;
+  let browser;
+  const servers = [];
+  try {
+    browser = await launch();
+    await story(browser, servers);
+    code = problems.length === 0 ? 0 : 1;
+  } catch (error) {
+    console.log(error.stack ?? error);
+  } finally {
+    for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
+    await browser?.close();
+    for (const server of servers) await server.end('SIGTERM');
+    fs.rmSync(home, { recursive: true, force: true });
+  }
+  passed(code === 0 ? ending : 'the story broke off');
+  process.exit(code);
+}
+
 export const newHome = () => fs.mkdtempSync(path.join(os.tmpdir(), 'frangia-story-'));
 
 /** Starts a server whose projects and runtime file are in a folder. */

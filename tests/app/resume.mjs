@@ -5,14 +5,14 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+import { coarsenCamera, createProject, expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
 const home = newHome();
 fs.mkdirSync(shots, { recursive: true });
 const STATIONS = 4;
-const EXPOSURE_MS = 400;  // in real time: the scan takes half a minute, and leaves the processor to the browsers
+const EXPOSURE_MS = 220;  // in real time: the scan takes a dozen seconds, and leaves the processor to the browsers
 let server = await startServer(program, home);
 let browser;
 let code = 1;
@@ -39,12 +39,8 @@ function framesOf(folder) {
 try {
   browser = await launch();
   let page = await openPage(browser, server.url);
-  await page.waitForSelector('input[name=name]');
-  await page.fill('input[name=name]', 'Plate');
-  await page.selectOption('select[name=part]', 'plate');
-  await page.fill('input[name=stations]', String(STATIONS));
-  await page.getByText('Create', { exact: true }).click();
-  await page.waitForSelector('[data-next=live]');
+  await createProject(page, 'Plate', 'plate', STATIONS);
+  coarsenCamera(path.join(home, 'projects', 'Plate'));
   await page.keyboard.press('4');
   await page.waitForSelector('#scan:not([disabled])');
   const project = path.join(home, 'projects', 'Plate');
@@ -92,7 +88,9 @@ try {
   await page.click('#scan');
   const done = await waitFor(page, (state) => state.project.scan_complete && state.jobs.every((job) => job.state !== 'running'));
   expect(done.project.stations.every((station) => station.state === 'done'), 'a station is missing');
-  const whole = spawnSync(program, ['scan', path.join(project, 'rig.toml'), '-o', path.join(home, 'whole'), '--views', String(STATIONS), '--exposure', String(EXPOSURE_MS)], { encoding: 'utf8' });
+  const atOnce = path.join(project, 'rig-at-once.toml');  // the same rig, whose exposures take no time
+  fs.writeFileSync(atOnce, fs.readFileSync(rig, 'utf8').replace('real_time = true\n', ''));
+  const whole = spawnSync(program, ['scan', atOnce, '-o', path.join(home, 'whole'), '--views', String(STATIONS), '--exposure', String(EXPOSURE_MS)], { encoding: 'utf8' });
   expect(whole.status === 0, `frangia scan fails: ${whole.stderr}`);
   const [resumed, once] = [framesOf(path.join(project, 'scan')), framesOf(path.join(home, 'whole'))];
   expect(once.size > 0 && resumed.size === once.size, `${resumed.size} frames instead of ${once.size}`);

@@ -1,6 +1,7 @@
 // Here, because the fake camera needs the port of GigE Vision, which one test at a time has.
 #include "frangia/service/choose_devices.h"
 
+#include <fstream>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -61,6 +62,22 @@ class ChooseDevices : public ::testing::Test {
   std::vector<Driver> drivers_ = testing::all_drivers();
   DeviceChoice screen_{"fringes", "driver = \"screen\"\n"};
 };
+
+TEST_F(ChooseDevices, KeepsTheTablesOfFurtherCameras) {
+  const Rig rig = testing::small_rig("binocular");
+  write_rig(project_.rig(), rig);
+  std::ofstream(project_.rig(), std::ios::app)
+      << "\n[devices.camera]\ndriver = \"simulated\"\npart = \"plate\"\n"
+      << "\n[devices.camera-left]\ndriver = \"simulated\"\npart = \"plate\"\nseed = 7\n"
+      << "\n[devices.light]\ndriver = \"simulated\"\n";
+  choose({{"camera", "driver = \"simulated\"\npart = \"bust\"\n"},
+          {"fringes", "driver = \"simulated-display\"\n"}});
+  EXPECT_NE(text().find("[devices.camera-left]"), std::string::npos);
+  EXPECT_NE(text().find("seed = 7"), std::string::npos);
+  EXPECT_NE(text().find("part = \"bust\""), std::string::npos);
+  EXPECT_EQ(text().find("[devices.light]"), std::string::npos) << "it was not chosen again";
+  EXPECT_EQ(read_rig(project_.rig()).more_cameras.size(), 1U);
+}
 
 #ifdef FRANGIA_WITH_ARAVIS
 TEST_F(ChooseDevices, MakesARigOfAConnectedCameraAndAProjector) {

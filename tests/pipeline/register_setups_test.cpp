@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/inspect/surface_error.h"
+#include "frangia/pipeline/internal/points_of_setups.h"
 #include "frangia/pipeline/reconstruct.h"
 
 #include "support/analytic_views.h"
@@ -79,6 +80,25 @@ TEST(RegisterSetups, FindsHowThePartWasTurnedOver) {
   ASSERT_EQ(joined.registration->part_poses.size(), 1U);
   expect_near(joined.registration->part_poses[0], turned_over());
   EXPECT_LT(joined.registration->rms_after_mm, 0.035);
+  ASSERT_EQ(joined.joins.size(), 2U);
+  EXPECT_TRUE(std::isnan(joined.joins[0].overlap));
+  EXPECT_TRUE(joined.joins[1].joined);
+  EXPECT_EQ(joined.joins[1].number, 1);
+  EXPECT_EQ(joined.joins[1].views, 5U);
+  EXPECT_GT(joined.joins[1].overlap, 0.3);
+  EXPECT_LT(joined.joins[1].free_space_violation, 0.015);
+  expect_near(joined.joins[1].part_pose, turned_over());
+  // Each cloud lies on the part: a point of one has a point of the other nearby where both saw it.
+  const auto clouds = points_of_setups(joined, all.rig, 3000);
+  ASSERT_EQ(clouds.size(), 2U);
+  for (const PointCloud& cloud : clouds) {
+    EXPECT_GT(cloud.points_mm.size(), 1000U);
+    EXPECT_LT(cloud.points_mm.size(), 12'000U);
+    double worst_mm = 0.0;
+    for (const Eigen::Vector3f& point : cloud.points_mm)
+      worst_mm = std::max(worst_mm, std::abs(lumpy(point.cast<double>())));
+    EXPECT_LT(worst_mm, 1.0);
+  }
 }
 
 /// A bar of L-shaped section, standing, with one dent that tells how high it stands.
@@ -128,6 +148,10 @@ TEST(RegisterSetups, NamesASetupThatFitsNoOtherAndLeavesItOut) {
   EXPECT_NE(all.warnings[0].find("setup 1 (views/0 to views/4)"), std::string::npos)
       << all.warnings[0];
   EXPECT_EQ(joined.measured.views.size(), 5U);
+  ASSERT_EQ(joined.joins.size(), 2U);
+  EXPECT_TRUE(joined.joins[0].joined);
+  EXPECT_FALSE(joined.joins[1].joined);
+  EXPECT_EQ(points_of_setups(joined, all.rig, 3000).size(), 1U);
 }
 
 TEST(Reconstruct, MeasuresTheBottomOfABracketThatWasLaidDown) {

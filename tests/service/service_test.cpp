@@ -118,6 +118,18 @@ TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
   surface = state().at("project").at("surface");
   EXPECT_EQ(surface.at("triangles"), 12);
   EXPECT_EQ(surface.at("hole_count"), 0);
+  for (int i = 0; i < 2; ++i) {
+    static_cast<void>(command("undo"));
+    static_cast<void>(finish());
+  }
+  const Json undone = state().at("project").at("surface");
+  EXPECT_EQ(undone.at("mesh_revision"), selected.at("mesh_revision"));
+  EXPECT_EQ(undone.at("selection_revision"), selected.at("selection_revision"))
+      << "a client that knows them need not ask again";
+  for (int i = 0; i < 2; ++i) {
+    static_cast<void>(command("redo"));
+    static_cast<void>(finish());
+  }
   static_cast<void>(command("undo"));
   static_cast<void>(finish());
   EXPECT_EQ(state().at("project").at("surface").at("triangles"), 11);
@@ -322,6 +334,33 @@ TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
   EXPECT_NE(job.at("error").get<std::string>().find("select"), std::string::npos);
   EXPECT_EQ(service_->mesh(), mesh);
   EXPECT_NE(refusal("edit", R"({"operation": "decimate", "value": "much"})"), "");
+}
+
+TEST_F(ServiceTest, ScansTheTurnedPartAsASecondSetupOnceTheFirstIsComplete) {
+  static_cast<void>(
+      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
+  static_cast<void>(finish());
+  EXPECT_NE(refusal("start-scan", R"({"setup": 1})").find("not complete"), std::string::npos);
+  static_cast<void>(command("start-scan"));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_NE(refusal("start-scan", R"({"setup": 2})"), "");
+  static_cast<void>(command("start-scan", {{"setup", 1}, {"stations", 1}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json stations = state().at("project").at("stations");
+  ASSERT_EQ(stations.size(), 3U);
+  EXPECT_EQ(stations[1].at("setup"), 0);
+  EXPECT_EQ(stations[2].at("setup"), 1);
+  EXPECT_EQ(stations[2].at("angle_deg"), 0.0);
+  EXPECT_EQ(stations[2].at("state"), "done");
+  EXPECT_NE(refusal("rescan-station", R"({"station": 1})").find("turned over"), std::string::npos);
+  // The stations of both setups are found again, and the frames of neither are captured again.
+  restart();
+  static_cast<void>(command("open-project", {{"name", "try"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("stations"), stations);
+  static_cast<void>(command("rescan-station", {{"station", 2}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("stations"), stations);
 }
 
 TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {

@@ -77,6 +77,26 @@ TEST(SimulatedDrivers, ExposureGainAndBlackLevelActOnTheImage) {
   EXPECT_NEAR(mean_at(5.0, 0.0, 10.0), plain + 10.0, 0.3);
 }
 
+TEST(SimulatedDrivers, PartIsTurnedOverInTheNextSetupUnderTheSameLight) {
+  const std::string bust = kSimulated + "part = \"bust\"\n";
+  const auto shot = [&](const RigDevices& devices, int setup) {
+    FrameLabel label = label_of(0, 0);
+    label.setup = setup;
+    const Frame frame = devices.camera->capture(label, soon()).frame;
+    const auto pixels = std::get<Image<std::uint8_t>>(frame).pixels();
+    return std::vector(pixels.begin(), pixels.end());
+  };
+  const RigDevices devices = open("angular", {{"camera", bust}});
+  const auto upright = shot(devices, 0);
+  const auto turned = shot(devices, 1);
+  EXPECT_NE(upright, turned);
+  EXPECT_EQ(shot(devices, 0), upright);
+  EXPECT_EQ(shot(devices, 1), turned);
+  const RigDevices tilted = open("angular", {{"camera", bust + "setup_tilt_deg = 90\n"}});
+  EXPECT_EQ(shot(tilted, 0), upright);
+  EXPECT_NE(shot(tilted, 1), turned);
+}
+
 TEST(SimulatedDrivers, FrameDependsOnItsLabelNotOnWhatWasTakenBefore) {
   const RigDevices devices = open("angular", {{"camera", kCamera}, {"fringes", kPiezo}});
   devices.shifter->drive(2.5, soon());

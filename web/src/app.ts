@@ -2,14 +2,15 @@
 import { html, LitElement, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 
-import { unpack } from './arrays';
 import type { StepName } from './app_steps';
 import { arranged, type RigDraft } from './arrange';
 import { dialogs, footer, header, picture } from './frame_parts';
-import { icon, logo } from './icons';
 import { onKey } from './keyboard';
 import { currentLanguage, setLanguage, t } from './messages';
-import { Refusal, Session } from './session';
+import { Session } from './session';
+import { blankPage, notices } from './shell';
+import { StationClouds } from './station_clouds';
+import { finished, reachable } from './step_state';
 import { editStep, type Combine } from './steps/edit';
 import { exportArguments, exportStep, type Exporting } from './steps/export';
 import { liveStep, type LiveLayer } from './steps/live';
@@ -17,12 +18,12 @@ import { projectStep, type Source } from './steps/project';
 import { rigStep } from './steps/rig';
 import type { DeviceDraft } from './steps/rig_devices';
 import { scanStep } from './steps/scan';
+import { presentSetup } from './steps/scan_setups';
 import { surfaceStep } from './steps/surface';
 import type { Coloring } from './mesh_colors';
 import { MeshSource } from './mesh_source';
 import type { Measurement } from './ruler';
 import type { Job, Project, Residuals, RigGeometry, State } from './types';
-import { plain } from './ui';
 import { type Hit, type Ray, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
 import { LiveView } from './live_view';
 
@@ -44,6 +45,10 @@ export class App extends LitElement {
   /** Holes that were chosen, by number, of the mesh of a revision. */
   private chosen = { revision: -1, holes: new Set<number>() };
   layer: LiveLayer = 'camera';
+  private setup: number | null = null;
+  /** Whether the page guides through turning the part over. */
+  turning = false;
+  private previewFocused = -1;
   private rigDraft: RigDraft = {};
   source: Source = 'simulated';
   example = 'lab-piezo';
@@ -58,10 +63,10 @@ export class App extends LitElement {
   readonly session = new Session(() => this.onState(), (picture) => this.onPicture(picture));
   readonly host = document.createElement('div');
   measurement: Measurement | null = null;
-  private problem = '';
+  problem = '';
   private seenFailure = 0;
   meshes!: MeshSource;
-  private cloudsShown = new Map<number, number>();
+  private clouds!: StationClouds;
   private projectShown = '';
   private wantSurface = false;
   copied = false;
@@ -87,6 +92,7 @@ export class App extends LitElement {
       partPicked: (triangle) => void this.selectPart(triangle),
       picked: (tool, points) => void this.onPicked(tool, points),
     });
+    this.clouds = new StationClouds(this.session, this.viewer, () => this.chooseClouds(), (error) => this.say(error));
     this.meshes = new MeshSource(this.session, this.viewer, () => this.requestUpdate(), (error) => this.say(error));
     addEventListener('keydown', (event) => onKey(this, event));
     void this.session.begin();
@@ -113,6 +119,7 @@ export class App extends LitElement {
   private panelKey = '';
   protected override updated(): void {
     void this.estimateExport();
+    this.focusPreview();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;
     this.panelKey = key;
@@ -181,11 +188,14 @@ export class App extends LitElement {
       if (this.wantSurface && surface && !this.job('reconstruct')) {
         this.wantSurface = false;
         this.go('surface');
+        if ((surface.summary?.setups ?? []).filter((setup) => setup.joined).length > 1) this.setLook({ coloring: 'setup' });
+        else if (this.look.coloring === 'setup') this.setLook({ coloring: 'plain' });
       }
       this.chooseLayer();
       if (this.step === 'rig') this.viewer.setRig(this.drawnRig);
       void this.meshes.follow();
-      void this.showClouds();
+      this.chooseClouds();
+      void this.clouds.follow();
       void this.readResiduals();
     }
     this.requestUpdate();
@@ -247,12 +257,13 @@ export class App extends LitElement {
 
   private onProject(state: State): void {
     this.projectShown = state.project?.name ?? '';
-    this.cloudsShown.clear();
     this.meshes.forget();
-    this.viewer.clearClouds();
+    this.clouds.forget();
     this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
     this.problem = '';
     this.deviceDraft = null;
+    this.setup = null;
+    this.turning = false;
     if (!state.project) this.go('project');
     else if (state.project.surface) this.go('surface');
     else this.go(this.created || (!state.project.can_scan && !state.project.scan_complete) ? 'rig' : 'scan');
@@ -269,26 +280,34 @@ export class App extends LitElement {
     }
   }
 
-  private async showClouds(): Promise<void> {
-    this.viewer.showClouds(this.step === 'scan' || this.step === 'live', this.step === 'live');
-    const stations = this.state.project?.stations ?? [];
-    for (const [i, station] of stations.entries()) {
-      if (!station.has_cloud || this.cloudsShown.get(i) === station.points) continue;
-      this.cloudsShown.set(i, station.points);
-      try {
-        const arrays = unpack(await this.session.bytes(`/api/clouds/${i}`));
-        this.viewer.setCloud(i, arrays.get('positions') as Float32Array);
-      } catch (error) {
-        if (!(error instanceof Refusal) || error.status !== 404) this.say(error);
-      }
-    }
+  /** The setup whose stations the step Scan shows. */
+  get setupShown(): number {
+    return Math.min(this.setup ?? Infinity, presentSetup(this.session.state?.project?.stations ?? []));
+  }
+  showSetup(setup: number | null): void {
+    this.setup = setup;
+    this.chooseClouds();
+    this.requestUpdate();
+  }
+  turn(turning: boolean): void {
+    this.turning = turning;
+    this.requestUpdate();
+  }
+  async scanNextSetup(): Promise<void> {
+    const setup = presentSetup(this.project.stations) + 1;
+    if (!(await this.command('start-scan', { setup }))) return;
+    this.turn(false);
+    this.showSetup(null);
+  }
+  private chooseClouds(): void {
+    this.clouds.choose(this.step, this.setupShown);
   }
 
   go(step: StepName): void {
     const before = this.step;
     this.step = step;
     this.setTool('orbit');
-    this.viewer.showClouds(step === 'scan' || step === 'live', step === 'live');
+    this.chooseClouds();
     this.viewer.showSurface(step === 'surface' || step === 'edit' || step === 'export');
     const project = this.session.state?.project ?? null;
     this.viewer.setRig(step === 'rig' ? (project?.rig ?? null) : null);
@@ -343,8 +362,8 @@ export class App extends LitElement {
     this.align = align;
     this.requestUpdate();
   }
-  async compare(lower: number, upper: number): Promise<void> {
-    if (await this.command('compare', { align: this.align, lower_mm: lower, upper_mm: upper })) this.setLook({ coloring: 'deviation' });
+  async compare(lower: number, upper: number, start = 1): Promise<void> {
+    if (await this.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper })) this.setLook({ coloring: 'deviation' });
   }
   get chosenHoles(): Set<number> {
     const revision = this.project.surface?.mesh_revision ?? -1;
@@ -355,6 +374,14 @@ export class App extends LitElement {
     if (chosen) this.chosenHoles.add(hole);
     else this.chosenHoles.delete(hole);
     this.requestUpdate();
+  }
+  /** Puts the focus on what applies a new preview, so that Enter does; the button that asked for it was disabled. */
+  private focusPreview(): void {
+    const revision = this.session.state?.project?.surface?.preview?.revision ?? -1;
+    const apply = this.querySelector<HTMLButtonElement>('#apply:not([disabled])');
+    if (revision === this.previewFocused || !apply) return;
+    this.previewFocused = revision;
+    if (!document.activeElement?.matches('input, select, textarea')) apply.focus({ preventScroll: true });
   }
   /** Tries an edit; it is applied when it has been looked at. */
   preview(operation: string, value = ''): void {
@@ -422,6 +449,7 @@ export class App extends LitElement {
     const { look, viewer } = this;
     if (change.shading) viewer.setShading(look.shading);
     if (change.coloring) viewer.setColoring(look.coloring);
+    if (look.coloring === 'setup') void this.meshes.showSetups();
     viewer.setSection(look.axis, look.share, look.flipped);
     this.requestUpdate();
   }
@@ -431,6 +459,10 @@ export class App extends LitElement {
     this.requestUpdate();
   }
 
+  dismiss(): void {
+    this.problem = '';
+    this.requestUpdate();
+  }
   dialog(id: string): HTMLDialogElement {
     return this.querySelector(`#${id}`) as HTMLDialogElement;
   }
@@ -443,7 +475,7 @@ export class App extends LitElement {
     setLanguage(currentLanguage() === 'en' ? 'de' : 'en');
     this.requestUpdate();
   }
-  private async enter(event: SubmitEvent): Promise<void> {
+  async enter(event: SubmitEvent): Promise<void> {
     event.preventDefault();
     this.problem = '';
     try {
@@ -463,20 +495,10 @@ export class App extends LitElement {
   }
 
   reachable(step: StepName): boolean {
-    const project = this.state.project;
-    if (step === 'project') return true;
-    if (step === 'scan' || step === 'live' || step === 'rig') return project !== null;
-    return Boolean(project?.surface);
+    return reachable(this.state.project, step);
   }
   finished(step: StepName): boolean {
-    const project = this.state.project;
-    if (step === 'project') return project !== null;
-    if (step === 'rig') return Boolean(project?.rig);
-    if (step === 'live') return Boolean(project?.scan_begun);
-    if (step === 'scan') return Boolean(project?.scan_complete);
-    if (step === 'surface') return Boolean(project?.surface);
-    if (step === 'edit') return (project?.surface?.steps_done ?? 0) > 0;
-    return (project?.exports ?? []).some(({ name }) => name !== 'calibration.html');
+    return finished(this.state.project, step);
   }
 
   private panel(): TemplateResult {
@@ -489,30 +511,13 @@ export class App extends LitElement {
   }
 
   protected override render(): TemplateResult {
-    if (this.session.link === 'refused')
-      return html`<main class="blank">${logo}<h1>${t('app.refused')}</h1><p class="quiet">${t('app.refusedHint')}</p><code>frangia serve --new-link</code>
-        <form class="row" @submit=${(event: SubmitEvent) => void this.enter(event)}>
-          <label class="field grow"><span>${t('app.password')}</span><input name="password" type="password" autocomplete="current-password" required /></label>
-          <button class="btn">${t('app.enter')}</button>
-        </form>
-        ${this.problem ? html`<p class="bad" role="alert">${this.problem}</p>` : ''}</main>`;
-    if (!this.session.state) return html`<main class="blank">${logo}<p class="quiet">${t('app.connecting')}</p></main>`;
-    const lost = this.session.link === 'lost';
+    if (this.session.link === 'refused' || !this.session.state) return blankPage(this);
     return html`${header(this)}
       <div class="work">
         ${this.step === 'project' || !this.state.project
           ? projectStep(this)
           : html`${picture(this)}<main class="panel" tabindex="-1"><h1 class="sr">${t(`step.${this.step}`)}</h1>${this.panel()}</main>`}
-        <div class="messages" role="region" aria-label=${t('app.messages')}>
-          ${this.session.watches && !lost
-            ? html`<div class="notice warn" role="status"><span>${t('app.watching')}</span><button class="btn small" id="take-over" @click=${() => void this.session.takeOver()}>${t('app.takeOver')}</button></div>`
-            : ''}
-          ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
-          ${this.problem && !lost
-            ? html`<div class="notice" role="alert"><span>${plain(this.problem)}</span>
-                <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => { this.problem = ''; this.requestUpdate(); }}>${icon('close')}</button></div>`
-            : ''}
-        </div>
+        ${notices(this)}
       </div>
       ${footer(this)}${dialogs(this)}`;
   }

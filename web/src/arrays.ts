@@ -31,6 +31,8 @@ export interface MeshArrays {
   marks: Uint8Array | null;
   /** From the reference, mm; NaN where it was not compared. */
   deviation: Float32Array | null;
+  /** Bits of the joined setups that measured a vertex; null until that is asked for. */
+  setups: Uint8Array | null;
 }
 
 export function meshOf(buffer: ArrayBuffer): MeshArrays {
@@ -43,5 +45,6 @@ export function meshOf(buffer: ArrayBuffer): MeshArrays {
     views: (arrays.get('views') as Uint16Array | undefined) ?? null,
     marks: (arrays.get('marks') as Uint8Array | undefined) ?? null,
     deviation: null,
+    setups: null,
   };
 }

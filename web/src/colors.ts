@@ -8,6 +8,11 @@ const VIRIDIS: Rgb[] = [
 /** Light grey, yellow, blue: as the program's pictures show marks. */
 export const MARK_COLORS: Rgb[] = [[231, 228, 223], [231, 199, 97], [97, 160, 220]];
 
+/** Blue and orange for the first two setups, told apart without colour vision; grey where several measured. */
+const SETUP_COLORS: Rgb[] = [[92, 156, 224], [240, 158, 66], [120, 190, 130], [200, 130, 190]];
+export const SEVERAL_SETUPS: Rgb[] = [[205, 203, 196]];
+export const setupColor = (setup: number): Rgb => SETUP_COLORS[setup % SETUP_COLORS.length] as Rgb;
+
 export function viridis(share: number): Rgb {
   const at = Math.min(1, Math.max(0, share)) * (VIRIDIS.length - 1);
   const low = Math.min(VIRIDIS.length - 2, Math.floor(at));

@@ -42,7 +42,7 @@ export function header(app: App): TemplateResult {
 export function footer(app: App): TemplateResult {
   const job = app.state.jobs.find((one) => one.state === 'running');
   const commands = app.state.project?.commands ?? {};
-  const words = app.step === 'scan' || app.step === 'live' ? commands.scan : app.step === 'rig' ? commands.rig : app.step === 'surface' ? commands.reconstruct : app.step === 'project' ? undefined : commands.edit;
+  const words = app.step === 'scan' || app.step === 'live' ? commands.scan : app.step === 'rig' ? commands.rig : app.step === 'surface' ? (app.look.coloring === 'deviation' && commands.inspect) || commands.reconstruct : app.step === 'project' ? undefined : commands.edit;
   const line = words?.map(quoted).join(' ') ?? '';
   const last = app.state.jobs.at(-1);
   const copy = async () => {

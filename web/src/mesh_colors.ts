@@ -1,9 +1,9 @@
 import * as THREE from 'three';
 
 import type { MeshArrays } from './arrays';
-import { deviationColor, MARK_COLORS, quantile, type Rgb, viridis } from './colors';
+import { deviationColor, MARK_COLORS, quantile, type Rgb, SEVERAL_SETUPS, setupColor, viridis } from './colors';
 
-export type Coloring = 'plain' | 'sigma' | 'views' | 'marks' | 'deviation';
+export type Coloring = 'plain' | 'sigma' | 'views' | 'marks' | 'deviation' | 'setup';
 export interface Legend {
   low: number;
   high: number;
@@ -69,6 +69,15 @@ export function vertexColors(arrays: MeshArrays, coloring: Coloring, scale: Lege
     const colors = new Uint8Array(3 * vertices);
     for (let v = 0; v < vertices; v++) {
       const color = palette[marks[v] as number] as THREE.Color;
+      colors.set([byte(color.r), byte(color.g), byte(color.b)], 3 * v);
+    }
+    return colors;
+  }
+  if (coloring === 'setup' && arrays.setups) {
+    const palette = Array.from({ length: 256 }, (_, bits) => linear(bits === 0 ? UNKNOWN : (bits & (bits - 1)) === 0 ? setupColor(Math.log2(bits)) : (SEVERAL_SETUPS[0] as Rgb)));
+    const colors = new Uint8Array(3 * vertices);
+    for (let v = 0; v < vertices; v++) {
+      const color = palette[arrays.setups[v] as number] as THREE.Color;
       colors.set([byte(color.r), byte(color.g), byte(color.b)], 3 * v);
     }
     return colors;

@@ -10,11 +10,10 @@ const drawn = (): Promise<void> => new Promise((resolve) => requestAnimationFram
  * coarsest level first, so that there is a picture at once.
  */
 export class MeshSource {
-  selectionShown = -1;
-  private levelsSelected = 0;
   private previewShown = -1;
   private deviationShown = -1;
   private levelsDeviating = 0;
+  private setupsShown = '';
   private running = false;
   private again = false;
 
@@ -39,7 +38,23 @@ export class MeshSource {
     this.viewer.clearMesh();
     this.viewer.setPreview(null);
     this.previewShown = -1;
-    this.selectionShown = this.deviationShown = -1;
+    this.deviationShown = -1;
+  }
+
+  /** Brings the points of the joined setups, which colour the mesh. */
+  async showSetups(): Promise<void> {
+    const key = JSON.stringify([this.session.state?.project?.name, this.surface?.summary]);
+    if (key === this.setupsShown) return;
+    this.setupsShown = key;
+    const joined = (this.surface?.summary?.setups ?? []).filter((setup) => setup.joined);
+    try {
+      const clouds: Float32Array[] = [];
+      for (let i = 0; i < joined.length; i++) clouds.push(unpack(await this.session.bytes(`/api/setups/${i}`)).get('positions') as Float32Array);
+      this.viewer.setSetups(clouds);
+    } catch (error) {
+      this.setupsShown = '';
+      this.failed(error);
+    }
   }
 
   /** Follows the state. */
@@ -69,8 +84,8 @@ export class MeshSource {
       return;
     }
     if (viewer.meshShown !== surface.mesh_revision) {
-      this.selectionShown = this.deviationShown = -1;
-      if (!viewer.recallMesh(surface.mesh_revision) && !(await this.addLevel(surface, 0))) return;
+      this.deviationShown = -1;
+      if (!viewer.recallMesh(surface.mesh_revision, surface.selection_revision) && !(await this.addLevel(surface, 0))) return;
     }
     await this.select(surface);
     await this.preview(surface);
@@ -85,23 +100,25 @@ export class MeshSource {
     const bytes = await this.session.bytes(`/api/levels/${level}`);
     if (valuesOf<{ revision: number }>(bytes).revision !== surface.mesh_revision) return false; // a newer state comes
     this.viewer.addLevel(surface.mesh_revision, meshOf(bytes));
-    this.selectionShown = this.deviationShown = -1;
+    this.deviationShown = -1;
     this.changed();
     return true;
   }
 
+  /** The selection in the picture; -1 where it is not that of the mesh shown. */
+  get selectionShown(): number {
+    return this.viewer.selected.levels > 0 ? this.viewer.selected.revision : -1;
+  }
+
   private async select(surface: Surface): Promise<void> {
     const { viewer } = this;
-    if (surface.selection_revision === this.selectionShown && this.levelsSelected === viewer.levelsShown) return;
-    const flags: (Uint8Array | null)[] = [];
-    for (let level = 0; level < viewer.levelsShown; level++) {
-      if (surface.selected)
-        flags.push((unpack(await this.session.bytes(`/api/selection/${level}`)).get('selected') as Uint8Array | undefined) ?? null);
-      if (viewer.meshShown !== surface.mesh_revision) return;
-      viewer.setSelection(flags);
-      this.selectionShown = surface.selection_revision; // the coarsest level shows it already
+    const { revision, levels } = viewer.selected;
+    for (let level = revision === surface.selection_revision ? levels : 0; level < viewer.levelsShown; level++) {
+      let flags: Uint8Array | null = null;
+      if (surface.selected) flags = (unpack(await this.session.bytes(`/api/selection/${level}`)).get('selected') as Uint8Array | undefined) ?? null;
+      if (viewer.meshShown !== surface.mesh_revision || this.surface?.selection_revision !== surface.selection_revision) return;
+      viewer.setSelection(level, flags, surface.selection_revision);
     }
-    this.levelsSelected = viewer.levelsShown;
   }
 
   private async preview(surface: Surface): Promise<void> {

@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import type { MeshArrays } from './arrays';
 import { type Coloring, type Legend, scaleOf } from './mesh_colors';
 import { MeshLevel } from './mesh_level';
+import { setupsAt } from './setup_cells';
 
 export type Shading = 'smooth' | 'flat' | 'wire';
 export type SectionAxis = 'off' | 'x' | 'y' | 'z';
@@ -11,7 +12,12 @@ export type SectionAxis = 'off' | 'x' | 'y' | 'z';
 const MOST_WIRED = 300_000;
 
 /** The levels of one mesh, the coarsest first. */
-interface Picture { revision: number; levels: MeshLevel[] }
+interface Picture {
+  revision: number;
+  levels: MeshLevel[];
+  /** The selection that so many of its levels, the coarsest first, show. */
+  selected: { revision: number; levels: number };
+}
 
 /**
  * The mesh in the scene: levels of detail, shading, colours, section plane and selection. The last meshes stay in memory, so
@@ -28,6 +34,7 @@ export class SurfaceView {
   private moving = false;
   private shading: Shading = 'smooth';
   private coloring: Coloring = 'plain';
+  private setups: readonly Float32Array[] = [];
   private band: [number, number] | null = null;
 
   private static readonly KEPT = 4;
@@ -57,12 +64,22 @@ export class SurfaceView {
     for (const level of this.levels) level.group.visible = level === shown;
   }
 
-  /** Shows a mesh that is known already; returns false when it has to be added. */
-  recall(revision: number): boolean {
+  /**
+   * Shows a mesh that is known already, at once with its selection where that is known, too; returns false when it has to
+   * be added.
+   */
+  recall(revision: number, selection: number): boolean {
     const known = this.pictures.find((one) => one.revision === revision);
     if (!known) return false;
+    if (known.selected.revision !== selection) {
+      for (const level of known.levels) level.select(null);
+      known.selected = { revision: -1, levels: 0 };
+    }
     this.show(known);
     return true;
+  }
+  get selected(): { revision: number; levels: number } {
+    return this.current?.selected ?? { revision: -1, levels: 0 };
   }
   clear(): void {
     for (const picture of this.pictures) this.drop(picture);
@@ -76,7 +93,7 @@ export class SurfaceView {
   addLevel(revision: number, arrays: MeshArrays): void {
     let picture = this.pictures.find((one) => one.revision === revision);
     if (!picture) {
-      picture = { revision, levels: [] };
+      picture = { revision, levels: [], selected: { revision: -1, levels: 0 } };
       this.pictures.push(picture);
     }
     const level = new MeshLevel(arrays);
@@ -92,7 +109,6 @@ export class SurfaceView {
     this.box.makeEmpty();
     const coarsest = picture.levels[0];
     if (coarsest) this.box.setFromBufferAttribute(coarsest.mesh.geometry.getAttribute('position') as THREE.BufferAttribute);
-    this.select([]);
     this.colorAll();
     this.shadeAll();
     this.cut();
@@ -101,9 +117,10 @@ export class SurfaceView {
     for (const level of picture.levels) level.dispose();
   }
 
-  /** One array of flags for each level, the coarsest first. */
-  select(flags: readonly (Uint8Array | null)[]): void {
-    this.levels.forEach((level, i) => level.select(flags[i] ?? null));
+  /** Shows the triangles of a level that are selected, of a selection with a revision; null shows none. */
+  select(level: number, flags: Uint8Array | null, revision: number): void {
+    this.levels[level]?.select(flags);
+    if (this.current) this.current.selected = { revision, levels: level + 1 };
   }
   /** One array of deviations for each level, within a tolerance. */
   setDeviations(deviations: readonly (Float32Array | null)[], band: [number, number] | null): void {
@@ -147,6 +164,12 @@ export class SurfaceView {
     for (const level of this.levels) level.shade(this.shading === 'flat', this.shading === 'wire' && level === this.shown);
   }
 
+  /** Points of each joined setup, by which the mesh is coloured. */
+  setSetups(clouds: readonly Float32Array[]): void {
+    this.setups = clouds;
+    for (const picture of this.pictures) for (const level of picture.levels) level.arrays.setups = null;
+    this.colorAll();
+  }
   setColoring(coloring: Coloring): void {
     this.coloring = coloring;
     this.colorAll();
@@ -155,6 +178,8 @@ export class SurfaceView {
   private colorAll(): void {
     const finest = this.levels.at(-1);
     this.legend = finest ? scaleOf(finest.arrays, this.coloring, this.band) : null;
+    for (const { arrays } of this.levels)
+      if (this.coloring === 'setup' && this.setups.length > 0) arrays.setups ??= setupsAt(arrays.positions, arrays.triangles, this.setups);
     for (const level of this.levels) level.color(this.coloring, this.legend);
   }
 }

@@ -14,6 +14,7 @@ export interface Job {
 export type StationState = 'waiting' | 'capturing' | 'done' | 'skipped';
 export interface Station {
   angle_deg: number;
+  setup: number;
   state: StationState;
   verdict: string;
   good: boolean;
@@ -38,6 +39,18 @@ export interface Summary {
   rms_before_mm?: number;
   rms_after_mm?: number;
   untrusted_reason: string;
+  /** How the setups join; missing or empty for a scan of one. */
+  setups?: SetupJoin[];
+}
+export interface SetupJoin {
+  number: number;
+  views: number;
+  joined: boolean;
+  ambiguous: boolean;
+  turned_deg: number;
+  moved_mm: number;
+  overlap: number | null;
+  violation: number | null;
 }
 /** A shape that was fitted to selected triangles. */
 export interface Fit {
@@ -134,6 +147,10 @@ export interface Comparison {
   reference: string;
   reference_triangles: number;
   best_fit: boolean;
+  /** Of `poses`, from 1. */
+  start: number;
+  /** Poses that fit alike, the best first. */
+  poses: { turned_deg: number; moved_mm: number; overlap: number; rms_mm: number | null }[];
   tolerance_mm: [number, number];
   scale_mm: [number, number];
   histogram: number[];
@@ -192,7 +209,7 @@ export interface Project {
   surface: Surface | null;
   exports: { name: string; bytes: number }[];
   reference: { name: string; format: string } | null;
-  commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[] };
+  commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
 }
 export interface ProjectEntry {
   name: string;

@@ -11,7 +11,7 @@ export function choice<T extends string>(
   options: readonly (readonly [T, TemplateResult | string])[],
   choose: (value: T) => void,
 ): TemplateResult {
-  return html`<div class="seg" role="radiogroup" aria-label=${label}>
+  return html`<div class="seg ${options.length > 4 && options.every(([, text]) => typeof text === 'string') ? 'many' : ''}" role="radiogroup" aria-label=${label}>
     ${options.map(
       ([key, text]) => html`<label
         ><input type="radio" name=${label} .checked=${key === value} @change=${() => choose(key)} />${text}</label

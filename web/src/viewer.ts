@@ -3,19 +3,19 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import type { MeshArrays } from './arrays';
-import { viridis } from './colors';
-import { colorByHeight, type Coloring, type Legend } from './mesh_colors';
+import { CloudsView } from './clouds_view';
+import type { Coloring, Legend } from './mesh_colors';
 import { EditPreview } from './edit_preview';
 import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
-import { brushOutline, type Point } from './strokes';
+import { DRAWING, PointerStrokes, type Tool } from './pointer_strokes';
 import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
 import type { RigGeometry } from './types';
 
+export type { Tool } from './pointer_strokes';
 export type { SectionAxis, Shading } from './surface_view';
 
-export type Tool = 'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align';
 
 /** A lasso in space: the eye, then the corners, as `frangia edit --select-outline` takes them. */
 export type Outline = string;
@@ -35,10 +35,8 @@ interface Events {
   picked(tool: Tool, points: [number, number, number][]): void;
 }
 
-const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
 /** After a move, until the finest level is drawn, ms. */
 const REST_MS = 160;
-const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align']);
 
 /** The 3D picture. It draws when something changes, not all the time. */
 export class Viewer {
@@ -55,7 +53,7 @@ export class Viewer {
   private readonly camera = new THREE.PerspectiveCamera(28, 1, 1, 5000);
   private controls!: OrbitControls;
   private readonly lights = new THREE.Group();
-  private readonly clouds = new THREE.Group();
+  private readonly clouds = new CloudsView();
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
@@ -67,8 +65,6 @@ export class Viewer {
   private resting = 0;
   private held = false;
   private incomplete = false;
-  private stroke: Point[] = [];
-  private down: Point | null = null;
 
   constructor(
     private readonly host: HTMLElement,
@@ -107,49 +103,34 @@ export class Viewer {
       this.held = false;
       this.move();
     });
-    this.scene.add(this.lights, this.clouds, this.table, this.surface.group, this.preview.group, this.ruler.group, this.rig.group);
+    this.scene.add(this.lights, this.clouds.group, this.table, this.surface.group, this.preview.group, this.ruler.group, this.rig.group);
     addLights(this.lights);
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
-    this.listen();
+    new PointerStrokes(this.canvas, this.overlay, this, {
+      outlined: (stroke) => this.events.outlined(this.outlineOf(stroke), this.through),
+      clicked: (point) => {
+        const { tool } = this;
+        void this.events.pick(this.pickRay(point)).then((hit) => {
+          if (hit && tool === this.tool) this.onHit(hit);
+        });
+      },
+    });
     this.resize();
   }
 
   /** Points of a station while a scan grows. */
   setCloud(station: number, positions: Float32Array | null): void {
-    const old = this.clouds.getObjectByName(String(station)) as THREE.Points | undefined;
-    if (old) {
-      old.geometry.dispose();
-      this.clouds.remove(old);
-    }
-    if (positions) {
-      const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
-      const material = new THREE.PointsMaterial({ size: station < 0 ? 2 : 1.6, sizeAttenuation: false });
-      if (station < 0) {
-        colorByHeight(geometry, positions);
-        material.vertexColors = true;
-      } else {
-        const [r, g, b] = viridis(0.35 + 0.6 * ((station * 0.381966) % 1));
-        material.color.setRGB(r / 255, g / 255, b / 255, THREE.SRGBColorSpace);
-      }
-      const points = new THREE.Points(geometry, material);
-      points.name = String(station);
-      this.clouds.add(points);
-    }
+    this.clouds.set(station, positions);
     this.draw();
   }
-
   clearClouds(): void {
-    for (const child of [...this.clouds.children]) this.setCloud(Number(child.name), null);
+    this.clouds.clear();
+    this.draw();
   }
-
-  /** Shows the clouds of the stations, or that of the live preview alone. */
-  showClouds(shown: boolean, live = false): void {
-    const visible = () => [this.clouds, ...this.clouds.children].map((one) => one.visible).join();
-    const before = visible();
-    this.clouds.visible = shown;
-    for (const cloud of this.clouds.children) cloud.visible = (cloud.name === '-1') === live;
-    if (visible() !== before) this.draw();
+  /** Shows the clouds of some stations, or that of the live preview alone. */
+  showClouds(shown: boolean, live = false, isShown: (station: number) => boolean = () => true): void {
+    if (this.clouds.show(shown, live, isShown)) this.draw();
   }
 
   /** The rig around the turntable; null hides it. */
@@ -212,8 +193,8 @@ export class Viewer {
     this.draw();
   }
   /** Shows a mesh of the last ones again. */
-  recallMesh(revision: number): boolean {
-    if (!this.surface.recall(revision)) return false;
+  recallMesh(revision: number, selection: number): boolean {
+    if (!this.surface.recall(revision, selection)) return false;
     this.clearMeasurement();
     this.move();
     this.draw();
@@ -226,8 +207,12 @@ export class Viewer {
     if (first) this.frame();
     this.draw();
   }
-  setSelection(flags: readonly (Uint8Array | null)[]): void {
-    this.surface.select(flags);
+  /** The selection that so many levels of the mesh show. */
+  get selected(): { revision: number; levels: number } {
+    return this.surface.selected;
+  }
+  setSelection(level: number, flags: Uint8Array | null, revision: number): void {
+    this.surface.select(level, flags, revision);
     this.move();
     this.draw();
   }
@@ -242,6 +227,10 @@ export class Viewer {
   }
   setShading(shading: Shading): void {
     this.surface.setShading(shading);
+    this.draw();
+  }
+  setSetups(clouds: readonly Float32Array[]): void {
+    this.surface.setSetups(clouds);
     this.draw();
   }
   setColoring(coloring: Coloring): void {
@@ -302,48 +291,6 @@ export class Viewer {
     this.draw();
   }
 
-  private listen(): void {
-    const at = (event: PointerEvent): [number, number] => {
-      const frame = this.canvas.getBoundingClientRect();
-      return [event.clientX - frame.left, event.clientY - frame.top];
-    };
-    this.canvas.addEventListener('pointerdown', (event) => {
-      if (event.button !== 0) return;
-      this.down = at(event);
-      if (!DRAWING.has(this.tool)) return;
-      this.canvas.setPointerCapture(event.pointerId);
-      this.stroke = [this.down];
-    });
-    this.canvas.addEventListener('pointermove', (event) => {
-      if (this.stroke.length === 0) return;
-      const point = at(event);
-      const start = this.stroke[0] as [number, number];
-      if (this.tool === 'rectangle') this.stroke = [start, [point[0], start[1]], point, [start[0], point[1]]];
-      else if (Math.hypot(point[0] - (this.stroke.at(-1) as [number, number])[0], point[1] - (this.stroke.at(-1) as [number, number])[1]) > 3) this.stroke.push(point);
-      this.sketch();
-    });
-    this.canvas.addEventListener('pointerup', (event) => {
-      const point = at(event);
-      const still = this.down && Math.hypot(point[0] - this.down[0], point[1] - this.down[1]) < 4;
-      this.down = null;
-      const stroke = this.stroke;
-      this.stroke = [];
-      this.sketch();
-      const outline = this.tool === 'brush' ? brushOutline(stroke, this.brush) : stroke;
-      if (DRAWING.has(this.tool) && outline.length >= 3) return this.events.outlined(this.outlineOf(outline), this.through);
-      if (!still || !CLICKING.has(this.tool)) return;
-      const { tool } = this;
-      void this.events.pick(this.pickRay(point)).then((hit) => {
-        if (hit && tool === this.tool) this.onHit(hit);
-      });
-    });
-    this.canvas.addEventListener('pointercancel', () => {
-      this.stroke = [];
-      this.down = null;
-      this.sketch();
-    });
-  }
-
   private onHit(hit: Hit): void {
     if (this.tool === 'part') return this.events.partPicked(hit.triangle);
     if (this.tool === 'loop') return this.events.picked('loop', [hit.point_mm]);
@@ -358,20 +305,6 @@ export class Viewer {
       }
     }
     this.draw();
-  }
-
-  private sketch(): void {
-    const points = this.stroke.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
-    const brush = this.tool === 'brush';
-    const name = brush ? 'polyline' : 'polygon';
-    let line = this.overlay.querySelector(name);
-    if (!points) return this.overlay.replaceChildren();
-    if (!line) {
-      line = document.createElementNS('http://www.w3.org/2000/svg', name);
-      if (brush) line.setAttribute('stroke-width', String(2 * this.brush));
-      this.overlay.append(line);
-    }
-    line.setAttribute('points', points);
   }
 
   private rayAt([x, y]: [number, number]): THREE.Ray {

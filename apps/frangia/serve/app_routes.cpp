@@ -214,6 +214,8 @@ HttpResponse AppRoutes::get(const std::string& path) const {
   if (path == "/api/preview") return found(service_.preview(), "no edit is previewed");
   if (const auto station = number_after(path, "/api/clouds/"))
     return found(service_.cloud(*station), "this station has no points");
+  if (const auto joined = number_after(path, "/api/setups/"))
+    return found(service_.setup_cloud(*joined), "there is no such setup");
   if (const auto text = rest_of(path, "/api/exports/")) {
     const auto name = percent_decoded(*text);
     if (!name) return failure(kBadRequest, "the name is not percent-encoded");

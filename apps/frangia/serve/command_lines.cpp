@@ -25,6 +25,22 @@ void append_capture(const CaptureSettings& settings, std::vector<std::string>& w
   append("--black-level", settings.camera.black_level_counts, usual.camera.black_level_counts);
 }
 
+std::vector<std::string> inspect_line(const ProgressOfComparison& comparison,
+                                      const std::filesystem::path& mesh) {
+  std::vector<std::string> words = {
+      "frangia",
+      "inspect",
+      mesh.string(),
+      "--reference",
+      comparison.reference.string(),
+      "--align",
+      comparison.best_fit ? "best-fit" : "none",
+      fmt::format("--tolerance={:g},{:g}", comparison.lower_mm, comparison.upper_mm)};
+  if (comparison.best_fit && comparison.poses > 1)
+    words.insert(words.end(), {"--start", std::to_string(comparison.start)});
+  return words;
+}
+
 }  // namespace
 
 CommandLines command_lines(const ProjectProgress& project) {
@@ -38,6 +54,8 @@ CommandLines command_lines(const ProjectProgress& project) {
                      folder.scan.string(),
                      "--views",
                      std::to_string(project.stations)};
+    if (project.setup > 0)
+      lines["scan"].insert(lines["scan"].end(), {"--setup", std::to_string(project.setup)});
     append_capture(project.capture, lines["scan"]);
     lines["rig"] = {"frangia", "devices", folder.rig().string()};
   }
@@ -55,6 +73,13 @@ CommandLines command_lines(const ProjectProgress& project) {
       if (!step.value.empty()) edit.push_back(step.value);
     }
     edit.insert(edit.end(), {"-o", (folder.exports() / (folder.name + ".dxf")).string()});
+    if (project.comparison) {
+      // An edited surface is compared as the command line above writes it.
+      const std::filesystem::path edited = folder.exports() / (folder.name + ".ply");
+      if (!project.steps.empty()) edit.insert(edit.end(), {"-o", edited.string()});
+      lines["inspect"] =
+          inspect_line(*project.comparison, project.steps.empty() ? folder.surface() : edited);
+    }
     lines["edit"] = edit;
   }
   return lines;

@@ -42,6 +42,9 @@ struct CaptureOptions {
   double settle_s = 0.0;    ///< wait after a table move, in addition to the table's own
   /// Per device call, in addition to the exposure or to 1.5 times the expected duration of a move.
   double timeout_s = 10.0;
+  /// The setup in which the part is clamped now. Views of other setups are kept as earlier sessions
+  /// left them: complete, or left out.
+  int setup = 0;
   /// Present angle of a turntable without a home switch. Empty: 0 when a scan begins. A scan that
   /// is continued requires it.
   std::optional<double> table_at_rad;

@@ -1,5 +1,6 @@
 #include "frangia/acquisition/capture_scan.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -80,6 +81,10 @@ CaptureReport capture_scan(const Scan& plan,
                            const Run& run) {
   require(!plan.patterns.empty() && !plan.views.empty(),
           "a scan needs at least one pattern and one view; add them to the plan");
+  require(std::any_of(plan.views.begin(),
+                      plan.views.end(),
+                      [&](const ScanView& view) { return view.setup == options.setup; }),
+          "the plan has no view of this `setup`");
   std::error_code ignored;
   require(std::filesystem::equivalent(plan.folder, lock.folder(), ignored),
           "the lock is that of another folder; lock the folder of the plan");
@@ -87,7 +92,7 @@ CaptureReport capture_scan(const Scan& plan,
   check_devices(devices, plan, options);
   Scan real = with_gain(plan, options.camera.gain_db);
   count_compression(devices.camera->info(), real, run);
-  claim_folder(real, {describe(options), describe_devices(devices.settings)}, run);
+  claim_folder(real, {describe(options), describe_devices(devices.settings)}, options.setup, run);
   return CaptureSession(std::move(real), devices, options, run).capture();
 }
 

@@ -14,6 +14,7 @@ std::vector<double> find_exposures(RigDevices& devices,
                                    const Rig& rig,
                                    std::span<const Pattern> patterns,
                                    const CaptureOptions& options,
+                                   std::optional<double> table_rad,
                                    const Run& run) {
   require(options.exposure != ExposureChoice::Given, "a given `exposure` is not searched for");
   const SafeStateGuard safe(devices);
@@ -21,6 +22,8 @@ std::vector<double> find_exposures(RigDevices& devices,
   require(devices.display != nullptr || devices.shifter != nullptr,
           "the rig shows no fringes; add [devices.fringes] to its rig.toml");
   CaptureDevices session(devices, rig, options, run);
+  if (table_rad && devices.turntable && devices.turntable->info().can_home)
+    session.turn_to(*table_rad);
   const CameraInfo& camera = devices.camera->info();
   const ExposureRange range{
       options.camera.exposure_ms, camera.min_exposure_ms, camera.max_exposure_ms};

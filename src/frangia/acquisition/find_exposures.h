@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,8 +12,9 @@
 
 namespace frangia {
 
-/// Chooses exposures by the finest fringes of `patterns` on the part as it stands: the turntable
-/// does not move. `options.exposure` is Automatic for the longest exposure without saturation, or
+/// Chooses exposures by the finest fringes of `patterns` on the part as it stands. The turntable
+/// turns to `table_rad` where that is given and its home switch finds the angle; otherwise it does
+/// not move. `options.exposure` is Automatic for the longest exposure without saturation, or
 /// Bracketed for several of them, the one that measures most first. Nothing is stored. All devices
 /// are safe when it returns or throws.
 ///
@@ -23,6 +25,7 @@ namespace frangia {
                                                  const Rig& rig,
                                                  std::span<const Pattern> patterns,
                                                  const CaptureOptions& options,
+                                                 std::optional<double> table_rad = {},
                                                  const Run& run = {});
 
 }  // namespace frangia

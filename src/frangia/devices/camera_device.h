@@ -36,6 +36,7 @@ struct FrameLabel {
   int frame = 0;        ///< index of the frame within its pattern
   int exposure = 0;     ///< index into the pattern's exposures
   int attempt = 0;      ///< 0 for the first capture of the set, then 1, 2, ...
+  int setup = 0;        ///< how the part is clamped; the simulated part is turned over for each
 };
 
 /// One frame with its metadata.

@@ -19,6 +19,7 @@
 #include "frangia/pipeline/internal/explain_no_surface.h"
 #include "frangia/pipeline/internal/mark_left_out.h"
 #include "frangia/pipeline/internal/measure_views.h"
+#include "frangia/pipeline/internal/points_of_setups.h"
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
@@ -168,6 +169,10 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   tie_cameras(joined.measured, scan.rig);
   out.registration = joined.registration;
   release_cached_pixels();
+
+  out.setups = joined.joins;
+  if (options.keep_points_of_setups > 0 && !out.setups.empty())
+    out.setup_points = points_of_setups(joined, scan.rig, options.keep_points_of_setups, run);
 
   // Views -> one surface -> finished mesh.
   run.stage("surface");

@@ -16,6 +16,7 @@
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/finish_mesh.h"
 #include "frangia/pipeline/indirect_light_report.h"
+#include "frangia/pipeline/setup_join.h"
 #include "frangia/pipeline/view_summary.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/registration/find_turntable_top.h"
@@ -47,6 +48,8 @@ struct ReconstructOptions {
   bool indirect_light = true;  ///< looks for indirect light, corrects it, counts the rest in sigma
   FinishOptions finish;        ///< hole filling and decimation
   bool keep_raw = false;       ///< returns the registered points, too
+  /// Returns about this many registered points of each joined setup, too, where there are several.
+  std::size_t keep_points_of_setups = 0;
 };
 
 /// The reconstructed surface and what the stages report.
@@ -58,7 +61,9 @@ struct Reconstruction {
   std::size_t views = 0;   ///< that hold points
   std::vector<ViewSummary> view_summaries;         ///< of all views, in the order of the scan
   std::optional<RegistrationReport> registration;  ///< empty when not done
-  std::optional<RigRefinement> refinement;         ///< empty when not done
+  std::vector<SetupJoin> setups;            ///< ordered by number; empty for a scan of one setup
+  std::vector<PointCloud> setup_points{};   ///< of the joined ones of `setups`, in their order
+  std::optional<RigRefinement> refinement;  ///< empty when not done
   double turntable_top_height_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed
   /// Median over the views of the median distance between the points of vertical and of horizontal

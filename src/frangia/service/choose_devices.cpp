@@ -12,6 +12,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/devices/device_settings.h"
 #include "frangia/devices/device_table.h"
 #include "frangia/devices/rig_devices.h"
 #include "frangia/rig/read_rig.h"
@@ -142,6 +143,16 @@ void require_table(const std::vector<DeviceSettings>& devices,
   require(has, refusal);
 }
 
+/// The tables of further cameras, which are not chosen here.
+std::vector<DeviceSettings> further_cameras(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return {};
+  std::vector<DeviceSettings> devices = read_device_settings(file);
+  std::erase_if(devices,
+                [](const DeviceSettings& one) { return !one.device().starts_with("camera-"); });
+  return devices;
+}
+
 }  // namespace
 
 void choose_devices(const ProjectFolder& project,
@@ -164,6 +175,8 @@ void choose_devices(const ProjectFolder& project,
   const Sizes sizes = sizes_of(devices, stub, drivers, guardian, run);
   if (calibrated) check_sizes(file, *calibrated, sizes);
   std::string text = rig_text(calibrated ? *calibrated : start_rig(file, known, sizes));
+  for (DeviceSettings& camera : further_cameras(file))
+    devices.push_back(std::move(camera));
   for (const DeviceSettings& device : devices)
     text += fmt::format("\n[devices.{}]\n{}", device.device(), device_table_lines(device));
   AtomicFile out(file);

@@ -41,7 +41,8 @@ SurfaceComparison compare_surface(const Mesh& mesh,
   found.triangles = nominal.triangles.size();
   const RayScene scene(std::move(nominal), run);
   run.stage("alignment");
-  const BestFitOptions fit;
+  BestFitOptions fit;
+  fit.start = options.start;
   Alignment alignment;
   if (options.best_fit) {
     alignment = align_best_fit(mesh, scene, fit, run);
@@ -54,6 +55,13 @@ SurfaceComparison compare_surface(const Mesh& mesh,
   found.turned_rad = Eigen::AngleAxisd(pose.linear()).angle();
   found.moved_mm = pose.translation().norm();
   found.free_directions = alignment.free_directions;
+  for (const AlignmentPose& other : alignment.alternatives) {
+    const Eigen::Isometry3d& motion = other.reference_from_mesh;
+    found.poses.push_back({Eigen::AngleAxisd(motion.linear()).angle(),
+                           motion.translation().norm(),
+                           other.overlap,
+                           other.rms_mm});
+  }
   run.stage("deviations");
   const Mesh aligned = transform_mesh(mesh, pose);
   DeviationOptions deviation;

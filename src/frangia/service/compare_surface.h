@@ -16,6 +16,15 @@ namespace frangia {
 struct CompareOptions {
   bool best_fit = true;  ///< moves the surface onto the reference first; otherwise as it stands
   ToleranceLimits tolerance{-0.1, 0.1};  ///< of the deviations, mm
+  std::size_t start = 0;  ///< index among `SurfaceComparison::poses` of the best fit to take
+};
+
+/// A pose in which a surface fits its reference.
+struct ComparedPose {
+  double turned_rad = 0.0;  ///< by the alignment
+  double moved_mm = 0.0;    ///< by the alignment
+  double overlap = 0.0;     ///< share of the surface that lies on the reference
+  double rms_mm = 0.0;      ///< of that share
 };
 
 /// Deviations of a surface from a reference and what they amount to.
@@ -32,6 +41,8 @@ struct SurfaceComparison {
   std::size_t left_out = 0;         ///< vertices that were not compared
   std::vector<std::string> free_directions;  ///< motions that the shape does not determine
   std::size_t triangles = 0;                 ///< of the reference
+  /// Poses that fit alike, the best first; one for a unique pose, none as the surface stands.
+  std::vector<ComparedPose> poses;
 };
 
 /// Extensions of the files that may be references, without their dot.

@@ -51,6 +51,10 @@ std::filesystem::path ProjectFolder::cloud(std::size_t station) const {
   return derived / "clouds" / fmt::format("{:03}.bin", station);
 }
 
+std::filesystem::path ProjectFolder::setup_cloud(std::size_t joined) const {
+  return derived / "clouds" / fmt::format("setup-{}.bin", joined);
+}
+
 ProjectFolder project_in(const std::filesystem::path& folder) {
   std::error_code error;
   const auto real = std::filesystem::canonical(folder, error);

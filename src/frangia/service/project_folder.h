@@ -42,6 +42,8 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path residuals() const { return derived / "residuals.json"; }
   /// Folder of the exported files.
   [[nodiscard]] std::filesystem::path exports() const { return derived / "exports"; }
+  /// Registered points of a joined setup, counted from 0, packed by encode_points.
+  [[nodiscard]] std::filesystem::path setup_cloud(std::size_t joined) const;
   /// Points of a station, packed by encode_points.
   [[nodiscard]] std::filesystem::path cloud(std::size_t station) const;
 };

@@ -82,7 +82,8 @@ Scan plan_of(const ProjectFolder& project,
   plan.rig = read_rig(project.rig(), run);
   plan.patterns = patterns_of(settings, plan.rig);
   for (std::size_t i = 0; i < stations.size(); ++i)
-    plan.views.push_back({rad_from_deg(stations[i].angle_deg), fmt::format("views/{:03}", i)});
+    plan.views.push_back(
+        {rad_from_deg(stations[i].angle_deg), fmt::format("views/{:03}", i), stations[i].setup});
   return plan;
 }
 
@@ -147,11 +148,17 @@ const char* name_of(StationState state) {
   return "waiting";
 }
 
-std::vector<ProjectStation> planned_stations(std::size_t count) {
+std::vector<ProjectStation> planned_stations(std::size_t count, int setup) {
   std::vector<ProjectStation> stations(count);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     stations[i].angle_deg = kDegreesPerTurn * static_cast<double>(i) / static_cast<double>(count);
+    stations[i].setup = setup;
+  }
   return stations;
+}
+
+int present_setup(const std::vector<ProjectStation>& stations) {
+  return stations.empty() ? 0 : stations.back().setup;
 }
 
 void write_stations(const ProjectFolder& project, const std::vector<ProjectStation>& stations) {
@@ -183,6 +190,7 @@ std::vector<ProjectStation> read_stations(const ProjectFolder& project, const Ru
   for (const ScanView& view : scan.views) {
     ProjectStation station;
     station.angle_deg = deg_from_rad(view.angle_rad);
+    station.setup = view.setup;
     station.state = StationState::Done;
     stations.push_back(station);
   }
@@ -204,11 +212,12 @@ CaptureReport capture_project(
   RigDevices& devices = opened.devices();
   require_table_angle(project, devices, setup);
   run.stage("scan");
-  StationBook book(project, std::move(stations), on_change);
-  const StationCloud clouds(plan.rig);
   CaptureOptions options;
   options.camera = settings.camera;
   options.table_at_rad = setup.table_at_rad;
+  options.setup = present_setup(stations);
+  StationBook book(project, std::move(stations), on_change);
+  const StationCloud clouds(plan.rig);
   options.on_view = [&](const ViewAssessment& found) {
     enter(found, clouds, project, book, plan.views[found.view].angle_rad);
   };
@@ -227,7 +236,7 @@ CaptureReport capture_project(
   }
   book.change([&](std::vector<ProjectStation>& all) {
     for (ProjectStation& station : all)
-      station.state = StationState::Done;
+      if (station.setup == options.setup) station.state = StationState::Done;
     for (const SkippedView& skipped : report.skipped) {
       all.at(skipped.view).state = StationState::Skipped;
       all.at(skipped.view).verdict = skipped.reason;

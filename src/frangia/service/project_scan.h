@@ -30,6 +30,7 @@ enum class StationState {
 /// A turntable station of a project and what its quality assessment found.
 struct ProjectStation {
   double angle_deg = 0.0;                      ///< of the turntable
+  int setup = 0;                               ///< the part is turned over from one to the next
   StationState state = StationState::Waiting;  ///< of its capture
   std::string verdict;                         ///< of the assessment; empty without one
   bool good = false;                           ///< nothing to remedy
@@ -65,7 +66,10 @@ class UnknownTableAngle : public Error {
 };
 
 /// Returns stations evenly over one turn, all waiting.
-[[nodiscard]] std::vector<ProjectStation> planned_stations(std::size_t count);
+[[nodiscard]] std::vector<ProjectStation> planned_stations(std::size_t count, int setup = 0);
+
+/// The setup in which the part is clamped now: the last one of the stations; 0 without any.
+[[nodiscard]] int present_setup(const std::vector<ProjectStation>& stations);
 
 /// The stations of a project: as stations.json states them, otherwise those of a complete scan.
 /// A station that was being captured waits again. Empty for a project that was not scanned.
@@ -77,9 +81,9 @@ class UnknownTableAngle : public Error {
 /// @errors   Error(File) when it cannot be written
 void write_stations(const ProjectFolder& project, const std::vector<ProjectStation>& stations);
 
-/// Captures a scan at the stations, or continues it, with the devices of the project's rig, and
-/// keeps stations.json and the points of each station. `on_change` receives the stations after each
-/// change, on the calling thread or on that which decodes views.
+/// Captures the present setup of a scan at its stations, or continues it, with the devices of the
+/// project's rig, and keeps stations.json and the points of each station. `on_change` receives the
+/// stations after each change, on the calling thread or on that which decodes views.
 ///
 /// The points are in the object frame of the rig as calibrated: registration comes later.
 /// @errors   UnknownTableAngle; as open_devices and capture_scan

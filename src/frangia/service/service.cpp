@@ -1,6 +1,7 @@
 // Above 250 lines: the commands and resources of one class, side by side.
 #include "frangia/service/service.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -22,7 +23,11 @@ ProjectProgress progress_of(const OpenProject& project) {
   ProjectProgress progress;
   progress.folder = project.folder;
   progress.can_scan = project.can_scan;
-  progress.stations = project.stations.size();
+  progress.setup = present_setup(project.stations);
+  progress.stations = static_cast<std::size_t>(std::count_if(
+      project.stations.begin(), project.stations.end(), [&](const ProjectStation& station) {
+        return station.setup == progress.setup;
+      }));
   progress.scan_complete = project.scan_complete;
   progress.capture = project.capture;
   progress.has_surface = project.surface != nullptr;
@@ -30,6 +35,15 @@ ProjectProgress progress_of(const OpenProject& project) {
     const auto& steps = project.surface->steps;
     const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
     progress.steps.assign(steps.begin(), steps.begin() + done);
+    if (const auto& shown = project.surface->comparison) {
+      const ToleranceLimits& limits = shown->found.summary.limits;
+      progress.comparison = {project.folder.reference(project.reference.format),
+                             shown->best_fit,
+                             shown->start + 1,
+                             shown->found.poses.size(),
+                             limits.lower,
+                             limits.upper};
+    }
   }
   return progress;
 }
@@ -123,6 +137,13 @@ std::string Service::Implementation::cloud(std::size_t station) const {
   }
   constexpr std::uint64_t kMostBytes = 16'000'000;
   return read_text_file(project.cloud(station), kMostBytes);
+}
+std::string Service::Implementation::setup_cloud(std::size_t joined) const {
+  const auto file = folder().setup_cloud(joined);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return {};
+  constexpr std::uint64_t kMostBytes = 16'000'000;
+  return read_text_file(file, kMostBytes);
 }
 std::string Service::Implementation::residuals() const {
   const auto file = folder().residuals();
@@ -268,6 +289,10 @@ std::string Service::pick(const std::string& text) const {
 
 std::string Service::cloud(std::size_t station) const {
   return implementation_->cloud(station);
+}
+
+std::string Service::setup_cloud(std::size_t joined) const {
+  return implementation_->setup_cloud(joined);
 }
 
 LivePicture Service::live_picture(LiveLayer layer, std::uint64_t after) const {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,27 @@
 
 namespace frangia {
 
+/// How the present surface was compared with a reference.
+struct ProgressOfComparison {
+  std::filesystem::path reference;  ///< its file
+  bool best_fit = true;             ///< otherwise as it stands
+  std::size_t start = 1;            ///< of the poses that fit alike, from 1
+  std::size_t poses = 0;            ///< that fit alike
+  double lower_mm = 0.0;            ///< tolerance
+  double upper_mm = 0.0;            ///< tolerance
+};
+
 /// How far a project has come, for those who describe it in their own words.
 struct ProjectProgress {
-  ProjectFolder folder;         ///< where its files are
-  bool can_scan = false;        ///< its rig names devices
-  std::size_t stations = 0;     ///< planned or captured
-  bool scan_complete = false;   ///< the scan can be reconstructed
-  bool has_surface = false;     ///< a surface was reconstructed and read
-  std::vector<EditStep> steps;  ///< applied edits
-  CaptureSettings capture;      ///< of the scan
+  ProjectFolder folder;                              ///< where its files are
+  bool can_scan = false;                             ///< its rig names devices
+  std::size_t stations = 0;                          ///< planned or captured, of the present setup
+  int setup = 0;                                     ///< the present one
+  bool scan_complete = false;                        ///< the scan can be reconstructed
+  bool has_surface = false;                          ///< a surface was reconstructed and read
+  std::vector<EditStep> steps;                       ///< applied edits
+  CaptureSettings capture;                           ///< of the scan
+  std::optional<ProgressOfComparison> comparison{};  ///< of the present surface
 };
 
 /// Command lines by the name of the step that they stand for, as words.
@@ -110,6 +123,9 @@ class Service {
   [[nodiscard]] std::string pick(const std::string& ray) const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
+  /// The registered points of a joined setup, counted from 0, as encode_points packs them; empty
+  /// without any.
+  [[nodiscard]] std::string setup_cloud(std::size_t joined) const;
   /// The newest picture of a live preview or of a calibration, unless it has the revision `after`.
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
   /// The residuals of the open project's calibration as a JSON object.

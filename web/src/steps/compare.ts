@@ -6,10 +6,26 @@ import { number, t } from '../messages';
 import type { Comparison } from '../types';
 import { choice } from '../ui';
 
-const signed = (value: number | null): string => (value === null ? '·' : `${value > 0 ? '+' : value < 0 ? '−' : ''}${number(Math.abs(value), 3)}`);
+/** With three digits and its sign, which a value that rounds to zero does not have. */
+export const signed = (value: number | null): string => {
+  if (value === null) return '·';
+  const sign = Math.abs(value) < 0.0005 ? '' : value > 0 ? '+' : '−';
+  return `${sign}${number(Math.abs(value), 3)}`;
+};
 const percent = (share: number): string => number(100 * share, 1);
 
-function result(found: Comparison): TemplateResult {
+/** The choice among poses that fit alike. */
+function poses(app: App, found: Comparison): TemplateResult | string {
+  if (found.poses.length < 2) return '';
+  const [lower, upper] = found.tolerance_mm;
+  return html`<p><span class="dot poor"></span>${t('compare.poses', { count: found.poses.length })}</p>
+    <label class="field"><span>${t('compare.pose')}</span>
+      <select id="start" ?disabled=${app.occupied || app.session.watches} @change=${(event: Event) => void app.compare(lower, upper, Number((event.target as HTMLSelectElement).value))}>
+        ${found.poses.map((pose, i) => html`<option value=${i + 1} ?selected=${i + 1 === found.start}>${i + 1}: ${number(pose.turned_deg, 1)}°, ${number(pose.moved_mm, 1)} mm, RMS ${pose.rms_mm === null ? '·' : number(pose.rms_mm, 4)} mm</option>`)}
+      </select></label>`;
+}
+
+function result(app: App, found: Comparison): TemplateResult {
   const row = (key: Parameters<typeof t>[0], value: string, unit: string) => html`<dt>${t(key)}</dt><dd class="num">${value}<span>${unit}</span></dd>`;
   return html`<p class="verdict-line ${found.verdict}"><span class="dot ${found.verdict === 'in' ? 'done' : found.verdict === 'out' ? 'bad' : 'poor'}"></span><b>${t(`compare.${found.verdict}`)}</b></p>
     <dl class="figures">
@@ -25,6 +41,7 @@ function result(found: Comparison): TemplateResult {
         : t('compare.stands', { overlap: percent(found.overlap) })}
       ${found.left_out ? t('compare.leftOut', { count: number(found.left_out) }) : ''}
     </p>
+    ${poses(app, found)}
     ${found.free_directions.map((motion) => html`<p class="quiet">${t('compare.free', { motion })}</p>`)}`;
 }
 
@@ -59,6 +76,6 @@ export function comparing(app: App): TemplateResult {
             <button class="btn" id="compare" ?disabled=${off}>${t('compare.run')}</button>
           </form>`
       : ''}
-    ${surface?.comparison ? result(surface.comparison) : ''}
+    ${surface?.comparison ? result(app, surface.comparison) : ''}
   </section>`;
 }

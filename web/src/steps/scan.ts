@@ -5,12 +5,25 @@ import { icon } from '../icons';
 import { number, t } from '../messages';
 import type { Station } from '../types';
 import { numberForm, span } from '../ui';
+import { joins, nextSetup, presentSetup, setupChoice } from './scan_setups';
+
+/** Whether the present setup is captured. */
+const done = (app: App): boolean =>
+  app.project.scan_complete && app.project.stations.every((station) => station.state === 'done' || station.state === 'skipped');
+
+/** Share of the present setup that is captured; the job counts the stations of all setups. */
+function progressOf(app: App): number {
+  const { stations } = app.project;
+  const own = stations.filter((station) => station.setup === presentSetup(stations)).length;
+  return Math.max(0, ((app.job('scan')?.progress ?? 0) * stations.length - (stations.length - own)) / Math.max(1, own));
+}
 
 function note(app: App): string {
   const job = app.job('scan');
-  if (job && job.progress > 0.02) return t('scan.left', { time: span((job.seconds * (1 - job.progress)) / job.progress) });
+  const progress = progressOf(app);
+  if (job && progress > 0.02) return t('scan.left', { time: span((job.seconds * (1 - progress)) / progress) });
   if (job) return job.stage;
-  return app.project.scan_complete ? t('scan.complete') : t('scan.stationsNoun');
+  return done(app) ? t('scan.complete') : t('scan.stationsNoun');
 }
 
 const dot = (station: Station): string =>
@@ -19,13 +32,20 @@ const dot = (station: Station): string =>
 export function scanStep(app: App): TemplateResult {
   const { project } = app;
   const job = app.job('scan');
-  const begun = project.stations.some((station) => station.state !== 'waiting');
-  const measured = project.stations.some((station) => station.points > 0);
+  const present = presentSetup(project.stations);
+  const shown = app.setupShown;
+  const all = project.stations.map((station, place) => ({ station, place })).filter(({ station }) => station.setup === shown);
+  const stations = all.map(({ station }) => station);
+  const begun = project.stations.some((station) => station.setup === present && station.state !== 'waiting');
+  const measured = stations.some((station) => station.points > 0);
+  const complete = done(app);
+  if (app.turning && complete && !job) return nextSetup(app);
   return html`<section class="group">
-      ${dial(project.stations, job?.progress ?? 0, note(app))}
+      ${setupChoice(app)}
+      ${dial(stations, shown === present ? progressOf(app) : 0, shown === present ? note(app) : t('scan.complete'))}
       ${job
         ? html`<button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>${icon('pause')}${t('scan.pause')}</button>`
-        : project.scan_complete
+        : complete
           ? html`<button class="btn primary wide" id="build" ?disabled=${app.occupied} @click=${() => app.build()}>${t('scan.build')}${icon('arrow')}</button>`
           : project.table_angle
             ? numberForm('table-angle', t('scan.tableAngle'), project.table_angle.last_deg ?? 0, t('scan.continue'), app.occupied,
@@ -36,9 +56,11 @@ export function scanStep(app: App): TemplateResult {
               </button>`
             : ''}
       <p class="quiet">
-        ${!job && begun && !project.scan_complete ? t('scan.resume') : project.can_scan ? t('scan.lead') : t('scan.noRig')}
+        ${!job && begun && !complete ? t('scan.resume') : project.can_scan ? t('scan.lead') : t('scan.noRig')}
       </p>
     </section>
+    ${complete && !job && project.can_scan && !app.session.watches ? nextSetup(app) : ''}
+    ${job ? '' : joins(app)}
     <section class="group">
       <table class="table">
         <thead>
@@ -48,12 +70,12 @@ export function scanStep(app: App): TemplateResult {
           </tr>
         </thead>
         <tbody class="num">
-          ${project.stations.map(
-            (station, i) => html`<tr title=${station.verdict}>
+          ${all.map(
+            ({ station, place }) => html`<tr title=${station.verdict}>
               <td>
                 ${station.state === 'done' || station.state === 'skipped'
-                  ? html`<button class="rescan" title=${t('scan.rescan')} aria-label="${t('scan.rescan')}: ${number(station.angle_deg, 1)}°" ?disabled=${app.occupied || !project.can_scan}
-                      @click=${() => app.command('rescan-station', { station: i })}><span class="dot ${dot(station)}"></span>${icon('again')}</button>`
+                  ? html`<button class="rescan" title=${t(shown === present ? 'scan.rescan' : 'scan.turnedSince')} aria-label="${t('scan.rescan')}: ${number(station.angle_deg, 1)}°" ?disabled=${app.occupied || !project.can_scan || shown !== present}
+                      @click=${() => app.command('rescan-station', { station: place })}><span class="dot ${dot(station)}"></span>${icon('again')}</button>`
                   : html`<span class="dot ${dot(station)}"></span>`}<span class="angle">${number(station.angle_deg, 1)}°</span></td>
               ${measured || begun
                 ? station.points
@@ -64,7 +86,7 @@ export function scanStep(app: App): TemplateResult {
           )}
         </tbody>
       </table>
-      ${project.stations
+      ${stations
         .filter((station) => station.verdict && !station.good)
         .map((station) => html`<p><span class="dot poor"></span>${number(station.angle_deg, 1)}°: ${station.verdict}</p>`)}
     </section>`;

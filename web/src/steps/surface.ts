@@ -1,16 +1,23 @@
 import { html, svg, type TemplateResult } from 'lit';
 import type { App } from '../app';
-import { css, MARK_COLORS } from '../colors';
+import { css, MARK_COLORS, type Rgb, SEVERAL_SETUPS, setupColor } from '../colors';
 import { icon } from '../icons';
 import { legend } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
 import { choice } from '../ui';
 import { comparing } from './compare';
+import { joins } from './scan_setups';
 import type { SectionAxis, Shading } from '../viewer';
 
 const um = (value: number | null): TemplateResult =>
   value === null ? html`<dd class="num">·</dd>` : html`<dd class="num">${number(1000 * value, 1)}<span>µm</span></dd>`;
+
+/** Whether setups were joined. */
+const several = (app: App): boolean => (app.project.surface?.summary?.setups ?? []).filter((setup) => setup.joined).length > 1;
+
+const swatch = (color: Rgb, text: string): TemplateResult =>
+  html`<span><svg viewBox="0 0 14 14" aria-hidden="true">${svg`<rect width="14" height="14" rx="3" fill=${css(color)} />`}</svg>${text}</span>`;
 
 export function appearance(app: App): TemplateResult {
   const { look, viewer } = app;
@@ -30,6 +37,7 @@ export function appearance(app: App): TemplateResult {
       look.coloring,
       [
         ['plain', t('surface.plain')], ['sigma', t('surface.sigma')], ['views', t('surface.views')], ['marks', t('surface.marks')],
+        ...(several(app) ? ([['setup', t('surface.setup')]] as const) : []),
         ...(app.project.surface?.comparison ? ([['deviation', t('surface.deviation')]] as const) : []),
       ],
       (coloring) => app.setLook({ coloring }),
@@ -37,12 +45,18 @@ export function appearance(app: App): TemplateResult {
     ${look.coloring === 'sigma' && scale ? legend(t('surface.sigmaLegend'), scale, 1000, 1) : ''}
     ${look.coloring === 'views' && scale ? legend(t('surface.viewsLegend'), scale, 1, 0) : ''}
     ${look.coloring === 'deviation' && scale ? legend(t('surface.deviationLegend'), scale, 1, 2) : ''}
+    ${look.coloring === 'setup' && several(app)
+      ? html`<div class="swatches">
+          ${(app.project.surface?.summary?.setups ?? [])
+            .filter((setup) => setup.joined)
+            .map((setup, i) => swatch(setupColor(i), t('surface.setupOnly', { number: setup.number + 1 })))}
+          ${swatch(SEVERAL_SETUPS[0] as Rgb, t('surface.setupBoth'))}
+        </div>`
+      : ''}
     ${look.coloring === 'marks'
       ? html`<div class="swatches">
           ${(['surface.measured', 'surface.displaced', 'surface.synthesized'] as const).map(
-            (key, i) => html`<span
-              ><svg viewBox="0 0 14 14" aria-hidden="true">${svg`<rect width="14" height="14" rx="3" fill=${css(MARK_COLORS[i] ?? [0, 0, 0])} />`}</svg>${t(key)}</span
-            >`,
+            (key, i) => swatch(MARK_COLORS[i] ?? [0, 0, 0], t(key)),
           )}
         </div>`
       : ''}
@@ -77,6 +91,7 @@ export function surfaceStep(app: App): TemplateResult {
         </button>`,
       )}
     </section>
+    ${joins(app)}
     ${comparing(app)}
     <section class="group">
       <h2>${t('surface.figures')}</h2>

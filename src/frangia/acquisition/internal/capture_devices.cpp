@@ -130,11 +130,13 @@ void CaptureDevices::expose_for(double exposure_ms) {
 CompleteFrame CaptureDevices::capture(const FrameLabel& label, std::size_t number) {
   const Stopwatch watch(seconds_);
   CameraDevice& camera = number == 0 ? *devices_.camera : *devices_.more_cameras.at(number - 1);
+  FrameLabel own = label;
+  own.setup = options_.setup;
   std::string cause;
   for (int attempts = 1; attempts <= options_.frame_attempts; ++attempts) {
     run_.check();
     const Deadline until = deadline(options_.timeout_s + 1e-3 * exposure_ms_);
-    CapturedFrame captured = camera.capture(label, until);
+    CapturedFrame captured = camera.capture(own, until);
     if (captured.complete) {
       check_frame(
           camera, captured.frame, number == 0 ? rig_.camera : rig_.more_cameras[number - 1].camera);

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -80,6 +81,18 @@ void store_plan(const std::filesystem::path& folder, const PlanFiles& files) {
   sync_to_disk(folder);
 }
 
+/// Replaces the stored plan where the new one differs by the views of one more setup only. The
+/// manifest comes first: a stored plan that is not the one it names is replaced later.
+void extend_plan(const Scan& plan, int setup, const std::string& text) {
+  Scan before = plan;
+  std::erase_if(before.views, [&](const ScanView& view) { return view.setup == setup; });
+  const std::filesystem::path path = plan.folder / "capture" / "scan.toml";
+  if (before.views.empty() || identity_of(stored_text(path)) != identity_of(scan_text(before)))
+    return;
+  CaptureManifest(plan.folder).change_plan("scan.toml", crc32(identity_of(text)));
+  write_durably(path, text);
+}
+
 /// Checks that a plan equals the stored one. A stored file that is damaged is replaced.
 void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, const Run& run) {
   const CaptureManifest manifest(folder);
@@ -107,11 +120,12 @@ void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, c
 
 }  // namespace
 
-void claim_folder(const Scan& plan, const CaptureSettings& settings, const Run& run) {
+void claim_folder(const Scan& plan, const CaptureSettings& settings, int setup, const Run& run) {
   const PlanFiles files = files_of(plan, settings);
   if (!std::filesystem::exists(plan.folder / "capture")) {
     store_plan(plan.folder, files);
   } else {
+    if (setup > 0) extend_plan(plan, setup, files.front().text);
     compare_plan(plan.folder, files, run);
   }
   remove_temporary_files(plan.folder);

@@ -21,12 +21,16 @@ std::istringstream value_of(const std::string& word, const std::string& key) {
   return std::istringstream(is_it ? word.substr(key.size() + 1) : std::string());
 }
 
+std::string plan_line(const std::string& name, std::uint32_t checksum) {
+  return fmt::format("plan {} {:08x}", name, checksum);
+}
+
 }  // namespace
 
 void CaptureManifest::begin(const std::filesystem::path& file, const PlanChecksums& plan) {
   DurableLog log(file);
   for (const auto& [name, checksum] : plan)
-    log.append(fmt::format("plan {} {:08x}", name, checksum));
+    log.append(plan_line(name, checksum));
 }
 
 CaptureManifest::CaptureManifest(std::filesystem::path folder)
@@ -160,6 +164,11 @@ void CaptureManifest::add_recovered(const std::string& file, std::span<const cha
   const ManifestFrame frame{.checksum = crc32(bytes), .bytes = bytes.size()};
   append(file, frame);
   frames_[file] = frame;
+}
+
+void CaptureManifest::change_plan(const std::string& name, std::uint32_t checksum) {
+  log_.append(plan_line(name, checksum));
+  plan_[name] = checksum;
 }
 
 void CaptureManifest::add_table_move(double target_deg) {

@@ -71,6 +71,8 @@ class CaptureManifest {
   void add_exposures(const std::vector<double>& exposures_ms);
   /// Appends the line of a frame that is on the disk already.
   void add_recovered(const std::string& file, std::span<const char> bytes);
+  /// Records another content of a file of the plan, before the file is written.
+  void change_plan(const std::string& name, std::uint32_t checksum);
   void add_table_move(double target_deg);
   void add_table_at(double angle_deg);
 

@@ -71,9 +71,13 @@ CaptureReport CaptureSession::capture() {
 void CaptureSession::capture_views() {
   captured_.views.clear();
   for (std::size_t view = 0; view < plan_.views.size(); ++view) {
-    const Setup setup = set_up(view);
-    if (setup == Setup::End) return;
-    if (setup == Setup::Unusable) continue;
+    if (plan_.views[view].setup != options_.setup && !files_.is_complete(view)) {
+      count(static_cast<std::ptrdiff_t>(files_.frames_per_view()));
+      continue;  // the part is clamped in another way now
+    }
+    const Ready ready = set_up(view);
+    if (ready == Ready::End) return;
+    if (ready == Ready::No) continue;
     const std::string why = capture_view(view);
     if (why.empty()) {
       captured_.views.push_back(plan_.views[view]);
@@ -88,18 +92,18 @@ void CaptureSession::capture_views() {
 }
 
 /// Has a person set up a view that is not captured yet.
-CaptureSession::Setup CaptureSession::set_up(std::size_t view) {
-  if (!options_.before_view || files_.is_complete(view)) return Setup::Ready;
+CaptureSession::Ready CaptureSession::set_up(std::size_t view) {
+  if (!options_.before_view || files_.is_complete(view)) return Ready::Yes;
   if (files_.is_begun(view)) {
     run_.note(fmt::format("view {} was interrupted and is left out", view + 1));
-    return Setup::Unusable;
+    return Ready::No;
   }
   for (const Pattern& pattern : plan_.patterns) {
     if (pattern.kind != PatternKind::White) continue;
     devices_.begin_set(pattern, 1.0);
     devices_.show(pattern, 0);
   }
-  return options_.before_view(view) ? Setup::Ready : Setup::End;
+  return options_.before_view(view) ? Ready::Yes : Ready::End;
 }
 
 void CaptureSession::capture_view_once(std::size_t view) {
@@ -154,9 +158,13 @@ void CaptureSession::skip(std::size_t view, const std::string& why) {
 void CaptureSession::finish() {
   store_.drain();
   assessor_.report(true);
-  if (captured_.views.empty() && report_.skipped.empty())
+  const bool none =
+      std::none_of(captured_.views.begin(), captured_.views.end(), [&](const ScanView& view) {
+        return view.setup == options_.setup;
+      });
+  if (none && report_.skipped.empty())
     throw Error(ErrorKind::Input, "no view was captured; the same command begins again");
-  if (captured_.views.empty())
+  if (none)
     throw Error(ErrorKind::Device,
                 "no view could be captured; " + report_.skipped.front().sentence());
   finish_folder(captured_);

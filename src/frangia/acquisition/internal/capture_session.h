@@ -31,8 +31,8 @@ class CaptureSession {
  private:
   void check_stored_frames();
   void capture_views();
-  enum class Setup { Ready, Unusable, End };
-  Setup set_up(std::size_t view);
+  enum class Ready { Yes, No, End };
+  Ready set_up(std::size_t view);
   void capture_view_once(std::size_t view);
   std::string capture_view(std::size_t view);
   void skip(std::size_t view, const std::string& why);

@@ -46,6 +46,8 @@ std::string name_of(const MeasuredSetup& setup) {
 struct SetupPoses {
   std::size_t reference = 0;
   std::vector<std::optional<Eigen::Isometry3d>> setup_from_reference;
+  std::vector<bool> ambiguous;  ///< empty where the poses are given
+  std::vector<GroupFit> fits;   ///< to the reference, in its pose
 };
 
 /// Refines the part poses of scan.toml. None unless scan.toml has those of all further setups.
@@ -57,7 +59,7 @@ std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& s
   constexpr double kStart = 4.0;         // spacings: the error of manually measured poses
   constexpr double kGate = 0.3;          // spacings, as in the pose search
   constexpr double kMaxViolation = 3.0;  // times that of poses found by shape: these are given
-  SetupPoses setup_poses{0, {Eigen::Isometry3d::Identity()}};
+  SetupPoses setup_poses{0, {Eigen::Isometry3d::Identity()}, {}, {}};
   for (std::size_t i = 1; i < setups.size(); ++i) {
     const auto known = options.part_poses.find(setups[i].number);
     if (known == options.part_poses.end() || setups[0].number != 0) return std::nullopt;
@@ -89,13 +91,26 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
     groups.push_back(make_group(members, all.maps, spacing_mm));
   const FastCameraModel model(camera);
   const GroupViews views{all.maps, model};
-  if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm)) return *given;
+  constexpr double kGate = 0.3;  // spacings, as in the pose search
+  const auto with_fits = [&](SetupPoses poses) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const auto& pose = poses.setup_from_reference[i];
+      poses.fits.push_back(
+          pose && i != poses.reference
+              ? compare_groups(
+                    groups[poses.reference], groups[i], pose->inverse(), views, kGate * spacing_mm)
+              : GroupFit());
+    }
+    return poses;
+  };
+  if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm))
+    return with_fits(std::move(*given));
   const JoinedGroups joined = join_by_shape(groups, views, {.spacing_mm = spacing_mm}, run);
-  SetupPoses setup_poses{joined.reference, {}};
+  SetupPoses setup_poses{joined.reference, {}, joined.ambiguous, {}};
   for (const auto& pose : joined.reference_from_group)
     setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
                                                     : std::nullopt);
-  return setup_poses;
+  return with_fits(std::move(setup_poses));
 }
 
 /// Appends the views of a setup, as setup `index` of those that are joined.
@@ -109,6 +124,22 @@ void append(MeasuredViews& all, const MeasuredViews& setup, std::size_t index) {
     all.stations.back().setup = index;
   }
   all.points += setup.points;
+}
+
+/// What is known of the joins before they are refined.
+std::vector<SetupJoin> joins_of(const std::vector<MeasuredSetup>& setups, const SetupPoses& poses) {
+  std::vector<SetupJoin> joins;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    SetupJoin join{.number = setups[i].number, .views = setups[i].measured.views.size()};
+    join.joined = poses.setup_from_reference[i].has_value();
+    join.ambiguous = !join.joined && i < poses.ambiguous.size() && poses.ambiguous[i];
+    if (join.joined && i != poses.reference) {
+      join.overlap = poses.fits[i].overlap;
+      join.free_space_violation = poses.fits[i].free_space_violation();
+    }
+    joins.push_back(join);
+  }
+  return joins;
 }
 
 Turntable table_of(const MeasuredSetup& setup, const Rig& rig) {
@@ -135,11 +166,11 @@ std::vector<MeasuredSetup> split_setups(MeasuredViews all, const std::vector<int
     views[numbers[i]].push_back(i);
   std::vector<MeasuredSetup> setups;
   if (views.size() < 2) {
-    setups.push_back({numbers.empty() ? 0 : numbers.front(), std::move(all), {}});
+    setups.push_back({numbers.empty() ? 0 : numbers.front(), std::move(all), {}, {}});
     return setups;
   }
   for (const auto& [number, which] : views) {
-    MeasuredSetup setup{number, {}, {}};
+    MeasuredSetup setup{number, {}, {}, {}};
     setup.measured.coarsest = all.coarsest;
     setup.measured.unwrapped_spatially = all.unwrapped_spatially;
     for (std::size_t i = 0; i < which.size(); ++i) {
@@ -176,7 +207,7 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
   const Eigen::Isometry3d given_from_rig = rig.rig_from_object(0.0).inverse();
   const Eigen::Isometry3d reference_from_rig =
       table_of(reference, rig).rig_from_object(0.0).inverse();
-  MeasuredSetup joined{reference.number, {}, {}};
+  MeasuredSetup joined{reference.number, {}, {}, joins_of(setups, setup_poses)};
   joined.measured.coarsest = reference.measured.coarsest;
   append(joined.measured, reference.measured, 0);
   RegisterOptions registration = options.registration;
@@ -197,12 +228,22 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
         reference_from_rig * given_from_rig.inverse());
     append(joined.measured, setups[i].measured, registration.part_poses.size());
   }
-  if (!options.refine) {
+  if (options.refine) {
+    joined.registration = register_views(joined.measured.views,
+                                         camera,
+                                         {*rig.turntable, joined.measured.stations},
+                                         registration,
+                                         run);
+  } else {
     set_poses(joined, rig, registration.part_poses);
-    return joined;
   }
-  joined.registration = register_views(
-      joined.measured.views, camera, {*rig.turntable, joined.measured.stations}, registration, run);
+  const auto& found =
+      joined.registration ? joined.registration->part_poses : registration.part_poses;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < joined.joins.size(); ++i) {
+    if (i != setup_poses.reference && joined.joins[i].joined && next < found.size())
+      joined.joins[i].part_pose = found[next++];
+  }
   return joined;
 }
 

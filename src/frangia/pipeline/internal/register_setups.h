@@ -8,6 +8,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/pipeline/internal/measure_views.h"
+#include "frangia/pipeline/setup_join.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/rig/rig.h"
 
@@ -18,6 +19,7 @@ struct MeasuredSetup {
   int number = 0;  ///< in scan.toml
   MeasuredViews measured;
   std::optional<RegistrationReport> registration;
+  std::vector<SetupJoin> joins;  ///< of all setups, when several were joined to this one
 };
 
 /// Splits the views of a scan by their setups, ordered by number. Properties of the whole scan are

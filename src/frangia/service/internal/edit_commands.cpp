@@ -169,7 +169,7 @@ void Service::Implementation::load_surface(const ProjectFolder& project, const R
   show_surface(model_->snapshot(), run);
 }
 void Service::Implementation::drop_model() {
-  if (model_) revision_ = model_->snapshot()->selection_revision;
+  if (model_) revision_ = model_->revision();
   model_.reset();
 }
 }  // namespace frangia

@@ -32,6 +32,7 @@ class Service::Implementation {
   /// @errors   Error(Input) when no project is open
   [[nodiscard]] ProjectFolder folder() const;
   [[nodiscard]] std::string cloud(std::size_t station) const;
+  [[nodiscard]] std::string setup_cloud(std::size_t joined) const;
   void add_to_reference(std::size_t offset, const std::string& bytes);
   /// The residuals of the project's calibration, as docs/service-api.md describes them.
   /// @errors   Error(Input) without a calibration
@@ -100,6 +101,7 @@ class Service::Implementation {
   [[nodiscard]] OpenProject opened() const;
 
   static constexpr std::size_t kMostStations = 360;
+  static constexpr std::size_t kMostSetups = 99;
 
   ServiceOptions options_;
   ProjectLibrary library_;

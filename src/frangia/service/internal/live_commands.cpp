@@ -137,7 +137,10 @@ nlohmann::ordered_json Service::Implementation::start_find_exposure(CommandArgum
   const std::optional<Rig> rig = project.rig ? project.rig : project.start;
   require(rig.has_value(), project.rig_fault.c_str());
   require_idle();
-  Json job = started("exposure", [this, project, rig, bracket](const Run& run) {
+  // Where the preview shows the part.
+  const auto angle =
+      project.live ? std::optional(project.live->settings().table_rad) : std::nullopt;
+  Json job = started("exposure", [this, project, rig, bracket, angle](const Run& run) {
     run.stage("devices");
     OpenedDevices devices(
         project.folder.rig(), *rig, options_.capture.drivers(), options_.capture, run);
@@ -148,7 +151,7 @@ nlohmann::ordered_json Service::Implementation::start_find_exposure(CommandArgum
     options.camera = settings.camera;
     options.exposure = bracket ? ExposureChoice::Bracketed : ExposureChoice::Automatic;
     const std::vector<double> chosen =
-        find_exposures(devices.devices(), *rig, patterns_of(settings, *rig), options, run);
+        find_exposures(devices.devices(), *rig, patterns_of(settings, *rig), options, angle, run);
     settings.camera.exposure_ms = chosen.front();
     if (chosen.size() > 1) settings.exposures_ms = chosen;
     write_capture_settings(project.folder.capture(), settings);

@@ -92,6 +92,8 @@ nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& 
   const std::string align = arguments.text_or("align", "best-fit");
   const auto lower = arguments.number("lower_mm");
   const auto upper = arguments.number("upper_mm");
+  constexpr std::size_t kMostPoses = 1000;
+  options.start = arguments.whole_or("start", 1, 1, kMostPoses) - 1;
   arguments.check_all_read();
   require(align == "best-fit" || align == "none", "align: is best-fit or none");
   options.best_fit = align == "best-fit";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -8,10 +9,14 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/pipeline/reconstruct.h"
+#include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
 namespace {
+
+/// Of each setup, for the picture of how they join: a millimetre apart on a part of a hand's size.
+constexpr std::size_t kPointsOfSetup = 60'000;
 
 /// Figures of a reconstruction, as surface.json keeps them.
 std::string summary_of(const Reconstruction& result) {
@@ -22,7 +27,42 @@ std::string summary_of(const Reconstruction& result) {
     json["rms_after_mm"] = result.registration->rms_after_mm;
   }
   json["untrusted_reason"] = result.untrusted_reason;
+  json["setups"] = nlohmann::ordered_json::array();
+  for (const SetupJoin& join : result.setups) {
+    const Eigen::AngleAxisd turn(join.part_pose.linear());
+    json["setups"].push_back({{"number", join.number},
+                              {"views", join.views},
+                              {"joined", join.joined},
+                              {"ambiguous", join.ambiguous},
+                              {"turned_deg", deg_from_rad(turn.angle())},
+                              {"moved_mm", join.part_pose.translation().norm()},
+                              {"overlap", join.overlap},  // NaN is written as null
+                              {"violation", join.free_space_violation}});
+  }
   return json.dump();
+}
+
+/// Keeps the points of the joined setups, and none of an earlier reconstruction.
+void write_setup_clouds(const ProjectFolder& project, const std::vector<PointCloud>& clouds) {
+  std::error_code error;
+  for (std::size_t i = clouds.size(); std::filesystem::remove(project.setup_cloud(i), error); ++i) {
+  }
+  if (!clouds.empty()) make_folder(project.derived / "clouds");
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    AtomicFile file(project.setup_cloud(i));
+    file.stream() << encode_points(clouds[i], kPointsOfSetup);
+    file.commit();
+  }
+}
+
+/// A setup begins when the one before is done: the part cannot be turned back.
+void require_setup_done(const std::vector<ProjectStation>& stations, int setup) {
+  const auto missing = [&](const ProjectStation& station) {
+    return station.setup == setup && station.state != StationState::Done &&
+           station.state != StationState::Skipped;
+  };
+  require(!stations.empty() && std::none_of(stations.begin(), stations.end(), missing),
+          "the present setup is not complete; finish its scan before the part is turned over");
 }
 
 }  // namespace
@@ -38,19 +78,35 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
     can_scan = project_->can_scan;
     settings = project_->capture;
   }
+  const int present = present_setup(stations);
+  const auto of_present = static_cast<std::size_t>(
+      std::count_if(stations.begin(), stations.end(), [&](const ProjectStation& station) {
+        return station.setup == present;
+      }));
+  const int wanted = static_cast<int>(
+      arguments.whole_or("setup", static_cast<std::size_t>(present), 0, kMostSetups));
   const std::size_t asked =
-      arguments.whole_or("stations", stations.empty() ? 8 : stations.size(), 1, kMostStations);
+      arguments.whole_or("stations", of_present == 0 ? 8 : of_present, 1, kMostStations);
   CaptureSetup setup = options_.capture;
   if (const auto angle = arguments.number("table_deg")) setup.table_at_rad = rad_from_deg(*angle);
   arguments.check_all_read();
   require(can_scan, "this project has no rig with devices; create one to scan");
   std::error_code ignored;
   const bool begun = std::filesystem::exists(project.scan / "capture", ignored);
-  require(!begun || asked == stations.size(),
-          "the scan has begun; its number of stations cannot change");
-  if (asked != stations.size()) stations = planned_stations(asked);
+  if (wanted == present + 1) {
+    require_setup_done(stations, present);
+    const auto more = planned_stations(asked, wanted);
+    stations.insert(stations.end(), more.begin(), more.end());
+    write_stations(project, stations);
+  } else {
+    require(wanted == present, "setup: the part lies in another one; add the next, or go on");
+    require(!begun || asked == of_present,
+            "the scan has begun; its number of stations cannot change");
+    if (asked != of_present) stations = planned_stations(asked);
+  }
   change([&](OpenProject& opened) {
     opened.scan_begun = true;
+    opened.stations = stations;
     opened.unknown_angle.reset();
   });
   return started("scan", [this, project, stations, settings, setup](const Run& run) {
@@ -82,9 +138,11 @@ nlohmann::ordered_json Service::Implementation::rescan_station(CommandArguments&
   const std::size_t station = arguments.whole("station", 0, before.stations.size() - 1);
   arguments.check_all_read();
   require(before.can_scan, "this project has no rig with devices; create one to scan");
+  require(before.stations[station].setup == present_setup(before.stations),
+          "the part was turned over since this station was captured; capture it in a new setup");
   require_idle();
   std::vector<ProjectStation> stations = before.stations;
-  stations[station] = {.angle_deg = stations[station].angle_deg};
+  stations[station] = {.angle_deg = stations[station].angle_deg, .setup = stations[station].setup};
   std::filesystem::remove(project.scan / "scan.toml");
   std::filesystem::remove_all(project.scan / "views" / fmt::format("{:03}", station));
   write_stations(project, stations);
@@ -102,6 +160,7 @@ nlohmann::ordered_json Service::Implementation::start_reconstruct(CommandArgumen
   options.fusion.voxel_mm = arguments.positive("voxel_mm").value_or(options.fusion.voxel_mm);
   arguments.check_all_read();
   options.decode.algorithm = opened().capture.algorithm;
+  options.keep_points_of_setups = kPointsOfSetup;
   return started("reconstruct", [this, project, options](const Run& run) {
     const Reconstruction result = reconstruct(read_scan(project.scan, run), options, run);
     run.stage("files");
@@ -109,6 +168,7 @@ nlohmann::ordered_json Service::Implementation::start_reconstruct(CommandArgumen
     std::error_code ignored;
     std::filesystem::remove(project.edits(), ignored);  // they belong to the mesh before
     write_mesh(project.surface(), result.mesh, {}, run);
+    write_setup_clouds(project, result.setup_points);
     AtomicFile summary(project.summary());
     summary.stream() << summary_of(result);
     summary.commit();

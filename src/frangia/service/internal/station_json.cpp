@@ -6,6 +6,7 @@ namespace frangia {
 
 nlohmann::ordered_json json_of(const ProjectStation& station) {
   return {{"angle_deg", station.angle_deg},
+          {"setup", station.setup},
           {"state", name_of(station.state)},
           {"verdict", station.verdict},
           {"good", station.good},
@@ -18,6 +19,7 @@ nlohmann::ordered_json json_of(const ProjectStation& station) {
 ProjectStation station_from(const nlohmann::json& json) {
   ProjectStation station;
   station.angle_deg = json.at("angle_deg").get<double>();
+  station.setup = json.value("setup", 0);  // not in files of earlier versions
   const auto state = json.at("state").get<std::string>();
   if (state == "done") station.state = StationState::Done;
   if (state == "skipped") station.state = StationState::Skipped;

@@ -36,10 +36,19 @@ Json json_of_change(const StepChange& change) {
 Json json_of_comparison(const ShownComparison& shown) {
   const SurfaceComparison& found = shown.found;
   const DeviationSummary& summary = found.summary;
+  Json poses = Json::array();
+  for (const ComparedPose& pose : found.poses) {
+    poses.push_back({{"turned_deg", deg_from_rad(pose.turned_rad)},
+                     {"moved_mm", pose.moved_mm},
+                     {"overlap", pose.overlap},
+                     {"rms_mm", finite_or_null(pose.rms_mm)}});
+  }
   return {{"revision", shown.revision},
           {"reference", shown.reference},
           {"reference_triangles", found.triangles},
           {"best_fit", shown.best_fit},
+          {"start", shown.start + 1},
+          {"poses", poses},
           {"tolerance_mm", {summary.limits.lower, summary.limits.upper}},
           {"scale_mm", {found.low_mm, found.high_mm}},
           {"histogram", found.histogram},

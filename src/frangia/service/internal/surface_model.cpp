@@ -241,6 +241,7 @@ SurfacePtr SurfaceModel::compare(const std::filesystem::path& reference,
   shown->revision = ++comparisons_;
   shown->reference = name;
   shown->best_fit = options.best_fit;
+  shown->start = options.start;
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
   next->comparison = std::move(shown);
   return show(std::move(next));
@@ -273,8 +274,10 @@ SurfacePtr SurfaceModel::publish(const Run& run) {
     describe(state.mesh, *next, run);
   }
   next->preview.reset();
+  if (shown_[done] && *next->selection == state.selection) return show(std::move(next));
   next->selected = count_selected(state.selection);
   next->selection = std::make_shared<const Selection>(state.selection);
+  next->selection_revision = revision_;
   return show(std::move(next));
 }
 
@@ -286,7 +289,6 @@ SurfacePtr SurfaceModel::refine(const Run& run) {
 }
 
 SurfacePtr SurfaceModel::show(std::shared_ptr<SurfaceSnapshot> next) {
-  next->selection_revision = revision_;
   next->steps = history_->steps();
   next->done = history_->done();
   next->changes = changes_;

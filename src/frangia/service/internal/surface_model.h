@@ -64,13 +64,14 @@ struct ShownComparison {
   int revision = 0;
   std::string reference;  ///< name of its file, for people
   bool best_fit = true;
+  std::size_t start = 0;  ///< index of the pose that was taken
   SurfaceComparison found;
 };
 
 /// What clients see of a surface. Immutable, so that a client reads it while an edit runs.
 struct SurfaceSnapshot {
   int mesh_revision = 0;       ///< changes with the mesh
-  int selection_revision = 0;  ///< changes with the selection or the mesh
+  int selection_revision = 0;  ///< of the selection of this mesh; undo brings it back, too
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t selected = 0;  ///< triangles
@@ -124,6 +125,8 @@ class SurfaceModel {
   SurfacePtr undo(const Run& run);  ///< Error(Input) without a step to undo
   SurfacePtr redo(const Run& run);  ///< Error(Input) without a step to redo
   [[nodiscard]] SurfacePtr snapshot() const { return snapshot_; }
+  /// The largest revision so far.
+  [[nodiscard]] int revision() const { return revision_; }
   /// Adds the level that is drawn at rest, which a client does not have to wait for. Null when the
   /// picture has it.
   SurfacePtr refine(const Run& run);

@@ -12,11 +12,13 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
 #include "frangia/files/read_mesh.h"
+#include "frangia/geometry/transform_mesh.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/internal/fault_script.h"
 #include "frangia/simulate/internal/simulated_devices.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/simulate_calibration.h"
+#include "frangia/simulate/simulate_scan.h"
 
 namespace frangia {
 namespace {
@@ -102,35 +104,68 @@ Rig true_rig(DeviceSettings& settings, const Rig& known) {
   return truth;
 }
 
-std::shared_ptr<const SimulatedScene> make_scene(DeviceSettings& settings,
-                                                 const Rig& rig,
-                                                 SimulatedBench& bench) {
-  if (bench.board) {
-    if (!rig.camera.name.empty())
-      settings.fail("driver", "shows a simulated board to one camera; remove [[more_cameras]]");
-    return make_board_scene(settings, rig, bench);
+/// What stands before the camera: a board, or the part as it is clamped in each setup.
+class SceneOfSetups {
+ public:
+  SceneOfSetups(DeviceSettings& settings, const Rig& rig, SimulatedBench& bench) {
+    tilt_rad_ = rad_from_deg(settings.number_or("setup_tilt_deg", 180.0, -360.0, 360.0));
+    if (bench.board) {
+      if (!rig.camera.name.empty())
+        settings.fail("driver", "shows a simulated board to one camera; remove [[more_cameras]]");
+      first_ = make_board_scene(settings, rig, bench);
+      return;
+    }
+    part_ = read_part(settings);
+    rig_ = rig;
+    options_ = read_options(settings, rig);
+    first_ = std::make_shared<const SimulatedScene>(make(part_, Eigen::Isometry3d::Identity()));
   }
-  // The brightest pixel of a full turn sets the exposure, independent of the plan's views.
-  constexpr std::size_t kStations = 8;
-  std::vector<SimulatedView> views;
-  for (std::size_t i = 0; i < kStations; ++i)
-    views.push_back({i, kTwoPi * static_cast<double>(i) / kStations});
-  return std::make_shared<const SimulatedScene>(
-      make_simulated_scene(read_part(settings), rig, views, read_options(settings, rig)));
-}
+
+  [[nodiscard]] std::shared_ptr<const SimulatedScene> of(int setup) {
+    if (setup == 0 || part_.triangles.empty()) return first_;
+    if (setup != later_setup_) {
+      const double turn_rad =
+          kTwoPi * uniform_from(hash(options_.seed, static_cast<std::uint64_t>(setup)));
+      const Eigen::Isometry3d pose = pose_on_table(part_, setup * tilt_rad_, turn_rad);
+      SimulatedScene scene = make(transform_mesh(part_, pose), pose);
+      scene.exposure = first_->exposure;  // the camera does not adapt to another side of the part
+      later_ = std::make_shared<const SimulatedScene>(std::move(scene));
+      later_setup_ = setup;
+    }
+    return later_;
+  }
+
+ private:
+  [[nodiscard]] SimulatedScene make(const Mesh& part, const Eigen::Isometry3d& pose) const {
+    // The brightest pixel of a full turn sets the exposure, independent of the plan's views.
+    constexpr std::size_t kStations = 8;
+    std::vector<SimulatedView> views;
+    for (std::size_t i = 0; i < kStations; ++i)
+      views.push_back({i, kTwoPi * static_cast<double>(i) / kStations});
+    return make_simulated_scene(part, rig_, views, options_, pose);
+  }
+
+  Mesh part_;  ///< empty with a board
+  Rig rig_;
+  SimulateOptions options_;
+  double tilt_rad_ = 0.0;  ///< from one setup to the next
+  std::shared_ptr<const SimulatedScene> first_;
+  std::shared_ptr<const SimulatedScene> later_;
+  int later_setup_ = 0;
+};
 
 class SimulatedCamera final : public CameraDevice {
  public:
   SimulatedCamera(DeviceSettings& settings, const Rig& rig, BenchPtr bench)
       : bench_(std::move(bench)),
         faults_(read_faults(settings, {"lost", "incomplete", "saturated", "motion", "unplugged"})),
-        real_time_(settings.flag_or("real_time", false)) {
+        real_time_(settings.flag_or("real_time", false)),
+        scenes_(settings, true_rig(settings, rig), *bench_) {
     reference_exposure_ms_ = settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5);
-    scene_ = make_scene(settings, true_rig(settings, rig), *bench_);
-    if (rig.camera.name.empty()) bench_->scene = scene_;  // of the reference camera
+    if (rig.camera.name.empty()) bench_->scene = scenes_.of(0);  // of the reference camera
     info_.width_px = rig.camera.model.width_px;
     info_.height_px = rig.camera.model.height_px;
-    info_.white_level = scene_->known_rig.camera.white_level;
+    info_.white_level = scenes_.of(0)->known_rig.camera.white_level;
     info_.min_exposure_ms = 1e-3;
     info_.max_gain_db = 24.0;
   }
@@ -179,7 +214,7 @@ class SimulatedCamera final : public CameraDevice {
     if (faults_.matches(words("saturated"))) faults.light = 8.0;
     if (label.attempt == 0 && faults_.matches(words("motion"))) faults.motion_rad = 0.5;
     SimulatedBench seen = *bench_;
-    seen.scene = scene_;
+    seen.scene = scenes_.of(label.setup);
     seen.reference_exposure_ms = reference_exposure_ms_;
     captured.frame = camera_.capture(seen, label, faults);
     return captured;
@@ -187,10 +222,10 @@ class SimulatedCamera final : public CameraDevice {
 
  private:
   BenchPtr bench_;
-  std::shared_ptr<const SimulatedScene> scene_;
   double reference_exposure_ms_ = 10.0;
   FaultScript faults_;
   bool real_time_;  ///< an exposure takes its nominal time
+  SceneOfSetups scenes_;
   CameraInfo info_;
   BenchCamera camera_;
   std::uint64_t taken_ = 0;

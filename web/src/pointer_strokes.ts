@@ -1,0 +1,81 @@
+import { brushOutline, type Point } from './strokes';
+
+export type Tool = 'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align';
+
+export const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
+const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align']);
+
+interface Events {
+  /** A stroke of a drawing tool has ended: its outline, pixels. */
+  outlined(stroke: Point[]): void;
+  /** A clicking tool was used at a point, pixels. */
+  clicked(point: Point): void;
+}
+
+/** What the pointer draws on the picture with the present tool. */
+export class PointerStrokes {
+  private stroke: Point[] = [];
+  private down: Point | null = null;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly overlay: SVGSVGElement,
+    /** The tool, and the radius of the brush, pixels. */
+    private readonly hand: { readonly tool: Tool; readonly brush: number },
+    events: Events,
+  ) {
+    const at = (event: PointerEvent): Point => {
+      const frame = canvas.getBoundingClientRect();
+      return [event.clientX - frame.left, event.clientY - frame.top];
+    };
+    canvas.addEventListener('pointerdown', (event) => {
+      if (event.button !== 0) return;
+      this.down = at(event);
+      if (!DRAWING.has(hand.tool)) return;
+      canvas.setPointerCapture(event.pointerId);
+      this.stroke = [this.down];
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (this.stroke.length === 0) return;
+      this.extend(at(event));
+      this.sketch();
+    });
+    canvas.addEventListener('pointerup', (event) => {
+      const point = at(event);
+      const still = this.down && Math.hypot(point[0] - this.down[0], point[1] - this.down[1]) < 4;
+      this.down = null;
+      const stroke = this.stroke;
+      this.stroke = [];
+      this.sketch();
+      const outline = hand.tool === 'brush' ? brushOutline(stroke, hand.brush) : stroke;
+      if (DRAWING.has(hand.tool) && outline.length >= 3) return events.outlined(outline);
+      if (still && CLICKING.has(hand.tool)) events.clicked(point);
+    });
+    canvas.addEventListener('pointercancel', () => {
+      this.stroke = [];
+      this.down = null;
+      this.sketch();
+    });
+  }
+
+  private extend(point: Point): void {
+    const start = this.stroke[0] as Point;
+    const last = this.stroke.at(-1) as Point;
+    if (this.hand.tool === 'rectangle') this.stroke = [start, [point[0], start[1]], point, [start[0], point[1]]];
+    else if (Math.hypot(point[0] - last[0], point[1] - last[1]) > 3) this.stroke.push(point);
+  }
+
+  private sketch(): void {
+    const points = this.stroke.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
+    const brush = this.hand.tool === 'brush';
+    const name = brush ? 'polyline' : 'polygon';
+    let line = this.overlay.querySelector(name);
+    if (!points) return this.overlay.replaceChildren();
+    if (!line) {
+      line = document.createElementNS('http://www.w3.org/2000/svg', name);
+      if (brush) line.setAttribute('stroke-width', String(2 * this.hand.brush));
+      this.overlay.append(line);
+    }
+    line.setAttribute('points', points);
+  }
+}

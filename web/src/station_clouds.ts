@@ -1,0 +1,44 @@
+import { unpack } from './arrays';
+import type { StepName } from './app_steps';
+import { Refusal, type Session } from './session';
+import type { Viewer } from './viewer';
+
+/** Brings the points of the stations into the picture while a scan grows. */
+export class StationClouds {
+  /** The number of points that is shown of each station. */
+  private readonly shown = new Map<number, number>();
+
+  constructor(
+    private readonly session: Session,
+    private readonly viewer: Viewer,
+    private readonly added: () => void,
+    private readonly failed: (error: unknown) => void,
+  ) {}
+
+  forget(): void {
+    this.shown.clear();
+    this.viewer.clearClouds();
+  }
+
+  /** Each setup stands in its own pose on the table: clouds of two would mix. */
+  choose(step: StepName, setup: number): void {
+    const stations = this.session.state?.project?.stations ?? [];
+    this.viewer.showClouds(step === 'scan' || step === 'live', step === 'live', (station) => (stations[station]?.setup ?? 0) === setup);
+  }
+
+  /** Follows the state. */
+  async follow(): Promise<void> {
+    const stations = this.session.state?.project?.stations ?? [];
+    for (const [i, station] of stations.entries()) {
+      if (!station.has_cloud || this.shown.get(i) === station.points) continue;
+      this.shown.set(i, station.points);
+      try {
+        const arrays = unpack(await this.session.bytes(`/api/clouds/${i}`));
+        this.viewer.setCloud(i, arrays.get('positions') as Float32Array);
+        this.added();
+      } catch (error) {
+        if (!(error instanceof Refusal) || error.status !== 404) this.failed(error);
+      }
+    }
+  }
+}
