@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "frangia/core/parallel.h"
@@ -130,6 +131,29 @@ ViewLight::Node ViewLight::interpolate(int x, int y, double depth_mm) const {
   return sum;
 }
 
+/// Of the nearest lit pixels to the left, right, above and below, the one with the most indirect
+/// light.
+ViewLight::Node ViewLight::nearest_lit(int x, int y, double depth_mm) const {
+  constexpr int kReach_px = 8;
+  Node most;
+  double most_share = -1.0;
+  for (int reach = 1; reach <= kReach_px && most_share < 0.0; ++reach) {
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      const int u = x + reach * dx;
+      const int v = y + reach * dy;
+      if (u < 0 || v < 0 || u >= rays_.width() || v >= rays_.height()) continue;
+      Node node = trace(u, v);
+      const double near_mm = slope_per_px_ * 1.5 * reach * depth_mm;
+      if (!node.is_lit() || std::abs(node.depth_mm - depth_mm) >= near_mm) continue;
+      const double share = node.light.indirect / node.light.direct;
+      if (share <= most_share) continue;
+      most_share = share;
+      most = std::move(node);
+    }
+  }
+  return most;
+}
+
 /// Whether the light at the corners of a cell differs too much to be interpolated, or is unknown.
 /// At a crease it changes from node to node. Corners in shadow or in gaps of the surface say
 /// nothing.
@@ -159,9 +183,18 @@ bool ViewLight::differ(const Grid& grid, std::size_t cell) const {
 }
 
 IndirectShare ViewLight::at(int x, int y, double depth_mm) const {
-  const PointLight light = interpolate(x, y, depth_mm).light;
+  return share_of(interpolate(x, y, depth_mm).light, x, y, depth_mm);
+}
+
+IndirectShare ViewLight::near(int x, int y, double depth_mm) const {
+  const Node node = interpolate(x, y, depth_mm);
+  const bool is_known = node.light.direct > 0.0;
+  return share_of(is_known ? node.light : nearest_lit(x, y, depth_mm).light, x, y, depth_mm);
+}
+
+IndirectShare ViewLight::share_of(const PointLight& light, int x, int y, double depth_mm) const {
   IndirectShare out;
-  out.fringes.assign(light.fringes.size(), 0.0);
+  out.fringes.assign(surface_.patterns().size(), 0.0);
   if (!(light.direct > 0.0)) return out;
   const Eigen::Vector3d point = depth_mm * rays_(x, y).cast<double>().homogeneous();
   const double phase = phase_at(point, surface_.patterns().back(), surface_.projector());

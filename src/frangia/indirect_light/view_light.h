@@ -47,6 +47,11 @@ class ViewLight {
   ///
   /// @missing  zero for a point that the surface's own shadow covers
   [[nodiscard]] IndirectShare at(int x, int y, double depth_mm) const;
+  /// The same; a point in the shadow or in a gap of the surface has the light of the nearest pixels
+  /// around it whose points are lit.
+  ///
+  /// @missing  zero for a point with none of them within 8 pixels
+  [[nodiscard]] IndirectShare near(int x, int y, double depth_mm) const;
 
  private:
   struct Node {
@@ -69,6 +74,11 @@ class ViewLight {
   };
   [[nodiscard]] Node trace(int x, int y) const;
   [[nodiscard]] Node interpolate(int x, int y, double depth_mm) const;
+  [[nodiscard]] Node nearest_lit(int x, int y, double depth_mm) const;
+  [[nodiscard]] IndirectShare share_of(const PointLight& light,
+                                       int x,
+                                       int y,
+                                       double depth_mm) const;
   [[nodiscard]] Grid grid(int step_px, const View& view) const;
   [[nodiscard]] bool differ(const Grid& grid, std::size_t cell) const;
 

@@ -12,21 +12,49 @@
 
 namespace frangia {
 
+namespace {
+
+/// Whether a pixel is inside of the data: at most one of the eight pixels around it has no point.
+bool is_inside(const Image<float>& depth_mm, int x, int y) {
+  constexpr int kLeast = 7;
+  int count = -1;  // itself
+  for (int v = std::max(0, y - 1); v <= std::min(depth_mm.height() - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(depth_mm.width() - 1, x + 1); ++u)
+      count += std::isnan(depth_mm(u, v)) ? 0 : 1;
+  }
+  return count >= kLeast;
+}
+
+}  // namespace
+
 void IndirectCorrection::correct(View& view) const {
   if (!moves_points_ || view.range.phase_rad.empty()) return;
   const ViewLight light(*surface_, view, rays_, LightUse::Correction);
-  parallel_rows(view.range.depth_mm.height(), [&](int y) {
-    for (int x = 0; x < view.range.depth_mm.width(); ++x) {
+  const Image<float> before_mm = view.range.depth_mm;
+  parallel_rows(before_mm.height(), [&](int y) {
+    for (int x = 0; x < before_mm.width(); ++x) {
       RangePixel at = view.range.pixel(x, y);
       if (std::isnan(at.depth_mm)) continue;
-      if (move(light, at)) {
+      const bool keeps = is_inside(before_mm, x, y) || !is_lit_indirectly(light, at);
+      if (keeps && move(light, at)) {
         view.range.depth_mm(x, y) = at.depth_mm;
       } else {
         view.range.remove(x, y);
       }
     }
   });
-  std::erase_if(view.edge_pixels, [&](RangePixel& pixel) { return !move(light, pixel); });
+  std::erase_if(view.edge_pixels, [&](RangePixel& pixel) {
+    return is_lit_indirectly(light, pixel) || !move(light, pixel);
+  });
+}
+
+/// Whether indirect light shifts a point by much. At the rim of a gap that indirect light leaves in
+/// the data, as at a crease, the frames of a pixel just pass their checks, and its point lies
+/// anywhere: at the crease of a groove such points were 0.3 mm off, of a noise of 0.03 mm.
+bool IndirectCorrection::is_lit_indirectly(const ViewLight& light, const RangePixel& at) const {
+  constexpr double kMatters_rad = 0.05;  // the noise of fine fringes is far below
+  const IndirectShare share = light.near(at.x, at.y, static_cast<double>(at.depth_mm));
+  return albedo_ * std::abs(share.fringes.back()) > kMatters_rad;
 }
 
 void IndirectCorrection::add(View& view) const {

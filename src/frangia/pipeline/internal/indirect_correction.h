@@ -31,7 +31,7 @@ class IndirectCorrection {
         rays_(rays) {}
 
   /// Moves points to the depths that their phases have without the predicted errors, and removes
-  /// those with a wrong order.
+  /// those with a wrong order and those at the rim of the data where indirect light matters.
   void correct(View& view) const;
   /// Adds the uncertainty of the prediction to the systematic parts of the points.
   void add(View& view) const;
@@ -43,6 +43,7 @@ class IndirectCorrection {
 
  private:
   [[nodiscard]] double ray_mm_per_rad(const RangePixel& at) const;
+  [[nodiscard]] bool is_lit_indirectly(const ViewLight& light, const RangePixel& at) const;
   [[nodiscard]] bool move(const ViewLight& light, RangePixel& at) const;
 
   std::shared_ptr<const LitSurface> surface_;
