@@ -151,6 +151,27 @@ TEST(ViewLight, InterpolatesBetweenItsNodes) {
   }
 }
 
+TEST(ViewLight, NearAGapOfTheSurfaceTakesTheLightOfTheLitPixelsAround) {
+  Mesh gap = right_angle();
+  std::erase_if(gap.triangles, [&](const auto& triangle) {
+    const float x = gap.vertices_mm[triangle[0]].x();
+    return x > 8.0F && x < 9.5F;
+  });
+  const LitSurface surface(gap, far_projector(), patterns_with({200.0, 16.0}));
+  const auto rays = row_of_rays();
+  const View view = view_of_right_angle(rays);
+  const ViewLight light(surface, view, rays, LightUse::FewPixels);
+  const auto at = [&](int x, bool near) {
+    const auto depth = static_cast<double>(view.range.depth_mm(x, 1));
+    return near ? light.near(x, 1, depth) : light.at(x, 1, depth);
+  };
+  const int hole = 68;  // 9 mm
+  ASSERT_EQ(at(hole, false).mean, 0.0);
+  EXPECT_NEAR(at(hole, true).mean, at(hole - 3, false).mean, 0.05);
+  EXPECT_GT(at(hole, true).mean, 0.2);
+  EXPECT_EQ(at(hole - 8, true).mean, at(hole - 8, false).mean);
+}
+
 TEST(IndirectPhase, IsThatOfTheFinestPatternOrOfTheSlope) {
   const auto patterns = patterns_with({128.0, 16.0});
   IndirectShare share;

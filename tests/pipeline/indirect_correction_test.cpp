@@ -1,0 +1,110 @@
+#include "frangia/pipeline/internal/indirect_correction.h"
+
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/range/fringe_ray.h"
+
+namespace frangia {
+namespace {
+
+constexpr double kFar_mm = 5000.0;
+constexpr int kWidth = 101;
+constexpr int kHeight = 9;
+
+/// A projector that looks along z from far away: 2 px a mm.
+Projector far_projector() {
+  Projector projector;
+  projector.model = PinholeModel{.width_px = 1001,
+                                 .height_px = 1001,
+                                 .focal_px = {10000.0, 10000.0},
+                                 .principal_point_px = {500.0, 500.0}};
+  projector.position_mm = {-300.0, 0.0, 0.0};
+  return projector;
+}
+
+/// Two walls that meet in the plane x = 0 at a right angle, open towards the projector (sign 1), or
+/// with their edge towards it (-1).
+Mesh two_walls(float sign) {
+  Mesh mesh;
+  for (int i = -40; i <= 40; ++i) {
+    for (const float y : {-500.0F, 500.0F})
+      mesh.vertices_mm.emplace_back(i, y, static_cast<float>(kFar_mm) - sign * std::abs(i));
+  }
+  for (std::uint32_t i = 0; i + 3 < mesh.vertices_mm.size(); i += 2) {
+    mesh.triangles.push_back({i, i + 1, i + 2});
+    mesh.triangles.push_back({i + 1, i + 3, i + 2});
+  }
+  return mesh;
+}
+
+/// Rays 0.5 mm apart at the surface.
+Image<Eigen::Vector2f> camera_rays() {
+  Image<Eigen::Vector2f> rays(kWidth, kHeight, Eigen::Vector2f::Zero());
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x)
+      rays(x, y) = Eigen::Vector2f(static_cast<float>(x - 50), static_cast<float>(y - 4)) * 1e-4F;
+  }
+  return rays;
+}
+
+std::vector<Pattern> coarse_fringes() {
+  std::vector<Pattern> out{{.name = "p", .period_px = 64.0}};
+  out.back().shifts_rad = {0.0, 1.0, 2.0};
+  return out;
+}
+
+/// The walls without the points of the columns `first` to `last`, whose last one is recovered.
+View view_with_gap(const Image<Eigen::Vector2f>& rays, double sign, int first, int last) {
+  View view;
+  const Image<float> none(kWidth, kHeight, kMissing);
+  view.range = {none, none, none, {}};
+  const auto pattern = coarse_fringes().back();
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double slope = std::abs(static_cast<double>(rays(x, y).x()));
+      const double depth = kFar_mm / (1.0 + sign * slope);
+      const double phase =
+          phase_at(depth * rays(x, y).cast<double>().homogeneous(), pattern, far_projector());
+      const RangePixel at{
+          x, y, static_cast<float>(depth), 0.01F, static_cast<float>(phase), kMissing};
+      if (x == last) view.edge_pixels.push_back(at);
+      if (x >= first && x <= last) continue;
+      view.range.depth_mm(x, y) = at.depth_mm;
+      view.range.sigma_mm(x, y) = at.sigma_mm;
+      view.range.phase_rad(x, y) = at.phase_rad;
+    }
+  }
+  return view;
+}
+
+View corrected(double sign, int first, int last) {
+  const auto rays = camera_rays();
+  const auto surface = std::make_shared<const LitSurface>(
+      two_walls(static_cast<float>(sign)), far_projector(), coarse_fringes());
+  View view = view_with_gap(rays, sign, first, last);
+  IndirectCorrection(surface, 0.8, PhaseSource::Finest, true, rays).correct(view);
+  return view;
+}
+
+TEST(IndirectCorrection, RemovesTheRimOfAGapThatIndirectLightMayHaveMade) {
+  const View view = corrected(1.0, 46, 54);
+  constexpr int kMiddle = kHeight / 2;
+  EXPECT_TRUE(view.edge_pixels.empty());
+  EXPECT_TRUE(std::isnan(view.range.depth_mm(45, kMiddle)));
+  EXPECT_TRUE(std::isnan(view.range.depth_mm(55, kMiddle)));
+  EXPECT_FALSE(std::isnan(view.range.depth_mm(44, kMiddle)));
+  EXPECT_FALSE(std::isnan(view.range.depth_mm(56, kMiddle)));
+}
+
+TEST(IndirectCorrection, KeepsTheRimOfAGapWithoutIndirectLight) {
+  const View view = corrected(-1.0, 46, 54);
+  EXPECT_EQ(view.edge_pixels.size(), static_cast<std::size_t>(kHeight));
+  EXPECT_FALSE(std::isnan(view.range.depth_mm(45, kHeight / 2)));
+}
+
+}  // namespace
+}  // namespace frangia
