@@ -22,7 +22,7 @@ Projector far_projector() {
                                  .height_px = 1001,
                                  .focal_px = {10000.0, 10000.0},
                                  .principal_point_px = {500.0, 500.0}};
-  projector.position_mm = {-300.0, 0.0, 0.0};
+  projector.position_mm = {-100.0, 0.0, 0.0};
   return projector;
 }
 
@@ -32,7 +32,10 @@ Mesh two_walls(float sign) {
   Mesh mesh;
   for (int i = -40; i <= 40; ++i) {
     for (const float y : {-500.0F, 500.0F})
-      mesh.vertices_mm.emplace_back(i, y, static_cast<float>(kFar_mm) - sign * std::abs(i));
+      mesh.vertices_mm.emplace_back(
+          static_cast<float>(i),
+          y,
+          static_cast<float>(kFar_mm) - sign * static_cast<float>(std::abs(i)));
   }
   for (std::uint32_t i = 0; i + 3 < mesh.vertices_mm.size(); i += 2) {
     mesh.triangles.push_back({i, i + 1, i + 2});
