@@ -46,11 +46,11 @@ struct RegistrationReport {
   bool rests_on_rig = false;
   TurntableSigma sigma;  ///< of the given axis and angles
   ViewMotions motions;   ///< of the views by what their overlap leaves open; empty for one view
-  /// How far the views disagree where they overlap, if the places rest on the rig: the median over
-  /// the noise, and over the noise and `sigma`. NaN where fewer than 50 points overlap.
+  /// Median distance of the views where they overlap, if their places rest on the rig. NaN, as the
+  /// two that follow, where fewer than 50 points overlap.
   double disagreement_mm = kMissing;
-  double disagreement_over_noise = kMissing;
-  double disagreement_over_sigma = kMissing;
+  double disagreement_over_noise = kMissing;  ///< median of the distances over their noise
+  double disagreement_over_sigma = kMissing;  ///< the same over noise and `sigma`
 
   /// Distance from `given.point_mm` to `table.point_mm`.
   [[nodiscard]] double axis_moved_mm() const;
