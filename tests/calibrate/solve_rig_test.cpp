@@ -85,11 +85,11 @@ double found_value(const RigSolution& found, const std::string& name) {
   return values.at(key);
 }
 
-TEST(SolveRig, ErrorsOfFortySeedsAreAsLargeAsTheFullCovarianceStates) {
+TEST(SolveRig, ErrorsOfManySeedsAreAsLargeAsTheFullCovarianceStates) {
   const TrueRig rig;
   double squares = 0.0;
   double count = 0.0;
-  constexpr unsigned kSeeds = 40;
+  constexpr unsigned kSeeds = 16;  // `./run figures calibration` takes 40
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     const RigSolution found = solve_rig(kBoard, make_views(rig, 10, 0.1, seed), known_rig());
     ASSERT_FALSE(found.parameters.empty());
