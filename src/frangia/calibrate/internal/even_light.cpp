@@ -55,10 +55,12 @@ EvenedWindow even_light(const cv::Mat& counts, const cv::Point& center, const cv
   const double lowest = plane[0] - 0.5 * (std::abs(plane[1]) + std::abs(plane[2]));
   if (!(mean > 0.0) || !(lowest > kSteepest * mean)) return {};
   EvenedWindow out{cv::Mat(inside.height, inside.width, CV_32F), inside.tl()};
-  for (int y = 0; y < inside.height; ++y)
-    for (int x = 0; x < inside.width; ++x)
+  for (int y = 0; y < inside.height; ++y) {
+    for (int x = 0; x < inside.width; ++x) {
       out.counts.at<float>(y, x) = static_cast<float>(static_cast<double>(window.at<float>(y, x)) *
                                                       mean / plane.dot(terms_at(x, y)));
+    }
+  }
   return out;
 }
 

@@ -53,6 +53,7 @@ std::vector<PointCloud> points_of_setups(const MeasuredSetup& joined,
         measured.views.load_points(i), *rays, step, clouds[numbers.at(measured.stations[i].setup)]);
   }
   std::vector<PointCloud> all;
+  all.reserve(clouds.size());
   for (auto& [number, cloud] : clouds)
     all.push_back(std::move(cloud));
   return all;

@@ -104,8 +104,9 @@ std::vector<std::size_t> every(std::size_t count, std::size_t step) {
 }
 
 /// Adds a part to the systematic part of a value.
-void add_to(float& systematic, float part) {
-  systematic = combined_sigma(systematic, part);
+void add_to(float& systematic, float more) {
+  const float before = systematic;
+  systematic = combined_sigma(before, more);
 }
 
 }  // namespace
@@ -164,9 +165,10 @@ void add_turntable_part(PointCloud& cloud,
   }
   if (next != cloud.points_mm.size() || next == 0) return;
   Motion mean = Motion::Zero(6, motions.front().cols());
-  for (const Part& part : views)
+  for (const Part& part : views) {
     mean +=
         static_cast<double>(part.end - part.begin) / static_cast<double>(next) * motions[part.view];
+  }
   cloud.systematic_mm.resize(next);
   for (const Part& part : views) {
     const Motion motion = motions[part.view] - mean;
