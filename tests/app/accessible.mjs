@@ -1,17 +1,13 @@
 // axe finds no violation: on every step, in both themes and languages, on a desktop and a tablet, and in every dialog.
 //
 //   node accessible.mjs PROGRAM
-import fs from 'node:fs';
 import path from 'node:path';
-import { axe, coarsenCamera, expect, launch, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+import { axe, coarsenCamera, expect, launch, newHome, newLink, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
 
 const program = path.resolve(process.argv[2]);
 requireChromium();
 const home = newHome();
 const server = await startServer(program, home);
-let code = 1;
-let gone = false;
-let browser;
 
 async function command(page, name, argument = {}) {
   await page.evaluate(async ([name, argument]) => {
@@ -28,8 +24,8 @@ async function command(page, name, argument = {}) {
   }
 }
 
-try {
-  browser = await launch();
+await tell(home, async () => {
+  const browser = await launch();
   const page = await openPage(browser, server.url);
   await page.waitForSelector('#try');
   const looks = [];
@@ -98,18 +94,7 @@ try {
   await axe(stranger, 'without a key');
   await stranger.emulateMedia({ colorScheme: 'light' });
   await axe(stranger, 'without a key, light');
-  gone = true;
   await server.end('SIGTERM');
   await page.waitForSelector('.notice.warn[role=alert]', { timeout: 30_000 * slowdown });
   await axe(page, 'the server is gone');
-  code = problems.length === 0 ? 0 : 1;
-} catch (error) {
-  console.log(error.stack ?? error);
-} finally {
-  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
-  await browser?.close();
-  if (!gone) await server.end('SIGTERM');
-  fs.rmSync(home, { recursive: true, force: true });
-}
-passed(code === 0 ? 'axe finds no violation' : 'there are violations');
-process.exit(code);
+}, 'axe finds no violation');

@@ -4,10 +4,9 @@
 //
 // The page comes from another port of this machine, which a browser counts as the same site, and from another name that
 // leads to the app's own port, as DNS rebinding does.
-import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
-import { expect, launch, newHome, newLink, openPage, passed, problems, requireChromium, startServer, stateOf } from './harness.mjs';
+import { expect, launch, newHome, newLink, openPage, passed, requireChromium, startServer, stateOf, tell } from './harness.mjs';
 
 const program = path.resolve(process.argv[2]);
 requireChromium();
@@ -100,10 +99,8 @@ const post = (page, action, encoding) =>
     form.submit();
   }, [action, encoding]);
 
-let code = 1;
-let browser;
-try {
-  browser = await launch({ more: [`--host-resolver-rules=MAP evil.example 127.0.0.1`] });
+await tell(home, async () => {
+  const browser = await launch({ more: [`--host-resolver-rules=MAP evil.example 127.0.0.1`] });
   const page = await openPage(browser, server.url);
   await page.waitForSelector('#try');
   await page.click('#try');
@@ -147,15 +144,4 @@ try {
   expect(await linked.evaluate(() => window.opener === null), 'the other page holds the window of the app');
   expect(!heard.some((line) => line.includes('token') || line.includes(key)), 'another origin hears a secret');
   await unchanged('a link');
-  code = problems.length === 0 ? 0 : 1;
-} catch (error) {
-  console.log(error.stack ?? error);
-} finally {
-  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
-  await browser?.close();
-  await server.end('SIGTERM');
-  other.close();
-  fs.rmSync(home, { recursive: true, force: true });
-}
-passed(code === 0 ? 'nothing was read and nothing was done' : 'the attacks broke off');
-process.exit(code);
+}, 'nothing was read and nothing was done');

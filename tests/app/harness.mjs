@@ -62,21 +62,20 @@ export async function createProject(page, name, part, stations) {
   await page.waitForSelector('[data-next=live]');
 }
 
-/** Runs a story in a browser of its own; prints what went wrong, cleans up, and ends the process. */
+/** What ends each browser and server that was started, in their order. */
+const endings = [];
+
+/** Runs a story; prints what went wrong, ends browsers and servers, removes the folder, and ends the process. */
 export async function tell(home, story, ending) {
   let code = 1;
-  let browser;
-  const servers = [];
   try {
-    browser = await launch();
-    await story(browser, servers);
+    await story();
     code = problems.length === 0 ? 0 : 1;
   } catch (error) {
     console.log(error.stack ?? error);
   } finally {
     for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
-    await browser?.close();
-    for (const server of servers) await server.end('SIGTERM');
+    for (const end of endings.reverse()) await end();
     fs.rmSync(home, { recursive: true, force: true });
   }
   passed(code === 0 ? ending : 'the story broke off');
@@ -103,10 +102,12 @@ export async function startServer(program, home, ...more) {
     process_.on('exit', () => reject(new Error('the server ended')));
   });
   const end = (signal) => {
+    if (process_.exitCode !== null || process_.signalCode !== null) return undefined;
     const ended = new Promise((resolve) => process_.on('exit', resolve));
     process_.kill(signal);
     return ended;
   };
+  endings.push(() => end('SIGTERM'));
   return { url, end };
 }
 
@@ -117,12 +118,15 @@ export function newLink(program, home) {
 }
 
 /** Chromium with more arguments; without WebGL if that is wanted. */
-export const launch = ({ webgl = true, more = [] } = {}) =>
-  require('playwright-core').chromium.launch({
+export async function launch({ webgl = true, more = [] } = {}) {
+  const browser = await require('playwright-core').chromium.launch({
     executablePath: chromiumPath,
     args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-background-networking', '--no-first-run', '--disable-dev-shm-usage',
       ...(webgl ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-3d-apis']), ...more],
   });
+  endings.push(() => browser.close());
+  return browser;
+}
 
 /** A page all of whose messages are checked. `expected` matches what the console may say beside what it always may. */
 export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, { expected = /^$/, ...more } = {}) {

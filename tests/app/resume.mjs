@@ -5,7 +5,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { coarsenCamera, createProject, expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+import { coarsenCamera, createProject, expect, launch, look, newHome, newLink, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -14,8 +14,6 @@ fs.mkdirSync(shots, { recursive: true });
 const STATIONS = 4;
 const EXPOSURE_MS = 220;  // in real time: the scan takes a dozen seconds, and leaves the processor to the browsers
 let server = await startServer(program, home);
-let browser;
-let code = 1;
 
 async function waitFor(page, wanted, timeout = 60_000 * slowdown) {
   const end = Date.now() + timeout;
@@ -36,8 +34,8 @@ function framesOf(folder) {
   return frames;
 }
 
-try {
-  browser = await launch();
+await tell(home, async () => {
+  const browser = await launch();
   let page = await openPage(browser, server.url);
   await createProject(page, 'Plate', 'plate', STATIONS);
   coarsenCamera(path.join(home, 'projects', 'Plate'));
@@ -96,14 +94,4 @@ try {
   expect(once.size > 0 && resumed.size === once.size, `${resumed.size} frames instead of ${once.size}`);
   for (const [name, bytes] of once) expect(bytes.equals(resumed.get(name) ?? Buffer.alloc(0)), `${name} differs from an uninterrupted scan`);
   passed(`${once.size} frames equal those of an uninterrupted scan`);
-  code = problems.length === 0 ? 0 : 1;
-} catch (error) {
-  console.log(error.stack ?? error);
-} finally {
-  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
-  await browser?.close();
-  await server.end('SIGTERM');
-  fs.rmSync(home, { recursive: true, force: true });
-}
-passed(code === 0 ? 'the scan survived' : 'the story broke off');
-process.exit(code);
+}, 'the scan survived');

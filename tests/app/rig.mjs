@@ -4,7 +4,7 @@
 //   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { expect, launch, look, newHome, newLink, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+import { expect, launch, look, newHome, newLink, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -13,7 +13,6 @@ const home = newHome();
 fs.mkdirSync(shots, { recursive: true });
 const server = await startServer(program, home);
 let browser;
-let code = 1;
 
 async function waitFor(page, wanted, timeout = 60_000 * slowdown) {
   const end = Date.now() + timeout;
@@ -34,7 +33,7 @@ async function create(page, name, source) {
   await page.locator('.form').getByText(source, { exact: true }).click();
 }
 
-try {
+await tell(home, async () => {
   browser = await launch();
   const refusals = /status of 400/;  // of a bad rig.toml and of a deleted folder
   const page = await openPage(browser, server.url, undefined, { expected: refusals });
@@ -133,14 +132,4 @@ try {
   await plain.click('#export');
   await plain.waitForSelector('.file', { timeout: 60_000 * slowdown });
   passed('a browser without WebGL scans and exports');
-  code = problems.length === 0 ? 0 : 1;
-} catch (error) {
-  console.log(error.stack ?? error);
-} finally {
-  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
-  await browser?.close();
-  await server.end('SIGTERM');
-  fs.rmSync(home, { recursive: true, force: true });
-}
-passed(code === 0 ? 'the story is told' : 'the story broke off');
-process.exit(code);
+}, 'the story is told');

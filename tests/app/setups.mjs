@@ -3,7 +3,7 @@
 //   node setups.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, coarsenCamera, createProject, expect, look, newHome, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
+import { check, coarsenCamera, createProject, expect, launch, look, newHome, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -11,9 +11,9 @@ fs.mkdirSync(shots, { recursive: true });
 const home = newHome();
 const STATIONS = 5;
 
-await tell(home, async (browser, servers) => {
+await tell(home, async () => {
   const server = await startServer(program, home);
-  servers.push(server);
+  const browser = await launch();
   const page = await openPage(browser, server.url, { width: 1280, height: 800 });
   await createProject(page, 'Bust', 'bust', STATIONS);
   coarsenCamera(path.join(home, 'projects', 'Bust'));

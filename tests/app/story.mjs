@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, fail, launch, look as lookAt, newHome, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+import { check, expect, launch, look as lookAt, newHome, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -15,10 +15,8 @@ const home = newHome();
 fs.mkdirSync(shots, { recursive: true });
 const server = await startServer(program, home);
 const { url } = server;
-let code = 1;
-let browser;
-try {
-  browser = await launch();
+await tell(home, async () => {
+  const browser = await launch();
   const page = await openPage(browser, url);
   const context = page.context();
   const look = (name) => lookAt(page, shots, name);
@@ -235,14 +233,4 @@ print(sum(1 for one in document.modelspace() if one.dxftype() == "3DFACE"))`, dx
   expect(stolen[0] === 'refused', 'a page of another origin reads the state');
   const after = (await state()).project.surface;
   expect(after.steps_done === stepsBefore, 'a page of another origin acted');
-  code = problems.length === 0 ? 0 : 1;
-} catch (error) {
-  console.log(error.stack ?? error);
-} finally {
-  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
-  await browser?.close();
-  await server.end('SIGTERM');
-  fs.rmSync(home, { recursive: true, force: true });
-}
-passed(code === 0 ? 'the story is told' : 'the story broke off');
-process.exit(code);
+}, 'the story is told');

@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, fail, launch, look as lookAt, newHome, openPage, passed, problems, requireChromium, slowdown, startServer, stateOf } from './harness.mjs';
+import { check, expect, launch, look as lookAt, newHome, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -63,10 +63,8 @@ const reference = path.join(home, 'slab as designed.stl');
 fs.writeFileSync(reference, stlOf(slab(() => true)));
 
 const server = await startServer(program, home);
-let browser;
-let code = 1;
-try {
-  browser = await launch();
+await tell(home, async () => {
+  const browser = await launch();
   const page = await openPage(browser, server.url);
   const look = (name) => lookAt(page, shots, name);
   // As the page knows it, which hears of a change a moment after the server made it, and has drawn it.
@@ -177,14 +175,4 @@ try {
     await page.waitForTimeout(300);
     await look(name);
   }
-  code = problems.length === 0 ? 0 : 1;
-} catch (error) {
-  fail(error.stack ?? String(error));
-} finally {
-  for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
-  await browser?.close();
-  await server.end('SIGTERM');
-  fs.rmSync(home, { recursive: true, force: true });
-}
-passed(code === 0 ? 'the surface is told' : 'it broke off');
-process.exit(problems.length ? 1 : code);
+}, 'the surface is told');

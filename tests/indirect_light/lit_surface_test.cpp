@@ -12,37 +12,18 @@
 #include "frangia/indirect_light/view_light.h"
 #include "frangia/range/fringe_ray.h"
 
+#include "support/two_walls.h"
+
 namespace frangia {
 namespace {
 
-constexpr double kFar_mm = 5000.0;
+using testing::far_projector;
+
+constexpr double kFar_mm = testing::kWallsFar_mm;
 constexpr double kWall_mm = 40.0;
 
-/// A projector that looks along z from far away: 2 px a mm.
-Projector far_projector() {
-  Projector projector;
-  projector.model = PinholeModel{.width_px = 1001,
-                                 .height_px = 1001,
-                                 .focal_px = {10000.0, 10000.0},
-                                 .principal_point_px = {500.0, 500.0}};
-  return projector;
-}
-
-/// Two walls that meet at a right angle in the plane x = 0, open towards the projector, as a mesh
-/// of this many triangles along each.
 Mesh right_angle(int across = 40) {
-  constexpr float kHalf = 1000.0F;
-  Mesh mesh;
-  for (int i = -across; i <= across; ++i) {
-    const auto x = static_cast<float>(kWall_mm / std::sqrt(2.0) * i / across);
-    for (const float y : {-kHalf, kHalf})
-      mesh.vertices_mm.emplace_back(x, y, static_cast<float>(kFar_mm) - std::abs(x));
-  }
-  for (std::uint32_t i = 0; i + 3 < mesh.vertices_mm.size(); i += 2) {
-    mesh.triangles.push_back({i, i + 1, i + 2});
-    mesh.triangles.push_back({i + 1, i + 3, i + 2});
-  }
-  return mesh;
+  return testing::two_walls(kWall_mm / std::sqrt(2.0), across);
 }
 
 std::vector<Pattern> patterns_with(std::initializer_list<double> periods_px) {

@@ -8,41 +8,15 @@
 #include "frangia/core/missing.h"
 #include "frangia/range/fringe_ray.h"
 
+#include "support/two_walls.h"
+
 namespace frangia {
 namespace {
 
-constexpr double kFar_mm = 5000.0;
+constexpr double kFar_mm = testing::kWallsFar_mm;
+constexpr double kProjector_mm = -100.0;
 constexpr int kWidth = 101;
 constexpr int kHeight = 9;
-
-/// A projector that looks along z from far away: 2 px a mm.
-Projector far_projector() {
-  Projector projector;
-  projector.model = PinholeModel{.width_px = 1001,
-                                 .height_px = 1001,
-                                 .focal_px = {10000.0, 10000.0},
-                                 .principal_point_px = {500.0, 500.0}};
-  projector.position_mm = {-100.0, 0.0, 0.0};
-  return projector;
-}
-
-/// Two walls that meet in the plane x = 0 at a right angle, open towards the projector (sign 1), or
-/// with their edge towards it (-1).
-Mesh two_walls(float sign) {
-  Mesh mesh;
-  for (int i = -40; i <= 40; ++i) {
-    for (const float y : {-500.0F, 500.0F})
-      mesh.vertices_mm.emplace_back(
-          static_cast<float>(i),
-          y,
-          static_cast<float>(kFar_mm) - sign * static_cast<float>(std::abs(i)));
-  }
-  for (std::uint32_t i = 0; i + 3 < mesh.vertices_mm.size(); i += 2) {
-    mesh.triangles.push_back({i, i + 1, i + 2});
-    mesh.triangles.push_back({i + 1, i + 3, i + 2});
-  }
-  return mesh;
-}
 
 /// Rays 0.5 mm apart at the surface.
 Image<Eigen::Vector2f> camera_rays() {
@@ -70,8 +44,9 @@ View view_with_gap(const Image<Eigen::Vector2f>& rays, double sign, int first, i
     for (int x = 0; x < kWidth; ++x) {
       const double slope = std::abs(static_cast<double>(rays(x, y).x()));
       const double depth = kFar_mm / (1.0 + sign * slope);
-      const double phase =
-          phase_at(depth * rays(x, y).cast<double>().homogeneous(), pattern, far_projector());
+      const double phase = phase_at(depth * rays(x, y).cast<double>().homogeneous(),
+                                    pattern,
+                                    testing::far_projector(kProjector_mm));
       const RangePixel at{
           x, y, static_cast<float>(depth), 0.01F, static_cast<float>(phase), kMissing};
       if (x == last) view.edge_pixels.push_back(at);
@@ -87,7 +62,7 @@ View view_with_gap(const Image<Eigen::Vector2f>& rays, double sign, int first, i
 View corrected(double sign, int first, int last) {
   const auto rays = camera_rays();
   const auto surface = std::make_shared<const LitSurface>(
-      two_walls(static_cast<float>(sign)), far_projector(), coarse_fringes());
+      testing::two_walls(40.0, 40, sign), testing::far_projector(kProjector_mm), coarse_fringes());
   View view = view_with_gap(rays, sign, first, last);
   IndirectCorrection(surface, 0.8, PhaseSource::Finest, true, rays).correct(view);
   return view;

@@ -1,81 +1,19 @@
-#include "frangia/service/service.h"
-
-#include <atomic>
+#include <filesystem>
 #include <fstream>
-#include <thread>
+#include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "frangia/editor/edit_script.h"
 #include "frangia/files/read_mesh.h"
-#include "frangia/files/write_mesh.h"
-#include "frangia/geometry/vertex_data.h"
 
-#include "support/all_drivers.h"
-#include "support/error_of.h"
-#include "support/temporary_folder.h"
-#include "support/test_meshes.h"
+#include "service/service_fixture.h"
 
 namespace frangia {
 namespace {
 
 using testing::error_of;
 using Json = nlohmann::json;
-
-class ServiceTest : public ::testing::Test {
- protected:
-  ServiceTest() { restart(); }
-
-  void restart() {
-    service_.reset();
-    ServiceOptions options;
-    options.projects = folder_.path() / "projects";
-    options.capture.drivers = testing::all_drivers;
-    options.capture.board_drivers = testing::board_drivers;
-    options.version = "test";
-    options.command_lines = [](const ProjectProgress& project) {
-      return CommandLines{{"edit", {project.folder.name, std::to_string(project.steps.size())}}};
-    };
-    service_ = std::make_unique<Service>(std::move(options), [this] { ++changes_; });
-  }
-  [[nodiscard]] Json state() const { return Json::parse(service_->state()); }
-  Json command(const std::string& name, const Json& arguments = Json::object()) {
-    return Json::parse(service_->command(name, arguments.dump()));
-  }
-  [[nodiscard]] std::string refusal(const std::string& name, const std::string& arguments) {
-    return error_of([&] { static_cast<void>(service_->command(name, arguments)); });
-  }
-  /// Waits for all jobs and returns the last one.
-  Json finish() {
-    for (int i = 0; i < 30'000; ++i) {
-      const Json jobs = state().at("jobs");
-      bool busy = false;
-      for (const Json& job : jobs)
-        busy = busy || job.at("state") == "waiting" || job.at("state") == "running";
-      if (!busy) return jobs.empty() ? Json() : jobs.back();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    ADD_FAILURE() << "the jobs do not end";
-    return {};
-  }
-  /// A project with a surface that no scan made: an open box and a separate ball.
-  void open_box(int rings = 12) {
-    const auto folder = folder_.path() / "projects" / "box";
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "project.json") << "{}";
-    Mesh mesh = testing::sphere({20, 0, 0}, 3.0, rings);
-    append_mesh(mesh, testing::box({-5, -5, -5}, {5, 5, 5}));
-    mesh.triangles.pop_back();
-    write_mesh(folder / "surface.ply", mesh);
-    static_cast<void>(command("open-project", {{"name", "box"}}));
-    static_cast<void>(finish());
-  }
-
-  testing::TemporaryFolder folder_;
-  std::atomic<int> changes_ = 0;
-  std::unique_ptr<Service> service_;
-};
 
 TEST_F(ServiceTest, RefusesWhatItDoesNotUnderstandInWords) {
   EXPECT_NE(refusal("no-such-command", "{}"), "");
@@ -334,77 +272,6 @@ TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
   EXPECT_NE(job.at("error").get<std::string>().find("select"), std::string::npos);
   EXPECT_EQ(service_->mesh(), mesh);
   EXPECT_NE(refusal("edit", R"({"operation": "decimate", "value": "much"})"), "");
-}
-
-TEST_F(ServiceTest, ScansTheTurnedPartAsASecondSetupOnceTheFirstIsComplete) {
-  static_cast<void>(
-      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
-  static_cast<void>(finish());
-  EXPECT_NE(refusal("start-scan", R"({"setup": 1})").find("not complete"), std::string::npos);
-  static_cast<void>(command("start-scan"));
-  ASSERT_EQ(finish().at("state"), "done");
-  EXPECT_NE(refusal("start-scan", R"({"setup": 2})"), "");
-  static_cast<void>(command("start-scan", {{"setup", 1}, {"stations", 1}}));
-  ASSERT_EQ(finish().at("state"), "done");
-  const Json stations = state().at("project").at("stations");
-  ASSERT_EQ(stations.size(), 3U);
-  EXPECT_EQ(stations[1].at("setup"), 0);
-  EXPECT_EQ(stations[2].at("setup"), 1);
-  EXPECT_EQ(stations[2].at("angle_deg"), 0.0);
-  EXPECT_EQ(stations[2].at("state"), "done");
-  EXPECT_NE(refusal("rescan-station", R"({"station": 1})").find("turned over"), std::string::npos);
-  // The stations of both setups are found again, and the frames of neither are captured again.
-  restart();
-  static_cast<void>(command("open-project", {{"name", "try"}}));
-  static_cast<void>(finish());
-  EXPECT_EQ(state().at("project").at("stations"), stations);
-  static_cast<void>(command("rescan-station", {{"station", 2}}));
-  ASSERT_EQ(finish().at("state"), "done");
-  EXPECT_EQ(state().at("project").at("stations"), stations);
-}
-
-TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
-  static_cast<void>(
-      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
-  static_cast<void>(finish());
-  const int number = command("start-scan").at("job").get<int>();
-  const auto share = [&] {
-    const Json jobs = state().at("jobs");
-    for (const Json& job : jobs)
-      if (job.at("number") == number && job.at("stage") == "scan")
-        return job.at("progress").get<double>();
-    return 0.0;
-  };
-  for (int i = 0; i < 20'000 && share() < 0.3; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  static_cast<void>(command("stop-job", {{"job", number}}));
-  EXPECT_EQ(finish().at("state"), "stopped");
-  EXPECT_FALSE(state().at("project").at("scan_complete").get<bool>());
-  EXPECT_NE(refusal("start-scan", R"({"stations": 3})"), "");
-
-  restart();
-  static_cast<void>(command("open-project", {{"name", "try"}}));
-  static_cast<void>(finish());
-  static_cast<void>(command("start-scan"));
-  const Json job = finish();
-  ASSERT_EQ(job.at("state"), "done") << job.at("error");
-  const Json project = state().at("project");
-  EXPECT_TRUE(project.at("scan_complete").get<bool>());
-  for (const Json& station : project.at("stations"))
-    EXPECT_EQ(station.at("state"), "done");
-  EXPECT_TRUE(project.at("stations")[1].at("good").get<bool>());
-  EXPECT_GT(project.at("stations")[1].at("points").get<int>(), 5000);
-  EXPECT_NE(refusal("rescan-station", R"({"station": 2})"), "");
-  static_cast<void>(command("rescan-station", {{"station", 1}}));
-  ASSERT_EQ(finish().at("state"), "done");
-  EXPECT_EQ(state().at("project").at("stations")[1], project.at("stations")[1])
-      << "the simulated rig captures the same frames again";
-  static_cast<void>(command("export", {{"format", "zip"}}));
-  ASSERT_EQ(finish().at("state"), "done");
-  EXPECT_GT(std::filesystem::file_size(service_->exported("try scan.zip").path), 50'000U);
-  EXPECT_FALSE(service_->cloud(1).empty());
-  EXPECT_TRUE(service_->cloud(9).empty());
-  EXPECT_GT(changes_, 10);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ const MOST_WIRED = 300_000;
 interface Picture {
   revision: number;
   levels: MeshLevel[];
-  /** The selection that so many of its levels, the coarsest first, show. */
+  /** The selection that is drawn, and how many levels show it, from the coarsest on. */
   selected: { revision: number; levels: number };
 }
 

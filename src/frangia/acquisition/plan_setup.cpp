@@ -14,7 +14,7 @@ namespace {
 
 using Views = std::vector<ScanView>;
 
-/// The views of a scan.toml; the stored plan of a capture needs no covariance beside it.
+/// The views of the scan.toml in a folder, without its rig: a stored plan has no covariance file.
 Views views_in(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (!std::filesystem::exists(folder / "scan.toml", ignored)) return {};

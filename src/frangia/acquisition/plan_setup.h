@@ -4,9 +4,9 @@
 
 namespace frangia {
 
-/// The plan of a scan in which the part is clamped anew: the views of `plan` become those of
-/// `setup`, and the views of the other setups come from the capture that `plan.folder` holds. The
-/// folders of new views are numbered behind the stored ones.
+/// Plans a further setup of a scan, in which the part is turned over or moved. The views of `plan`
+/// become those of `setup`; those of the other setups are read from the capture in `plan.folder`.
+/// The folders of new views continue the numbers of the stored ones.
 ///
 /// The plan of setup 0 of a new folder is `plan` itself. A setup that was begun is continued by the
 /// same plan. `CaptureOptions::setup` names the setup to capture.

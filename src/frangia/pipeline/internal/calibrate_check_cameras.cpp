@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/dataset/scan_of_camera.h"
 #include "frangia/pipeline/internal/calibrate_check_kinds.h"
 #include "frangia/pipeline/internal/calibrate_check_limits.h"
@@ -60,12 +59,7 @@ void check_cameras_of(const Scan& scan,
                               options.match_share));
     }
     CheckLimits limits({scan.rig, camera}, points, options, check);
-    const double typical = wide_spread_of(patches.mean_mm);
-    limits.add("against the reference",
-               typical,
-               kNoiseShare * median(patches.sigma_mm),
-               2.0,
-               fmt::format("{:.4f} mm, robust, over {} patches", typical, patches.mean_mm.size()));
+    limits.add_spread("against the reference", patches);
   }
 }
 

@@ -63,6 +63,10 @@ double spread_of(std::span<const double> heights) {
   return 1.4826 * median(magnitudes);
 }
 
+namespace {
+
+/// The spread by the median or the 80th percentile, whichever says more: a turntable whose axis
+/// moved displaces only the faces that look along the motion.
 double wide_spread_of(std::span<const double> heights) {
   constexpr double kShare = 0.8;
   constexpr double kQuantile = 1.2816;  // of the magnitude of a normal deviate
@@ -74,6 +78,20 @@ double wide_spread_of(std::span<const double> heights) {
                                              kShare * static_cast<double>(magnitudes.size() - 1));
   std::nth_element(magnitudes.begin(), rank, magnitudes.end());
   return std::max(spread_of(heights), *rank / kQuantile);
+}
+
+}  // namespace
+
+void CheckLimits::add_spread(std::string name, const PatchDistances& patches) {
+  // The spread of sound patches is their noise of one standard deviation. Of many patches half of
+  // it more is not by chance: the share that three of are allowed.
+  constexpr double kNoiseShare = 0.5;
+  const double typical = wide_spread_of(patches.mean_mm);
+  add(std::move(name),
+      typical,
+      kNoiseShare * median(patches.sigma_mm),
+      2.0,
+      fmt::format("{:.4f} mm, robust, over {} patches", typical, patches.mean_mm.size()));
 }
 
 }  // namespace frangia

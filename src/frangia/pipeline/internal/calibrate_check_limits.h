@@ -8,6 +8,7 @@
 
 #include "frangia/pipeline/calibrate_check.h"
 #include "frangia/pipeline/internal/calibrate_check_kinds.h"
+#include "frangia/pipeline/internal/calibrate_compare_views.h"
 
 namespace frangia {
 
@@ -23,6 +24,8 @@ class CheckLimits {
   /// Adds a figure. `points`: how many independent points of the calibration's uncertainty it has.
   void add(
       std::string name, double deviation_mm, double noise_mm, double points, std::string measured);
+  /// Adds the robust spread of patches that were measured twice.
+  void add_spread(std::string name, const PatchDistances& patches);
 
  private:
   const CheckRigOptions& options_;
@@ -35,13 +38,5 @@ class CheckLimits {
 /// Standard deviation of heights by the median of their magnitudes, which the edges of a plate do
 /// not change.
 [[nodiscard]] double spread_of(std::span<const double> heights);
-
-/// Likewise by the median or the 80th percentile, whichever says more: a turntable whose axis moved
-/// displaces only the faces that look along the motion.
-[[nodiscard]] double wide_spread_of(std::span<const double> heights);
-
-/// The spread of sound patches is their noise of one standard deviation. Of many patches half of it
-/// more is not by chance: the share that three of are allowed.
-inline constexpr double kNoiseShare = 0.5;
 
 }  // namespace frangia

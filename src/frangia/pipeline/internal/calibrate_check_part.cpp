@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/pipeline/internal/calibrate_artifact_sites.h"
 #include "frangia/pipeline/internal/calibrate_check_kinds.h"
 #include "frangia/pipeline/internal/calibrate_check_limits.h"
@@ -57,12 +56,7 @@ void check_part_of(const Scan& scan,
                             options.match_share * all.front().norm()));
   }
   CheckLimits limits(camera, all, options, check);
-  const double typical = wide_spread_of(patches.mean_mm);
-  limits.add("disagreement of the views",
-             typical,
-             kNoiseShare * median(patches.sigma_mm),
-             2.0,
-             fmt::format("{:.4f} mm, robust, over {} patches", typical, patches.mean_mm.size()));
+  limits.add_spread("disagreement of the views", patches);
 }
 
 }  // namespace frangia

@@ -41,8 +41,8 @@ Motion rigid_part(const Mesh& mesh,
                   const std::vector<std::size_t>& vertices,
                   const Eigen::MatrixXf& weights,
                   const ViewMotions& motions) {
-  // Weight of motions along the surface beside those along the normal. It decides where the shape
-  // alone does not; the normals of a prism hold noise of 0.001 along its axis.
+  // Motions along the surface count, too, with a small weight: the normals of a prism do not
+  // determine its motion along the axis, and their noise of 0.001 must not.
   constexpr double kAlong = 0.05;
   Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
   Motion products = Motion::Zero(6, motions.front().cols());

@@ -1,0 +1,87 @@
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "service/service_fixture.h"
+
+namespace frangia {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST_F(ServiceTest, ScansTheTurnedPartAsASecondSetupOnceTheFirstIsComplete) {
+  static_cast<void>(
+      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
+  static_cast<void>(finish());
+  EXPECT_NE(refusal("start-scan", R"({"setup": 1})").find("not complete"), std::string::npos);
+  static_cast<void>(command("start-scan"));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_NE(refusal("start-scan", R"({"setup": 2})"), "");
+  static_cast<void>(command("start-scan", {{"setup", 1}, {"stations", 1}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json stations = state().at("project").at("stations");
+  ASSERT_EQ(stations.size(), 3U);
+  EXPECT_EQ(stations[1].at("setup"), 0);
+  EXPECT_EQ(stations[2].at("setup"), 1);
+  EXPECT_EQ(stations[2].at("angle_deg"), 0.0);
+  EXPECT_EQ(stations[2].at("state"), "done");
+  EXPECT_NE(refusal("rescan-station", R"({"station": 1})").find("turned over"), std::string::npos);
+  // The stations of both setups are found again, and the frames of neither are captured again.
+  restart();
+  static_cast<void>(command("open-project", {{"name", "try"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("stations"), stations);
+  static_cast<void>(command("rescan-station", {{"station", 2}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("stations"), stations);
+}
+
+TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
+  static_cast<void>(
+      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
+  static_cast<void>(finish());
+  const int number = command("start-scan").at("job").get<int>();
+  const auto share = [&] {
+    const Json jobs = state().at("jobs");
+    for (const Json& job : jobs)
+      if (job.at("number") == number && job.at("stage") == "scan")
+        return job.at("progress").get<double>();
+    return 0.0;
+  };
+  for (int i = 0; i < 20'000 && share() < 0.3; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  static_cast<void>(command("stop-job", {{"job", number}}));
+  EXPECT_EQ(finish().at("state"), "stopped");
+  EXPECT_FALSE(state().at("project").at("scan_complete").get<bool>());
+  EXPECT_NE(refusal("start-scan", R"({"stations": 3})"), "");
+
+  restart();
+  static_cast<void>(command("open-project", {{"name", "try"}}));
+  static_cast<void>(finish());
+  static_cast<void>(command("start-scan"));
+  const Json job = finish();
+  ASSERT_EQ(job.at("state"), "done") << job.at("error");
+  const Json project = state().at("project");
+  EXPECT_TRUE(project.at("scan_complete").get<bool>());
+  for (const Json& station : project.at("stations"))
+    EXPECT_EQ(station.at("state"), "done");
+  EXPECT_TRUE(project.at("stations")[1].at("good").get<bool>());
+  EXPECT_GT(project.at("stations")[1].at("points").get<int>(), 5000);
+  EXPECT_NE(refusal("rescan-station", R"({"station": 2})"), "");
+  static_cast<void>(command("rescan-station", {{"station", 1}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("stations")[1], project.at("stations")[1])
+      << "the simulated rig captures the same frames again";
+  static_cast<void>(command("export", {{"format", "zip"}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_GT(std::filesystem::file_size(service_->exported("try scan.zip").path), 50'000U);
+  EXPECT_FALSE(service_->cloud(1).empty());
+  EXPECT_TRUE(service_->cloud(9).empty());
+  EXPECT_GT(changes_, 10);
+}
+
+}  // namespace
+}  // namespace frangia
