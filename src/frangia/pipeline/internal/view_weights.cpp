@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "frangia/core/interruptible_chunks.h"
 #include "frangia/rig/fast_camera_model.h"
@@ -60,10 +61,11 @@ Eigen::MatrixXf view_weights(const Mesh& mesh,
   const auto add = [&](bool occlusion, const std::vector<char>& wanted) {
     for (const CameraViews& camera : cameras) {
       for (std::size_t view = 0; view < camera.views.size(); ++view) {
-        const Observer observer{camera.views.load_points(view),
-                                FastCameraModel(camera.camera),
-                                camera.camera.focal_px.x(),
-                                occlusion};
+        View seen;  // without occlusion its pose is enough
+        if (occlusion) seen = camera.views.load_points(view);
+        seen.rig_from_object = camera.views.rig_from_object(view);
+        const Observer observer{
+            std::move(seen), FastCameraModel(camera.camera), camera.camera.focal_px.x(), occlusion};
         interruptible_chunks(vertices.size(), kChunk, run, [&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
             if (wanted[i] == 0) continue;
