@@ -9,15 +9,14 @@
 #include <fmt/format.h>
 
 #include "frangia/phase/check_indirect_light.h"
-#include "frangia/phase/correct_order_jumps.h"
 #include "frangia/phase/decode_gray_alone.h"
 #include "frangia/phase/decode_sequence.h"
 #include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/fit_algorithm.h"
 #include "frangia/phase/frame_samples.h"
-#include "frangia/phase/merge_exposures.h"
 #include "frangia/phase/systematic_phase.h"
 #include "frangia/phase/unwrap_levels.h"
+#include "frangia/pipeline/internal/correct_view_orders.h"
 #include "frangia/pipeline/internal/fringe_directions.h"
 #include "frangia/pipeline/internal/select_stacks.h"
 #include "frangia/pipeline/internal/unwrap_direction.h"
@@ -134,36 +133,6 @@ DecodedView decode_code_alone(std::span<const FrameStack> stacks,
   return out;
 }
 
-/// Corrects regions of a wrong fringe order. The wrapped maps may be gone, so the coarse phases are
-/// computed again at the few pixels that matter; a correction of the projector's response is not
-/// repeated, as it is far smaller than half a fringe.
-void correct_orders(std::span<const FrameStack* const> fringes,
-                    std::span<const FittedAlgorithm> fits,
-                    const DecodeOptions& options,
-                    const Run& run,
-                    DecodedView& out) {
-  const auto coarse = [&](std::span<const std::uint32_t> pixels) {
-    std::vector<WrappedPhase> maps;
-    for (std::size_t m = 0; m + 1 < fringes.size(); ++m) {
-      std::vector<FrameStack> some;
-      for (const FrameStack& stack : exposures_of(fringes[m]))
-        some.push_back(sample_pixels(stack, pixels));
-      maps.push_back(some.size() > 1
-                         ? merge_exposures(some, fits[m].shifts_rad, out.noise, options.wrap)
-                         : wrap_phase(some.front(), fits[m].algorithm, out.noise, options.wrap));
-    }
-    return maps;
-  };
-  const OrderJumpResult found = correct_order_jumps(coarse, out.phase, options.order_jumps);
-  if (found.corrected + found.discarded == 0) return;
-  run.note(
-      fmt::format("fringe orders of a view: {} pixels corrected and {} discarded, at whose border "
-                  "the order jumps "
-                  "although all phases are smooth, as indirect light causes it",
-                  found.corrected,
-                  found.discarded));
-}
-
 /// Decodes the fringes of one direction.
 DecodedView decode_direction(std::span<const FrameStack> stacks,
                              FringeDirection direction,
@@ -182,7 +151,7 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
   const std::vector<FittedAlgorithm> fits = fit_all(fringes, out.noise, options, run);
   if (pixelwise_safe && !options.keep_maps && are_unprocessed_frames(fringes, fits, options)) {
     decode_in_one_pass(fringes, fits, rig, options, out);
-    correct_orders(fringes, fits, options, run, out);
+    correct_view_orders(fringes, fits, options, run, out);
     fill_enclosed(out.phase, options.fill);
     return out;
   }
@@ -202,7 +171,7 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
       check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   unwrap_direction({stacks, gray, rig, rays, unwraps_temporally}, options, run, out);
   if (gray.empty() && fringes.size() > 1 && !out.relative && !options.own.any())
-    correct_orders(fringes, fits, options, run, out);
+    correct_view_orders(fringes, fits, options, run, out);
   if (options.keep_maps && out.checks.front().consistent && !out.relative) {
     const IndirectLightCheck indirect = check_indirect_light(out.wrapped, out.phase);
     if (indirect.found) run.warn(describe(indirect));
