@@ -154,7 +154,7 @@ await tell(home, async () => {
   await page.keyboard.press('7');
   await page.waitForSelector('#estimate');
   await page.waitForFunction(() => /about/.test(document.querySelector('#estimate').textContent));
-  const about = await page.evaluate(() => document.querySelector('frangia-app').estimate);
+  const about = await page.evaluate(() => document.querySelector('frangia-app').exporting.estimate);
   await look('export');
   await page.click('#export');
   const written = (await until('the file', (project) => project.exports.length === 1)).exports[0];

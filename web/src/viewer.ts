@@ -6,12 +6,13 @@ import type { MeshArrays } from './arrays';
 import { CloudsView } from './clouds_view';
 import type { Coloring, Legend } from './mesh_colors';
 import { EditPreview } from './edit_preview';
+import { HoleMarks } from './hole_marks';
 import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { DRAWING, PointerStrokes, type Tool } from './pointer_strokes';
 import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
-import type { RigGeometry } from './types';
+import type { Hole, RigGeometry } from './types';
 
 export type { Tool } from './pointer_strokes';
 export type { SectionAxis, Shading } from './surface_view';
@@ -58,6 +59,7 @@ export class Viewer {
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
   private readonly preview = new EditPreview();
+  private readonly holes = new HoleMarks();
   private readonly rig = new RigModel();
   private rigShown = 'null';
   private picks: THREE.Vector3[] = [];
@@ -103,7 +105,7 @@ export class Viewer {
       this.held = false;
       this.move();
     });
-    this.scene.add(this.lights, this.clouds.group, this.table, this.surface.group, this.preview.group, this.ruler.group, this.rig.group);
+    this.scene.add(this.lights, this.clouds.group, this.table, this.surface.group, this.preview.group, this.holes.group, this.ruler.group, this.rig.group);
     addLights(this.lights);
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
@@ -219,7 +221,12 @@ export class Viewer {
   /** Shows what an edit would change; null shows nothing. */
   setPreview(arrays: Map<string, ArrayLike<number>> | null): void {
     this.preview.set(arrays);
+    this.surface.setWhole(arrays !== null);
     this.draw();
+  }
+  /** Rings around some holes. */
+  markHoles(holes: readonly Hole[]): void {
+    if (this.holes.set(holes, this.size.length() / 30)) this.draw();
   }
   setDeviations(values: readonly (Float32Array | null)[], band: [number, number] | null): void {
     this.surface.setDeviations(values, band);

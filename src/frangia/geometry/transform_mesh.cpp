@@ -120,7 +120,8 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   const Vector3d z = -first.normal();
   const Vector3d along = -second.normal();
   const Vector3d x_raw = along - along.dot(z) * z;
-  require(x_raw.norm() > 1e-3, "align: the first and the second face are parallel");
+  require(x_raw.norm() > 1e-3,
+          "align: the first and the second face are parallel; choose faces that meet at an angle");
   const Vector3d x = x_raw.normalized();
   Eigen::Matrix3d axes;
   axes.row(0) = x.transpose();
@@ -130,8 +131,10 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   normals.row(0) = first.normal().transpose();
   normals.row(1) = second.normal().transpose();
   normals.row(2) = third.normal().transpose();
-  require(std::abs(normals.determinant()) > 1e-3,
-          "align: the third face is parallel to the intersection of the other two");
+  require(
+      std::abs(normals.determinant()) > 1e-3,
+      "align: the third face is parallel to the intersection of the other two; choose three faces "
+      "that meet in a corner");
   const Vector3d origin =
       -(normals.inverse() * Vector3d(first.offset(), second.offset(), third.offset()));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -1,0 +1,37 @@
+import type { App } from './app';
+import { t } from './messages';
+
+/** A reference that is sent to the server, and the comparison with it. */
+export class Comparing {
+  align: 'best-fit' | 'none' = 'best-fit';
+  /** Share of a reference that has been sent; null while none is. */
+  sent: number | null = null;
+
+  constructor(private readonly app: App) {}
+
+  async send(file: File): Promise<void> {
+    const { app } = this;
+    const format = /\.(stl|ply|obj|3mf|step|stp)$/i.exec(file.name)?.[1]?.toLowerCase();
+    if (!format) return app.say(t('compare.wrongFile'));
+    try {
+      this.sent = 0;
+      await app.session.sendReference(file, format, (share) => {
+        this.sent = share;
+        app.requestUpdate();
+      });
+      this.sent = null;
+      await this.compare(-0.1, 0.1);
+    } catch (error) {
+      app.say(error);
+    }
+    this.sent = null;
+    app.requestUpdate();
+  }
+  setAlign(align: Comparing['align']): void {
+    this.align = align;
+    this.app.requestUpdate();
+  }
+  async compare(lower: number, upper: number, start = 1): Promise<void> {
+    if (await this.app.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper })) this.app.setLook({ coloring: 'deviation' });
+  }
+}
