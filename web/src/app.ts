@@ -123,6 +123,7 @@ export class App extends LitElement {
         this.problem = failed.error;
       }
       this.showWantedSurface();
+      this.comparing.follow();
       this.live.follow();
       if (this.step === 'rig') this.viewer.setRig(this.arranging.drawnRig);
       void this.meshes.follow();

@@ -7,6 +7,9 @@ export class Comparing {
   /** Share of a reference that has been sent; null while none is. */
   sent: number | null = null;
 
+  /** Whether the deviations are shown when they come. */
+  private wanted = false;
+
   constructor(private readonly app: App) {}
 
   async send(file: File): Promise<void> {
@@ -32,6 +35,16 @@ export class Comparing {
     this.app.requestUpdate();
   }
   async compare(lower: number, upper: number, start = 1): Promise<void> {
-    if (await this.app.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper })) this.app.setLook({ coloring: 'deviation' });
+    this.wanted = await this.app.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper });
+  }
+  /** Shows the deviations that were asked for, and none that there are no longer. */
+  follow(): void {
+    const { app } = this;
+    const compared = Boolean(app.state.project?.surface?.comparison);
+    if (!app.job('compare') && this.wanted) {
+      this.wanted = false;
+      if (compared) app.setLook({ coloring: 'deviation' });
+    }
+    if (!compared && app.look.coloring === 'deviation') app.setLook({ coloring: 'plain' });
   }
 }

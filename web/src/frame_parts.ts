@@ -47,6 +47,9 @@ export function footer(app: App): TemplateResult {
   const words = app.step === 'scan' || app.step === 'live' ? commands.scan : app.step === 'rig' ? commands.rig : app.step === 'surface' ? (app.look.coloring === 'deviation' && commands.inspect) || commands.reconstruct : app.step === 'project' ? undefined : commands.edit;
   const line = words?.map(quoted).join(' ') ?? '';
   const last = app.state.jobs.at(-1);
+  // What the library says is English: in another language only what a person must know.
+  const report = last?.log.at(-1);
+  const said = report && (report.warning || currentLanguage() === 'en') ? plain(report.sentence) : t('job.idle');
   const copy = async () => {
     await navigator.clipboard.writeText(line);
     app.copied = true;
@@ -62,7 +65,7 @@ export function footer(app: App): TemplateResult {
         ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
             <span>${t(`job.${job.kind}`)}${job.stage ? ` · ${stageName(job.stage)}` : ''}</span>
             <button class="btn small" @click=${() => app.command('stop-job', { job: job.number })}>${t('job.stop')}</button>`
-        : html`<span>${plain(last?.log.at(-1)?.sentence ?? t('job.idle'))}</span>`}
+        : html`<span>${said}</span>`}
     </div>
     ${line
       ? html`<div class="command" title=${t('command.same')}>

@@ -5,6 +5,8 @@ import type { Source } from './steps/project';
 export class Projects {
   source: Source = 'simulated';
   example = 'lab-piezo';
+  /** Names of the chosen files of a rig. */
+  files: string[] = [];
   /** Whether the project that opens next was created here. */
   private created = false;
 
@@ -12,6 +14,11 @@ export class Projects {
 
   setSource(source: Source): void {
     this.source = source;
+    this.files = [];
+    this.app.requestUpdate();
+  }
+  setFiles(files: string[]): void {
+    this.files = files;
     this.app.requestUpdate();
   }
   setExample(example: string): void {

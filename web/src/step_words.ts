@@ -1,6 +1,13 @@
 import { type MessageKey, number, t } from './messages';
 import type { Step } from './types';
 
+/** A number with its unit as the language writes it, with the digits that it was given with. */
+function quantity(value: string): string {
+  const [, digits, unit] = /^(-?[\d.]+)(mm|um|deg)?$/.exec(value) ?? [];
+  if (digits === undefined) return value;
+  return `${number(Number(digits), digits.split('.')[1]?.length ?? 0)}${unit ? ` ${unit === 'um' ? 'µm' : unit === 'deg' ? '°' : unit}` : ''}`;
+}
+
 /** What a step did, in a sentence. */
 export function stepWords({ operation, value, change }: Step): string {
   const count = (key: MessageKey, more: Record<string, string | number> = {}) =>
@@ -10,7 +17,7 @@ export function stepWords({ operation, value, change }: Step): string {
       parts: number(Math.abs(change.components)),
       selected: number(change.selected),
       moved: number(change.moved),
-      value: value.replace(/(\d)(mm|um|deg)$/, '$1 $2'),
+      value: quantity(value),
       ...more,
     });
   if (operation.startsWith('fill-hole')) {

@@ -34,7 +34,7 @@ export function liveOverlay(app: App): TemplateResult {
 
 function scale(layer: LiveLayer, low: number, high: number): TemplateResult | string {
   if (layer === 'status')
-    return html`<span class="status-key"
+    return html`<span class="status-key all"
       >${STATUSES.map(
         (name, i) => html`<span><svg viewBox="0 0 10 10" aria-hidden="true">${svg`<rect width="10" height="10" rx="2" fill=${css(STATUS_COLORS[i] ?? [0, 0, 0])} />`}</svg>${t(`status.${name}`)}</span>`,
       )}</span

@@ -40,14 +40,16 @@ function sourceFields(app: App): TemplateResult {
     return html`<label class="field"><span>${t('home.part')}</span
       ><select name="part">${state.parts.map((part) => html`<option ?selected=${part === 'bust'}>${part}</option>`)}</select></label>`;
   if (app.projects.source === 'file')
-    return html`<label class="field"><span>${t('home.file')}</span
-      ><input name="files" type="file" accept=".toml,.csv" multiple required /></label>`;
+    return html`<p class="quiet note">${t('home.file')}</p>
+      <label class="btn choose">${icon('folder')}<span>${app.projects.files.length ? app.projects.files.join(', ') : t('home.chooseFile')}</span>
+        <input name="files" class="sr" type="file" accept=".toml,.csv" multiple required
+          @change=${(event: Event) => app.projects.setFiles([...((event.target as HTMLInputElement).files ?? [])].map((file) => file.name))} /></label>`;
   if (app.projects.source === 'example')
     return html`<label class="field"><span>${t('home.example')}</span
         ><select name="example" @change=${(event: Event) => app.projects.setExample((event.target as HTMLSelectElement).value)}>
           ${state.examples.map(({ name }) => html`<option value=${name} ?selected=${name === app.projects.example}>${name}</option>`)}
         </select></label>
-      <p class="quiet note">${state.examples.find(({ name }) => name === app.projects.example)?.description ?? ''}</p>`;
+      <p class="quiet note">${state.examples.find(({ name }) => name === app.projects.example)?.description.replaceAll('`', '') ?? ''}</p>`;
   return html`<p class="quiet note">${t('home.devicesHint')}</p>`;
 }
 

@@ -53,6 +53,7 @@ function coverage(state: Calibration): TemplateResult {
       <dl class="figures">
         <dt>${t('rig.field')}</dt><dd class="num">${number(100 * state.field)} %</dd>
         <dt>${t('rig.depth')}</dt><dd class="num">${number(100 * (state.distance_ratio - 1))} %</dd>
+        <dt>${t('rig.tilts')}</dt><dd></dd>
         ${names.map((name, i) => html`<dt class="sub">${t(`rig.tilt.${name}`)}</dt><dd class="num">${number(state.tilts_deg[i] ?? 0)}°</dd>`)}
       </dl>
     </div>`;
