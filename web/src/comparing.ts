@@ -7,8 +7,8 @@ export class Comparing {
   /** Share of a reference that has been sent; null while none is. */
   sent: number | null = null;
 
-  /** Whether the deviations are shown when they come. */
-  private wanted = false;
+  /** The comparison that was there when a new one was asked for, whose deviations are shown when it comes. */
+  private wantedAfter: number | null = null;
 
   constructor(private readonly app: App) {}
 
@@ -35,15 +35,20 @@ export class Comparing {
     this.app.requestUpdate();
   }
   async compare(lower: number, upper: number, start = 1): Promise<void> {
-    this.wanted = await this.app.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper });
+    const before = this.revision;
+    if (await this.app.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper })) this.wantedAfter = before;
+    this.follow();
+  }
+  private get revision(): number {
+    return this.app.state.project?.surface?.comparison?.revision ?? -1;
   }
   /** Shows the deviations that were asked for, and none that there are no longer. */
   follow(): void {
-    const { app } = this;
-    const compared = Boolean(app.state.project?.surface?.comparison);
-    if (!app.job('compare') && this.wanted) {
-      this.wanted = false;
-      if (compared) app.setLook({ coloring: 'deviation' });
+    const { app, revision } = this;
+    const compared = revision >= 0;
+    if (compared && this.wantedAfter !== null && this.wantedAfter !== revision) {
+      this.wantedAfter = null;
+      app.setLook({ coloring: 'deviation' });
     }
     if (!compared && app.look.coloring === 'deviation') app.setLook({ coloring: 'plain' });
   }
