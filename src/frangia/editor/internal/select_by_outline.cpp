@@ -204,10 +204,9 @@ Selection select_by_outline(const Mesh& mesh,
       hiding[i] = 1;
       const auto& [a, b, c] = mesh.triangles[i];
       const Vector3d centroid = (corner(a) + corner(b) + corner(c)) / 3.0;
-      if (!plane.contains(centroid)) continue;
       const bool faces =
           (corner(b) - corner(a)).cross(corner(c) - corner(a)).dot(outline.eye_mm - centroid) > 0.0;
-      selection[i] = faces || !visible_only ? 1 : 0;
+      selection[i] = (faces || !visible_only) && plane.contains(centroid) ? 1 : 0;
     }
   });
   if (!visible_only || count_selected(selection) == 0) return selection;
