@@ -167,6 +167,10 @@ export class Viewer {
     this.move();
   }
 
+  /** Whether the picture is the final one: nothing moves. */
+  get atRest(): boolean {
+    return !this.moving && !this.due;
+  }
   get meshShown(): number {
     return this.surface.revision;
   }

@@ -10,6 +10,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/nearest_on_triangle.h"
 
 namespace frangia {
 namespace {
@@ -90,8 +91,11 @@ Selection select_face(const Mesh& mesh, const Vector3d& picked_mm, double within
   std::uint32_t seed = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const double apart = (center_of(mesh, i) - picked_mm).squaredNorm();
-    if (apart >= nearest || area_vector(mesh, i).isZero()) continue;
+    if (area_vector(mesh, i).isZero()) continue;
+    const Vector3d on =
+        nearest_on_triangle(corner(mesh, i, 0), corner(mesh, i, 1), corner(mesh, i, 2), picked_mm);
+    const double apart = (on - picked_mm).squaredNorm();
+    if (!(apart < nearest)) continue;
     nearest = apart;
     seed = i;
   }

@@ -31,7 +31,7 @@ function result(app: App, found: Comparison): TemplateResult {
     <dl class="figures">
       ${row('compare.inShare', percent(found.in_share), '%')} ${row('compare.outShare', percent(found.out_share), '%')}
       ${row('compare.openShare', percent(found.undecided_share), '%')}
-      ${row('compare.range', `${signed(found.min_mm)}  ${signed(found.max_mm)}`, 'mm')}
+      ${row('compare.range', `${signed(found.min_mm)} … ${signed(found.max_mm)}`, 'mm')}
       ${row('compare.mean', signed(found.mean_mm), 'mm')} ${row('compare.rms', found.rms_mm === null ? '·' : number(found.rms_mm, 3), 'mm')}
       ${found.median_u_mm === null ? '' : row('compare.u', number(1000 * found.median_u_mm, 1), 'µm')}
     </dl>
