@@ -11,6 +11,7 @@
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/internal/triangle_area.h"
+#include "frangia/geometry/nearest_on_triangle.h"
 
 namespace frangia {
 namespace {
@@ -83,8 +84,11 @@ Selection select_face(const Mesh& mesh, const Vector3d& picked_mm, double within
   std::uint32_t seed = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const double apart = (center_of(mesh, i) - picked_mm).squaredNorm();
-    if (apart >= nearest || doubled_area_vector(mesh, i).isZero()) continue;
+    if (doubled_area_vector(mesh, i).isZero()) continue;
+    const Vector3d on = nearest_on_triangle(
+        corner_mm(mesh, i, 0), corner_mm(mesh, i, 1), corner_mm(mesh, i, 2), picked_mm);
+    const double apart = (on - picked_mm).squaredNorm();
+    if (!(apart < nearest)) continue;
     nearest = apart;
     seed = i;
   }
@@ -113,7 +117,8 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   const Vector3d z = -first.normal();
   const Vector3d along = -second.normal();
   const Vector3d x_raw = along - along.dot(z) * z;
-  require(x_raw.norm() > 1e-3, "align: the first and the second face are parallel");
+  require(x_raw.norm() > 1e-3,
+          "align: the first and the second face are parallel; choose faces that meet at an angle");
   const Vector3d x = x_raw.normalized();
   Eigen::Matrix3d axes;
   axes.row(0) = x.transpose();
@@ -123,8 +128,10 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   normals.row(0) = first.normal().transpose();
   normals.row(1) = second.normal().transpose();
   normals.row(2) = third.normal().transpose();
-  require(std::abs(normals.determinant()) > 1e-3,
-          "align: the third face is parallel to the intersection of the other two");
+  require(
+      std::abs(normals.determinant()) > 1e-3,
+      "align: the third face is parallel to the intersection of the other two; choose three faces "
+      "that meet in a corner");
   const Vector3d origin =
       -(normals.inverse() * Vector3d(first.offset(), second.offset(), third.offset()));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
