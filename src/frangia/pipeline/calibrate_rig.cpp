@@ -63,10 +63,10 @@ void require_direction(const Scan& scan, FringeDirection direction) {
   }
   if (has_absolute_phase(patterns, scan.rig.projector)) return;
   if (are_absolute_exchanged(scan)) {
-    fail_calibration(
-        fmt::format("{}: rows and columns of the projector are exchanged, the periods say: exchange "
-                    "the values \"vertical\" and \"horizontal\" of the key direction",
-                    (scan.folder / "scan.toml").string()));
+    fail_calibration(fmt::format(
+        "{}: rows and columns of the projector are exchanged, the periods say: exchange "
+        "the values \"vertical\" and \"horizontal\" of the key direction",
+        (scan.folder / "scan.toml").string()));
   }
   fail_calibration(
       fmt::format("{}: the {} fringes have no absolute phase; add one with a period of the "
