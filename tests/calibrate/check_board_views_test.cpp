@@ -135,6 +135,21 @@ TEST(CheckBoardViews, LeavesOutThePoseThatMoved) {
             std::string::npos);
 }
 
+TEST(CheckBoardViews, LeavesOutThePosesWhosePatternsAreExchanged) {
+  std::vector<PoseCapture> poses = captures(8);
+  for (const std::size_t i : {2UL, 5UL}) {
+    poses[i].likeness = 0.1;
+    poses[i].least_like = "rows-coarse";
+  }
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_EQ(checks.left_out, (std::vector<std::string>{"pose 2", "pose 5"}));
+  ASSERT_EQ(checks.warnings.size(), 1U);
+  EXPECT_NE(checks.warnings[0].find("pattern \"rows-coarse\" in pose 2, pose 5 shows the board at "
+                                    "another place"),
+            std::string::npos)
+      << checks.warnings[0];
+}
+
 TEST(CheckBoardViews, RecognizesFramesThatDoNotFollowTheShifts) {
   EXPECT_NE(fault_of([](PoseCapture& pose) {
               pose.misfit = 1.4;

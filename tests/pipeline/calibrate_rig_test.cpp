@@ -128,13 +128,17 @@ TEST_F(CalibrateRig, NamesAMissingDirection) {
 
 TEST_F(CalibrateRig, RecognizesExchangedDirections) {
   Scan swapped = scan();
-  auto& projector = std::get<PinholeModel>(swapped.rig.projector.model);
-  projector.height_px = projector.width_px = 800;  // both directions are absolute either way
   for (Pattern& pattern : swapped.patterns) {
     if (pattern.kind != PatternKind::Fringe) continue;
     pattern.direction = pattern.direction == FringeDirection::Vertical ? FringeDirection::Horizontal
                                                                        : FringeDirection::Vertical;
   }
+  // The period of the projector's height is too short for its width.
+  EXPECT_NE(fault_of(swapped).find("rows and columns of the projector are exchanged"),
+            std::string::npos)
+      << fault_of(swapped);
+  auto& projector = std::get<PinholeModel>(swapped.rig.projector.model);
+  projector.height_px = projector.width_px = 800;  // both directions are absolute either way
   EXPECT_NE(fault_of(swapped).find("rows and columns of the projector are exchanged"),
             std::string::npos)
       << fault_of(swapped);

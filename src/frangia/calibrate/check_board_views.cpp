@@ -242,6 +242,9 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
   // Most poses: not a slip of one capture, and the phases of the others say nothing either.
   if (2 * swapped.size() > poses.size()) fail(earlier + describe_swapped(seen, swapped));
   leave_out(swapped, describe_swapped(seen, swapped));
+  const auto exchanged =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.likeness < options.min_likeness; });
+  leave_out(exchanged, describe_exchanged(seen, exchanged));
   // The detected position of a blurred corner depends on the fringes around it. Such a pose is not
   // left out: a warning names it.
   const auto moved = names_of(seen, [&](const PoseCapture& pose) {

@@ -27,6 +27,8 @@ struct PoseCapture {
   ImageSharpness image;      ///< of the whole image
   double motion_px = 0.0;    ///< of the board between patterns, as `measure_motion_px`
   std::string moved_in;      ///< the pattern in which the board is farthest away
+  double likeness = 1.0;     ///< of the pattern that is least like the others: `measure_likeness`
+  std::string least_like;    ///< that pattern
   double misfit = 0.0;       ///< of the worst pattern, as `measure_fringe_misfit`
   BoardPicture picture;      ///< of the board, if it was asked for
   std::string misfit_in;     ///< the pattern with that misfit
@@ -49,6 +51,8 @@ struct PoseCheckOptions {
   /// Motion of the board between patterns above which a pose is left out: the reprojection error of
   /// good poses.
   double max_motion_px = 0.3;
+  /// Likeness of a pattern below which it shows the board in another pose; sound ones have 0.95.
+  double min_likeness = 0.5;
   /// Misfit of the fringes above which the projector is reported as not linear; a display gamma of
   /// 1.3 reaches it with four frames.
   double max_misfit = 0.1;

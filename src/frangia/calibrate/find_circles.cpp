@@ -39,6 +39,18 @@ std::optional<std::vector<Eigen::Vector2d>> find_circles(const Image<float>& cou
                                          cv::CALIB_CB_SYMMETRIC_GRID | cv::CALIB_CB_CLUSTERING,
                                          cv::SimpleBlobDetector::create(blobs));
   if (!found) return std::nullopt;
+  std::vector<Eigen::Vector2d> near;
+  for (const cv::Point2f& center : centers)
+    near.emplace_back(center.x, center.y);
+  return find_circles_near(counts, board, near);
+}
+
+std::vector<Eigen::Vector2d> find_circles_near(const Image<float>& counts,
+                                               const Board& board,
+                                               std::span<const Eigen::Vector2d> centers_px) {
+  std::vector<cv::Point2f> centers;
+  for (const Eigen::Vector2d& center : centers_px)
+    centers.emplace_back(static_cast<float>(center.x()), static_cast<float>(center.y()));
   std::vector<Eigen::Vector2d> out;
   const cv::Mat linear = opencv_view(counts);
   for (int i = 0; i < board.columns * board.rows; ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,5 +19,10 @@ namespace frangia {
 /// @source   OpenCV's findCirclesGrid with clustering, then `refine_circle`
 [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> find_circles(const Image<float>& counts,
                                                                        const Board& board);
+
+/// The same centers in another image of the same pose: `centers_px` are those of all circles
+/// nearby, as `find_circles` gives them.
+[[nodiscard]] std::vector<Eigen::Vector2d> find_circles_near(
+    const Image<float>& counts, const Board& board, std::span<const Eigen::Vector2d> centers_px);
 
 }  // namespace frangia

@@ -12,6 +12,18 @@
 #include "frangia/core/median.h"
 
 namespace frangia {
+namespace {
+
+/// The pixels about a point that are inside of the image.
+cv::Rect window_about(const BoardPoint& point, int reach_px, const cv::Mat& image) {
+  const cv::Point center(static_cast<int>(std::lround(point.camera_px.x())),
+                         static_cast<int>(std::lround(point.camera_px.y())));
+  const cv::Point half(reach_px, reach_px);
+  return cv::Rect(center - half, center + half + cv::Point(1, 1)) &
+         cv::Rect(0, 0, image.cols, image.rows);
+}
+
+}  // namespace
 
 double measure_blur_px(const Image<float>& counts,
                        std::span<const BoardPoint> points,
@@ -23,11 +35,7 @@ double measure_blur_px(const Image<float>& counts,
   cv::Sobel(linear, across, CV_32F, 0, 1, 3, 1.0 / 8.0);
   std::vector<double> blurs;
   for (const BoardPoint& point : points) {
-    const cv::Rect window = cv::Rect(static_cast<int>(std::lround(point.camera_px.x())) - reach_px,
-                                     static_cast<int>(std::lround(point.camera_px.y())) - reach_px,
-                                     2 * reach_px + 1,
-                                     2 * reach_px + 1) &
-                            cv::Rect(0, 0, linear.cols, linear.rows);
+    const cv::Rect window = window_about(point, reach_px, linear);
     if (window.area() < reach_px * reach_px) continue;
     double least = 0.0;
     double most = 0.0;
@@ -85,6 +93,23 @@ double measure_motion_px(const Image<float>& counts,
     y.push_back(corners[i].y - points[i].camera_px.y());
   }
   return std::hypot(median(x), median(y));
+}
+
+double measure_likeness(const Image<float>& counts,
+                        const Image<float>& reference,
+                        std::span<const BoardPoint> points,
+                        int reach_px) {
+  const cv::Mat here = opencv_view(counts);
+  const cv::Mat there = opencv_view(reference);
+  std::vector<double> likeness;
+  for (const BoardPoint& point : points) {
+    const cv::Rect window = window_about(point, reach_px, here);
+    if (window.area() < reach_px * reach_px) continue;
+    cv::Mat coefficient;
+    cv::matchTemplate(here(window), there(window), coefficient, cv::TM_CCOEFF_NORMED);
+    likeness.push_back(static_cast<double>(coefficient.at<float>(0, 0)));
+  }
+  return likeness.empty() ? std::numeric_limits<double>::quiet_NaN() : median(likeness);
 }
 
 }  // namespace frangia

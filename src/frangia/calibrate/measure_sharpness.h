@@ -35,4 +35,12 @@ struct ImageSharpness {
                                        std::span<const BoardPoint> points,
                                        int reach_px);
 
+/// How far `counts` looks like `reference` at the corners of a board: the correlation coefficient
+/// of the pixels about each, median over all. Near 1 for the same pose, near 0 or below for
+/// another; NaN without corners.
+[[nodiscard]] double measure_likeness(const Image<float>& counts,
+                                      const Image<float>& reference,
+                                      std::span<const BoardPoint> points,
+                                      int reach_px);
+
 }  // namespace frangia

@@ -19,13 +19,35 @@ namespace {
   throw Error(ErrorKind::Input, sentence);
 }
 
-/// Fails unless the fringes of a direction determine the absolute phase.
-void require_direction(const Scan& scan, FringeDirection direction) {
+FringeDirection other(FringeDirection direction) {
+  return direction == FringeDirection::Vertical ? FringeDirection::Horizontal
+                                                : FringeDirection::Vertical;
+}
+
+/// The fringes and codes of one direction.
+std::vector<Pattern> patterns_of(const Scan& scan, FringeDirection direction) {
   std::vector<Pattern> patterns;
   for (const Pattern& pattern : scan.patterns) {
     const bool coded = pattern.kind == PatternKind::Fringe || pattern.kind == PatternKind::Gray;
     if (coded && pattern.direction == direction) patterns.push_back(pattern);
   }
+  return patterns;
+}
+
+/// Whether both directions would determine the absolute phase if they were exchanged.
+bool are_absolute_exchanged(const Scan& scan) {
+  for (const FringeDirection direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
+    std::vector<Pattern> patterns = patterns_of(scan, other(direction));
+    for (Pattern& pattern : patterns)
+      pattern.direction = direction;
+    if (!has_absolute_phase(patterns, scan.rig.projector)) return false;
+  }
+  return true;
+}
+
+/// Fails unless the fringes of a direction determine the absolute phase.
+void require_direction(const Scan& scan, FringeDirection direction) {
+  const std::vector<Pattern> patterns = patterns_of(scan, direction);
   const bool vertical = direction == FringeDirection::Vertical;
   const char* name = vertical ? "vertical" : "horizontal";
   const bool fringes = std::any_of(patterns.begin(), patterns.end(), [](const Pattern& pattern) {
@@ -40,6 +62,12 @@ void require_direction(const Scan& scan, FringeDirection direction) {
                     name));
   }
   if (has_absolute_phase(patterns, scan.rig.projector)) return;
+  if (are_absolute_exchanged(scan)) {
+    fail_calibration(fmt::format(
+        "{}: rows and columns of the projector are exchanged, the periods say: exchange "
+        "the values \"vertical\" and \"horizontal\" of the key direction",
+        (scan.folder / "scan.toml").string()));
+  }
   fail_calibration(
       fmt::format("{}: the {} fringes have no absolute phase; add one with a period of the "
                   "projector's {}, and check the key direction of each pattern",

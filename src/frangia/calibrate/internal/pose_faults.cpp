@@ -54,6 +54,16 @@ std::string describe_swapped(std::span<const PoseCapture> poses,
       list_of(names));
 }
 
+std::string describe_exchanged(std::span<const PoseCapture> poses,
+                               const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  return fmt::format(
+      "pattern \"{}\" in {} shows the board at another place than the other frames of the view: "
+      "frames of two views are exchanged, or the board was moved between the patterns",
+      pose_named(poses, names.front()).least_like,
+      list_of(names));
+}
+
 std::string describe_moved(std::span<const PoseCapture> poses,
                            const std::vector<std::string>& names) {
   if (names.empty()) return {};

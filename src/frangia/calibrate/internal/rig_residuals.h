@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <ceres/rotation.h>
 
 #include "frangia/calibrate/internal/rig_model.h"
+#include "frangia/core/angles.h"
 
 namespace frangia {
 
@@ -22,25 +26,46 @@ template <typename T>
   return from_reference == nullptr ? point : transform(from_reference, point);
 }
 
-/// A point on the ray through the center of the ellipse that a circle about `center` shows. It is
-/// the last column of the dual conic of the image, H diag(r^2, r^2, -1) H^T.
+/// The center of the ellipse that is nearest to the image of a circle about `center`, which
+/// perspective and distortion move away from the image of its center. It follows from six points of
+/// the circle: an ellipse is the image of the unit circle under an affine map, and a deviation from
+/// it moves its center by the first harmonic of the radial component.
 template <typename T>
-[[nodiscard]] Eigen::Matrix<T, 3, 1> ellipse_center(const T* pose,
+[[nodiscard]] Eigen::Matrix<T, 2, 1> project_circle(const T* intrinsics,
+                                                    const T* pose,
                                                     const T* from_reference,
                                                     double radius_mm,
                                                     const Eigen::Matrix<T, 3, 1>& center) {
-  Eigen::Matrix<T, 3, 1> conic = center.z() * center;
+  Eigen::Matrix<T, 3, 2> axes;  // of the circle, in the frame of the camera
   for (const int axis : {0, 1}) {
-    Eigen::Matrix<T, 3, 1> along = Eigen::Matrix<T, 3, 1>::Unit(axis);
+    Eigen::Matrix<T, 3, 1> along = T(radius_mm) * Eigen::Matrix<T, 3, 1>::Unit(axis);
     Eigen::Matrix<T, 3, 1> rotated;
     ceres::AngleAxisRotatePoint(pose, along.data(), rotated.data());
     if (from_reference != nullptr) {
       along = rotated;
       ceres::AngleAxisRotatePoint(from_reference, along.data(), rotated.data());
     }
-    conic -= radius_mm * radius_mm * rotated.z() * rotated;
+    axes.col(axis) = rotated;
   }
-  return conic;
+  constexpr int kPoints = 6;
+  Eigen::Matrix<double, 2, kPoints> circle;
+  Eigen::Matrix<T, 2, kPoints> pixels;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = kTwoPi * i / kPoints;
+    circle.col(i) << std::cos(angle), std::sin(angle);
+    const Eigen::Matrix<T, 2, 1> place = circle.col(i).cast<T>();
+    pixels.col(i) = project_point(intrinsics, Eigen::Matrix<T, 3, 1>(center + axes * place));
+  }
+  const T share(2.0 / kPoints);
+  const Eigen::Matrix<T, 2, 1> mean = pixels.rowwise().mean();
+  const Eigen::Matrix<T, 2, 2> affine = share * pixels * circle.transpose().cast<T>();
+  const Eigen::Matrix<T, 2, kPoints> unit = affine.inverse() * (pixels.colwise() - mean);
+  Eigen::Matrix<T, 2, 1> shift = Eigen::Matrix<T, 2, 1>::Zero();
+  for (int i = 0; i < kPoints; ++i) {
+    const Eigen::Matrix<T, 2, 1> place = circle.col(i).cast<T>();
+    shift += share * place.dot(unit.col(i)) * place;
+  }
+  return mean + affine * shift;
 }
 
 /// Weighted residual of a point seen by a camera.
@@ -74,10 +99,10 @@ struct CameraResidual {
     const Eigen::Matrix<T, 3, 1> point =
         in_camera(from_reference, transform(pose, site.position(shape)));
     if (!(point.z() > T(0.0))) return false;
-    const Eigen::Matrix<T, 2, 1> predicted = project_point(
-        intrinsics,
-        circle_radius_mm > 0.0 ? ellipse_center(pose, from_reference, circle_radius_mm, point)
-                               : point);
+    const Eigen::Matrix<T, 2, 1> predicted =
+        circle_radius_mm > 0.0
+            ? project_circle(intrinsics, pose, from_reference, circle_radius_mm, point)
+            : project_point(intrinsics, point);
     residual[0] = weight.x() * (predicted.x() - pixel.x());
     residual[1] = weight.y() * (predicted.y() - pixel.y());
     return true;
