@@ -128,6 +128,9 @@ export async function launch({ webgl = true, more = [] } = {}) {
   return browser;
 }
 
+/** The stages of jobs that the message catalogue of the page names. */
+const STAGES = new Set([...fs.readFileSync(path.join(here, '../../web/src/messages/frame.ts'), 'utf8').matchAll(/'stage\.([\w-]+)'/g)].map(([, stage]) => stage));
+
 /** A page all of whose messages are checked. `expected` matches what the console may say beside what it always may. */
 export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, { expected = /^$/, ...more } = {}) {
   const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB', ...more });
@@ -154,7 +157,10 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
       check(message.type === 'show' ? 'show' : 'hello', message);
     });
     socket.on('framereceived', ({ payload }) => {
-      if (typeof payload === 'string') check('live', JSON.parse(payload));
+      if (typeof payload !== 'string') return;
+      const message = JSON.parse(payload);
+      check('live', message);
+      for (const { stage } of message.state?.jobs ?? []) if (stage && !STAGES.has(stage)) fail(`the page has no word for the stage ${stage}`);
     });
   });
   await page.goto(url);
@@ -172,6 +178,7 @@ export async function axe(page, name) {
 /** Takes a screenshot and runs axe on the page. */
 export async function look(page, folder, name) {
   await page.waitForTimeout(200);
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.atRest);
   await page.screenshot({ path: path.join(folder, `${name}.png`) });
   await axe(page, name);
   passed(name);

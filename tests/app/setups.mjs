@@ -44,7 +44,8 @@ await tell(home, async () => {
   await page.click('#build');
   await page.waitForSelector('.joins', { timeout: 90_000 * slowdown });
   await page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 60_000 * slowdown });
-  const { setups } = (await stateOf(page)).project.surface.summary;
+  const before = (await stateOf(page)).project;
+  const { setups } = before.surface.summary;
   const [, second] = setups;
   expect(setups.length === 2 && second.joined && second.overlap > 0.3, `the setups do not join: ${JSON.stringify(setups)}`);
   expect(Math.abs(second.turned_deg - 180) < 2, `turned by ${second.turned_deg}`);
@@ -71,4 +72,28 @@ await tell(home, async () => {
   expect(colors.blue > 1000 && colors.orange > 50 && colors.grey > 1000, `the setups have no colours of their own: ${JSON.stringify(colors)}`);
   await page.keyboard.press('4');
   await page.waitForSelector('.joins');
-}, 'the setups are joined');
+
+  // A setup that fits nowhere, since it shows another part: said in words, and nothing that was joined is lost.
+  const rig = path.join(home, 'projects', 'Bust', 'rig.toml');
+  for (const file of [rig, path.join(home, 'projects', 'Bust', 'scan', 'capture', 'devices.txt')]) {
+    const text = fs.readFileSync(file, 'utf8');
+    expect(/part = "?bust/.test(text), `${file} names no part`);
+    fs.writeFileSync(file, text.replace(/part = ("?)bust/, 'part = $1shaft'));
+  }
+  await page.click('#turn-over');
+  await page.click('#scan-setup');
+  await page.waitForFunction(() => document.querySelectorAll('.seg input[name=Setups]').length === 3);
+  await page.waitForSelector('#build:not([disabled])', { timeout: 60_000 * slowdown });
+  await page.click('#build');
+  await page.waitForFunction(() => (document.querySelector('frangia-app').state.project.surface.summary.setups ?? []).length === 3, null, { timeout: 90_000 * slowdown });
+  await page.waitForSelector('.joins >> text=Setup 3');
+  const told = await page.locator('.joins').innerText();
+  expect(/Setup 2 is joined/.test(told) && /Setup 3 fits .* and is left out.*[Ss]can/s.test(told), `the failed join is told as ${told}`);
+  const after = (await stateOf(page)).project;
+  expect(after.surface.summary.setups.map((setup) => setup.joined).join() === 'true,true,false', 'another setup was joined');
+  expect(after.stations.length === 3 * STATIONS && after.stations.every((station) => station.state === 'done'), 'stations were lost');
+  expect(after.surface.triangles > 0.8 * before.surface.triangles, `the surface has ${after.surface.triangles} triangles instead of ${before.surface.triangles}`);
+  await page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 60_000 * slowdown });
+  await page.locator('.joins').scrollIntoViewIfNeeded();
+  await look(page, shots, 'not-joined');
+}, 'the setups are joined, and one that fits nowhere is left out');

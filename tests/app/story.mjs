@@ -68,7 +68,9 @@ await tell(home, async () => {
   await look('live');
   const layer = async (name) => {
     await page.locator('.layers').getByText(name, { exact: true }).click();
-    await page.waitForTimeout(700);
+    // Until a picture of the layer has come.
+    await page.waitForFunction((wanted) => document.querySelector('frangia-app').live.view.figures?.layer === wanted, name.toLowerCase());
+    await page.waitForTimeout(60);
   };
   for (const name of ['Phase', 'Status', 'Depth']) await layer(name);
   await layer('Phase');
@@ -91,7 +93,6 @@ await tell(home, async () => {
   await page.click('#build');
   await page.waitForSelector('.figures', { timeout: 90_000 * slowdown });
   await idle();
-  await page.waitForTimeout(600);
   await page.getByText('Sigma', { exact: true }).click();
   await look('surface');
 

@@ -21,8 +21,8 @@ function tower() {
 }
 
 /** The triangles of a slab of 60 x 40 x 10 mm in cells of 1 mm; `keep` leaves out cells of its top. */
-function slab(keep, lift = () => 0) {
-  const triangles = tower();
+function slab(keep, lift = () => 0, more = tower()) {
+  const triangles = [...more];
   const quad = (a, b, c, d) => triangles.push([a, b, c], [a, c, d]);
   for (let x = 0; x < 60; x++)
     for (let y = 0; y < 40; y++) {
@@ -61,6 +61,15 @@ const made = spawnSync(program, ['edit', stl, '-o', path.join(folder, 'surface.p
 if (made.status !== 0) throw new Error(made.stderr);
 const reference = path.join(home, 'slab as designed.stl');
 fs.writeFileSync(reference, stlOf(slab(() => true)));
+
+// A plain box fits in four poses.
+const box = path.join(home, 'projects', 'box');
+fs.mkdirSync(box, { recursive: true });
+fs.writeFileSync(path.join(box, 'project.json'), '{"format": "frangia-project", "version": 1}\n');
+const plain = path.join(home, 'box.stl');
+fs.writeFileSync(plain, stlOf(slab(() => true, () => 0, [])));
+const copied = spawnSync(program, ['edit', plain, '-o', path.join(box, 'surface.ply')], { encoding: 'utf8' });
+if (copied.status !== 0) throw new Error(copied.stderr);
 
 const server = await startServer(program, home);
 await tell(home, async () => {
@@ -113,6 +122,13 @@ await tell(home, async () => {
   await look('deviation-legend');
   passed(`the largest deviation is ${found.max_mm.toFixed(3)} mm`);
 
+  // The command line below the picture finds the same.
+  expect((await page.locator('.command code').innerText()).includes(`frangia inspect ${path.join(folder, 'surface.ply')} --reference`), 'the line is not that of inspect');
+  const [, ...inspect] = (await state()).commands.inspect;
+  const inspected = spawnSync(program, inspect, { encoding: 'utf8' });
+  expect(inspected.status === 0, inspected.stderr);
+  expect(inspected.stdout.includes(`${(100 * found.out_share).toFixed(2)} % out`), `inspect says ${inspected.stdout}`);
+
   // Repairs are previewed; what they did is said in words.
   await page.keyboard.press('6');
   await page.waitForSelector('#bridge');
@@ -143,6 +159,67 @@ await tell(home, async () => {
   await page.keyboard.press('Control+z');
   await until('both holes', (project) => project.surface.steps_done === 0);
   await idle();
+
+  // Every other change is previewed as well: the mesh stays until it is applied, and undo and redo restore both.
+  const change = async (name, operation, sentence, ask, isRight) => {
+    const was = (await state()).surface;
+    await ask();
+    const { preview } = (await until(`the preview of ${name}`, (project) => project.surface.preview?.operation === operation)).surface;
+    await page.waitForSelector('#apply:not([disabled])');
+    const told = await page.locator('.chip.preview .words').innerText();
+    expect(sentence.test(told), `the preview of ${name} says ${told}`);
+    await page.waitForFunction(() => document.querySelector('frangia-app').viewer.preview.group.children.length > 0);
+    expect((await state()).surface.mesh_revision === was.mesh_revision, `the preview of ${name} changed the surface`);
+    await page.click('#apply');
+    const now = (await until(name, (project) => project.surface.steps_done === was.steps_done + 1)).surface;
+    await idle();
+    expect(now.preview === null && now.mesh_revision !== was.mesh_revision, `${name} changed nothing`);
+    expect(isRight(now, was, preview.change), `${name} made ${now.triangles} triangles in ${now.components} parts of ${was.triangles}`);
+    for (const [key, revision] of [['Control+z', was.mesh_revision], ['Control+Shift+Z', now.mesh_revision], ['Control+z', was.mesh_revision]]) {
+      await page.keyboard.press(key);
+      await until(`${key} of ${name}`, (project) => project.surface.mesh_revision === revision);
+      await idle();
+    }
+  };
+  const width = () => page.evaluate(() => document.querySelector('frangia-app').viewer.size.x);
+  const plane = (axis) => page.locator('.panel .seg label', { hasText: axis }).locator('visible=true').last().click();
+  await page.fill('#tolerance', '0.02');
+  await change('reducing', 'decimate', /Reduced by [\d,]+ triangles, within 0.02 mm/, () => page.click('#decimate'), (now, was) => now.triangles < was.triangles / 10);
+  await plane(/^x$/);
+  await change('cutting', 'cut', /Cut at a plane: [\d,]+ triangles fewer/, () => page.click('#cut'), (now, was) => now.triangles < 0.6 * was.triangles);
+  await change('mirroring', 'mirror', /Mirrored/, () => page.click('#mirror'), (now, was, { moved }) => now.triangles === was.triangles && moved > 1000);
+  await plane(/^Off$/);
+  await change('offsetting', 'offset', /outwards by 0.5 mm/, () => page.locator('form:has(#offset) button').click(), (now, was, { moved }) => moved > 1000);
+  await page.fill('#islands', '50');
+  await change('islands', 'remove-islands', /Removed 1 separate part of 12/, () => page.locator('form:has(#islands) button').click(), (now) => now.components === 1);
+  await change('the largest part', 'keep-largest', /Removed 1 separate part of 12/, () => page.click('#keep-largest'), (now) => now.components === 1);
+  await change('smoothing', 'smooth', /Smoothed: [\d,]+ vertices moved/, () => page.click('#smooth'), (now, was, { moved }) => moved > 100);
+  await page.click('#spikes');
+  await page.waitForSelector('.chip.preview >> text=Found no spike');
+  expect((await page.locator('#apply').count()) === 0, 'nothing can be applied');
+  await page.click('#cancel-preview');
+  await until('the end of the preview', (project) => project.surface.preview === null);
+  await idle();
+
+  // Three faces are picked; parallel ones are refused in words, and others are picked.
+  const scene = await page.locator('.view-canvas').boundingBox();
+  const pick = async (...points) => {
+    for (const [x, y] of points) {
+      const hit = page.waitForResponse((response) => response.url().endsWith('/api/pick'));
+      await page.mouse.click(scene.x + x * scene.width, scene.y + y * scene.height);
+      await hit;
+    }
+  };
+  const [top, besides, left, right] = [[0.582, 0.497], [0.6, 0.52], [0.388, 0.68], [0.718, 0.706]];
+  await page.click('#align');
+  await pick(top, besides, left);
+  await page.waitForSelector('.notice >> text=choose faces that meet at an angle');
+  await idle();
+  await change('aligning', 'align', /Aligned by three faces/, () => pick(top, left, right), (now, was, { moved }) => moved > 1000);
+  expect(Math.abs((await width()) - 60) < 0.1, 'undo left another size');
+  await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
+  passed('every change is previewed');
+
   await page.click('#fill-flat');
   await page.waitForSelector('#apply:not([disabled])');
   await page.click('#apply');
@@ -154,7 +231,7 @@ await tell(home, async () => {
   await page.keyboard.press('7');
   await page.waitForSelector('#estimate');
   await page.waitForFunction(() => /about/.test(document.querySelector('#estimate').textContent));
-  const about = await page.evaluate(() => document.querySelector('frangia-app').estimate);
+  const about = await page.evaluate(() => document.querySelector('frangia-app').exporting.estimate);
   await look('export');
   await page.click('#export');
   const written = (await until('the file', (project) => project.exports.length === 1)).exports[0];
@@ -167,6 +244,26 @@ await tell(home, async () => {
   expect(fs.readFileSync(again).equals(fs.readFileSync(path.join(folder, 'exports', written.name))), 'the command line makes other bytes');
   passed('the command line makes the same bytes');
   check('state', await stateOf(page));
+
+  // A part that fits its reference in several poses: one is chosen.
+  await page.keyboard.press('1');
+  await page.locator('.card', { hasText: 'box' }).click();
+  await page.waitForFunction(() => document.querySelector('frangia-app').state.project?.name === 'box');
+  await page.waitForSelector('#reference:not([disabled])', { state: 'attached' });
+  await page.setInputFiles('#reference', plain);
+  await page.waitForSelector('#start:not([disabled])');
+  const several = (await state()).surface.comparison;
+  expect(several.poses.length === 4 && several.start === 1, `a box fits in ${several.poses.length} poses`);
+  await page.selectOption('#start', '3');
+  const chosen = (await until('the third pose', (project) => project.surface.comparison?.start === 3)).surface.comparison;
+  await idle();
+  expect(Math.abs(chosen.turned_deg - several.poses[2].turned_deg) < 0.5 && chosen.in_share > 0.999, `the third pose turns by ${chosen.turned_deg}`);
+  expect((await page.locator('.command code').innerText()).includes('--start 3'), 'the command line takes another pose');
+  await page.locator('#start').scrollIntoViewIfNeeded();
+  await look('poses');
+  await page.keyboard.press('1');
+  await page.locator('.card', { hasText: 'slab' }).click();
+  await page.waitForFunction(() => document.querySelector('frangia-app').meshes.fine && document.querySelector('frangia-app').state.project?.name === 'slab');
 
   await page.setViewportSize({ width: 1024, height: 700 });
   await page.keyboard.press('d');

@@ -44,8 +44,8 @@ template <typename Check>
 void for_each_voxel(const DistanceField& field, const Check& check) {
   for (std::size_t block = 0; block < field.block_coords.size(); ++block) {
     for (int i = 0; i < static_cast<int>(DistanceField::kVoxels); ++i) {
-      const Eigen::Vector3i voxel = field.block_coords[block] * DistanceField::kEdge +
-                                    Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
+      const Eigen::Vector3i voxel =
+          field.block_coords[block] * kBlockEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
       check(Eigen::Vector3d(field.voxel_mm * voxel.cast<double>()),
             field.blocks[block][static_cast<std::size_t>(i)]);
     }

@@ -141,6 +141,15 @@ TEST(AlignFaces, MovesARotatedBoxToTheOrigin) {
     EXPECT_LT((back.vertices_mm[i] - square.vertices_mm[i]).norm(), 1e-4F);
 }
 
+TEST(SelectFace, IsThatOfThePickedTriangleAlsoWhereTheCenterOfAnotherIsNearer) {
+  // A wall 100 mm high of one strip, at the edge of a floor of small triangles.
+  Mesh mesh;
+  mesh.vertices_mm = {{0, 0, 0}, {1, 0, 0}, {1, 0, 100}, {0, 0, 100}, {0, 1, 0}, {1, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 5}};
+  EXPECT_EQ(select_face(mesh, {0.5, 0.0, 2.0}), (Selection{1, 1, 0, 0}));
+  EXPECT_EQ(select_face(mesh, {0.5, 0.5, 0.0}), (Selection{0, 0, 1, 1}));
+}
+
 TEST(Curvature, OfASphereIsOneOverItsRadius) {
   const Mesh mesh = ball();
   const auto curvature = mean_curvature_per_mm(mesh);

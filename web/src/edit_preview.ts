@@ -17,7 +17,9 @@ export class EditPreview {
       geometry.setAttribute('position', new THREE.BufferAttribute(arrays.get(`${word}_positions`) as Float32Array, 3));
       geometry.setAttribute('normal', new THREE.BufferAttribute(arrays.get(`${word}_normals`) as Float32Array, 3));
       geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
-      const material = new THREE.MeshLambertMaterial({ color, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -4 });
+      const material = new THREE.MeshLambertMaterial({ color, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -2 });
+      // What is new lies above what goes, where both are close to the surface.
+      if (word === 'added') Object.assign(material, { polygonOffsetFactor: -4, polygonOffsetUnits: -8 });
       if (word === 'removed') Object.assign(material, { transparent: true, opacity: 0.55, depthWrite: false });
       const wires = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: 0x06251a, wireframe: true, transparent: true, opacity: 0.35 }));
       this.group.add(new THREE.Mesh(geometry, material));

@@ -4,10 +4,12 @@ import type { App } from './app';
 import { STEPS } from './app_steps';
 import { icon, type IconName, logo } from './icons';
 import { KEYS } from './keyboard';
-import { linkDialog } from './link_dialog';
-import { currentLanguage, type MessageKey, number, t } from './messages';
+import { linkDialog, share } from './link_dialog';
+import { currentLanguage, type MessageKey, number, stageName, t } from './messages';
+import { toggleTheme } from './preferences';
 import { previewBar } from './preview_bar';
 import { residualStage } from './residuals';
+import { finished, reachable } from './step_state';
 import { liveOverlay } from './steps/live';
 import { plain, quoted } from './ui';
 
@@ -20,8 +22,8 @@ export function header(app: App): TemplateResult {
     <nav class="steps" aria-label=${t('steps')}>
       ${STEPS.map(
         (step, i) => html`<button
-          class=${app.finished(step) ? 'done' : ''}
-          ?disabled=${!app.reachable(step)}
+          class=${finished(app.state.project, step) ? 'done' : ''}
+          ?disabled=${!reachable(app.state.project, step)}
           aria-current=${step === app.step ? 'step' : nothing}
           data-step=${step}
           @click=${() => app.go(step)}
@@ -31,8 +33,8 @@ export function header(app: App): TemplateResult {
       )}
     </nav>
     <div class="tools">
-      <button class="icon-btn text" lang=${currentLanguage() === 'en' ? 'de' : 'en'} @click=${() => app.toggleLanguage()}>${t('app.language')}</button>
-      ${tool('theme', 'app.theme', () => app.toggleTheme())} ${tool('link', 'app.link', () => void app.share())}
+      <button class="icon-btn text" lang=${currentLanguage() === 'en' ? 'de' : 'en'} @click=${() => app.changeLanguage()}>${t('app.language')}</button>
+      ${tool('theme', 'app.theme', toggleTheme)} ${tool('link', 'app.link', () => void share(app))}
       ${tool('keys', 'app.keys', () => app.dialog('keys').showModal())}
     </div>
   </header>`;
@@ -45,6 +47,9 @@ export function footer(app: App): TemplateResult {
   const words = app.step === 'scan' || app.step === 'live' ? commands.scan : app.step === 'rig' ? commands.rig : app.step === 'surface' ? (app.look.coloring === 'deviation' && commands.inspect) || commands.reconstruct : app.step === 'project' ? undefined : commands.edit;
   const line = words?.map(quoted).join(' ') ?? '';
   const last = app.state.jobs.at(-1);
+  // What the library says is English: in another language only what a person must know.
+  const report = last?.log.at(-1);
+  const said = report && (report.warning || currentLanguage() === 'en') ? plain(report.sentence) : t('job.idle');
   const copy = async () => {
     await navigator.clipboard.writeText(line);
     app.copied = true;
@@ -58,9 +63,9 @@ export function footer(app: App): TemplateResult {
     <div class="job" role="status">
       ${job
         ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
-            <span>${t(`job.${job.kind}`)}${job.stage ? ` · ${job.stage}` : ''}</span>
+            <span>${t(`job.${job.kind}`)}${job.stage ? ` · ${stageName(job.stage)}` : ''}</span>
             <button class="btn small" @click=${() => app.command('stop-job', { job: job.number })}>${t('job.stop')}</button>`
-        : html`<span>${plain(last?.log.at(-1)?.sentence ?? t('job.idle'))}</span>`}
+        : html`<span>${said}</span>`}
     </div>
     ${line
       ? html`<div class="command" title=${t('command.same')}>
@@ -78,13 +83,13 @@ export function picture(app: App): TemplateResult {
   const { viewer, measurement } = app;
   return html`<div class="stage ${app.showsCamera || app.showsResiduals ? 'with-camera' : ''}" role="region" aria-label=${t('app.view')}>
     ${viewer.supported ? app.host : app.showsCamera || app.showsResiduals ? '' : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
-    ${app.showsCamera ? html`<div class="camera">${app.live.canvas}</div>` : ''} ${app.step === 'live' ? liveOverlay(app) : ''}
+    ${app.showsCamera ? html`<div class="camera">${app.live.view.canvas}</div>` : ''} ${app.step === 'live' ? liveOverlay(app) : ''}
     ${app.step === 'rig' ? residualStage(app) : ''}
     <div class="floating">
       ${previewBar(app)}
       ${viewer.tool === 'measure' && !measurement ? html`<div class="chip">${t('surface.measureHint')}</div>` : ''}
       ${viewer.tool === 'angle' && !measurement ? html`<div class="chip">${t('surface.angleHint')}</div>` : ''}
-      ${viewer.tool === 'align' ? html`<div class="chip">${t('edit.alignHint')}</div>` : ''}
+      ${viewer.tool === 'align' && !app.project.surface?.preview ? html`<div class="chip">${t('edit.alignHint')}</div>` : ''}
       ${viewer.tool === 'loop' ? html`<div class="chip">${t('edit.loopHint')}</div>` : ''}
       ${measurement
         ? html`<div class="chip"><div class="big">${measurement.angle_deg === null ? html`${number(measurement.distance_mm ?? 0, 3)} mm` : html`${number(measurement.angle_deg, 2)}°`}</div>

@@ -2,6 +2,8 @@ import type { App } from './app';
 import { type StepName, STEPS } from './app_steps';
 import type { IconName } from './icons';
 import type { MessageKey } from './messages';
+import { toggleTheme } from './preferences';
+import { reachable } from './step_state';
 
 export const KEYS: readonly (readonly [MessageKey | IconName, string])[] = [
   ['keys.steps', '1 – 7'],
@@ -37,12 +39,12 @@ export function onKey(app: App, event: KeyboardEvent): void {
   if (event.altKey) return;
   if (/^[1-7]$/.test(key)) {
     const step = STEPS[Number(key) - 1] as StepName;
-    if (app.reachable(step)) app.go(step);
+    if (reachable(app.state.project, step)) app.go(step);
   } else if (key === '?') app.dialog('keys').showModal();
-  else if (key === 'd') app.toggleTheme();
+  else if (key === 'd') toggleTheme();
   else if (key === 'f') app.viewer.frame();
   else if (key === 'escape' && app.step === 'edit' && surface?.preview) void app.command('drop-preview');
-  else if (key === 'enter' && app.step === 'edit' && surface?.preview && !target.matches('button, summary')) app.applyPreview();
+  else if (key === 'enter' && app.step === 'edit' && document.querySelector('#apply:not([disabled])') && !target.matches('button, summary')) app.editing.applyPreview();
   else if (key === 'escape') app.setTool('orbit');
   else if (key === 'enter' && app.step === 'rig' && app.state.project?.calibration?.waiting && !target.matches('button, summary')) void app.command('capture-pose');
   else if (!surface) return;
@@ -53,6 +55,6 @@ export function onKey(app: App, event: KeyboardEvent): void {
   else if (key === 'b') app.setTool('brush');
   else if (key === 'r') app.setTool('rectangle');
   else if (key === 'p') app.setTool('part');
-  else if (key === 'i') app.edit('invert');
-  else if ((key === 'delete' || key === 'backspace') && surface.selected) app.edit('delete');
+  else if (key === 'i') app.editing.run('invert');
+  else if ((key === 'delete' || key === 'backspace') && surface.selected) app.editing.run('delete');
 }

@@ -1,5 +1,6 @@
 import { html, svg, type TemplateResult } from 'lit';
 import { encode } from 'uqr';
+import type { App } from './app';
 import { t } from './messages';
 
 /** A QR code as one path of squares, with the quiet zone that readers need. */
@@ -10,6 +11,17 @@ function code(text: string): TemplateResult {
   return html`<svg class="qr" viewBox="0 0 ${size} ${size}" role="img" aria-label=${t('app.qr')} shape-rendering="crispEdges">
     ${svg`<rect width=${size} height=${size} fill="#fff" /><path d=${path} fill="#000" />`}
   </svg>`;
+}
+
+/** Makes a link and shows it. */
+export async function share(app: App): Promise<void> {
+  try {
+    app.link = await app.session.newLink();
+    app.requestUpdate();
+    app.dialog('link').showModal();
+  } catch (error) {
+    app.say(error);
+  }
 }
 
 /** A link for one more browser, to be clicked, copied or scanned. */

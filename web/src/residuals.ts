@@ -31,17 +31,17 @@ function figure(map: ResidualMap): TemplateResult {
 
 /** The stage of the step Rig shows the rig, or the residuals over the image of a device. */
 export function residualStage(app: App): TemplateResult | string {
-  const maps = app.residuals?.maps ?? [];
+  const maps = app.arranging.residuals?.maps ?? [];
   if (maps.length === 0 || app.project.calibration?.active) return '';
   const options = [['-1', t('rig.scene')] as const, ...maps.map((map, i) => [String(i), titleOf(map)] as const)];
-  const map = maps[app.residualMap];
-  return html`<div class="layers">${choice(t('rig.picture'), String(app.residualMap), options, (key) => app.showResiduals(Number(key)))}</div>
+  const map = maps[app.arranging.residualMap];
+  return html`<div class="layers">${choice(t('rig.picture'), String(app.arranging.residualMap), options, (key) => app.arranging.showResiduals(Number(key)))}</div>
     ${map ? figure(map) : ''}`;
 }
 
 /** What each pose contributed; the outliers are named. */
 export function poseTable(app: App): TemplateResult | string {
-  const poses = app.residuals?.poses ?? [];
+  const poses = app.arranging.residuals?.poses ?? [];
   if (poses.length === 0) return '';
   const worst = Math.max(...poses.map((pose) => Math.max(pose.camera_rms_px, pose.projector_rms_px)));
   const bar = (value: number, kind: string) => svg`<rect class=${kind} y=${kind === 'camera' ? 1 : 6} width=${(100 * value) / worst} height="4" rx="1" />`;

@@ -5,11 +5,21 @@ import { icon, logo } from './icons';
 import { t } from './messages';
 import { plain } from './ui';
 
+async function enter(app: App, event: SubmitEvent): Promise<void> {
+  event.preventDefault();
+  app.dismiss();
+  try {
+    await app.session.enter(String(new FormData(event.target as HTMLFormElement).get('password')));
+  } catch (error) {
+    app.say(error);
+  }
+}
+
 /** The page before there is a state: while it connects, and for who has no key. */
 export function blankPage(app: App): TemplateResult {
   if (app.session.link !== 'refused') return html`<main class="blank">${logo}<p class="quiet">${t('app.connecting')}</p></main>`;
   return html`<main class="blank">${logo}<h1>${t('app.refused')}</h1><p class="quiet">${t('app.refusedHint')}</p><code>frangia serve --new-link</code>
-    <form class="row" @submit=${(event: SubmitEvent) => void app.enter(event)}>
+    <form class="row" @submit=${(event: SubmitEvent) => void enter(app, event)}>
       <label class="field grow"><span>${t('app.password')}</span><input name="password" type="password" autocomplete="current-password" required /></label>
       <button class="btn">${t('app.enter')}</button>
     </form>

@@ -1,6 +1,13 @@
 import { type MessageKey, number, t } from './messages';
 import type { Step } from './types';
 
+/** A number with its unit as the language writes it, with the digits that it was given with. */
+function quantity(value: string): string {
+  const [, digits, unit] = /^(-?[\d.]+)(mm|um|deg)?$/.exec(value) ?? [];
+  if (digits === undefined) return value;
+  return `${number(Number(digits), digits.split('.')[1]?.length ?? 0)}${unit ? ` ${unit === 'um' ? 'µm' : unit === 'deg' ? '°' : unit}` : ''}`;
+}
+
 /** What a step did, in a sentence. */
 export function stepWords({ operation, value, change }: Step): string {
   const count = (key: MessageKey, more: Record<string, string | number> = {}) =>
@@ -10,7 +17,7 @@ export function stepWords({ operation, value, change }: Step): string {
       parts: number(Math.abs(change.components)),
       selected: number(change.selected),
       moved: number(change.moved),
-      value: value.replace(/(\d)(mm|um|deg)$/, '$1 $2'),
+      value: quantity(value),
       ...more,
     });
   if (operation.startsWith('fill-hole')) {
@@ -23,7 +30,7 @@ export function stepWords({ operation, value, change }: Step): string {
   if (operation === 'delete') return count('did.delete');
   if (operation === 'smooth') return count('did.smooth');
   if (operation === 'remove-spikes') return count(change.triangles || change.moved ? 'did.spikes' : 'did.spikesNone');
-  if (operation === 'keep-largest' || operation === 'remove-islands') return count(change.components ? 'did.islands' : 'did.islandsNone');
+  if (operation === 'keep-largest' || operation === 'remove-islands') return count(change.components === 0 ? 'did.islandsNone' : change.components === -1 ? 'did.island' : 'did.islands');
   if (operation.startsWith('decimate')) return count(operation === 'decimate' ? 'did.decimate' : 'did.decimateTo');
   if (operation === 'cut') return count('did.cut');
   if (operation === 'mirror') return count('did.mirror');

@@ -32,6 +32,7 @@ export class SurfaceView {
   private pictures: Picture[] = [];
   private current: Picture | null = null;
   private moving = false;
+  private whole = false;
   private shading: Shading = 'smooth';
   private coloring: Coloring = 'plain';
   private setups: readonly Float32Array[] = [];
@@ -144,6 +145,12 @@ export class SurfaceView {
     return this.box.isEmpty() ? new THREE.Vector3() : this.box.getSize(new THREE.Vector3());
   }
 
+  /** Shows both sides of the section plane, for a preview of what becomes of them. */
+  setWhole(whole: boolean): void {
+    this.whole = whole;
+    this.cut();
+  }
+
   cut(): void {
     const { axis, flipped } = this.section;
     const sign = flipped ? 1 : -1;
@@ -151,7 +158,7 @@ export class SurfaceView {
       this.plane.normal.set(axis === 'x' ? sign : 0, axis === 'y' ? sign : 0, axis === 'z' ? sign : 0);
       this.plane.constant = -sign * this.sectionAt;
     }
-    for (const level of this.levels) level.cut(axis === 'off' ? [] : [this.plane]);
+    for (const level of this.levels) level.cut(axis === 'off' || this.whole ? [] : [this.plane]);
   }
 
   setShading(shading: Shading): void {

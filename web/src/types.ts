@@ -38,6 +38,8 @@ export interface Summary {
   registration?: string;
   rms_before_mm?: number;
   rms_after_mm?: number;
+  /** What became of the turntable; `plain` where these figures say all that `registration` does. */
+  turntable?: { plain: boolean; kept: boolean; overlap: number; moved_mm: number; turned_deg: number; angles_deg: number; closure_deg: number | null };
   untrusted_reason: string;
   /** How the setups join; missing or empty for a scan of one. */
   setups?: SetupJoin[];

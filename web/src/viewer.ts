@@ -1,24 +1,22 @@
-// Above 250 lines: one scene, whose camera, lights, tools and pictures share their state.
+// Above 250 lines: what the page may show of the one scene; its parts are in files of their own.
 import * as THREE from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import type { MeshArrays } from './arrays';
 import { CloudsView } from './clouds_view';
 import type { Coloring, Legend } from './mesh_colors';
 import { EditPreview } from './edit_preview';
+import { HoleMarks } from './hole_marks';
 import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
+import { Smoothing } from './smoothing';
 import { DRAWING, PointerStrokes, type Tool } from './pointer_strokes';
 import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
-import type { RigGeometry } from './types';
+import type { Hole, RigGeometry } from './types';
+import { type Outline, ViewCamera } from './view_camera';
 
 export type { Tool } from './pointer_strokes';
 export type { SectionAxis, Shading } from './surface_view';
-
-
-/** A lasso in space: the eye, then the corners, as `frangia edit --select-outline` takes them. */
-export type Outline = string;
 
 /** A ray through the picture, and the half-space that a section leaves. */
 export interface Ray { eye: number[]; direction: number[]; section?: number[] }
@@ -35,8 +33,9 @@ interface Events {
   picked(tool: Tool, points: [number, number, number][]): void;
 }
 
-/** After a move, until the finest level is drawn, ms. */
+/** After a move, until the finest level is drawn, ms: later where it takes long and would hold up the next move. */
 const REST_MS = 160;
+const REST_IN_SOFTWARE_MS = 400;
 
 /** The 3D picture. It draws when something changes, not all the time. */
 export class Viewer {
@@ -49,15 +48,16 @@ export class Viewer {
   readonly supported: boolean;
 
   private renderer!: THREE.WebGLRenderer;
+  private smoothing!: Smoothing;
+  private view!: ViewCamera;
   private readonly scene = new THREE.Scene();
-  private readonly camera = new THREE.PerspectiveCamera(28, 1, 1, 5000);
-  private controls!: OrbitControls;
   private readonly lights = new THREE.Group();
   private readonly clouds = new CloudsView();
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
   private readonly preview = new EditPreview();
+  private readonly holes = new HoleMarks();
   private readonly rig = new RigModel();
   private rigShown = 'null';
   private picks: THREE.Vector3[] = [];
@@ -65,6 +65,7 @@ export class Viewer {
   private resting = 0;
   private held = false;
   private incomplete = false;
+  private moving = false;
 
   constructor(
     private readonly host: HTMLElement,
@@ -81,7 +82,7 @@ export class Viewer {
       const context = document.createElement('canvas').getContext('webgl2');
       if (!context) throw new Error('no WebGL');
       context.getExtension('WEBGL_lose_context')?.loseContext();
-      this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
+      this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: false, alpha: true });
       this.supported = true;
     } catch {
       this.supported = false;
@@ -89,26 +90,17 @@ export class Viewer {
     }
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.localClippingEnabled = true;
-    this.camera.up.set(0, 0, 1);
-    this.camera.position.set(260, -300, 190);
-    this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.enableDamping = false;
-    this.controls.target.set(0, 0, 40);
-    this.controls.addEventListener('change', () => this.draw());
-    this.controls.addEventListener('start', () => {
-      this.held = true;
+    this.smoothing = new Smoothing(this.renderer);
+    this.view = new ViewCamera(this.canvas, () => this.draw(), (held) => {
+      this.held = held;
       this.move();
     });
-    this.controls.addEventListener('end', () => {
-      this.held = false;
-      this.move();
-    });
-    this.scene.add(this.lights, this.clouds.group, this.table, this.surface.group, this.preview.group, this.ruler.group, this.rig.group);
+    this.scene.add(this.lights, this.clouds.group, this.table, this.surface.group, this.preview.group, this.holes.group, this.ruler.group, this.rig.group);
     addLights(this.lights);
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
     new PointerStrokes(this.canvas, this.overlay, this, {
-      outlined: (stroke) => this.events.outlined(this.outlineOf(stroke), this.through),
+      outlined: (stroke) => this.events.outlined(this.view.outlineOf(stroke), this.through),
       clicked: (point) => {
         const { tool } = this;
         void this.events.pick(this.pickRay(point)).then((hit) => {
@@ -144,7 +136,7 @@ export class Viewer {
 
   /** A picture of the present view, as the screen shows it. */
   async snapshot(): Promise<Blob | null> {
-    this.surface.setMoving(false);
+    this.setMoving(false);
     this.drawNow();
     return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
   }
@@ -155,13 +147,17 @@ export class Viewer {
   }
   /** Draws the coarsest level until nothing has moved for a while. */
   private move(): void {
-    this.surface.setMoving(true);
+    this.setMoving(true);
     clearTimeout(this.resting);
     if (this.held || this.incomplete) return;
     this.resting = window.setTimeout(() => {
-      this.surface.setMoving(false);
+      this.setMoving(false);
       this.draw();
-    }, REST_MS);
+    }, this.smoothing?.software ? REST_IN_SOFTWARE_MS : REST_MS);
+  }
+  private setMoving(moving: boolean): void {
+    this.moving = moving;
+    this.surface.setMoving(moving);
   }
 
   /** Holds back the finest level until everything that it shows has arrived. */
@@ -171,6 +167,10 @@ export class Viewer {
     this.move();
   }
 
+  /** Whether the picture is the final one: nothing moves. */
+  get atRest(): boolean {
+    return !this.moving && !this.due;
+  }
   get meshShown(): number {
     return this.surface.revision;
   }
@@ -219,7 +219,12 @@ export class Viewer {
   /** Shows what an edit would change; null shows nothing. */
   setPreview(arrays: Map<string, ArrayLike<number>> | null): void {
     this.preview.set(arrays);
+    this.surface.setWhole(arrays !== null);
     this.draw();
+  }
+  /** Rings around some holes. */
+  markHoles(holes: readonly Hole[]): void {
+    if (this.holes.set(holes, this.size.length() / 30)) this.draw();
   }
   setDeviations(values: readonly (Float32Array | null)[], band: [number, number] | null): void {
     this.surface.setDeviations(values, band);
@@ -258,28 +263,15 @@ export class Viewer {
   /** Puts the object in the middle of the picture. */
   frame(direction?: [number, number, number]): void {
     if (!this.supported) return;
-    const rigBox = this.rig.box();
-    const box = rigBox ? rigBox : this.surface.box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-70, -70, 0), new THREE.Vector3(70, 70, 110)) : this.surface.box;
-    const center = box.getCenter(new THREE.Vector3());
-    const radius = box.getSize(new THREE.Vector3()).length() / 2;
-    const away = direction
-      ? new THREE.Vector3(...direction)
-      : this.camera.position.clone().sub(this.controls.target);
-    const narrow = Math.min(1, this.camera.aspect);
-    const distance = ((rigBox ? 0.78 : 1.12) * radius) / Math.sin(((this.camera.fov / 2) * Math.PI) / 180) / narrow;
-    this.controls.target.copy(center);
-    this.camera.position.copy(center).addScaledVector(away.normalize(), distance);
-    this.camera.near = distance / 50;
-    this.camera.far = distance * 20;
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
+    const rig = this.rig.box();
+    this.view.frame(rig ?? this.surface.box, rig ? 0.78 : 1.12, direction);
     this.draw();
   }
 
   setTool(tool: Tool): void {
     this.tool = tool;
     if (!this.supported) return;
-    this.controls.enabled = !DRAWING.has(tool);
+    this.view.controls.enabled = !DRAWING.has(tool);
     this.canvas.dataset.tool = tool;
     this.clearMeasurement();
   }
@@ -307,39 +299,17 @@ export class Viewer {
     this.draw();
   }
 
-  private rayAt([x, y]: [number, number]): THREE.Ray {
-    const ray = new THREE.Raycaster();
-    const width = this.canvas.clientWidth;
-    const height = this.canvas.clientHeight;
-    ray.setFromCamera(new THREE.Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
-    return ray.ray;
-  }
-
   private pickRay(point: [number, number]): Ray {
-    const { origin, direction } = this.rayAt(point);
+    const { origin, direction } = this.view.rayAt(point);
     const { kept } = this.surface;
     return { eye: origin.toArray(), direction: direction.toArray(), ...(kept ? { section: kept } : {}) };
-  }
-
-  /** The stroke in space, at most 72 corners with a tenth of a micrometre at arm's length. */
-  private outlineOf(stroke: [number, number][]): Outline {
-    const most = 72;
-    const step = Math.max(1, stroke.length / most);
-    const numbers: number[] = [...this.camera.position.toArray()];
-    const depth = this.camera.position.distanceTo(this.controls.target);
-    for (let i = 0; i < stroke.length; i += step) {
-      const ray = this.rayAt(stroke[Math.floor(i)] as [number, number]);
-      numbers.push(...ray.at(depth, new THREE.Vector3()).toArray());
-    }
-    return numbers.map((value) => String(Math.round(value * 1000) / 1000)).join(',');
   }
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.host;
     if (!this.supported || width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.view.setAspect(width / height);
     this.draw();
   }
 
@@ -352,7 +322,8 @@ export class Viewer {
     });
   }
   drawNow(): void {
-    this.lights.quaternion.copy(this.camera.quaternion);
-    this.renderer.render(this.scene, this.camera);
+    const { camera } = this.view;
+    this.lights.quaternion.copy(camera.quaternion);
+    this.smoothing.render(this.scene, camera, !(this.moving && this.smoothing.software));
   }
 }

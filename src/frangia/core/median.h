@@ -7,6 +7,9 @@
 
 namespace frangia {
 
+/// The median of the absolute values of normal deviates, over their standard deviation.
+inline constexpr double kMedianOfNormal = 0.6745;
+
 /// Returns the median of `values` and reorders them. For an even count it is the upper one of the
 /// two middle values: always a value that occurs, never a mean of two. Of no values it is 0.
 ///

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kChunk = 4096;
+constexpr std::size_t kTrianglesPerChunk = 4096;
 // Rounding of coordinates in single precision, relative to the size of the mesh: 25 ulp.
 constexpr double kRounding = 3e-6;
 
@@ -63,7 +63,7 @@ class Surface {
 
 Selection differing_triangles(const Mesh& mesh, const Surface& surface, const Run& run) {
   Selection differs(mesh.triangles.size());
-  parallel_chunks(differs.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(differs.size(), kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
     if (run.stop.stop_requested()) return;  // run.check() below throws
     for (std::size_t t = begin; t < end; ++t)
       differs[t] = surface.contains(mesh, mesh.triangles[t]) ? 0 : 1;

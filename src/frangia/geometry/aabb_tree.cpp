@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 65'536;
+constexpr std::size_t kCodesPerChunk = 65'536;
 
 /// Spreads the low 21 bits of x, with two zeros between each.
 std::uint64_t spread_bits(std::uint64_t x) {
@@ -56,7 +56,7 @@ AabbTree::AabbTree(const Mesh& mesh) {
     }
   }
   std::vector<std::pair<std::uint64_t, std::uint32_t>> along(count);
-  parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(count, kCodesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto triangle = static_cast<std::uint32_t>(i);
       along[i] = {morton_code(box_of(mesh, triangle).center(), all), triangle};

@@ -9,6 +9,7 @@
 #include "frangia/core/disjoint_sets.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/pixel_allocator.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
@@ -41,11 +42,6 @@ struct Corner {
   std::uint32_t triangle;
   std::uint32_t index;  ///< of the vertex in the triangle
 };
-
-template <typename T>
-void repeat(std::vector<T>& values, std::uint32_t which) {
-  if (!values.empty()) values.push_back(T(values[which]));
-}
 
 /// Returns the fan of each corner of one vertex, as the number of one of its corners. Triangles
 /// that share an edge belong to one fan.
@@ -129,15 +125,7 @@ void split_at(const std::vector<bool>& boundary, Mesh& mesh) {
     const std::vector<std::uint32_t> fans = fans_of(mesh, around);
     for (std::uint32_t fan = 1; fan < fans.size(); ++fan) {
       if (fans[fan] != fan) continue;
-      const auto added = static_cast<std::uint32_t>(mesh.vertices_mm.size());
-      repeat(mesh.vertices_mm, around[0].vertex);
-      repeat(mesh.normals, around[0].vertex);
-      repeat(mesh.sigma_mm, around[0].vertex);
-      repeat(mesh.sigma_noise_mm, around[0].vertex);
-      repeat(mesh.sigma_systematic_mm, around[0].vertex);
-      repeat(mesh.views, around[0].vertex);
-      repeat(mesh.colors, around[0].vertex);
-      repeat(mesh.vertex_marks, around[0].vertex);
+      const std::uint32_t added = copy_vertex(mesh, around[0].vertex);
       for (std::size_t i = 0; i < fans.size(); ++i) {
         if (fans[i] == fan) mesh.triangles[around[i].triangle][around[i].index] = added;
       }

@@ -12,7 +12,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 16'384;
+constexpr std::size_t kEdgesPerChunk = 16'384;
 
 /// Finds half-edges by their ends. A vertex of high valence gets its outgoing half-edges sorted by
 /// target, so that a search there does not visit all of them.
@@ -84,7 +84,7 @@ HalfEdges::HalfEdges(const Mesh& mesh) {
     first_[v] = first_[v - 1];
   first_[0] = 0;
   const EdgeFinder finder(mesh, *this);
-  parallel_chunks(edges, kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(edges, kEdgesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto edge = static_cast<std::uint32_t>(i);
       const std::uint32_t from = source_vertex(mesh, edge);

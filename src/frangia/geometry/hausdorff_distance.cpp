@@ -13,14 +13,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kTrianglesPerChunk = 1024;
 
 /// Returns the largest distance of the samples of one surface from the other one.
 double largest_distance(const Mesh& from, const RayScene& to, double spacing_mm, const Run& run) {
   const std::size_t count = from.triangles.size();
-  std::vector<double> largest((count + kChunk - 1) / kChunk);
-  parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
-    double& most = largest[begin / kChunk];
+  std::vector<double> largest((count + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
+  parallel_chunks(count, kTrianglesPerChunk, [&](std::size_t begin, std::size_t end) {
+    double& most = largest[begin / kTrianglesPerChunk];
     for (std::size_t t = begin; t < end; ++t) {
       const auto& [a, b, c] = from.triangles[t];
       static_cast<void>(all_triangle_samples(from.vertices_mm[a].cast<double>(),

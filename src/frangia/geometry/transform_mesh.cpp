@@ -10,6 +10,8 @@
 #include "frangia/core/error.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/internal/triangle_area.h"
+#include "frangia/geometry/nearest_on_triangle.h"
 
 namespace frangia {
 namespace {
@@ -17,18 +19,10 @@ namespace {
 using Eigen::Vector3d;
 using Plane = Eigen::Hyperplane<double, 3>;
 
-Vector3d corner(const Mesh& mesh, std::size_t triangle, std::size_t which) {
-  return mesh.vertices_mm[mesh.triangles[triangle][which]].cast<double>();
-}
-
-/// Returns twice the area vector, along the outward normal.
-Vector3d area_vector(const Mesh& mesh, std::size_t triangle) {
-  const Vector3d a = corner(mesh, triangle, 0);
-  return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
-}
-
 Vector3d center_of(const Mesh& mesh, std::size_t triangle) {
-  return (corner(mesh, triangle, 0) + corner(mesh, triangle, 1) + corner(mesh, triangle, 2)) / 3.0;
+  return (corner_mm(mesh, triangle, 0) + corner_mm(mesh, triangle, 1) +
+          corner_mm(mesh, triangle, 2)) /
+         3.0;
 }
 
 }  // namespace
@@ -64,7 +58,7 @@ Plane fit_plane(const Mesh& mesh, const Selection& selection) {
   double weight = 0.0;
   for (std::size_t i = 0; i < selection.size(); ++i) {
     if (selection[i] == 0) continue;
-    const Vector3d area = area_vector(mesh, i);
+    const Vector3d area = doubled_area_vector(mesh, i);
     mean += area.norm() * center_of(mesh, i);
     outward += area;
     weight += area.norm();
@@ -74,9 +68,9 @@ Plane fit_plane(const Mesh& mesh, const Selection& selection) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < selection.size(); ++i) {
     if (selection[i] == 0) continue;
-    const double area = area_vector(mesh, i).norm();
+    const double area = doubled_area_vector(mesh, i).norm();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d away = corner(mesh, i, k) - mean;
+      const Vector3d away = corner_mm(mesh, i, k) - mean;
       spread += area * away * away.transpose();
     }
   }
@@ -90,13 +84,16 @@ Selection select_face(const Mesh& mesh, const Vector3d& picked_mm, double within
   std::uint32_t seed = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const double apart = (center_of(mesh, i) - picked_mm).squaredNorm();
-    if (apart >= nearest || area_vector(mesh, i).isZero()) continue;
+    if (doubled_area_vector(mesh, i).isZero()) continue;
+    const Vector3d on = nearest_on_triangle(
+        corner_mm(mesh, i, 0), corner_mm(mesh, i, 1), corner_mm(mesh, i, 2), picked_mm);
+    const double apart = (on - picked_mm).squaredNorm();
+    if (!(apart < nearest)) continue;
     nearest = apart;
     seed = i;
   }
   const HalfEdges edges(mesh);
-  const Vector3d direction = area_vector(mesh, seed).stableNormalized();
+  const Vector3d direction = doubled_area_vector(mesh, seed).stableNormalized();
   const double least = std::cos(within_rad);
   Selection face(mesh.triangles.size());
   std::vector<std::uint32_t> front{seed};
@@ -107,7 +104,7 @@ Selection select_face(const Mesh& mesh, const Vector3d& picked_mm, double within
     for (std::uint32_t edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
       if (!edges.has_twin(edge)) continue;
       const std::uint32_t other = edges.twin(edge) / 3;
-      const Vector3d area = area_vector(mesh, other);
+      const Vector3d area = doubled_area_vector(mesh, other);
       if (face[other] != 0 || area.dot(direction) < least * area.norm()) continue;
       face[other] = 1;
       front.push_back(other);
@@ -120,7 +117,8 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   const Vector3d z = -first.normal();
   const Vector3d along = -second.normal();
   const Vector3d x_raw = along - along.dot(z) * z;
-  require(x_raw.norm() > 1e-3, "align: the first and the second face are parallel");
+  require(x_raw.norm() > 1e-3,
+          "align: the first and the second face are parallel; choose faces that meet at an angle");
   const Vector3d x = x_raw.normalized();
   Eigen::Matrix3d axes;
   axes.row(0) = x.transpose();
@@ -130,8 +128,10 @@ Eigen::Isometry3d align_faces(const Plane& first, const Plane& second, const Pla
   normals.row(0) = first.normal().transpose();
   normals.row(1) = second.normal().transpose();
   normals.row(2) = third.normal().transpose();
-  require(std::abs(normals.determinant()) > 1e-3,
-          "align: the third face is parallel to the intersection of the other two");
+  require(
+      std::abs(normals.determinant()) > 1e-3,
+      "align: the third face is parallel to the intersection of the other two; choose three faces "
+      "that meet in a corner");
   const Vector3d origin =
       -(normals.inverse() * Vector3d(first.offset(), second.offset(), third.offset()));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -21,8 +21,8 @@ namespace frangia {
 /// @errors   Error(Input) when the selection has not one flag for each triangle, or no area
 [[nodiscard]] Eigen::Hyperplane<double, 3> fit_plane(const Mesh& mesh, const Selection& selection);
 
-/// Selects the flat face around a point: the triangles connected to the nearest one whose normals
-/// differ from its normal by no more than `within_rad`.
+/// Selects the flat face around a point: the triangles connected to the one nearest to the point
+/// whose normals differ from its normal by no more than `within_rad`.
 ///
 /// @errors   Error(Input) when the mesh is empty
 [[nodiscard]] Selection select_face(const Mesh& mesh,

@@ -18,7 +18,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-constexpr std::size_t kChunk = 2048;  // leaves of the tree, or triangles
+constexpr std::size_t kSearchesPerChunk = 2048;  // leaves of the tree, or triangles
 /// Triangles that all coincide intersect in pairs without bound. A scan has thousands of pairs.
 constexpr std::size_t kMaxPairs = 1'000'000;
 
@@ -110,7 +110,7 @@ class FanSearch {
 
   void find(Pairs& all, const Run& run) const {
     const Part& others = parts_.front();
-    collect(others.tree.leaves(), kChunk, all, run, [&](std::size_t leaf, Pairs& pairs) {
+    collect(others.tree.leaves(), kSearchesPerChunk, all, run, [&](std::size_t leaf, Pairs& pairs) {
       others.tree.overlapping_pairs(leaf, [&](std::uint32_t a, std::uint32_t b) {
         add(others.triangles[a], others.triangles[b], pairs);
       });
@@ -131,7 +131,7 @@ class FanSearch {
   }
 
   void find_between(const Part& fan, const Part& other, Pairs& all, const Run& run) const {
-    collect(fan.triangles.size(), kChunk, all, run, [&](std::size_t i, Pairs& pairs) {
+    collect(fan.triangles.size(), kSearchesPerChunk, all, run, [&](std::size_t i, Pairs& pairs) {
       const std::uint32_t triangle = fan.triangles[i];
       other.tree.overlapping(AabbTree::box_of(mesh_, triangle),
                              [&](std::uint32_t k) { add(triangle, other.triangles[k], pairs); });
@@ -152,7 +152,7 @@ class FanSearch {
       opposite.triangles.push_back({first, first + 1, first + 1});
     }
     const AabbTree edges(opposite);
-    collect(fan.triangles.size(), kChunk, all, run, [&](std::size_t i, Pairs& pairs) {
+    collect(fan.triangles.size(), kSearchesPerChunk, all, run, [&](std::size_t i, Pairs& pairs) {
       const std::uint32_t triangle = fan.triangles[i];
       edges.overlapping(AabbTree::box_of(mesh_, triangle), [&](std::uint32_t k) {
         if (k != i) add(triangle, fan.triangles[k], pairs);
@@ -184,7 +184,7 @@ Pairs self_intersections(const Mesh& mesh, const Run& run) {
     FanSearch(mesh, valence).find(all, run);
   } else {
     const AabbTree tree(mesh);
-    collect(tree.leaves(), kChunk, all, run, [&](std::size_t leaf, Pairs& pairs) {
+    collect(tree.leaves(), kSearchesPerChunk, all, run, [&](std::size_t leaf, Pairs& pairs) {
       tree.overlapping_pairs(leaf, [&](std::uint32_t a, std::uint32_t b) {
         if (do_intersect(mesh, a, b)) pairs.emplace_back(std::min(a, b), std::max(a, b));
       });

@@ -8,15 +8,17 @@
 namespace frangia {
 namespace {
 
-constexpr int kPhases = 1440;    ///< phases per fringe: every quarter degree
-constexpr double kSmall = 1e-5;  ///< of B: linear response, far above rounding
+constexpr int kPhasesPerFringe = 1440;  ///< phases per fringe: every quarter degree
+constexpr double kSmall = 1e-5;         ///< of B: linear response, far above rounding
 
-struct Wave {
+struct AddedHarmonic {
   int harmonic = 2;
   double share = 0.0;  ///< amplitude of the harmonic relative to B
 };
 
-std::vector<double> frames_of(double phi, const std::vector<double>& shifts, Wave wave = {}) {
+std::vector<double> frames_of(double phi,
+                              const std::vector<double>& shifts,
+                              AddedHarmonic wave = {}) {
   std::vector<double> counts;
   for (const double shift : shifts)
     counts.push_back(std::cos(phi + shift) + wave.share * std::cos(wave.harmonic * (phi + shift)));
@@ -26,8 +28,8 @@ std::vector<double> frames_of(double phi, const std::vector<double>& shifts, Wav
 /// Calls `use(phi)` for phases over one fringe, offset so that no formula divides by zero.
 template <typename Use>
 void for_each_phase(const Use& use) {
-  for (int i = 0; i < kPhases; ++i)
-    use(kTwoPi * (i + 0.37) / kPhases);
+  for (int i = 0; i < kPhasesPerFringe; ++i)
+    use(kTwoPi * (i + 0.37) / kPhasesPerFringe);
 }
 
 double harmonic_error(const PhaseAlgorithm& algorithm,
@@ -83,7 +85,7 @@ double noise_gain(const PhaseAlgorithm& algorithm, const std::vector<double>& sh
     sum += algorithm.outer.empty() ? squared_slope(algorithm, counts)
                                    : squared_difference_slope(algorithm, counts);
   });
-  return std::sqrt(sum / kPhases);
+  return std::sqrt(sum / kPhasesPerFringe);
 }
 
 double ripple(const PhaseAlgorithm& algorithm,

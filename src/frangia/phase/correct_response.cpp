@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kPhases =
+constexpr std::size_t kProjectedPhases =
     2880;  ///< projected phases per fringe at which the error is computed
 constexpr std::size_t kTableIntervals = 1024;  ///< intervals of the table
 
@@ -29,8 +29,8 @@ ResponseTable table_of(const Light& light_of,
   // The measured phase is unwrapped, so that it rises over the whole fringe.
   std::vector<double> true_phase;
   std::vector<double> found;
-  for (std::size_t i = 0; i <= kPhases; ++i) {
-    const double phase = -kPi + kTwoPi * static_cast<double>(i) / kPhases;
+  for (std::size_t i = 0; i <= kProjectedPhases; ++i) {
+    const double phase = -kPi + kTwoPi * static_cast<double>(i) / kProjectedPhases;
     const double seen = measured_phase(phase);
     true_phase.push_back(phase);
     found.push_back(found.empty() ? phase + wrap_rad(seen - phase)

@@ -24,7 +24,7 @@ namespace {
 
 /// Not a power of two: lanes whose distance is a power of two share one cache set.
 constexpr std::size_t kLane = kTilePixels + 16;
-constexpr std::size_t kChunk = 64 * kTilePixels;
+constexpr std::size_t kDecodeChunk = 64 * kTilePixels;
 
 using TileInts = std::array<std::int32_t, kTilePixels>;
 
@@ -48,7 +48,7 @@ FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
 }
 
 /// Limits beyond which a pixel has no phase.
-struct Limits {
+struct DecodeLimits {
   float min_precision;
   std::int32_t white;
 };
@@ -56,7 +56,7 @@ struct Limits {
 FRANGIA_VECTORIZED void find_status(const float* __restrict lowest_precision,
                                     const std::uint16_t* __restrict brightest,
                                     std::size_t n,
-                                    Limits limits,
+                                    DecodeLimits limits,
                                     std::int32_t* __restrict status) {
   constexpr auto kSaturated = static_cast<std::int32_t>(PixelStatus::Saturated);
   constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelStatus::Unmodulated);
@@ -188,11 +188,12 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
   resize_uninitialized(width_of(first), height_of(first), out.sigma_rad);
   resize_uninitialized(width_of(first), height_of(first), out.status);
   const float min_precision = 1.0F / (options.wrap.max_sigma_rad * options.wrap.max_sigma_rad);
-  parallel_chunks(out.status.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    TileDecoder decoder(coarse_to_fine, noises, unwrapper, min_precision);
-    for (std::size_t at = begin; at < end; at += kTilePixels)
-      decoder.decode(at, std::min(kTilePixels, end - at), out);
-  });
+  parallel_chunks(
+      out.status.pixels().size(), kDecodeChunk, [&](std::size_t begin, std::size_t end) {
+        TileDecoder decoder(coarse_to_fine, noises, unwrapper, min_precision);
+        for (std::size_t at = begin; at < end; at += kTilePixels)
+          decoder.decode(at, std::min(kTilePixels, end - at), out);
+      });
   return out;
 }
 

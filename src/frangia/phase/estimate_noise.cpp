@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kBins = NoiseSamples::kBins;
 constexpr double kMinSigma = 0.3;  ///< counts: quantization, 1 / sqrt(12)
-constexpr std::size_t kMinSamples =
+constexpr std::size_t kMinBinSamples =
     200;  ///< fewest samples of a bin; the variance then has a standard error of 10 %
 /// Pixels of a stack that are sampled in the first round; the variance of one bin of them has a
 /// standard error of 1 %. More rounds follow until the bins are filled, up to the second number.
@@ -32,11 +32,11 @@ constexpr double kMostSamples = 400'000;
 /// the single frames. Without fine fringes and texture both are equal within a few percent.
 constexpr double kFineFringes = 0.8;
 
-using Weights = std::vector<double>;
+using FrameWeights = std::vector<double>;
 
 /// Each frame alone.
-std::vector<Weights> single_frames(std::size_t count) {
-  std::vector<Weights> combinations;
+std::vector<FrameWeights> single_frames(std::size_t count) {
+  std::vector<FrameWeights> combinations;
   for (std::size_t k = 0; k < count; ++k) {
     combinations.emplace_back(count, 0.0);
     combinations.back()[k] = 1.0;
@@ -45,8 +45,8 @@ std::vector<Weights> single_frames(std::size_t count) {
 }
 
 /// The mean of the frames, in which the fringes cancel, with unit norm.
-Weights mean_of_frames(const std::vector<double>& shifts_rad) {
-  Weights mean = least_squares(shifts_rad).mean;
+FrameWeights mean_of_frames(const std::vector<double>& shifts_rad) {
+  FrameWeights mean = least_squares(shifts_rad).mean;
   double square = 0.0;
   for (const double weight : mean)
     square += weight * weight;
@@ -56,15 +56,15 @@ Weights mean_of_frames(const std::vector<double>& shifts_rad) {
 }
 
 /// The combination of four frames or more, of unit norm, that contains noise only.
-Weights noise_combination(const std::vector<double>& shifts_rad) {
+FrameWeights noise_combination(const std::vector<double>& shifts_rad) {
   const std::size_t count = shifts_rad.size();
   const PhaseAlgorithm fit = least_squares(shifts_rad);
   // The residual of one frame after the fit of mean, cosine and sine; the frame with the largest
   // residual is used.
-  Weights best;
+  FrameWeights best;
   double best_square = 0.0;
   for (std::size_t frame = 0; frame < count; ++frame) {
-    Weights left(count);
+    FrameWeights left(count);
     double square = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
       const double model = fit.mean[frame] + fit.cosine[frame] * std::cos(shifts_rad[k]) -
@@ -110,10 +110,10 @@ bool are_filled(const NoiseBins& bins) {
   for (const std::vector<float>& bin : bins) {
     const auto size = static_cast<double>(bin.size());
     all += size;
-    unused += bin.size() < kMinSamples ? size : 0.0;
+    unused += bin.size() < kMinBinSamples ? size : 0.0;
     fullest = std::max(fullest, size);
   }
-  return fullest >= static_cast<double>(kMinSamples) &&
+  return fullest >= static_cast<double>(kMinBinSamples) &&
          unused <= std::max(kFew * (all - fullest), kStray * all);
 }
 
@@ -147,7 +147,7 @@ void NoiseSamples::add(const FrameStack& stack) {
   }
   // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
   std::vector<NoiseRowGatherer> frames;
-  for (const Weights& weights : single_frames(shifts.size()))
+  for (const FrameWeights& weights : single_frames(shifts.size()))
     frames.emplace_back(stack, weights);
   const NoiseRowGatherer mean_frame(stack, mean_of_frames(shifts));
   NoiseBins single;
@@ -168,7 +168,7 @@ NoiseModel NoiseSamples::model() const {
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   for (int bin = 0; bin < kBins; ++bin) {
     const auto& magnitudes = bins_[static_cast<std::size_t>(bin)];
-    if (magnitudes.size() < kMinSamples) continue;
+    if (magnitudes.size() < kMinBinSamples) continue;
     const double variance = std::max(robust_variance(magnitudes), 1.0 / 12.0);
     const Eigen::Vector2d row(1.0, (bin + 0.5) * white_ / kBins);
     const double weight = static_cast<double>(magnitudes.size()) / (variance * variance);

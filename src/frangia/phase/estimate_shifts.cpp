@@ -16,10 +16,10 @@ namespace frangia {
 namespace {
 
 /// Sampled pixels. At 1 % noise the standard error of a shift is then about 1e-4 rad.
-constexpr std::size_t kSamples = 20'000;
-constexpr Eigen::Index kMinSamples = 100;  ///< fewer pixels do not determine the shifts
-constexpr int kIterations = 100;           ///< safety limit; the iteration stops on convergence
-constexpr double kConverged_rad = 1e-9;    ///< largest change of a shift, far below its noise
+constexpr std::size_t kShiftSamples = 20'000;
+constexpr Eigen::Index kMinShiftSamples = 100;  ///< fewer pixels do not determine the shifts
+constexpr int kIterations = 100;              ///< safety limit; the iteration stops on convergence
+constexpr double kConvergedShift_rad = 1e-9;  ///< largest change of a shift, far below its noise
 
 /// Largest ratio of residual to noise variance; the noise model is no more accurate than that.
 constexpr double kMaxExcess = 1.5;
@@ -133,8 +133,8 @@ ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) 
   const std::vector<double>& nominal = stack.pattern.shifts_rad;
   static_cast<void>(fringe_normal_matrix(nominal));  // fails where they determine no phase
   ShiftEstimate out{.shifts_rad = nominal};
-  const Eigen::ArrayXXd counts = sample_frames(stack, kSamples).cast<double>();
-  if (counts.rows() < kMinSamples) return out;
+  const Eigen::ArrayXXd counts = sample_frames(stack, kShiftSamples).cast<double>();
+  if (counts.rows() < kMinShiftSamples) return out;
   const Eigen::MatrixXd products = counts.matrix().transpose() * counts.matrix();
   const Eigen::MatrixXd root = products.llt().matrixL();
   std::vector<double> shifts = nominal;
@@ -143,7 +143,7 @@ ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) 
   for (int i = 0; i < kIterations && !converged; ++i) {
     const std::vector<double> better = levenberg_marquardt_step(root, products, shifts, damping);
     const double change = largest_change(better, shifts);
-    converged = change < kConverged_rad && (change > 0.0 || damping > 1e6);
+    converged = change < kConvergedShift_rad && (change > 0.0 || damping > 1e6);
     shifts = better;
   }
   align_to_nominal(nominal, shifts);

@@ -16,9 +16,9 @@ namespace {
 
 /// Sampled pixels of up to 16 frames. At 1 % noise the standard error of a step is then below 1e-4
 /// rad. With more frames, fewer pixels suffice: each window of four frames adds to the estimate.
-constexpr std::size_t kSamples = 400'000;
-constexpr std::size_t kMaxCounts = 16 * kSamples;  ///< pixels times frames: 26 MB
-constexpr Eigen::Index kMinSamples = 100;          ///< fewer pixels do not determine the step
+constexpr std::size_t kSampledPixels = 400'000;
+constexpr std::size_t kMaxCounts = 16 * kSampledPixels;  ///< pixels times frames: 26 MB
+constexpr Eigen::Index kMinStepSamples = 100;            ///< fewer pixels do not determine the step
 
 /// Least ratio of the variance along the fitted line to the variance across it.
 constexpr double kMinSignal = 4.0;
@@ -92,8 +92,8 @@ StepEstimate estimate_step(const FrameStack& stack) {
   out.nominal_rad = out.step_rad = nominal_step(stack.pattern.shifts_rad);
   if (std::abs(std::sin(out.nominal_rad)) < kMinSine) return out;
   const Eigen::ArrayXXf counts =
-      sample_frames(stack, std::min(kSamples, kMaxCounts / stack.frames.size()));
-  if (counts.rows() < kMinSamples) return out;
+      sample_frames(stack, std::min(kSampledPixels, kMaxCounts / stack.frames.size()));
+  if (counts.rows() < kMinStepSamples) return out;
   out.mean_counts = static_cast<double>(counts.mean());
 
   double xx = 0.0;

@@ -68,4 +68,23 @@ FrameStack sample_rows(const FrameStack& stack, std::size_t wanted) {
   return out;
 }
 
+FrameStack sample_pixels(const FrameStack& stack, std::span<const std::uint32_t> pixels) {
+  FrameStack out{.pattern = stack.pattern,
+                 .frames = {},
+                 .white_level = stack.white_level,
+                 .exposure = stack.exposure};
+  for (const Frame& frame : stack.frames) {
+    std::visit(
+        [&](const auto& image) {
+          std::remove_cvref_t<decltype(image)> some(
+              static_cast<int>(pixels.size()), 1, Uninitialized{});
+          for (std::size_t i = 0; i < pixels.size(); ++i)
+            some.pixels()[i] = image.pixels()[pixels[i]];
+          out.frames.emplace_back(std::move(some));
+        },
+        frame);
+  }
+  return out;
+}
+
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <vector>
+#include <cstdint>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -18,5 +19,11 @@ namespace frangia {
 /// Samples evenly spaced rows that hold about `wanted` pixels, for estimates that do not need all
 /// rows.
 [[nodiscard]] FrameStack sample_rows(const FrameStack& stack, std::size_t wanted);
+
+/// Samples single pixels, for the phase at a few of them.
+///
+/// @shape    one index y * width + x for each pixel in, one row of these pixels out
+[[nodiscard]] FrameStack sample_pixels(const FrameStack& stack,
+                                       std::span<const std::uint32_t> pixels);
 
 }  // namespace frangia

@@ -60,7 +60,6 @@ void add_row_samples(const FrameStack& gray, int x, int y, std::vector<GrayNoise
 
 /// Variance of normal deviates from their absolute values.
 double variance_of_grays(const std::vector<GrayNoiseSample>& samples) {
-  constexpr double kMedianOfNormal = 0.6745;
   std::vector<double> squares;
   for (const GrayNoiseSample& sample : samples)
     squares.push_back(static_cast<double>(sample.difference));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMinContrast =
     0.15;  ///< least contrast between the darkest and the brightest frame, as a fraction of white
-constexpr std::size_t kMinPixels = 100;  ///< least number of pixels
+constexpr std::size_t kMinIlluminated = 100;  ///< least number of pixels
 
 /// Adds the counts of one view's illuminated pixels to the sum of each level; returns the number of
 /// these pixels.
@@ -45,7 +45,7 @@ ResponseCurve measure_response(std::span<const FrameStack> ramps) {
             "than levels");
     illuminated += add_illuminated(ramp, sums);
   }
-  require(illuminated >= kMinPixels,
+  require(illuminated >= kMinIlluminated,
           "the ramp illuminates too few unsaturated pixels; check the exposure");
   return make_response_curve(levels, sums);
 }

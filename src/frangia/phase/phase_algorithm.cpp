@@ -65,14 +65,14 @@ PhaseAlgorithm published_coefficients(const std::string& name, std::size_t frame
   return out;
 }
 
-struct Wave {
+struct SineAndCosine {
   double sine;
   double cosine;
 };
 
 /// B sin(phi) and B cos(phi) of a pixel, before the phase offset is subtracted.
-Wave wave_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
-  Wave wave{weighted_sum(algorithm.sine, counts), weighted_sum(algorithm.cosine, counts)};
+SineAndCosine wave_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
+  SineAndCosine wave{weighted_sum(algorithm.sine, counts), weighted_sum(algorithm.cosine, counts)};
   if (!algorithm.outer.empty()) {
     const double u = wave.sine;
     const double v = weighted_sum(algorithm.outer, counts);
@@ -89,7 +89,7 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
   std::vector<double> counts;
   for (std::size_t k = 0; k < shifts_rad.size(); ++k)
     counts.push_back(std::cos(kProbe_rad + std::abs(step) * static_cast<double>(k)));
-  const Wave wave = wave_of(algorithm, counts);
+  const SineAndCosine wave = wave_of(algorithm, counts);
   const double size = std::hypot(wave.sine, wave.cosine);
   for (auto* weights : {&algorithm.sine, &algorithm.cosine, &algorithm.outer}) {
     for (double& weight : *weights)
@@ -139,7 +139,7 @@ void subtract_phase_offset(double angle_rad, PhaseAlgorithm& algorithm) {
 }
 
 double phase_of(const PhaseAlgorithm& algorithm, std::span<const double> counts) {
-  const Wave wave = wave_of(algorithm, counts);
+  const SineAndCosine wave = wave_of(algorithm, counts);
   return wrap_rad(std::atan2(wave.sine, wave.cosine) - algorithm.phase_offset_rad);
 }
 

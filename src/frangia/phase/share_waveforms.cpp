@@ -11,12 +11,13 @@ namespace {
 /// Largest sigma of a determined harmonic, relative to the fundamental; a significant one may have
 /// a larger sigma.
 constexpr double kMaxHarmonicSigma = 0.02;
-constexpr double kMinSigmas = 5.0;  ///< least amplitude of a significant harmonic, in sigmas
+constexpr double kMinHarmonicSigmas =
+    5.0;  ///< least amplitude of a significant harmonic, in sigmas
 
 bool determines(const WaveformFit& fit, std::size_t harmonic) {
   if (harmonic >= fit.sigma.size()) return false;
   return fit.sigma[harmonic] < kMaxHarmonicSigma ||
-         std::abs(fit.waveform.harmonics[harmonic]) > kMinSigmas * fit.sigma[harmonic];
+         std::abs(fit.waveform.harmonics[harmonic]) > kMinHarmonicSigmas * fit.sigma[harmonic];
 }
 
 /// Largest standard deviation of an offset that frames determine, relative to the modulation.

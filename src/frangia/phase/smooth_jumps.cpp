@@ -30,7 +30,7 @@ FRANGIA_VECTORIZED void find_jumps(const float* from, const float* to, int count
   }
 }
 
-struct Limits {
+struct SmoothLimits {
   float departure;  ///< from the previous and the next difference
   float jump;
 };
@@ -46,7 +46,7 @@ struct JumpRows {
 /// deviation.
 FRANGIA_VECTORIZED void classify_jumps(JumpRows rows,
                                        int count,
-                                       Limits limits,
+                                       SmoothLimits limits,
                                        std::uint8_t* __restrict smooth) {
   for (int x = 0; x < count; ++x) {
     const float before = rows.before[x];
@@ -88,8 +88,8 @@ float jump_noise(const Image<float>& phase, int dx, int dy) {
 Image<std::uint8_t> smooth_right(const Image<float>& phase_rad, const JumpOptions& options) {
   const int width = phase_rad.width();
   const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.tolerance_rad + kNoiseSigmas * jump_noise(phase_rad, 1, 0),
-                      options.max_jump_rad};
+  const SmoothLimits limits{options.tolerance_rad + kNoiseSigmas * jump_noise(phase_rad, 1, 0),
+                            options.max_jump_rad};
   Image<std::uint8_t> smooth(width, phase_rad.height(), Uninitialized{});
   parallel_rows(phase_rad.height(), [&](int y) {
     std::vector<float> jump(row + 2, kMissing);  // one more element at each end
@@ -105,8 +105,8 @@ Image<std::uint8_t> smooth_below(const Image<float>& phase_rad, const JumpOption
   const int width = phase_rad.width();
   const int height = phase_rad.height();
   const auto row = static_cast<std::size_t>(width);
-  const Limits limits{options.tolerance_rad + kNoiseSigmas * jump_noise(phase_rad, 0, 1),
-                      options.max_jump_rad};
+  const SmoothLimits limits{options.tolerance_rad + kNoiseSigmas * jump_noise(phase_rad, 0, 1),
+                            options.max_jump_rad};
   Image<std::uint8_t> smooth(width, height, Uninitialized{});
   parallel_rows((height + kBand - 1) / kBand, [&](int band) {
     std::vector<float> before(row);

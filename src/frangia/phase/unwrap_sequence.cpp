@@ -22,7 +22,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 16 * kTilePixels;
+constexpr std::size_t kUnwrapChunk = 16 * kTilePixels;
 
 FRANGIA_VECTORIZED void precision_of(const float* __restrict from,
                                      std::size_t n,
@@ -89,33 +89,35 @@ AbsolutePhase unwrap_all(std::span<const WrappedPhase> coarse_to_fine, const Unw
                     Image<float>(width, height, Uninitialized{}),
                     Image<float>(width, height, Uninitialized{}),
                     Image<PixelStatus>(width, height, Uninitialized{})};
-  parallel_chunks(out.status.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<Lane> precisions(coarse_to_fine.size());
-    std::vector<const float*> phase(coarse_to_fine.size());
-    std::vector<const float*> precision(coarse_to_fine.size());
-    std::array<std::int32_t, kTilePixels> invalid{};
-    std::array<std::int32_t, kTilePixels> uncertain{};
-    for (std::size_t at = begin; at < end; at += kTilePixels) {
-      const std::size_t n = std::min(kTilePixels, end - at);
-      for (std::size_t m = 0; m < phase.size(); ++m) {
-        precision_of(coarse_to_fine[m].sigma_rad.pixels().data() + at, n, precisions[m].data());
-        precision[m] = precisions[m].data();
-        phase[m] = coarse_to_fine[m].phase_rad.pixels().data() + at;
-      }
-      float* absolute = out.phase_rad.pixels().data() + at;
-      float* sigma = out.sigma_rad.pixels().data() + at;
-      for (std::size_t i = 0; i < n; ++i)
-        invalid[i] = static_cast<std::int32_t>(status_of(coarse_to_fine, at + i));
-      unwrapper.unwrap({phase, precision, invalid.data()}, n, absolute, sigma, uncertain.data());
-      for (std::size_t i = 0; i < n; ++i) {
-        auto status = static_cast<PixelStatus>(invalid[i]);
-        if (status == PixelStatus::Measured && uncertain[i] != 0)
-          status = PixelStatus::UncertainOrder;
-        out.status.pixels()[at + i] = status;
-        if (status != PixelStatus::Measured) absolute[i] = sigma[i] = kMissing;
-      }
-    }
-  });
+  parallel_chunks(
+      out.status.pixels().size(), kUnwrapChunk, [&](std::size_t begin, std::size_t end) {
+        std::vector<Lane> precisions(coarse_to_fine.size());
+        std::vector<const float*> phase(coarse_to_fine.size());
+        std::vector<const float*> precision(coarse_to_fine.size());
+        std::array<std::int32_t, kTilePixels> invalid{};
+        std::array<std::int32_t, kTilePixels> uncertain{};
+        for (std::size_t at = begin; at < end; at += kTilePixels) {
+          const std::size_t n = std::min(kTilePixels, end - at);
+          for (std::size_t m = 0; m < phase.size(); ++m) {
+            precision_of(coarse_to_fine[m].sigma_rad.pixels().data() + at, n, precisions[m].data());
+            precision[m] = precisions[m].data();
+            phase[m] = coarse_to_fine[m].phase_rad.pixels().data() + at;
+          }
+          float* absolute = out.phase_rad.pixels().data() + at;
+          float* sigma = out.sigma_rad.pixels().data() + at;
+          for (std::size_t i = 0; i < n; ++i)
+            invalid[i] = static_cast<std::int32_t>(status_of(coarse_to_fine, at + i));
+          unwrapper.unwrap(
+              {phase, precision, invalid.data()}, n, absolute, sigma, uncertain.data());
+          for (std::size_t i = 0; i < n; ++i) {
+            auto status = static_cast<PixelStatus>(invalid[i]);
+            if (status == PixelStatus::Measured && uncertain[i] != 0)
+              status = PixelStatus::UncertainOrder;
+            out.status.pixels()[at + i] = status;
+            if (status != PixelStatus::Measured) absolute[i] = sigma[i] = kMissing;
+          }
+        }
+      });
   out.systematic_rad = slope_systematic(coarse_to_fine, out.status);
   out.differing_share = least_differing_share(coarse_to_fine);
   return out;

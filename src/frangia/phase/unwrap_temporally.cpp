@@ -16,7 +16,7 @@ namespace frangia {
 
 namespace {
 
-constexpr std::size_t kChunk = 1 << 16;
+constexpr std::size_t kLevelChunk = 1 << 16;
 
 /// The still wrapped phase of a level, in new memory.
 AbsolutePhase start_from(const WrappedPhase& level) {
@@ -42,19 +42,20 @@ AbsolutePhase start_from(WrappedPhase&& level) {
 /// other end; such pixels are uncertain.
 void unwrap_single_fringe(const Projector& projector, double min_sigmas, AbsolutePhase& level) {
   const double center = phase_range(level.pattern, projector).center_rad();
-  parallel_chunks(level.status.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (level.status.pixels()[i] != PixelStatus::Measured) continue;
-      float& phase = level.phase_rad.pixels()[i];
-      float& sigma = level.sigma_rad.pixels()[i];
-      const double from_center = wrap_rad(phase - center);
-      phase = static_cast<float>(center + from_center);
-      if (kPi - std::abs(from_center) > min_sigmas * sigma) continue;
-      level.status.pixels()[i] = PixelStatus::UncertainOrder;
-      phase = sigma = kMissing;
-      if (!level.systematic_rad.empty()) level.systematic_rad.pixels()[i] = kMissing;
-    }
-  });
+  parallel_chunks(
+      level.status.pixels().size(), kLevelChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (level.status.pixels()[i] != PixelStatus::Measured) continue;
+          float& phase = level.phase_rad.pixels()[i];
+          float& sigma = level.sigma_rad.pixels()[i];
+          const double from_center = wrap_rad(phase - center);
+          phase = static_cast<float>(center + from_center);
+          if (kPi - std::abs(from_center) > min_sigmas * sigma) continue;
+          level.status.pixels()[i] = PixelStatus::UncertainOrder;
+          phase = sigma = kMissing;
+          if (!level.systematic_rad.empty()) level.systematic_rad.pixels()[i] = kMissing;
+        }
+      });
 }
 
 /// A row of the coarse phase.

@@ -16,10 +16,10 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 64 * kTilePixels;
+constexpr std::size_t kWrapChunk = 64 * kTilePixels;
 
 /// Limits beyond which a pixel has no phase.
-struct Limits {
+struct WrapLimits {
   std::int32_t white;
   float max_sigma;
 };
@@ -53,7 +53,7 @@ FRANGIA_VECTORIZED void find_noise(const WrapTile& __restrict tile,
 
 FRANGIA_VECTORIZED void find_status(const float* __restrict sigma,
                                     std::size_t n,
-                                    Limits f,
+                                    WrapLimits f,
                                     WrapTile& __restrict tile) {
   constexpr auto kSaturated = static_cast<std::int32_t>(PixelStatus::Saturated);
   constexpr auto kUnmodulated = static_cast<std::int32_t>(PixelStatus::Unmodulated);
@@ -110,23 +110,24 @@ WrappedPhase wrap_phase(const FrameStack& stack,
     resize_uninitialized(width, height, *map);
   resize_uninitialized(width, height, out.status);
 
-  parallel_chunks(out.phase_rad.pixels().size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    WrapTile tile;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
-    for (std::size_t at = begin; at < end; at += kTilePixels) {
-      const std::size_t n = std::min(kTilePixels, end - at);
-      tile.brightest.fill(0);
-      sum_frames(stack, algorithm, at, n, tile);
-      finish_tile(tile,
-                  n,
-                  noise_of_sums,
-                  options.max_sigma_rad,
-                  {out.phase_rad.pixels().data() + at,
-                   out.sigma_rad.pixels().data() + at,
-                   out.modulation_counts.pixels().data() + at,
-                   out.mean_counts.pixels().data() + at,
-                   out.status.pixels().data() + at});
-    }
-  });
+  parallel_chunks(
+      out.phase_rad.pixels().size(), kWrapChunk, [&](std::size_t begin, std::size_t end) {
+        WrapTile tile;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
+        for (std::size_t at = begin; at < end; at += kTilePixels) {
+          const std::size_t n = std::min(kTilePixels, end - at);
+          tile.brightest.fill(0);
+          sum_frames(stack, algorithm, at, n, tile);
+          finish_tile(tile,
+                      n,
+                      noise_of_sums,
+                      options.max_sigma_rad,
+                      {out.phase_rad.pixels().data() + at,
+                       out.sigma_rad.pixels().data() + at,
+                       out.modulation_counts.pixels().data() + at,
+                       out.mean_counts.pixels().data() + at,
+                       out.status.pixels().data() + at});
+        }
+      });
   return out;
 }
 

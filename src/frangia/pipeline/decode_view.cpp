@@ -16,6 +16,7 @@
 #include "frangia/phase/frame_samples.h"
 #include "frangia/phase/systematic_phase.h"
 #include "frangia/phase/unwrap_levels.h"
+#include "frangia/pipeline/internal/correct_view_orders.h"
 #include "frangia/pipeline/internal/fringe_directions.h"
 #include "frangia/pipeline/internal/select_stacks.h"
 #include "frangia/pipeline/internal/unwrap_direction.h"
@@ -150,6 +151,7 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
   const std::vector<FittedAlgorithm> fits = fit_all(fringes, out.noise, options, run);
   if (pixelwise_safe && !options.keep_maps && are_unprocessed_frames(fringes, fits, options)) {
     decode_in_one_pass(fringes, fits, rig, options, out);
+    correct_view_orders(fringes, fits, options, run, out);
     fill_enclosed(out.phase, options.fill);
     return out;
   }
@@ -168,6 +170,8 @@ DecodedView decode_direction(std::span<const FrameStack> stacks,
   out.checks = {
       check_sequence(maps, out.noise, rig.projector, options.wrap, options.sequence_check)};
   unwrap_direction({stacks, gray, rig, rays, unwraps_temporally}, options, run, out);
+  if (gray.empty() && fringes.size() > 1 && !out.relative && !options.own.any())
+    correct_view_orders(fringes, fits, options, run, out);
   if (options.keep_maps && out.checks.front().consistent && !out.relative) {
     const IndirectLightCheck indirect = check_indirect_light(out.wrapped, out.phase);
     if (indirect.found) run.warn(describe(indirect));

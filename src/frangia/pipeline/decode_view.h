@@ -15,6 +15,7 @@
 #include "frangia/fringe_order/resolve_regions.h"
 #include "frangia/phase/assess_frames.h"
 #include "frangia/phase/check_sequence.h"
+#include "frangia/phase/correct_order_jumps.h"
 #include "frangia/phase/fill_enclosed.h"
 #include "frangia/phase/linear_algorithm.h"
 #include "frangia/phase/phase_map.h"
@@ -71,6 +72,7 @@ struct DecodeOptions {
   ScanSurvey survey;                       ///< noise and gain error pooled over several views
   WrapOptions wrap;                        ///< limit of the phase noise
   TemporalUnwrapOptions temporal;          ///< temporal unwrapping
+  OrderJumpOptions order_jumps;            ///< correction of regions whose order is wrong
   SpatialUnwrapOptions spatial;            ///< spatial unwrapping, for scans without a sequence
   LaserProfileOptions line;                ///< detection of the laser line
   FringeOrderOptions fringe_order;         ///< fringe orders from the laser line

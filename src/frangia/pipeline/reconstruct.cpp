@@ -32,7 +32,6 @@ namespace frangia {
 namespace {
 
 void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
-  constexpr double kMedianOfNormal = 0.6745;  // of the absolute value, over the deviation
   if (!measured.disagreements_mm.empty()) {
     out.disagreement_mm = static_cast<double>(median(measured.disagreements_mm));
     out.disagreement_over_noise =

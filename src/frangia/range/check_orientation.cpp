@@ -14,12 +14,12 @@
 namespace frangia {
 namespace {
 
-constexpr int kStep = 2;  // px between the pixels that are compared, at most
+constexpr int kMaxStep = 2;  // px between the pixels that are compared, at most
 /// Largest expected change between two pixels. A slope of the surface may double it, and beyond
 /// half a turn a wrapped change has the wrong sign.
 constexpr double kMaxChange_rad = 0.5 * kPi;
 constexpr std::size_t kSamples = 5'000;  // of the measured pixels
-constexpr std::size_t kMinPixels = 200;  // fewer decide nothing
+constexpr std::size_t kMinVotes = 200;   // fewer decide nothing
 constexpr double kMajority = 0.8;
 constexpr double kExchanged = 3.0;  // change across over change along; expected: below 1
 constexpr double kMinSigmas = 3.0;  // of a difference that counts
@@ -74,14 +74,14 @@ PhaseChanges phase_changes(const AbsolutePhase& phase,
                               static_cast<int>(std::sqrt(static_cast<double>(measured_pixels) /
                                                          static_cast<double>(kSamples))));
   PhaseChanges out;
-  for (int y = 0; y + kStep < rays.height(); y += stride) {
-    for (int x = 0; x + kStep < rays.width(); x += stride) {
+  for (int y = 0; y + kMaxStep < rays.height(); y += stride) {
+    for (int x = 0; x + kMaxStep < rays.width(); x += stride) {
       const double expected_here = expected_at(x, y);
       const Eigen::Vector2d a_pixel(expected_at(x + 1, y) - expected_here,
                                     expected_at(x, y + 1) - expected_here);
       const double change = a_pixel.cwiseAbs().maxCoeff();
       if (!(change <= kMaxChange_rad)) continue;
-      const int step = kStep * change <= kMaxChange_rad ? kStep : 1;
+      const int step = kMaxStep * change <= kMaxChange_rad ? kMaxStep : 1;
       const Eigen::Vector2d expected = step * a_pixel;
       const double here = phase.phase_rad(x, y);
       const double right = phase.phase_rad(x + step, y);
@@ -110,7 +110,7 @@ OrientationCheck check_orientation(const AbsolutePhase& phase,
   require(same_size(phase.phase_rad, rays), "check_orientation: phase and rays differ in size");
   OrientationCheck out;
   PhaseChanges changes = phase_changes(phase, rig, rays);
-  if (changes.along.size() < kMinPixels) return out;
+  if (changes.along.size() < kMinVotes) return out;
   const auto main_change = static_cast<double>(median_in_place(std::span(changes.along)));
   out.across = static_cast<double>(median_in_place(std::span(changes.across))) / main_change;
   out.rising = changes.voting == 0
@@ -119,7 +119,7 @@ OrientationCheck check_orientation(const AbsolutePhase& phase,
   const bool is_plain = median_in_place(std::span(changes.expected_ratio)) < 0.5F;
   const bool is_exchanged = is_plain && out.across > kExchanged;
   const bool agree =
-      changes.voting >= kMinPixels && (out.rising >= kMajority || out.rising <= 1.0 - kMajority);
+      changes.voting >= kMinVotes && (out.rising >= kMajority || out.rising <= 1.0 - kMajority);
   out.decided = is_exchanged || agree;
   out.consistent = !is_exchanged && !(agree && out.rising <= 1.0 - kMajority);
   if (!out.consistent) out.fits = what_fits(is_exchanged, phase.pattern.direction);

@@ -18,9 +18,6 @@
 namespace frangia {
 namespace {
 
-/// The median of the absolute value of normal numbers over their standard deviation.
-constexpr double kMedianOfNormal = 0.6745;
-
 void check(std::span<const CameraPhases> cameras, std::span<const RangeGrid> ranges) {
   require(cameras.size() >= 2 && cameras.size() == ranges.size(),
           "fuse_cameras: needs two cameras or more, and a range grid for each");

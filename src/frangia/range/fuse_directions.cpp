@@ -13,9 +13,6 @@
 namespace frangia {
 namespace {
 
-/// The median of the absolute difference of normal numbers over their standard deviation.
-constexpr double kMedianOfNormal = 0.6745;
-
 /// Difference of the two depths of a pixel along the ray, which sigma refers to, and its noise.
 struct Difference {
   double mm = kMissing;

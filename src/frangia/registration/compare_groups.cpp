@@ -14,7 +14,8 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 256;  // points; fixed, so that sums do not depend on threads
+constexpr std::size_t kPointsPerChunk =
+    256;  // points; fixed, so that sums do not depend on threads
 
 /// A point compared with all views of a group.
 struct PointComparison {
@@ -83,9 +84,9 @@ GroupTally tally(const Direction& way,
                  double gate_mm,
                  const GroupFit& fit) {
   const std::size_t count = way.points.size();
-  std::vector<GroupTally> parts((count + kChunk - 1) / kChunk);
-  parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
-    GroupTally& part = parts[begin / kChunk];
+  std::vector<GroupTally> parts((count + kPointsPerChunk - 1) / kPointsPerChunk);
+  parallel_chunks(count, kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
+    GroupTally& part = parts[begin / kPointsPerChunk];
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d point = way.target_from_points * way.points.points_mm[i].cast<double>();
       const Eigen::Vector3d facing =

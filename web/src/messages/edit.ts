@@ -35,7 +35,7 @@ export const EDIT = {
   'edit.shape': ['Shape', 'Form'],
   'edit.cut': ['Cut at the section plane', 'An der Schnittebene schneiden'],
   'edit.cutShort': ['Cut', 'Schneiden'],
-  'edit.needsSection': ['Place the section plane in the step Surface first.', 'Erst im Schritt Fläche die Schnittebene legen.'],
+  'edit.needsSection': ['Choose an axis to place the plane that cuts and mirrors.', 'Eine Achse wählen, um die Ebene zum Schneiden und Spiegeln zu legen.'],
   'edit.mirrorAt': ['Mirror', 'Spiegeln'],
   'edit.offset': ['Offset', 'Versetzen'],
   'edit.offsetBy': ['Outwards by, mm', 'Nach außen um, mm'],

@@ -10,7 +10,7 @@ export const LIVE = {
   'live.depth': ['Depth', 'Tiefe'],
   'live.points': ['Points', 'Punkte'],
   'live.waiting': ['Waiting for the first picture', 'Warten auf das erste Bild'],
-  'live.rate': ['{frames} frames, {decodes} decoded views a second', '{frames} Bilder, {decodes} ausgewertete Ansichten je Sekunde'],
+  'live.rate': ['{frames} frames/s, {decodes} decoded/s', '{frames} Bilder/s, {decodes} ausgewertet/s'],
   'live.light': ['Light', 'Licht'],
   'live.histogram': ['Brightness of the frame', 'Helligkeit des Bildes'],
   'live.saturated': ['Saturated', 'Übersteuert'],

@@ -20,7 +20,7 @@ function poses(app: App, found: Comparison): TemplateResult | string {
   const [lower, upper] = found.tolerance_mm;
   return html`<p><span class="dot poor"></span>${t('compare.poses', { count: found.poses.length })}</p>
     <label class="field"><span>${t('compare.pose')}</span>
-      <select id="start" ?disabled=${app.occupied || app.session.watches} @change=${(event: Event) => void app.compare(lower, upper, Number((event.target as HTMLSelectElement).value))}>
+      <select id="start" ?disabled=${app.occupied || app.session.watches} @change=${(event: Event) => void app.comparing.compare(lower, upper, Number((event.target as HTMLSelectElement).value))}>
         ${found.poses.map((pose, i) => html`<option value=${i + 1} ?selected=${i + 1 === found.start}>${i + 1}: ${number(pose.turned_deg, 1)}°, ${number(pose.moved_mm, 1)} mm, RMS ${pose.rms_mm === null ? '·' : number(pose.rms_mm, 4)} mm</option>`)}
       </select></label>`;
 }
@@ -31,7 +31,7 @@ function result(app: App, found: Comparison): TemplateResult {
     <dl class="figures">
       ${row('compare.inShare', percent(found.in_share), '%')} ${row('compare.outShare', percent(found.out_share), '%')}
       ${row('compare.openShare', percent(found.undecided_share), '%')}
-      ${row('compare.range', `${signed(found.min_mm)}  ${signed(found.max_mm)}`, 'mm')}
+      ${row('compare.range', `${signed(found.min_mm)} … ${signed(found.max_mm)}`, 'mm')}
       ${row('compare.mean', signed(found.mean_mm), 'mm')} ${row('compare.rms', found.rms_mm === null ? '·' : number(found.rms_mm, 3), 'mm')}
       ${found.median_u_mm === null ? '' : row('compare.u', number(1000 * found.median_u_mm, 1), 'µm')}
     </dl>
@@ -53,23 +53,23 @@ export function comparing(app: App): TemplateResult {
     const input = event.target as HTMLInputElement;
     const file = input.files?.[0];
     input.value = '';
-    if (file) void app.sendReference(file);
+    if (file) void app.comparing.send(file);
   };
   const run = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    void app.compare(Number(form.get('lower')), Number(form.get('upper')));
+    void app.comparing.compare(Number(form.get('lower')), Number(form.get('upper')));
   };
   const [lower, upper] = surface?.comparison?.tolerance_mm ?? [-0.1, 0.1];
   return html`<section class="group" id="compare-group">
     <h2>${t('compare.title')}</h2>
     ${reference ? html`<div class="file"><b>${reference.name}</b></div>` : html`<p class="quiet">${t('compare.lead')}</p>`}
     <label class="btn wide choose">
-      ${icon('folder')}${app.sent === null ? t(reference ? 'compare.other' : 'compare.choose') : t('compare.sending', { share: number(100 * app.sent) })}
-      <input id="reference" class="sr" type="file" accept=".stl,.ply,.obj,.3mf,.step,.stp" ?disabled=${off || app.sent !== null} @change=${choose} />
+      ${icon('folder')}${app.comparing.sent === null ? t(reference ? 'compare.other' : 'compare.choose') : t('compare.sending', { share: number(100 * app.comparing.sent) })}
+      <input id="reference" class="sr" type="file" accept=".stl,.ply,.obj,.3mf,.step,.stp" ?disabled=${off || app.comparing.sent !== null} @change=${choose} />
     </label>
     ${reference
-      ? html`${choice(t('compare.align'), app.align, [['best-fit', t('compare.bestFit')], ['none', t('compare.none')]] as const, (align) => app.setAlign(align))}
+      ? html`${choice(t('compare.align'), app.comparing.align, [['best-fit', t('compare.bestFit')], ['none', t('compare.none')]] as const, (align) => app.comparing.setAlign(align))}
           <form class="row" @submit=${run}>
             <label class="field grow"><span>${t('compare.lower')}</span><input class="num" name="lower" type="number" step="any" required .defaultValue=${String(lower)} /></label>
             <label class="field grow"><span>${t('compare.upper')}</span><input class="num" name="upper" type="number" step="any" required .defaultValue=${String(upper)} /></label>

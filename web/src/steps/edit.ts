@@ -17,7 +17,7 @@ const tip = (name: IconName, key: MessageKey): TemplateResult =>
 function selecting(app: App): TemplateResult {
   const surface = app.project.surface;
   const selected = surface?.selected ?? 0;
-  const run = (operation: string, value = '') => app.edit(operation, value);
+  const run = (operation: string, value = '') => app.editing.run(operation, value);
   return html`<section class="group">
     <h2>${t('edit.select')}<small>${selected ? t('edit.selected', { count: number(selected) }) : t('edit.nothing')}</small></h2>
     ${choice<Tool>(
@@ -35,9 +35,9 @@ function selecting(app: App): TemplateResult {
     )}
     ${choice<Combine>(
       t('edit.mode'),
-      app.combine,
+      app.editing.combine,
       [['replace', t('edit.replace')], ['add', t('edit.add')], ['within', t('edit.within')]],
-      (combine) => app.setCombine(combine),
+      (combine) => app.editing.setCombine(combine),
     )}
     <label class="switch"
       >${t('edit.through')}<input type="checkbox" .checked=${app.viewer.through} @change=${(event: Event) => (app.viewer.through = (event.target as HTMLInputElement).checked)}
@@ -49,7 +49,7 @@ function selecting(app: App): TemplateResult {
     </div>
     <div class="pair">
       <button class="btn danger" id="delete" ?disabled=${!selected} @click=${() => run('delete')}>${icon('trash')}${t('edit.delete')}</button>
-      <button class="btn" @click=${() => run('smooth', '3')}>${t('edit.smooth')}</button>
+      <button class="btn" id="smooth" ?disabled=${app.busy} @click=${() => app.editing.preview('smooth', '3')}>${t('edit.smooth')}</button>
     </div>
   </section>`;
 }
@@ -59,11 +59,11 @@ function repairing(app: App): TemplateResult {
   if (!surface) return html``;
   const size = app.viewer.size.length();
   const more = surface.hole_count - SHOWN_HOLES;
-  const chosen = app.chosenHoles;
+  const chosen = app.editing.chosenHoles;
   const [one] = chosen;
   const off = app.busy;
   const fill = (flat: string) =>
-    one === undefined ? app.preview(`fill-holes${flat}`, `${Math.ceil(2 * size)}mm`) : app.preview(`fill-hole${flat}`, String(one));
+    one === undefined ? app.editing.preview(`fill-holes${flat}`, `${Math.ceil(2 * size)}mm`) : app.editing.preview(`fill-hole${flat}`, String(one));
   const tolerance = Math.max(0.001, Number((size / 5000).toPrecision(1)));
   return html`<section class="group">
     <h2>${t('edit.holes')}<small class="num">${surface.hole_count || ''}</small></h2>
@@ -73,7 +73,7 @@ function repairing(app: App): TemplateResult {
       ${surface.holes.slice(0, SHOWN_HOLES).map(
         (hole) => html`<label class="hole"
           ><input type="checkbox" data-hole=${hole.number} .checked=${chosen.has(hole.number)} aria-label=${t('edit.holeSize', { size: number(hole.size_mm, 2) })}
-            @change=${(event: Event) => app.chooseHole(hole.number, (event.target as HTMLInputElement).checked)} /><span class="num">⌀ ${number(hole.size_mm, 2)} mm</span></label>`,
+            @change=${(event: Event) => app.editing.chooseHole(hole.number, (event.target as HTMLInputElement).checked)} /><span class="num">⌀ ${number(hole.size_mm, 2)} mm</span></label>`,
       )}
     </div>
     ${more > 0 ? html`<p class="quiet">${t('edit.more', { count: more })}</p>` : ''}
@@ -83,21 +83,21 @@ function repairing(app: App): TemplateResult {
             <button class="btn" id="fill-flat" ?disabled=${off || chosen.size > 1} @click=${() => fill('-flat')}>${t('edit.fillFlat')}</button>
           </div>
           ${surface.hole_count > 1
-            ? html`<button class="btn wide" id="bridge" ?disabled=${off || chosen.size !== 2} @click=${() => app.preview('bridge', [...chosen].join(','))}>${t('edit.bridgeTwo')}</button>`
+            ? html`<button class="btn wide" id="bridge" ?disabled=${off || chosen.size !== 2} @click=${() => app.editing.preview('bridge', [...chosen].join(','))}>${t('edit.bridgeTwo')}</button>`
             : ''}`
       : ''}
   </section>
   <section class="group">
     <h2>${t('edit.repair')}</h2>
-    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.preview('remove-spikes')}>${t('edit.spikes')}</button>
-    <button class="btn wide" ?disabled=${app.busy || surface.components < 2} @click=${() => app.preview('keep-largest', '1')}>${t('edit.islands')}</button>
+    <button class="btn wide" id="spikes" ?disabled=${app.busy} @click=${() => app.editing.preview('remove-spikes')}>${t('edit.spikes')}</button>
+    <button class="btn wide" id="keep-largest" ?disabled=${app.busy || surface.components < 2} @click=${() => app.editing.preview('keep-largest', '1')}>${t('edit.islands')}</button>
     <form class="row" @submit=${(event: SubmitEvent) => {
       event.preventDefault();
-      app.edit('decimate', `${String(new FormData(event.target as HTMLFormElement).get('tolerance'))}mm`);
+      app.editing.preview('decimate', `${String(new FormData(event.target as HTMLFormElement).get('tolerance'))}mm`);
     }}>
       <label class="field grow"><span>${t('edit.within_mm')}, mm</span>
-        <input class="num" name="tolerance" type="number" min="0.0001" step="any" required .defaultValue=${String(tolerance)} /></label>
-      <button class="btn" ?disabled=${app.busy}>${t('edit.decimate')}</button>
+        <input class="num" id="tolerance" name="tolerance" type="number" min="0.0001" step="any" required .defaultValue=${String(tolerance)} /></label>
+      <button class="btn" id="decimate" ?disabled=${app.busy}>${t('edit.decimate')}</button>
     </form>
   </section>`;
 }

@@ -3,6 +3,7 @@ import type { App } from '../app';
 import { number, t } from '../messages';
 import type { Fit } from '../types';
 import { numberForm } from '../ui';
+import { sectionPlane } from './surface';
 
 /** Selections by what is known of each triangle instead of by a stroke. */
 export function selectingByValue(app: App): TemplateResult {
@@ -10,9 +11,9 @@ export function selectingByValue(app: App): TemplateResult {
   const sigma = 1000 * 3 * (surface?.sigma_mm.combined ?? 0.01);
   return html`<section class="group">
     <h2>${t('edit.more.select')}</h2>
-    ${numberForm('select-sigma', t('edit.sigmaAbove'), Number(sigma.toPrecision(2)), t('edit.apply'), app.busy, (value) => void app.selectBy('select-sigma', `${value / 1000}mm`))}
-    ${numberForm('select-below', t('edit.below'), 5, t('edit.apply'), app.busy, (value) => void app.selectBy('select-plane', `0,0,-1,${-value}`))}
-    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.selectBy('select-mark', 'synthesized')}>${t('edit.byMark')}</button>
+    ${numberForm('select-sigma', t('edit.sigmaAbove'), Number(sigma.toPrecision(2)), t('edit.apply'), app.busy, (value) => void app.editing.selectBy('select-sigma', `${value / 1000}mm`))}
+    ${numberForm('select-below', t('edit.below'), 5, t('edit.apply'), app.busy, (value) => void app.editing.selectBy('select-plane', `0,0,-1,${-value}`))}
+    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.editing.selectBy('select-mark', 'synthesized')}>${t('edit.byMark')}</button>
   </section>`;
 }
 
@@ -53,13 +54,14 @@ export function shaping(app: App): TemplateResult {
   const off = app.busy || look.axis === 'off';
   return html`<section class="group">
     <h2>${t('edit.shape')}</h2>
+    ${sectionPlane(app)}
     <div class="pair">
-      <button class="btn" ?disabled=${off} title=${t('edit.cut')} @click=${() => app.edit('cut', plane())}>${t('edit.cutShort')}</button>
-      <button class="btn" ?disabled=${off} @click=${() => app.edit('mirror', plane())}>${t('edit.mirrorAt')}</button>
+      <button class="btn" id="cut" ?disabled=${off} title=${t('edit.cut')} @click=${() => app.editing.preview('cut', plane())}>${t('edit.cutShort')}</button>
+      <button class="btn" id="mirror" ?disabled=${off} @click=${() => app.editing.preview('mirror', plane())}>${t('edit.mirrorAt')}</button>
     </div>
     ${look.axis === 'off' ? html`<p class="quiet">${t('edit.needsSection')}</p>` : ''}
-    ${numberForm('offset', t('edit.offsetBy'), 0.5, t('edit.offset'), app.busy, (value) => app.edit('offset', `${value}`))}
-    ${numberForm('islands', t('edit.islandsUpTo'), 5, t('edit.delete'), app.busy, (value) => app.edit('remove-islands', `${value}mm`))}
-    <button class="btn wide" aria-pressed=${viewer.tool === 'align'} @click=${() => app.setTool(viewer.tool === 'align' ? 'orbit' : 'align')}>${t('edit.align')}</button>
+    ${numberForm('offset', t('edit.offsetBy'), 0.5, t('edit.offset'), app.busy, (value) => app.editing.preview('offset', `${value}`))}
+    ${numberForm('islands', t('edit.islandsUpTo'), 5, t('edit.delete'), app.busy, (value) => app.editing.preview('remove-islands', `${value}mm`))}
+    <button class="btn wide" id="align" aria-pressed=${viewer.tool === 'align'} @click=${() => app.setTool(viewer.tool === 'align' ? 'orbit' : 'align')}>${t('edit.align')}</button>
   </section>`;
 }

@@ -19,14 +19,14 @@ const stepOf = (exposure: number): number => Math.round(20 * Math.log10(exposure
 
 /** What stands on the picture: layers, figures and the scale of its colours. */
 export function liveOverlay(app: App): TemplateResult {
-  const { figures } = app.live;
+  const { figures } = app.live.view;
   return html`<div class="layers">
-      ${choice<LiveLayer>(t('live.layer'), app.layer, LAYERS.map((layer) => [layer, t(`live.${layer}`)] as const), (layer) => app.setLayer(layer))}
+      ${choice<LiveLayer>(t('live.layer'), app.live.layer, LAYERS.map((layer) => [layer, t(`live.${layer}`)] as const), (layer) => app.live.setLayer(layer))}
     </div>
-    ${app.project.live && !figures ? html`<div class="live-wait quiet">${t('live.waiting')}</div>` : ''}
+    ${(app.project.live || app.job('live')) && !figures ? html`<div class="live-wait quiet">${t('live.waiting')}</div>` : ''}
     ${figures
       ? html`<div class="live-foot">
-          ${scale(app.layer, figures.low, figures.high)}
+          ${scale(app.live.layer, figures.low, figures.high)}
           <span class="num">${t('live.rate', { frames: number(figures.frames_per_s, 1), decodes: number(figures.decodes_per_s, 1) })}</span>
         </div>`
       : ''}`;
@@ -34,7 +34,7 @@ export function liveOverlay(app: App): TemplateResult {
 
 function scale(layer: LiveLayer, low: number, high: number): TemplateResult | string {
   if (layer === 'status')
-    return html`<span class="status-key"
+    return html`<span class="status-key all"
       >${STATUSES.map(
         (name, i) => html`<span><svg viewBox="0 0 10 10" aria-hidden="true">${svg`<rect width="10" height="10" rx="2" fill=${css(STATUS_COLORS[i] ?? [0, 0, 0])} />`}</svg>${t(`status.${name}`)}</span>`,
       )}</span
@@ -52,12 +52,12 @@ function scale(layer: LiveLayer, low: number, high: number): TemplateResult | st
 }
 
 function light(app: App): TemplateResult {
-  const { figures } = app.live;
+  const { figures } = app.live.view;
   const contrast = figures?.contrast ?? 0;
   const share = (value: number | undefined) => (value === undefined ? '·' : `${number(100 * value, 1)} %`);
   return html`<section class="group">
     <h2>${t('live.light')}</h2>
-    ${histogram(app.live.histogram)}
+    ${histogram(app.live.view.histogram)}
     <dl class="figures">
       <dt><i class="key saturated"></i>${t('live.saturated')}</dt><dd class="num ${figures && figures.saturated > 0.005 ? 'bad' : ''}">${share(figures?.saturated)}</dd>
       <dt><i class="key dark"></i>${t('live.dark')}</dt><dd class="num">${share(figures?.dark)}</dd>
@@ -65,7 +65,7 @@ function light(app: App): TemplateResult {
       <dt>${t('scan.points')}</dt><dd class="num" id="live-points">${figures ? number(figures.points) : '·'}</dd>
       <dt>${t('live.decode')}</dt><dd class="num">${figures && figures.decode_ms ? html`${number(figures.decode_ms, 0)}<span>ms</span>` : '·'}</dd>
     </dl>
-    <label class="switch"><span>${t('live.marks')}</span><input id="marks" type="checkbox" .checked=${app.live.marks} @change=${(event: Event) => app.setMarks((event.target as HTMLInputElement).checked)} /></label>
+    <label class="switch"><span>${t('live.marks')}</span><input id="marks" type="checkbox" .checked=${app.live.view.marks} @change=${(event: Event) => app.live.setMarks((event.target as HTMLInputElement).checked)} /></label>
     ${figures?.finding ? html`<p><span class="dot poor"></span>${plain(figures.finding)}</p>` : ''}
   </section>`;
 }

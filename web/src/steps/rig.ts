@@ -17,8 +17,8 @@ function figure(app: App, key: RigFigure, label: string, value: number, unit: st
   return html`<label class="slider"
     ><span>${label}</span><b class="num">${number(value, 1)} ${unit}</b>
     <input data-figure=${key} type="range" min="20" max=${unit === 'px' ? 4000 : 1200} step="0.5" .value=${String(value)} ?disabled=${fixed}
-      @input=${(event: Event) => app.draftRig({ [key]: Number((event.target as HTMLInputElement).value) })}
-      @change=${(event: Event) => void app.moveRig({ [key]: Number((event.target as HTMLInputElement).value) })}
+      @input=${(event: Event) => app.arranging.draftRig({ [key]: Number((event.target as HTMLInputElement).value) })}
+      @change=${(event: Event) => void app.arranging.moveRig({ [key]: Number((event.target as HTMLInputElement).value) })}
   /></label>`;
 }
 
@@ -53,6 +53,7 @@ function coverage(state: Calibration): TemplateResult {
       <dl class="figures">
         <dt>${t('rig.field')}</dt><dd class="num">${number(100 * state.field)} %</dd>
         <dt>${t('rig.depth')}</dt><dd class="num">${number(100 * (state.distance_ratio - 1))} %</dd>
+        <dt>${t('rig.tilts')}</dt><dd></dd>
         ${names.map((name, i) => html`<dt class="sub">${t(`rig.tilt.${name}`)}</dt><dd class="num">${number(state.tilts_deg[i] ?? 0)}°</dd>`)}
       </dl>
     </div>`;
@@ -109,7 +110,7 @@ function calibration(app: App): TemplateResult {
     ${state ? doctor(state) : ''}
     ${state?.active
       ? ''
-      : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
+      : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
           <form class="form-plain" @submit=${start}>
             <div class="four">${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 14, 0.01)}${field('poses', t('rig.poses'), 12)}</div>
             <button class="btn wide" id="calibrate" ?disabled=${app.occupied || !project.can_scan || project.scan_begun}>${t(state?.verdict || known ? 'rig.again' : 'rig.start')}</button>
@@ -119,7 +120,7 @@ function calibration(app: App): TemplateResult {
 
 export function rigStep(app: App): TemplateResult {
   const { project } = app;
-  const rig = app.drawnRig;
+  const rig = app.arranging.drawnRig;
   const fault = project.rig_begun ? t('rig.uncalibrated') : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
   return html`${devices(app)}${project.can_scan || project.calibration ? calibration(app) : ''}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
     ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live') : ''}`;

@@ -22,7 +22,7 @@ function chooser(app: App, draft: DeviceDraft, table: Table): TemplateResult {
   const drivers = search?.drivers.filter((one) => one.table === table) ?? [];
   const lines = draft[table];
   const chosen = found.findIndex((one) => one.settings === lines);
-  const change = (text: string) => app.draftDevices({ ...draft, [table]: text });
+  const change = (text: string) => app.arranging.draftDevices({ ...draft, [table]: text });
   const pick = (value: string) => {
     if (value === '') return change('');
     const at = Number(value.slice(1));
@@ -49,7 +49,7 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
   const { search } = app.state;
   const use = () => {
     const devices = Object.fromEntries(Object.entries(draft).filter(([, lines]) => lines.trim()));
-    void app.useDevices(devices);
+    void app.arranging.useDevices(devices);
   };
   const ready = draft.camera.trim() && draft.fringes.trim();
   return html`<p class="quiet">${search ? t('rig.chooseHint') : t('rig.searchFirst')}</p>
@@ -58,7 +58,7 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
     ${search?.warnings.map((sentence) => html`<p><span class="dot poor"></span>${sentence}</p>`) ?? ''}
     ${search ? TABLES.map((table) => chooser(app, draft, table)) : ''}
     <div class="pair">
-      <button class="btn" @click=${() => app.draftDevices(null)} ?disabled=${app.project.devices.length === 0}>${t('rig.keep')}</button>
+      <button class="btn" @click=${() => app.arranging.draftDevices(null)} ?disabled=${app.project.devices.length === 0}>${t('rig.keep')}</button>
       <button class="btn primary" id="set-devices" ?disabled=${app.occupied || !search || !ready} @click=${use}>${t('rig.use')}</button>
     </div>`;
 }
@@ -66,7 +66,7 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
 /** The devices of the rig: listed and tested, or chosen among those that are connected. */
 export function devices(app: App): TemplateResult {
   const { project } = app;
-  const draft = app.deviceDraft ?? (project.devices.length === 0 && !project.scan_begun ? draftOf(app) : null);
+  const draft = app.arranging.deviceDraft ?? (project.devices.length === 0 && !project.scan_begun ? draftOf(app) : null);
   return html`<section class="group" id="devices">
     <h2>${t('rig.devices')}${project.scan_begun ? html`<small>${t('live.fixed')}</small>` : ''}</h2>
     ${draft
@@ -81,7 +81,7 @@ export function devices(app: App): TemplateResult {
             )}
           </div>
           <div class="pair">
-            <button class="btn" id="choose-devices" ?disabled=${app.occupied || project.scan_begun} @click=${() => app.draftDevices(draftOf(app))}>${t('rig.choose')}</button>
+            <button class="btn" id="choose-devices" ?disabled=${app.occupied || project.scan_begun} @click=${() => app.arranging.draftDevices(draftOf(app))}>${t('rig.choose')}</button>
             <button class="btn" id="test-devices" ?disabled=${app.occupied || !project.can_scan} @click=${() => app.command('test-devices')}>${t('rig.test')}</button>
           </div>`}
   </section>`;

@@ -33,13 +33,13 @@ export function scanStep(app: App): TemplateResult {
   const { project } = app;
   const job = app.job('scan');
   const present = presentSetup(project.stations);
-  const shown = app.setupShown;
+  const shown = app.setups.shown;
   const all = project.stations.map((station, place) => ({ station, place })).filter(({ station }) => station.setup === shown);
   const stations = all.map(({ station }) => station);
   const begun = project.stations.some((station) => station.setup === present && station.state !== 'waiting');
   const measured = stations.some((station) => station.points > 0);
   const complete = done(app);
-  if (app.turning && complete && !job) return nextSetup(app);
+  if (app.setups.turning && complete && !job) return nextSetup(app);
   return html`<section class="group">
       ${setupChoice(app)}
       ${dial(stations, shown === present ? progressOf(app) : 0, shown === present ? note(app) : t('scan.complete'))}

@@ -14,9 +14,9 @@ export function setupChoice(app: App): TemplateResult | string {
   if (present === 0) return '';
   return choice<string>(
     t('scan.setups'),
-    String(app.setupShown),
+    String(app.setups.shown),
     Array.from({ length: present + 1 }, (_, setup) => [String(setup), t('scan.setup', { number: setup + 1 })] as const),
-    (setup) => app.showSetup(Number(setup)),
+    (setup) => app.setups.show(Number(setup)),
   );
 }
 
@@ -34,11 +34,11 @@ const turning = (): TemplateResult => html`<svg class="turning" viewBox="0 0 280
 /** After a complete setup: the way to the next one. */
 export function nextSetup(app: App): TemplateResult {
   const next = presentSetup(app.project.stations) + 1;
-  if (!app.turning) {
+  if (!app.setups.turning) {
     return html`<section class="group">
       <h2>${t('scan.otherSide')}</h2>
       <p class="quiet">${t('scan.otherSideHint')}</p>
-      <button class="btn wide" id="turn-over" ?disabled=${app.occupied} @click=${() => app.turn(true)}>${icon('flip')}${t('scan.turnOver')}</button>
+      <button class="btn wide" id="turn-over" ?disabled=${app.occupied} @click=${() => app.setups.turn(true)}>${icon('flip')}${t('scan.turnOver')}</button>
     </section>`;
   }
   const simulated = app.project.devices.some((device) => device.table === 'camera' && device.driver === 'simulated');
@@ -49,8 +49,8 @@ export function nextSetup(app: App): TemplateResult {
       <li>${t('scan.turnOver1')}</li><li>${t('scan.turnOver2')}</li><li>${t('scan.turnOver3')}</li>
     </ol>
     ${simulated ? html`<p class="quiet">${t('scan.turnOverSimulated')}</p>` : ''}
-    <button class="btn primary wide" id="scan-setup" ?disabled=${app.occupied} @click=${() => void app.scanNextSetup()}>${icon('play')}${t('scan.startSetup', { number: next + 1 })}</button>
-    <button class="btn wide" @click=${() => app.turn(false)}>${t('scan.notYet')}</button>
+    <button class="btn primary wide" id="scan-setup" ?disabled=${app.occupied} @click=${() => void app.setups.scanNext()}>${icon('play')}${t('scan.startSetup', { number: next + 1 })}</button>
+    <button class="btn wide" @click=${() => app.setups.turn(false)}>${t('scan.notYet')}</button>
   </section>`;
 }
 

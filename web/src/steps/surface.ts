@@ -5,13 +5,28 @@ import { icon } from '../icons';
 import { legend } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
-import { choice } from '../ui';
+import { choice, plain } from '../ui';
 import { comparing } from './compare';
 import { joins } from './scan_setups';
+import type { Summary } from '../types';
 import type { SectionAxis, Shading } from '../viewer';
 
 const um = (value: number | null): TemplateResult =>
   value === null ? html`<dd class="num">·</dd>` : html`<dd class="num">${number(1000 * value, 1)}<span>µm</span></dd>`;
+
+/** What the registration found: in the words of the page, or in those of the library where it knows more. */
+function registrationWords(summary: Summary): string {
+  const { turntable, rms_after_mm: rms } = summary;
+  const more = plain(summary.registration ?? '');
+  if (!turntable || rms === undefined || !turntable.plain) return more.charAt(0).toUpperCase() + more.slice(1);
+  const agree = t('surface.agree', { rms: number(1000 * rms, 1), overlap: number(100 * turntable.overlap) });
+  const axis = turntable.kept
+    ? t('surface.axisKept')
+    : t('surface.axisMoved', { moved: number(turntable.moved_mm, 3), turned: number(turntable.turned_deg, 3), angles: number(turntable.angles_deg, 3) });
+  const { closure_deg: closure } = turntable;
+  const closes = closure === null || turntable.kept ? '' : ` ${t('surface.closes', { angle: number(closure, 4) })}`;
+  return `${agree} ${axis}${closes}`;
+}
 
 /** Whether setups were joined. */
 const several = (app: App): boolean => (app.project.surface?.summary?.setups ?? []).filter((setup) => setup.joined).length > 1;
@@ -63,6 +78,24 @@ export function appearance(app: App): TemplateResult {
   </section>`;
 }
 
+/** The axis of the section plane, and where on it the plane stands. */
+export function sectionPlane(app: App): TemplateResult {
+  const { look } = app;
+  return html`${choice<SectionAxis>(
+      t('surface.section'),
+      look.axis,
+      [['off', t('surface.off')], ['x', 'x'], ['y', 'y'], ['z', 'z']],
+      (axis) => app.setLook({ axis }),
+    )}
+    ${look.axis === 'off'
+      ? ''
+      : html`<div class="row">
+          <input class="grow" type="range" min="0" max="1" step="0.002" .value=${String(look.share)} aria-label=${t('surface.position')}
+            @input=${(event: Event) => app.setLook({ share: Number((event.target as HTMLInputElement).value) })} />
+          <button class="icon-btn" title=${t('surface.flip')} aria-label=${t('surface.flip')} @click=${() => app.setLook({ flipped: !look.flipped })}>${icon('flip')}</button>
+        </div>`}`;
+}
+
 export function surfaceStep(app: App): TemplateResult {
   const { surface } = app.project;
   if (!surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
@@ -72,19 +105,7 @@ export function surfaceStep(app: App): TemplateResult {
   return html`${appearance(app)}
     <section class="group">
       <h2>${t('surface.section')}<small class="num">${look.axis === 'off' ? '' : `${look.axis} = ${number(viewer.sectionAt, 2)} mm`}</small></h2>
-      ${choice<SectionAxis>(
-        t('surface.section'),
-        look.axis,
-        [['off', t('surface.off')], ['x', 'x'], ['y', 'y'], ['z', 'z']],
-        (axis) => app.setLook({ axis }),
-      )}
-      ${look.axis === 'off'
-        ? ''
-        : html`<div class="row">
-            <input class="grow" type="range" min="0" max="1" step="0.002" .value=${String(look.share)} aria-label=${t('surface.position')}
-              @input=${(event: Event) => app.setLook({ share: Number((event.target as HTMLInputElement).value) })} />
-            <button class="icon-btn" title=${t('surface.flip')} aria-label=${t('surface.flip')} @click=${() => app.setLook({ flipped: !look.flipped })}>${icon('flip')}</button>
-          </div>`}
+      ${sectionPlane(app)}
       ${(['measure', 'angle'] as const).map(
         (tool) => html`<button class="btn wide" aria-pressed=${app.viewer.tool === tool} @click=${() => app.setTool(app.viewer.tool === tool ? 'orbit' : tool)}>
           ${icon(tool)}${t(tool === 'measure' ? 'surface.measure' : 'surface.measureAngle')}
@@ -110,7 +131,7 @@ export function surfaceStep(app: App): TemplateResult {
         <dt>${t('surface.parts')}</dt><dd class="num">${number(surface.components)}</dd>
         <dt>${t('surface.holes')}</dt><dd class="num">${number(surface.hole_count)}</dd>
       </dl>
-      ${summary?.registration ? html`<p class="quiet">${summary.registration}</p>` : ''}
+      ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
       ${summary?.untrusted_reason ? html`<p><span class="dot poor"></span>${summary.untrusted_reason}</p>` : ''}
       ${app.project.scan_complete
         ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>${t('surface.build')}</button>`

@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-constexpr const char* kGroup = "Modification";
+constexpr const char* kModificationGroup = "Modification";
 constexpr const char* kPlane = "X,Y,Z,MM";
 constexpr const char* kPicks = "X,Y,Z,X,Y,Z,X,Y,Z";
 
@@ -37,12 +37,12 @@ void align(EditState& state, const std::vector<double>& n) {
 std::vector<EditOperation> shape_operations() {
   return {
       {"max-sigmas",
-       kGroup,
+       kModificationGroup,
        "K",
        "limit later smoothing to K sigma of each vertex (3 at first; 0: no limit)",
        [](EditState& s, const Text& v, const Run&) { s.max_sigmas = edit_numbers("K", v)[0]; }},
       {"smooth",
-       kGroup,
+       kModificationGroup,
        "N",
        "smooth the selected triangles, or all, in N iterations",
        [](EditState& s, const Text& v, const Run& run) {
@@ -50,7 +50,7 @@ std::vector<EditOperation> shape_operations() {
          s.mesh = smooth_taubin(std::move(s.mesh), options, run);
        }},
       {"smooth-keeping-edges",
-       kGroup,
+       kModificationGroup,
        "N",
        "smooth the selected triangles, or all, in N iterations and keep sharp edges",
        [](EditState& s, const Text& v, const Run& run) {
@@ -58,7 +58,7 @@ std::vector<EditOperation> shape_operations() {
          s.mesh = smooth_keeping_edges(std::move(s.mesh), options, run);
        }},
       {"decimate",
-       kGroup,
+       kModificationGroup,
        "SIZE",
        "reduce the triangles as far as the surface stays within this distance",
        [](EditState& s, const Text& v, const Run& run) {
@@ -66,7 +66,7 @@ std::vector<EditOperation> shape_operations() {
              std::move(s.mesh), {.triangles = 0, .tolerance_mm = edit_numbers("SIZE", v)[0]}, run);
        }},
       {"decimate-to",
-       kGroup,
+       kModificationGroup,
        "N",
        "reduce the mesh to at most N triangles",
        [](EditState& s, const Text& v, const Run& run) {
@@ -74,14 +74,14 @@ std::vector<EditOperation> shape_operations() {
          s.mesh = decimate(std::move(s.mesh), {.triangles = count}, run);
        }},
       {"remesh",
-       kGroup,
+       kModificationGroup,
        "SIZE",
        "remesh to nearly equilateral triangles with edges of this length",
        [](EditState& s, const Text& v, const Run& run) {
          s.mesh = remesh_isotropic(s.mesh, {.edge_mm = edit_numbers("SIZE", v)[0]}, run);
        }},
       {"offset",
-       kGroup,
+       kModificationGroup,
        "MM",
        "offset the surface outwards, or inwards by a negative length",
        [](EditState& s, const Text& v, const Run& run) {
@@ -97,25 +97,25 @@ std::vector<EditOperation> frame_operations() {
   };
   return {
       {"cut",
-       kGroup,
+       kModificationGroup,
        kPlane,
        "keep the side of a plane that its normal X,Y,Z points to; MM is its distance from the "
        "origin along the normal",
        [cut](EditState& s, const Text& v, const Run& run) { cut(s, v, false, run); }},
       {"cut-capped",
-       kGroup,
+       kModificationGroup,
        kPlane,
        "cut in the same way and close the cut with flat triangles",
        [cut](EditState& s, const Text& v, const Run& run) { cut(s, v, true, run); }},
       {"mirror",
-       kGroup,
+       kModificationGroup,
        kPlane,
        "mirror the mesh at a plane",
        [](EditState& s, const Text& v, const Run&) {
          s.mesh = mirror_mesh(std::move(s.mesh), edit_plane(edit_numbers(kPlane, v)));
        }},
       {"align",
-       kGroup,
+       kModificationGroup,
        kPicks,
        "move the mesh so that the planar face around the first point lies in z = 0, around the "
        "second in x = 0 and around the third in y = 0",

@@ -15,7 +15,7 @@
 namespace frangia {
 namespace {
 
-constexpr const char* kGroup = "Repair";
+constexpr const char* kRepairGroup = "Repair";
 
 using Text = std::string;
 
@@ -32,35 +32,35 @@ std::vector<EditOperation> hole_operations() {
   };
   return {
       {"fill-holes",
-       kGroup,
+       kRepairGroup,
        "SIZE",
        "fill holes up to this size, continuing the curvature around them",
        [fill](EditState& s, const Text& v, const Run& run) {
          fill(s, {.up_to_mm = size_of(v), .kind = HoleFill::Smooth}, run);
        }},
       {"fill-holes-flat",
-       kGroup,
+       kRepairGroup,
        "SIZE",
        "fill holes up to this size with triangles between their boundary vertices",
        [fill](EditState& s, const Text& v, const Run& run) {
          fill(s, {.up_to_mm = size_of(v), .kind = HoleFill::Flat}, run);
        }},
       {"fill-hole",
-       kGroup,
+       kRepairGroup,
        "HOLE",
        "fill the hole of this number in `list`, continuing the curvature around it",
        [fill](EditState& s, const Text& v, const Run& run) {
          fill(s, {.kind = HoleFill::Smooth, .only = {hole_of(v)}}, run);
        }},
       {"fill-hole-flat",
-       kGroup,
+       kRepairGroup,
        "HOLE",
        "fill the hole of this number in `list` with triangles between its boundary vertices",
        [fill](EditState& s, const Text& v, const Run& run) {
          fill(s, {.kind = HoleFill::Flat, .only = {hole_of(v)}}, run);
        }},
       {"bridge",
-       kGroup,
+       kRepairGroup,
        "HOLE,HOLE",
        "join the boundaries of two holes, by their numbers in `list`, with a band of triangles",
        [](EditState& s, const Text& v, const Run& run) {
@@ -76,7 +76,7 @@ std::vector<EditOperation> hole_operations() {
 std::vector<EditOperation> topology_operations() {
   return {
       {"keep-largest",
-       kGroup,
+       kRepairGroup,
        "N",
        "keep the N components of the largest area",
        [](EditState& s, const Text& v, const Run&) {
@@ -84,21 +84,21 @@ std::vector<EditOperation> topology_operations() {
                                           static_cast<std::size_t>(edit_numbers("N", v)[0]));
        }},
       {"remove-islands",
-       kGroup,
+       kRepairGroup,
        "SIZE",
        "remove components up to this size",
        [](EditState& s, const Text& v, const Run&) {
          s.mesh = remove_islands(std::move(s.mesh), size_of(v));
        }},
       {"remove-spikes",
-       kGroup,
+       kRepairGroup,
        "",
        "flatten tips sharper than a cone of 60 degrees and remove needles at boundaries",
        [](EditState& s, const Text&, const Run& run) {
          s.mesh = remove_spikes(std::move(s.mesh), {}, run);
        }},
       {"remove-self-intersections",
-       kGroup,
+       kRepairGroup,
        "",
        "unite closed components that intersect; elsewhere remove the intersecting triangles and "
        "fill the holes that they leave",
@@ -106,26 +106,26 @@ std::vector<EditOperation> topology_operations() {
          s.mesh = remove_self_intersections(std::move(s.mesh), run);
        }},
       {"make-manifold",
-       kGroup,
+       kRepairGroup,
        "",
        "split non-manifold edges and vertices, remove invalid and duplicate triangles",
        [](EditState& s, const Text&, const Run& run) {
          s.mesh = make_manifold(std::move(s.mesh), run);
        }},
       {"orient",
-       kGroup,
+       kRepairGroup,
        "",
        "orient neighbouring triangles consistently and closed components outwards",
        [](EditState& s, const Text&, const Run& run) { s.mesh = orient(std::move(s.mesh), run); }},
       {"reverse-orientation",
-       kGroup,
+       kRepairGroup,
        "",
        "reverse the orientation of every triangle",
        [](EditState& s, const Text&, const Run&) {
          s.mesh = reverse_orientation(std::move(s.mesh));
        }},
       {"stitch",
-       kGroup,
+       kRepairGroup,
        "TOLERANCE",
        "merge boundary vertices within this distance of each other",
        [](EditState& s, const Text& v, const Run& run) {

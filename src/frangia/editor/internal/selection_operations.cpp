@@ -22,7 +22,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-constexpr const char* kGroup = "Selection";
+constexpr const char* kSelectionGroup = "Selection";
 
 /// Combines a new selection with the present one as the state asks. Warns when it selects nothing.
 void combine(EditState& state, Selection fresh, const char* name, const Run& run) {
@@ -42,7 +42,7 @@ void combine(EditState& state, Selection fresh, const char* name, const Run& run
 template <typename Select>
 EditOperation by_numbers(const char* name, const char* value, const char* help, Select select) {
   return {name,
-          kGroup,
+          kSelectionGroup,
           value,
           help,
           [name, value, select](EditState& state, const std::string& text, const Run& run) {
@@ -114,7 +114,7 @@ std::vector<EditOperation> geometry_selections() {
 
 EditOperation by_outline(const char* name, const char* help, bool visible_only) {
   return {name,
-          kGroup,
+          kSelectionGroup,
           kOutlinePattern,
           help,
           [name, visible_only](EditState& state, const std::string& value, const Run& run) {
@@ -156,14 +156,14 @@ std::vector<EditOperation> vertex_data_selections() {
                    return select_by_views(mesh, static_cast<int>(n[0]));
                  }),
       {"select-mark",
-       kGroup,
+       kSelectionGroup,
        "MARK",
        "select by mark: measured, displaced or synthesized",
        [](EditState& state, const std::string& value, const Run& run) {
          combine(state, select_by_mark(state.mesh, edit_mark(value)), "select-mark", run);
        }},
       {"select-self-intersections",
-       kGroup,
+       kSelectionGroup,
        "",
        "select the triangles that intersect others",
        [](EditState& state, const std::string&, const Run& run) {
@@ -196,7 +196,7 @@ void change_by_rings(EditState& state,
 std::vector<EditOperation> selection_changes() {
   return {
       {"add",
-       kGroup,
+       kSelectionGroup,
        "",
        "add the next selection to the present one",
        [](EditState& state, const std::string&, const Run&) {
@@ -204,7 +204,7 @@ std::vector<EditOperation> selection_changes() {
          state.combine = Combine::Add;
        }},
       {"within",
-       kGroup,
+       kSelectionGroup,
        "",
        "intersect the present selection with the next one",
        [](EditState& state, const std::string&, const Run&) {
@@ -212,21 +212,21 @@ std::vector<EditOperation> selection_changes() {
          state.combine = Combine::Within;
        }},
       {"grow",
-       kGroup,
+       kSelectionGroup,
        "N",
        "extend the selection by N rings of triangles",
        [](EditState& state, const std::string& value, const Run& run) {
          change_by_rings(state, value, grow_selection, run);
        }},
       {"shrink",
-       kGroup,
+       kSelectionGroup,
        "N",
        "shrink the selection by N rings of triangles",
        [](EditState& state, const std::string& value, const Run& run) {
          change_by_rings(state, value, shrink_selection, run);
        }},
       {"invert",
-       kGroup,
+       kSelectionGroup,
        "",
        "invert the selection; without one, select everything",
        [](EditState& state, const std::string&, const Run&) {
@@ -234,7 +234,7 @@ std::vector<EditOperation> selection_changes() {
          state.selection = invert_selection(std::move(state.selection));
        }},
       {"delete",
-       kGroup,
+       kSelectionGroup,
        "",
        "delete the selected triangles",
        [](EditState& state, const std::string&, const Run& run) {

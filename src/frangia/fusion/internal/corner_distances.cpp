@@ -7,8 +7,6 @@
 namespace frangia {
 namespace {
 
-constexpr int kEdge = DistanceField::kEdge;
-
 /// A block and its neighbours towards +x, +y and +z; the bits of the index are the steps in x, y,
 /// z.
 using UpperNeighbors = std::array<const DistanceField::Block*, 8>;
@@ -31,16 +29,17 @@ CornerDistances corner_distances(const DistanceField& field, const Eigen::Vector
   };
   CornerDistances corners;
   corners.distance_mm.fill(kMissing);
-  for (int z = 0; z <= kEdge; ++z) {
-    for (int y = 0; y <= kEdge; ++y) {
+  for (int z = 0; z <= kBlockEdge; ++z) {
+    for (int y = 0; y <= kBlockEdge; ++y) {
       const auto row = static_cast<std::size_t>((y >> 3) << 1 | (z >> 3) << 2);
       float* to = &corners.distance_mm[CornerDistances::at(0, y, z)];
       if (const auto* block = around[row]) {
         const DistanceField::Voxel* from = &(*block)[voxel_at(0, y, z)];
-        for (int x = 0; x < kEdge; ++x)
+        for (int x = 0; x < kBlockEdge; ++x)
           to[x] = distance_of(from[x]);
       }
-      if (const auto* block = around[row | 1]) to[kEdge] = distance_of((*block)[voxel_at(0, y, z)]);
+      if (const auto* block = around[row | 1])
+        to[kBlockEdge] = distance_of((*block)[voxel_at(0, y, z)]);
     }
   }
   return corners;
@@ -48,10 +47,10 @@ CornerDistances corner_distances(const DistanceField& field, const Eigen::Vector
 
 CornerBits corner_bits(const CornerDistances& corners) {
   CornerBits bits{};
-  for (int z = 0; z <= kEdge; ++z) {
-    for (int y = 0; y <= kEdge; ++y) {
+  for (int z = 0; z <= kBlockEdge; ++z) {
+    for (int y = 0; y <= kBlockEdge; ++y) {
       RowBits& row = bits[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)];
-      for (int x = 0; x <= kEdge; ++x) {
+      for (int x = 0; x <= kBlockEdge; ++x) {
         const float d = corners.distance_mm[CornerDistances::at(x, y, z)];
         row.seen |= static_cast<unsigned>(!std::isnan(d)) << static_cast<unsigned>(x);
         row.inside |= static_cast<unsigned>(d < 0.0F) << static_cast<unsigned>(x);

@@ -16,7 +16,7 @@ namespace frangia {
 /// @units    mm
 /// @missing  NaN at a voxel without weight
 struct CornerDistances {
-  static constexpr int kSide = DistanceField::kEdge + 1;
+  static constexpr int kSide = kBlockEdge + 1;
   std::array<float, std::size_t{kSide} * kSide * kSide> distance_mm{};
 
   static constexpr std::size_t at(int x, int y, int z) {

@@ -11,8 +11,6 @@
 namespace frangia {
 namespace {
 
-constexpr int kEdge = DistanceField::kEdge;
-
 /// The parameters of one view's integration, as floats for vector code.
 struct Sampler {
   const LocalPlanes& view;
@@ -54,7 +52,7 @@ struct Sampler {
 /// Eight consecutive voxels along x, in image coordinates.
 struct Row {
   template <typename T>
-  using Eight = std::array<T, kEdge>;
+  using Eight = std::array<T, kBlockEdge>;
 
   alignas(32) Eight<float> u{};
   alignas(32) Eight<float> v{};
@@ -83,7 +81,7 @@ template <bool kExtended>
   const float sx = step.x();
   const float sy = step.y();
   const float sz = step.z();
-  for (std::size_t i = 0; i < kEdge; ++i) {
+  for (std::size_t i = 0; i < kBlockEdge; ++i) {
     const auto at = static_cast<float>(static_cast<std::int32_t>(i));
     const float z = fz + at * sz;
     float u = 0.0F;
@@ -93,7 +91,7 @@ template <bool kExtended>
     row.u[i] = u;
     row.v[i] = v;
   }
-  for (std::size_t i = 0; i < kEdge; ++i) {
+  for (std::size_t i = 0; i < kBlockEdge; ++i) {
     float u = row.u[i];
     float v = row.v[i];
     float z = row.depth[i];
@@ -112,7 +110,7 @@ template <bool kExtended>
     row.pixel[i] = y * width + x + y;  // a row of pixels is one longer
   }
   const LocalPlanes::Quad* quads = sampler.view.quads.pixels().data();
-  for (std::size_t i = 0; i < kEdge; ++i) {
+  for (std::size_t i = 0; i < kBlockEdge; ++i) {
     const auto kind = static_cast<std::int32_t>(quads[row.quad[i]].kind);
     row.kind[i] = row.depth[i] > 0.0F ? kind : 0;
   }
@@ -132,7 +130,7 @@ template <bool kExtended>
   alignas(32) Row::Eight<float> lower_right;
   alignas(32) Row::Eight<float> away;
   alignas(32) Row::Eight<float> weight;
-  for (std::size_t i = 0; i < kEdge; ++i) {
+  for (std::size_t i = 0; i < kBlockEdge; ++i) {
     const float* here = q + row.pixel[i];
     upper_left[i] = here[0];
     upper_right[i] = here[1];
@@ -141,7 +139,7 @@ template <bool kExtended>
     away[i] = quads[row.quad[i]].distance_mm;
     weight[i] = quads[row.quad[i]].weight;
   }
-  for (std::size_t i = 0; i < kEdge; ++i) {
+  for (std::size_t i = 0; i < kBlockEdge; ++i) {
     const float right = row.u[i] - static_cast<float>(static_cast<std::int32_t>(row.u[i]));
     const float down = row.v[i] - static_cast<float>(static_cast<std::int32_t>(row.v[i]));
     const float upper = upper_left[i] + right * (upper_right[i] - upper_left[i]);
@@ -179,9 +177,9 @@ FRANGIA_VECTORIZED_WIDE void add_block(DistanceField::Block& block,
   constexpr auto kSmooth = static_cast<std::int32_t>(LocalPlanes::Kind::Smooth);
   const Eigen::Vector3f step = steps.col(0);
   Row row;
-  for (int r = 0; r < kEdge * kEdge; ++r) {
-    const int across = r % kEdge;
-    const int up = r / kEdge;
+  for (int r = 0; r < kBlockEdge * kBlockEdge; ++r) {
+    const int across = r % kBlockEdge;
+    const int up = r / kBlockEdge;
     const Eigen::Vector3f start =
         first + steps.col(1) * static_cast<float>(across) + steps.col(2) * static_cast<float>(up);
     if (sampler.model.lens.extended) {
@@ -191,18 +189,18 @@ FRANGIA_VECTORIZED_WIDE void add_block(DistanceField::Block& block,
     }
     std::int32_t seen = 0;
     std::int32_t creased = 0;
-    for (std::size_t i = 0; i < kEdge; ++i) {
+    for (std::size_t i = 0; i < kBlockEdge; ++i) {
       seen |= row.kind[i];
       creased |= row.kind[i] & ~kSmooth;
     }
     if (seen == 0) continue;
     sample_smooth(row, sampler);
-    for (std::size_t i = 0; creased != 0 && i < kEdge; ++i) {
+    for (std::size_t i = 0; creased != 0 && i < kBlockEdge; ++i) {
       if (row.kind[i] == 0 || row.kind[i] == kSmooth) continue;
       sample_creased(row, i, sampler, start + static_cast<float>(i) * step);
     }
-    DistanceField::Voxel* cells = block.data() + std::ptrdiff_t{r} * kEdge;
-    for (std::size_t i = 0; i < kEdge; ++i) {
+    DistanceField::Voxel* cells = block.data() + std::ptrdiff_t{r} * kBlockEdge;
+    for (std::size_t i = 0; i < kBlockEdge; ++i) {
       cells[i].weighted_mm += row.weighted[i];
       cells[i].weight += row.weight[i];
     }
@@ -241,7 +239,7 @@ void integrate_view(DistanceField& field,
       DistanceField::Block& block = field.blocks[touched[i]];
       if (touched[i] >= known) block.fill({0.0F, 0.0F});
       const Eigen::Vector3d corner =
-          field.block_coords[touched[i]].cast<double>() * (kEdge * band.voxel_mm);
+          field.block_coords[touched[i]].cast<double>() * (kBlockEdge * band.voxel_mm);
       add_block(block, sampler, (view.rig_from_object * corner).cast<float>(), steps);
     }
   });

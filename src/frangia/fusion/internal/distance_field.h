@@ -26,13 +26,14 @@ struct TruncationBand {
   double deep_weight = 0.0;          ///< of a voxel deeper than `back_mm`, 1/mm^2
 };
 
+inline constexpr int kBlockEdge = 8;  ///< voxels along the edge of a block of the distance field
+
 /// Signed distance to the surface in the object frame, positive outside, averaged over the views.
 ///
 /// Stored in blocks of 8^3 voxels, which are allocated near the surface only. Voxel (i, j, k) is
 /// the point `voxel_mm * (i, j, k)`; it belongs to block (i >> 3, j >> 3, k >> 3).
 struct DistanceField {
-  static constexpr int kEdge = 8;
-  static constexpr std::size_t kVoxels = std::size_t{kEdge} * kEdge * kEdge;
+  static constexpr std::size_t kVoxels = std::size_t{kBlockEdge} * kBlockEdge * kBlockEdge;
 
   struct Voxel {
     float weighted_mm;  ///< sum of weight * distance

@@ -12,8 +12,6 @@
 namespace frangia {
 namespace {
 
-constexpr int kEdge = DistanceField::kEdge;
-
 /// The crossings of one block, before the offsets of the blocks are known.
 struct BlockCrossings {
   std::unique_ptr<EdgeCrossings::Block> block = std::make_unique<EdgeCrossings::Block>();
@@ -83,14 +81,14 @@ std::unique_ptr<BlockCrossings> find_in_block(const DistanceField& field,
   const auto edge_mm = static_cast<float>(field.voxel_mm);
   const float max_step_mm = static_cast<float>(parameters.max_step_voxels) * edge_mm;
   auto found = std::make_unique<BlockCrossings>();
-  for (int row = 0; row < kEdge * kEdge; ++row) {
-    const int y = row % kEdge;
-    const int z = row / kEdge;
+  for (int row = 0; row < kBlockEdge * kBlockEdge; ++row) {
+    const int y = row % kBlockEdge;
+    const int z = row / kBlockEdge;
     const unsigned cells =
         crossed_cells(bits, static_cast<std::size_t>(y), static_cast<std::size_t>(z));
     const unsigned edges =
         crossed_edges(bits, static_cast<std::size_t>(y), static_cast<std::size_t>(z));
-    for (int x = 0; x < kEdge; ++x) {
+    for (int x = 0; x < kBlockEdge; ++x) {
       const std::size_t i = voxel_at(x, y, z);
       found->block->vertices[i] = static_cast<std::uint16_t>(found->vertices);
       found->block->crossings[i] = static_cast<std::uint16_t>(found->points_mm.size());
@@ -100,7 +98,7 @@ std::unique_ptr<BlockCrossings> find_in_block(const DistanceField& field,
       }
       if ((edges >> x & 1U) != 0)
         add_crossings(
-            *found, corners, coords * kEdge + Eigen::Vector3i(x, y, z), edge_mm, max_step_mm);
+            *found, corners, coords * kBlockEdge + Eigen::Vector3i(x, y, z), edge_mm, max_step_mm);
     }
   }
   const bool empty = found->points_mm.empty() && found->vertices == 0;
@@ -134,7 +132,7 @@ EdgeCrossings assign_offsets(const DistanceField& field,
 
 EdgeCrossings::Neighborhood EdgeCrossings::neighborhood(std::size_t block) const {
   Neighborhood around;
-  around.low = block_coords[block] * kEdge;
+  around.low = block_coords[block] * kBlockEdge;
   for (int i = 0; i < 27; ++i) {
     const Eigen::Vector3i coords =
         block_coords[block] + Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);

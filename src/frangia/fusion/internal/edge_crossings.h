@@ -72,10 +72,9 @@ struct EdgeCrossings {
 
     /// Returns the address of a voxel in one of the 27 blocks.
     [[nodiscard]] Address at(const Eigen::Vector3i& voxel) const {
-      constexpr int kEdge = DistanceField::kEdge;
       const Eigen::Vector3i from = voxel - low;
-      const int block =
-          ((from.x() + kEdge) >> 3) + 3 * ((from.y() + kEdge) >> 3) + 9 * ((from.z() + kEdge) >> 3);
+      const int block = ((from.x() + kBlockEdge) >> 3) + 3 * ((from.y() + kBlockEdge) >> 3) +
+                        9 * ((from.z() + kBlockEdge) >> 3);
       const int within = (from.x() & 7) | (from.y() & 7) << 3 | (from.z() & 7) << 6;
       return {blocks[static_cast<std::size_t>(block)], static_cast<std::size_t>(within)};
     }

@@ -52,8 +52,8 @@ void add_quads(std::vector<Quad>& quads,
     const auto at = static_cast<std::size_t>(i);
     if (cells.axes[at] == 0) continue;
     Quad quad;
-    quad.voxel = crossings.block_coords[block] * DistanceField::kEdge +
-                 Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
+    quad.voxel =
+        crossings.block_coords[block] * kBlockEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
     quad.crossing = cells.first_crossing(at);
     for (quad.axis = 0; quad.axis < 3; ++quad.axis) {
       if ((cells.axes[at] >> quad.axis & 1) == 0) continue;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/fusion/internal/normal_agreement.h"
 #include "frangia/geometry/one_rings.h"
 
 namespace frangia {
@@ -13,26 +14,12 @@ namespace {
 
 using Vertex = std::uint32_t;
 
-/// Returns twice the area vector.
-Eigen::Vector3f cross_of(const Mesh& mesh, const Mesh::Triangle& t) {
-  const Eigen::Vector3f& origin = mesh.vertices_mm[t[0]];
-  return (mesh.vertices_mm[t[1]] - origin).cross(mesh.vertices_mm[t[2]] - origin);
-}
-
 float height_of(const Mesh& mesh, const Mesh::Triangle& t) {
   float longest = 0.0F;
   for (std::size_t i = 0; i < 3; ++i) {
     longest = std::max(longest, (mesh.vertices_mm[t[(i + 1) % 3]] - mesh.vertices_mm[t[i]]).norm());
   }
-  return longest > 0.0F ? cross_of(mesh, t).norm() / longest : 0.0F;
-}
-
-/// Returns the cosine of the angle between a triangle and the mean normal of its vertices.
-float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
-  const Eigen::Vector3f cross = cross_of(mesh, t);
-  const Eigen::Vector3f outward = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
-  const float size = cross.norm() * outward.norm();
-  return size > 0.0F ? cross.dot(outward) / size : -1.0F;
+  return longest > 0.0F ? doubled_area_vector(mesh, t).norm() / longest : 0.0F;
 }
 
 /// A low triangle a, b, c, rotated so that a-b is its longest edge.
@@ -98,9 +85,10 @@ bool flip_caps(Mesh& mesh, float lowest_mm, SliverCandidates& candidates) {
     }
     const Mesh::Triangle one{cap.a, d, cap.c};
     const Mesh::Triangle two{d, cap.b, cap.c};
-    const float now = std::min(normal_agreement(mesh, mesh.triangles[cap.triangle]),
-                               normal_agreement(mesh, mesh.triangles[other]));
-    const float then = std::min(normal_agreement(mesh, one), normal_agreement(mesh, two));
+    const float now = std::min(normal_agreement(mesh, mesh.triangles[cap.triangle], -1.0F),
+                               normal_agreement(mesh, mesh.triangles[other], -1.0F));
+    const float then =
+        std::min(normal_agreement(mesh, one, -1.0F), normal_agreement(mesh, two, -1.0F));
     const float lower = std::min(height_of(mesh, one), height_of(mesh, two));
     if (then <= now || lower <= height_of(mesh, mesh.triangles[cap.triangle])) continue;
     mesh.triangles[cap.triangle] = one;

@@ -124,8 +124,8 @@ void place_in_block(PlacedVertices& placed, const PlacementInput& input, std::si
     const auto cell = static_cast<std::size_t>(i);
     const CellLoops& shape = shapes[cells.inside[cell]];
     if (shape.count == 0) continue;
-    const Eigen::Vector3i voxel = crossings.block_coords[block] * DistanceField::kEdge +
-                                  Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
+    const Eigen::Vector3i voxel =
+        crossings.block_coords[block] * kBlockEdge + Eigen::Vector3i(i & 7, i >> 3 & 7, i >> 6);
     auto loops = loops_at(input, around, voxel, shape);
     const Eigen::Vector3f low_mm = voxel.cast<float>() * static_cast<float>(crossings.voxel_mm);
     for (std::uint32_t loop = 0; loop < shape.count; ++loop) {

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
+#include "frangia/fusion/internal/normal_agreement.h"
 #include "frangia/geometry/one_rings.h"
 
 namespace frangia {
@@ -15,23 +16,13 @@ namespace {
 
 using Vertex = std::uint32_t;
 
-/// Returns the cosine of the angle between a triangle and the mean normal of its vertices.
-float normal_agreement(const Mesh& mesh, const Mesh::Triangle& t) {
-  const Eigen::Vector3f& origin = mesh.vertices_mm[t[0]];
-  const Eigen::Vector3f cross =
-      (mesh.vertices_mm[t[1]] - origin).cross(mesh.vertices_mm[t[2]] - origin);
-  const Eigen::Vector3f outward = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
-  const float size = cross.norm() * outward.norm();
-  return size > 0.0F ? cross.dot(outward) / size : 0.0F;
-}
-
 /// Returns the triangles whose normal agreement is below `least`.
 std::vector<std::uint32_t> find_foldovers(const Mesh& mesh, float least) {
   constexpr std::size_t kChunk = 65536;
   std::vector<std::vector<std::uint32_t>> parts((mesh.triangles.size() + kChunk - 1) / kChunk);
   parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      if (normal_agreement(mesh, mesh.triangles[t]) < least)
+      if (normal_agreement(mesh, mesh.triangles[t], 0.0F) < least)
         parts[begin / kChunk].push_back(static_cast<std::uint32_t>(t));
     }
   });
@@ -47,7 +38,7 @@ float foldover_measure(const Mesh& mesh, const OneRings& one_rings, Vertex v) {
   constexpr float kUpright = 0.4F;  // cosine, a little above that of a foldover
   float sum = 0.0F;
   for (const std::uint32_t t : one_rings.of(v))
-    sum += std::max(0.0F, kUpright - normal_agreement(mesh, mesh.triangles[t]));
+    sum += std::max(0.0F, kUpright - normal_agreement(mesh, mesh.triangles[t], 0.0F));
   return sum;
 }
 

@@ -55,7 +55,7 @@ void VoxelBudget::check(double blocks) const {
 
 void VoxelBudget::check(const Sampling& sampling, std::size_t views) const {
   const double points = static_cast<double>(sampling.points) / static_cast<double>(views);
-  const double block_mm = DistanceField::kEdge * voxel_mm;
+  const double block_mm = kBlockEdge * voxel_mm;
   check(kBlocksPerFlatOne * points * std::pow(sampling.spacing_mm / block_mm, 2));
 }
 

@@ -14,12 +14,12 @@
 namespace frangia {
 namespace {
 
-constexpr int kRadius = 2;
+constexpr int kSlopeRadius = 2;
 constexpr int kEvery = 6;                 // row spacing of the samples in a small image
 constexpr int kMaxRows = 100;             // number of sampled rows in a large image
 constexpr std::size_t kMinWindows = 200;  // fewer give no estimate
 constexpr float kMax_px = 0.5F;           // half a pixel: the measured position is inside the pixel
-constexpr float kSteepest = 0.25F;        // share of the windows that is used, from the steepest
+constexpr float kSteepestShare = 0.25F;   // share of the windows that is used, from the steepest
 
 /// The estimate from one window.
 struct Slope {
@@ -29,7 +29,7 @@ struct Slope {
 
 std::vector<Slope> slopes_of_row(const Image<float>& image, const Image<float>& noise, int y) {
   std::vector<Slope> slopes;
-  const WindowFits fits = fit_windows(image, kRadius, y, 1);
+  const WindowFits fits = fit_windows(image, kSlopeRadius, y, 1);
   for (int x = 0; x < image.width(); ++x) {
     const WindowFit fit = fits.at(x, 0);
     const float expected = noise(x, y) * noise(x, y);
@@ -44,10 +44,10 @@ std::vector<Slope> slopes_of(const Image<float>& image,
                              const Image<float>& noise,
                              const ImageStrip& strip) {
   const int every = std::max(kEvery, strip.full_height / kMaxRows);
-  const int rows = std::max(0, strip.full_height - 2 * kRadius + every - 1) / every;
+  const int rows = std::max(0, strip.full_height - 2 * kSlopeRadius + every - 1) / every;
   std::vector<std::vector<Slope>> parts(static_cast<std::size_t>(rows));
   parallel_rows(rows, [&](int row) {
-    const int y = kRadius + row * every - strip.top;
+    const int y = kSlopeRadius + row * every - strip.top;
     if (y < 0 || y >= image.height()) return;
     parts[static_cast<std::size_t>(row)] = slopes_of_row(image, noise, y);
   });
@@ -65,8 +65,9 @@ float estimate_lateral_noise(const Image<float>& image,
   std::vector<Slope> slopes =
       slopes_of(image, noise, strip.value_or(ImageStrip{0, image.height()}));
   if (slopes.size() < kMinWindows) return 0.0F;
-  const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(
-                                          (1.0F - kSteepest) * static_cast<float>(slopes.size()));
+  const auto steep =
+      slopes.begin() +
+      static_cast<std::ptrdiff_t>((1.0F - kSteepestShare) * static_cast<float>(slopes.size()));
   std::nth_element(slopes.begin(), steep, slopes.end(), [](const Slope& a, const Slope& b) {
     return a.steepness < b.steepness;
   });

@@ -13,9 +13,8 @@ namespace {
 using Vector6 = Eigen::Matrix<float, 6, 1>;
 using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
-constexpr int kRadius = kQuadraticRadius;
-constexpr int kSide = 2 * kRadius + 1;
-constexpr std::size_t kPixels = static_cast<std::size_t>(kSide) * kSide;
+constexpr int kQuadraticSide = 2 * kQuadraticRadius + 1;
+constexpr std::size_t kPixels = static_cast<std::size_t>(kQuadraticSide) * kQuadraticSide;
 constexpr std::size_t kFewest = 12;    // pixels: six unknowns and as many degrees of freedom
 constexpr float kMostVariance = 0.8F;  // of the value, per pixel variance: above, the pixel itself
                                        // is about as good
@@ -29,13 +28,13 @@ struct Patch {
 
 Patch patch_at(const Image<float>& image, const Eigen::Vector2i& at, float less) {
   Patch patch;
-  const int left = at.x() - kRadius;
+  const int left = at.x() - kQuadraticRadius;
   const int from = std::max(0, -left);
-  const int to = std::min(kSide, image.width() - left);
-  for (int down = 0; down < kSide; ++down) {
-    const int y = at.y() + down - kRadius;
+  const int to = std::min(kQuadraticSide, image.width() - left);
+  for (int down = 0; down < kQuadraticSide; ++down) {
+    const int y = at.y() + down - kQuadraticRadius;
     if (y < 0 || y >= image.height()) continue;
-    const std::size_t row = static_cast<std::size_t>(down) * kSide;
+    const std::size_t row = static_cast<std::size_t>(down) * kQuadraticSide;
     for (int right = from; right < to; ++right) {
       const float value = image(left + right, y);
       if (std::isnan(value)) continue;
@@ -53,10 +52,10 @@ using Powers = std::array<float, 16>;
 constexpr std::array<Powers, kPixels> make_powers() {
   std::array<Powers, kPixels> all{};
   for (std::size_t i = 0; i < kPixels; ++i) {
-    const int right = static_cast<int>(i) % kSide;
-    const int down = static_cast<int>(i) / kSide;
-    const auto x = static_cast<float>(right - kRadius);
-    const auto y = static_cast<float>(down - kRadius);
+    const int right = static_cast<int>(i) % kQuadraticSide;
+    const int down = static_cast<int>(i) / kQuadraticSide;
+    const auto x = static_cast<float>(right - kQuadraticRadius);
+    const auto y = static_cast<float>(down - kQuadraticRadius);
     all[i] = {1.0F,
               x,
               y,
@@ -158,8 +157,8 @@ float residual_autocorrelation(const Image<float>& image,
     squares += 0.5F * (pixels.seen[b] * off[a] * off[a] + pixels.seen[a] * off[b] * off[b]);
   };
   for (std::size_t i = 0; i < kPixels; ++i) {
-    if (i % kSide + 1 < kSide) add(i, i + 1);
-    if (i + kSide < kPixels) add(i, i + kSide);
+    if (i % kQuadraticSide + 1 < kQuadraticSide) add(i, i + 1);
+    if (i + kQuadraticSide < kPixels) add(i, i + kQuadraticSide);
   }
   return squares > 0.0F ? products / squares : 0.0F;
 }

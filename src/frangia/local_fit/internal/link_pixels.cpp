@@ -10,7 +10,7 @@
 namespace frangia {
 namespace {
 
-constexpr float kSteepest = 7.1F;        // tan(82 degrees), the limit of `MixedPixelOptions`
+constexpr float kMaxSlope = 7.1F;        // tan(82 degrees), the limit of `MixedPixelOptions`
 constexpr float kNoiseSigmas = 4.0F;     // minimum depth step
 constexpr float kSmallestSigma = 1e-6F;  // per depth: keeps the weight of noise-free data finite
 
@@ -78,7 +78,7 @@ LinkedPixels link_pixels(const RangeGrid& range, const CameraModel& camera, cons
                &grid.q(0, y),
                &grid.noise(0, y));
   });
-  const auto steepest = static_cast<float>(kSteepest / camera.focal_px.mean());
+  const auto steepest = static_cast<float>(kMaxSlope / camera.focal_px.mean());
   parallel_rows(height, [&](int y) {
     std::uint8_t* links = &grid.links(0, y);
     link_row({&grid.q(0, y), &grid.noise(0, y)},

@@ -12,17 +12,17 @@
 namespace frangia {
 namespace {
 
-constexpr int kRadius = 3;
-constexpr int kSide = 2 * kRadius + 1;
-constexpr float kSquare = kRadius * (kRadius + 1) / 3.0F;  // mean of x^2
+constexpr int kWindowRadius = 3;
+constexpr int kWindowSide = 2 * kWindowRadius + 1;
+constexpr float kSquare = kWindowRadius * (kWindowRadius + 1) / 3.0F;  // mean of x^2
 
 constexpr float quadratic(int i) {
-  return static_cast<float>((i - kRadius) * (i - kRadius)) - kSquare;
+  return static_cast<float>((i - kWindowRadius) * (i - kWindowRadius)) - kSquare;
 }
 
 /// Number of neighbour pairs along a side that an element belongs to.
 constexpr float neighbor_pairs(int i) {
-  return i == 0 || i + 1 == kSide ? 1.0F : 2.0F;
+  return i == 0 || i + 1 == kWindowSide ? 1.0F : 2.0F;
 }
 
 struct FitRows {
@@ -45,18 +45,18 @@ FRANGIA_VECTORIZED_WIDE void correlate(const float* top,
   for (std::ptrdiff_t x = 0; x < count; ++x) {
     float products = 0.0F;
     float paired = 0.0F;
-    std::array<float, kSide> above{};
+    std::array<float, kWindowSide> above{};
 #pragma GCC unroll 7  // the loop over x vectorizes only without inner loops
-    for (int j = 0; j < kSide; ++j) {
-      const auto down = static_cast<float>(j - kRadius);
+    for (int j = 0; j < kWindowSide; ++j) {
+      const auto down = static_cast<float>(j - kWindowRadius);
       const float row_mean =
           fit.mean[x] + down * fit.slope_y[x] + quadratic(j) * fit.curvature_yy[x];
       const float along = fit.slope_x[x] + down * fit.curvature_xy[x];
       float before = 0.0F;
 #pragma GCC unroll 7
-      for (int i = 0; i < kSide; ++i) {
-        const float fitted =
-            row_mean + static_cast<float>(i - kRadius) * along + quadratic(i) * fit.curvature_xx[x];
+      for (int i = 0; i < kWindowSide; ++i) {
+        const float fitted = row_mean + static_cast<float>(i - kWindowRadius) * along +
+                             quadratic(i) * fit.curvature_xx[x];
         const float off = top[j * width + x + i] - fitted;
         const auto column = static_cast<std::size_t>(i);
         paired += (neighbor_pairs(i) + neighbor_pairs(j)) * off * off;
@@ -74,10 +74,11 @@ void window_autocorrelation(const Image<float>& image,
                             const WindowRows& windows,
                             int y,
                             std::span<float> autocorrelation) {
-  require(windows.radius == kRadius, "window_autocorrelation: the windows must be 7 x 7 pixels");
+  require(windows.radius == kWindowRadius,
+          "window_autocorrelation: the windows must be 7 x 7 pixels");
   std::fill(autocorrelation.begin(), autocorrelation.end(), kMissing);
-  const int top = y - kRadius;
-  if (top < 0 || top + kSide > image.height() || image.width() < kSide) return;
+  const int top = y - kWindowRadius;
+  if (top < 0 || top + kWindowSide > image.height() || image.width() < kWindowSide) return;
   const float* mean = windows.fits.row(WindowFits::Mean, y - windows.first);
   const auto seen = [](float value) { return !std::isnan(value); };
   const float* first = std::find_if(mean, mean + image.width(), seen);
@@ -89,7 +90,7 @@ void window_autocorrelation(const Image<float>& image,
   const auto of = [&](WindowFits::Quantity quantity) {
     return windows.fits.row(quantity, y - windows.first) + begin;
   };
-  correlate(&image(0, top) + begin - kRadius,
+  correlate(&image(0, top) + begin - kWindowRadius,
             image.width(),
             {of(WindowFits::Mean),
              of(WindowFits::SlopeX),

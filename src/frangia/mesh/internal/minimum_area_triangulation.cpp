@@ -11,7 +11,7 @@ namespace frangia {
 namespace {
 
 using Eigen::Vector3d;
-using Triangle = std::array<std::size_t, 3>;
+using PolygonTriangle = std::array<std::size_t, 3>;
 
 constexpr std::size_t kMaxVertices = 250;  // of one search, which takes time of its cube: 10 ms
 // Area of a forbidden chord per squared length: larger than any sum of real areas.
@@ -42,8 +42,8 @@ class Front {
   }
 
   /// Cuts ears until `until` vertices are left or no convex corner is left.
-  std::vector<Triangle> shorten(std::size_t until) {
-    std::vector<Triangle> cut;
+  std::vector<PolygonTriangle> shorten(std::size_t until) {
+    std::vector<PolygonTriangle> cut;
     while (corners_.size() - cut.size() > until && !ears_.empty()) {
       const Ear ear = ears_.top();
       ears_.pop();
@@ -99,7 +99,7 @@ class MinimumArea {
         areas_(line_.size() * line_.size()),
         splits_(areas_.size()) {}
 
-  void append_to(std::vector<Triangle>& triangles) {
+  void append_to(std::vector<PolygonTriangle>& triangles) {
     for (std::size_t width = 2; width < line_.size(); ++width) {
       for (std::size_t i = 0; i + width < line_.size(); ++i)
         choose(i, i + width);
@@ -128,7 +128,7 @@ class MinimumArea {
     areas_[at(i, j)] = best;
   }
 
-  void collect(std::vector<Triangle>& triangles, std::size_t i, std::size_t j) const {
+  void collect(std::vector<PolygonTriangle>& triangles, std::size_t i, std::size_t j) const {
     if (j < i + 2) return;
     const std::size_t k = splits_[at(i, j)];
     triangles.push_back({line_[i], line_[k], line_[j]});
@@ -148,7 +148,7 @@ class MinimumArea {
 void triangulate(const std::vector<Vector3d>& corners,
                  const MinimumAreaOptions& options,
                  const std::vector<std::size_t>& line,
-                 std::vector<Triangle>& triangles,
+                 std::vector<PolygonTriangle>& triangles,
                  const Run& run) {
   if (line.size() < 3) return;
   run.check();
@@ -173,7 +173,7 @@ void triangulate(const std::vector<Vector3d>& corners,
 std::vector<std::array<std::size_t, 3>> minimum_area_triangulation(
     const std::vector<Vector3d>& corners_mm, const MinimumAreaOptions& options, const Run& run) {
   if (corners_mm.size() < 3) return {};
-  std::vector<Triangle> triangles;
+  std::vector<PolygonTriangle> triangles;
   std::vector<std::size_t> line;
   if (options.normals.size() == corners_mm.size()) {
     Front front(corners_mm, options);

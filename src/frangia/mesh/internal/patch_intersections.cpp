@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 16'384;
+constexpr std::size_t kCandidatesPerChunk = 16'384;
 
 /// The triangles of all patches.
 class Patches {
@@ -100,9 +100,9 @@ void add_found(std::size_t count,
                std::vector<PatchIntersections>& intersections,
                const Run& run,
                const Find& find) {
-  std::vector<Found> found((count + kChunk - 1) / kChunk);
-  parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
-    if (!run.stop.stop_requested()) find(begin, end, found[begin / kChunk]);
+  std::vector<Found> found((count + kCandidatesPerChunk - 1) / kCandidatesPerChunk);
+  parallel_chunks(count, kCandidatesPerChunk, [&](std::size_t begin, std::size_t end) {
+    if (!run.stop.stop_requested()) find(begin, end, found[begin / kCandidatesPerChunk]);
   });
   run.check();
   for (const Found& pairs : found) {

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::size_t kChunk = 8192;
+constexpr std::size_t kFacesPerChunk = 8192;
 constexpr int kVertexUpdates = 15;  // Sun et al. 2007 use 10 to 20
 
 /// Per-triangle data of the filter.
@@ -31,7 +31,7 @@ Faces faces_of(const Mesh& mesh) {
   faces.centroids.resize(count);
   faces.normals.resize(count);
   faces.areas.resize(count);
-  parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(count, kFacesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [ia, ib, ic] = mesh.triangles[i];
       const Vector3f& a = mesh.vertices_mm[ia];
@@ -73,7 +73,7 @@ std::vector<Vector3f> filtered_normals(const Mesh& mesh,
   std::vector<Vector3f> result(faces.normals.size());
   const float per_distance = 0.5F / (widths.distance_mm * widths.distance_mm);
   const float per_normal = 0.5F / (widths.normal * widths.normal);
-  parallel_chunks(result.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(result.size(), kFacesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vector3f sum = Vector3f::Zero();
       for (const std::uint32_t vertex : mesh.triangles[i]) {
@@ -100,7 +100,7 @@ void update_vertices(Mesh& mesh,
                      const std::vector<Vector3f>& normals,
                      const SmoothLimits& limits) {
   const std::vector<Vector3f> from = mesh.vertices_mm;
-  parallel_chunks(from.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(from.size(), kFacesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const auto outgoing = edges.outgoing(static_cast<std::uint32_t>(v));
       if (!limits.may_move(v) || outgoing.empty()) continue;

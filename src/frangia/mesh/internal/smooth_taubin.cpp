@@ -9,7 +9,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 8192;
+constexpr std::size_t kVerticesPerChunk = 8192;
 // Taubin's lambda and mu: the pass-band frequency 1/lambda + 1/mu = 0.04 keeps shapes larger than
 // about thirty edges.
 constexpr float kShrink = 0.5F;
@@ -23,7 +23,7 @@ void filter_step(Mesh& mesh,
                  const std::vector<Eigen::Vector3f>& normals,
                  float share) {
   const std::vector<Eigen::Vector3f> from = mesh.vertices_mm;
-  parallel_chunks(from.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(from.size(), kVerticesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const auto outgoing = edges.outgoing(static_cast<std::uint32_t>(v));
       if (!limits.may_move(v) || outgoing.empty()) continue;

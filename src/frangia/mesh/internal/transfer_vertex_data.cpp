@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kElementsPerChunk = 1024;
 
 /// The barycentric coordinates of a point in a triangle.
 Eigen::Vector3f barycentric_of(const Mesh& mesh, const Mesh::Triangle& t, const Vector3d& point) {
@@ -74,7 +74,7 @@ void transfer_vertex_data(Mesh& mesh, const RayScene& scene, const Run& run) {
   if (!from.views.empty()) mesh.views.assign(count, 0);
   if (!from.colors.empty()) mesh.colors.assign(count, kUnknownColor);
   if (!from.vertex_marks.empty()) mesh.vertex_marks.assign(count, Mark::Measured);
-  parallel_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(count, kElementsPerChunk, [&](std::size_t begin, std::size_t end) {
     if (run.stop.stop_requested()) return;  // run.check() below throws
     for (std::size_t v = begin; v < end; ++v) {
       const auto near = scene.nearest(mesh.vertices_mm[v].cast<double>());
@@ -84,16 +84,17 @@ void transfer_vertex_data(Mesh& mesh, const RayScene& scene, const Run& run) {
   run.check();
   if (!from.triangle_marks.empty()) {
     mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
-    parallel_chunks(mesh.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      if (run.stop.stop_requested()) return;
-      for (std::size_t t = begin; t < end; ++t) {
-        const auto& [a, b, c] = mesh.triangles[t];
-        const Eigen::Vector3f centroid =
-            (mesh.vertices_mm[a] + mesh.vertices_mm[b] + mesh.vertices_mm[c]) / 3.0F;
-        const auto near = scene.nearest(centroid.cast<double>());
-        if (near) mesh.triangle_marks[t] = from.triangle_marks[near->triangle];
-      }
-    });
+    parallel_chunks(
+        mesh.triangles.size(), kElementsPerChunk, [&](std::size_t begin, std::size_t end) {
+          if (run.stop.stop_requested()) return;
+          for (std::size_t t = begin; t < end; ++t) {
+            const auto& [a, b, c] = mesh.triangles[t];
+            const Eigen::Vector3f centroid =
+                (mesh.vertices_mm[a] + mesh.vertices_mm[b] + mesh.vertices_mm[c]) / 3.0F;
+            const auto near = scene.nearest(centroid.cast<double>());
+            if (near) mesh.triangle_marks[t] = from.triangle_marks[near->triangle];
+          }
+        });
     run.check();
   }
   if (!from.normals.empty()) mesh.normals = vertex_normals(mesh);

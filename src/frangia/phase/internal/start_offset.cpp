@@ -20,7 +20,7 @@ constexpr double kMinResidual_rad = 0.03;
 constexpr double kMinStart_rad = 0.17;  ///< 10 degrees: half a pixel of fringes of 18 px
 /// Largest scatter of the blocks over the mean: what differs more is no start.
 constexpr double kMaxScatter = 0.3;
-constexpr double kMinSigmas = 6.0;  ///< of the mean, from the scatter of the blocks
+constexpr double kMinMeanSigmas = 6.0;  ///< of the mean, from the scatter of the blocks
 /// Part of the disagreement that the start of a pattern may leave unexplained.
 constexpr double kUnexplained = 0.25;
 
@@ -58,7 +58,7 @@ std::vector<SequenceTrial> trials_of_start_offset(const SequenceSample& sample) 
   const double scatter = std::sqrt((blocks.colwise() - mean).squaredNorm() / (count - 1.0));
   const double size = mean.norm();
   if (size < kMinResidual_rad || scatter > kMaxScatter * size ||
-      size < kMinSigmas * scatter / std::sqrt(count))
+      size < kMinMeanSigmas * scatter / std::sqrt(count))
     return {};
   // A start moves the phases off the curve of one place of the field, across the frequencies.
   Eigen::VectorXd along(mean.size());

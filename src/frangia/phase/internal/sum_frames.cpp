@@ -11,13 +11,13 @@
 namespace frangia {
 namespace {
 
-struct Weights {
+struct SineCosineMean {
   float sine = 0.0F;
   float cosine = 0.0F;
   float mean = 0.0F;
 };
 
-Weights weights_of(const PhaseAlgorithm& algorithm, std::size_t frame) {
+SineCosineMean weights_of(const PhaseAlgorithm& algorithm, std::size_t frame) {
   return {static_cast<float>(algorithm.sine[frame]),
           static_cast<float>(algorithm.cosine[frame]),
           static_cast<float>(algorithm.mean[frame])};
@@ -29,7 +29,7 @@ Weights weights_of(const PhaseAlgorithm& algorithm, std::size_t frame) {
 template <typename T>
 FRANGIA_VECTORIZED void set_three(std::array<const T*, 3> frames,
                                   std::size_t n,
-                                  std::array<Weights, 3> w,
+                                  std::array<SineCosineMean, 3> w,
                                   WrapTile& __restrict tile) {
   const T* __restrict a = frames[0];
   const T* __restrict b = frames[1];
@@ -48,7 +48,7 @@ FRANGIA_VECTORIZED void set_three(std::array<const T*, 3> frames,
 template <typename T>
 FRANGIA_VECTORIZED void set_four(std::array<const T*, 4> frames,
                                  std::size_t n,
-                                 std::array<Weights, 4> w,
+                                 std::array<SineCosineMean, 4> w,
                                  WrapTile& __restrict tile) {
   const T* __restrict a = frames[0];
   const T* __restrict b = frames[1];
@@ -71,7 +71,7 @@ FRANGIA_VECTORIZED void set_four(std::array<const T*, 4> frames,
 template <typename T>
 FRANGIA_VECTORIZED void set_four_step(std::array<const T*, 4> frames,
                                       std::size_t n,
-                                      std::array<Weights, 4> w,
+                                      std::array<SineCosineMean, 4> w,
                                       WrapTile& __restrict tile) {
   const T* __restrict a = frames[0];
   const T* __restrict b = frames[1];
@@ -107,7 +107,7 @@ template <typename T>
 FRANGIA_VECTORIZED void add_frames(const T* __restrict a,
                                    const T* __restrict b,
                                    std::size_t n,
-                                   std::array<Weights, 2> w,
+                                   std::array<SineCosineMean, 2> w,
                                    WrapTile& __restrict tile) {
   for (std::size_t i = 0; i < n; ++i) {
     const auto one = static_cast<float>(a[i]);
@@ -170,7 +170,7 @@ void sum_all(const FrameStack& stack,
   if (count == 3) {
     set_three<T>({pixels(0), pixels(1), pixels(2)}, n, {weights(0), weights(1), weights(2)}, tile);
   } else {
-    const std::array<Weights, 4> four = {weights(0), weights(1), weights(2), weights(3)};
+    const std::array<SineCosineMean, 4> four = {weights(0), weights(1), weights(2), weights(3)};
     const std::array<const T*, 4> frames = {pixels(0), pixels(1), pixels(2), pixels(3)};
     if (is_four_step(algorithm)) {
       set_four_step<T>(frames, n, four, tile);
@@ -186,7 +186,7 @@ void sum_all(const FrameStack& stack,
     add_frames<T>(pixels(k),
                   pixels(pair ? k + 1 : k),
                   n,
-                  {weights(k), pair ? weights(k + 1) : Weights{}},
+                  {weights(k), pair ? weights(k + 1) : SineCosineMean{}},
                   tile);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 /// Step of the central differences, in standard deviations: small enough for a linear response,
 /// large enough for the tolerance of the triangulation, 1e-9 px.
-constexpr double kStep = 0.1;
+constexpr double kDifferenceStep = 0.1;
 
 /// A camera's ray in the rig frame.
 struct RigRay {
@@ -60,7 +60,7 @@ ChangedRigs::ChangedRigs(const Rig& rig, const Pattern& pattern, std::size_t cam
   const RigCovariance& known = rig.calibration->covariance;
   const Eigen::MatrixXd factor = covariance_factor(known);
   for (Eigen::Index i = 0; i < factor.cols(); ++i) {
-    for (const double side : {kStep, -kStep})
+    for (const double side : {kDifferenceStep, -kDifferenceStep})
       changed_.push_back(change_parameters(rig, known.parameters, side * factor.col(i)));
   }
 }
@@ -90,7 +90,8 @@ Displacements ChangedRigs::displacements_of(const Eigen::Vector3d& point_mm) con
   Displacements moved(3, changes());
   for (Eigen::Index i = 0; i < changes(); ++i) {
     const auto pair = static_cast<std::size_t>(2 * i);
-    moved.col(i) = (seen_by(changed_[pair]) - seen_by(changed_[pair + 1])) / (2.0 * kStep);
+    moved.col(i) =
+        (seen_by(changed_[pair]) - seen_by(changed_[pair + 1])) / (2.0 * kDifferenceStep);
   }
   return moved;
 }

@@ -18,7 +18,7 @@ using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
 constexpr int kRadius = 3;
 constexpr int kSide = 2 * kRadius + 1;
-constexpr int kMinPixels = 10;          // for six unknowns and their residuals
+constexpr int kMinFitPixels = 10;       // for six unknowns and their residuals
 constexpr float kMaxLeverage = 8.0F;    // variance of the extrapolated value, per pixel variance
 constexpr float kRough = 4.0F;          // maximum residual variance of the fit, per pixel variance
 constexpr float kSigmas = 3.0F;         // maximum distance of the pixel from the extrapolation
@@ -74,7 +74,7 @@ bool extrapolates_to(const ReliablePixels& reliable,
                      const Group& group,
                      const Eigen::Vector2i& at,
                      const RangePixel& pixel) {
-  if (group.count < kMinPixels) return false;
+  if (group.count < kMinFitPixels) return false;
   const Image<float>& depth = reliable.range.depth_mm;
   const Image<float>& sigma = reliable.range.sigma_mm;
   const float here = 1.0F / pixel.depth_mm;

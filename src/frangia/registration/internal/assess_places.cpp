@@ -13,8 +13,7 @@ namespace {
 void assess_disagreement(RegistrationReport& report,
                          const BundleSums& sums,
                          const Eigen::VectorXd& sigma) {
-  constexpr std::size_t kFewest = 50;         // pairs: fewer are chance, such as edges
-  constexpr double kMedianOfNormal = 0.6745;  // of the absolute value, over the deviation
+  constexpr std::size_t kFewest = 50;  // pairs: fewer are chance, such as edges
   const std::size_t count = sums.distances_mm.size();
   if (count < kFewest) return;
   report.disagreement_mm = static_cast<double>(median(sums.distances_mm));

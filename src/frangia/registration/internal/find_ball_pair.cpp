@@ -11,7 +11,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kFewest = 20;  // a ball holds at least one point in this many
+constexpr std::size_t kPointsPerBallPoint = 20;  // a ball holds at least one point in this many
 
 /// Half of the size of all points, from their mean.
 double extent_of(std::span<const OrientedPoint> points) {
@@ -90,7 +90,7 @@ std::optional<FoundBall> find_ball(std::span<const OrientedPoint> points,
   std::vector<std::size_t> on;
   for (const double tolerance : {kRough, kRough, kFine, kFine}) {
     on = points_on(points, of, sphere, tolerance);
-    if (on.size() < points.size() / kFewest || on.size() < 4) return std::nullopt;
+    if (on.size() < points.size() / kPointsPerBallPoint || on.size() < 4) return std::nullopt;
     std::vector<Eigen::Vector3d> places;
     for (const std::size_t i : on)
       places.push_back(points[i].point_mm);

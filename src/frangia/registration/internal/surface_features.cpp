@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kBins = 11;
 constexpr int kRows = 3 * kBins;
-constexpr std::size_t kFewest = 5;
-constexpr std::size_t kChunk = 64;
+constexpr std::size_t kFewestNeighbors = 5;
+constexpr std::size_t kFeaturesPerChunk = 64;
 
 /// Points by cubes of the radius' size: all neighbours of a point lie in the 27 cubes around it.
 class Cubes {
@@ -101,7 +101,7 @@ Eigen::MatrixXf surface_features(const SurfacePoints& points, double radius_mm) 
   const Cubes cubes(points, static_cast<float>(radius_mm));
   std::vector<std::vector<std::size_t>> near(points.size());
   Eigen::MatrixXf simple = Eigen::MatrixXf::Zero(kRows, count);
-  parallel_chunks(points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(points.size(), kFeaturesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       near[i] = cubes.near(i);
       auto column = simple.col(static_cast<Eigen::Index>(i));
@@ -111,9 +111,9 @@ Eigen::MatrixXf surface_features(const SurfacePoints& points, double radius_mm) 
     }
   });
   Eigen::MatrixXf features = Eigen::MatrixXf::Zero(kRows, count);
-  parallel_chunks(points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(points.size(), kFeaturesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (near[i].size() < kFewest) continue;
+      if (near[i].size() < kFewestNeighbors) continue;
       auto column = features.col(static_cast<Eigen::Index>(i));
       for (const std::size_t other : near[i]) {
         const float away = (points.points_mm[other] - points.points_mm[i]).norm();

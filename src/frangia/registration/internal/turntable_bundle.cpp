@@ -12,7 +12,8 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kChunk = 512;  // surfels; fixed, so that sums do not depend on threads
+constexpr std::size_t kSurfelsPerChunk =
+    512;  // surfels; fixed, so that sums do not depend on threads
 
 /// The views that are compared, in one state.
 struct BundleViews {
@@ -212,7 +213,7 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
   std::vector<Chunk> chunks;
   for (std::size_t view = 0; view < surfels.size(); ++view) {
     if (view == options.left_out) continue;
-    for (std::size_t first = 0; first < surfels[view].size(); first += kChunk)
+    for (std::size_t first = 0; first < surfels[view].size(); first += kSurfelsPerChunk)
       chunks.push_back({view, first});
   }
   std::vector<ChunkSums> parts(chunks.size());
@@ -220,7 +221,7 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
     const Chunk& chunk = chunks[begin];
     BundleAccumulator accumulator(views, options, chunk.view);
     const std::span<const SurfelMap::Surfel> own(surfels[chunk.view]);
-    accumulator.add(own.subspan(chunk.first, std::min(kChunk, own.size() - chunk.first)));
+    accumulator.add(own.subspan(chunk.first, std::min(kSurfelsPerChunk, own.size() - chunk.first)));
     parts[begin] = std::move(accumulator.sums);
   });
   BundleSums all;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -18,6 +19,18 @@ namespace {
 /// Of each setup, for the picture of how they join: a millimetre apart on a part of a hand's size.
 constexpr std::size_t kPointsOfSetup = 60'000;
 
+/// What the registration did to the turntable, for pages that word it themselves. `plain` where
+/// these figures say everything that its own words do.
+nlohmann::ordered_json json_of_turntable(const RegistrationReport& report) {
+  return {{"plain", report.untrusted_reason().empty() && report.undetermined.empty()},
+          {"kept", report.kept_rig},
+          {"overlap", report.overlap},
+          {"moved_mm", report.axis_moved_mm()},
+          {"turned_deg", deg_from_rad(report.axis_turned_rad())},
+          {"angles_deg", deg_from_rad(report.largest_turn_rad())},
+          {"closure_deg", std::abs(deg_from_rad(report.closure_after_rad))}};  // NaN: null
+}
+
 /// Figures of a reconstruction, as surface.json keeps them.
 std::string summary_of(const Reconstruction& result) {
   nlohmann::ordered_json json{{"points", result.points}, {"views", result.views}};
@@ -25,6 +38,7 @@ std::string summary_of(const Reconstruction& result) {
     json["registration"] = result.registration->text();
     json["rms_before_mm"] = result.registration->rms_before_mm;
     json["rms_after_mm"] = result.registration->rms_after_mm;
+    json["turntable"] = json_of_turntable(*result.registration);
   }
   json["untrusted_reason"] = result.untrusted_reason;
   json["setups"] = nlohmann::ordered_json::array();

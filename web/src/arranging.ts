@@ -1,0 +1,60 @@
+import type { App } from './app';
+import { arranged, type RigDraft } from './arrange';
+import type { DeviceDraft } from './steps/rig_devices';
+import type { Residuals, RigGeometry } from './types';
+
+/** What the step Rig changes: the geometry, the devices, and which residuals are on the stage. */
+export class Arranging {
+  deviceDraft: DeviceDraft | null = null;
+  residuals: Residuals | null = null;
+  /** Index of the map on the stage; -1 shows the rig. */
+  residualMap = -1;
+  private residualsShown = 0;
+  private draft: RigDraft = {};
+
+  constructor(private readonly app: App) {}
+
+  /** The rig as the sliders stand. */
+  get drawnRig(): RigGeometry | null {
+    const rig = this.app.state.project?.rig ?? null;
+    return rig && arranged(rig, this.draft);
+  }
+  draftRig(draft: RigDraft): void {
+    this.draft = draft;
+    this.app.viewer.setRig(this.drawnRig);
+    this.app.requestUpdate();
+  }
+  async moveRig(draft: RigDraft): Promise<void> {
+    if (!(await this.app.command('set-rig', draft))) this.app.viewer.setRig(this.app.project.rig);
+    this.draft = {};
+    this.app.requestUpdate();
+  }
+  draftDevices(draft: DeviceDraft | null): void {
+    this.deviceDraft = draft;
+    this.app.requestUpdate();
+  }
+  async useDevices(devices: Partial<DeviceDraft>): Promise<void> {
+    if (await this.app.command('set-devices', { devices })) this.draftDevices(null);
+  }
+
+  showResiduals(map: number): void {
+    this.residualMap = map;
+    this.app.requestUpdate();
+  }
+  /** Reads the residuals of the project's calibration when they have changed. */
+  async follow(): Promise<void> {
+    const { app } = this;
+    const at = app.state.project?.residuals_s ?? 0;
+    if (at === this.residualsShown) return;
+    this.residualsShown = at;
+    this.residuals = null;
+    this.residualMap = -1;
+    if (at === 0) return;
+    try {
+      this.residuals = JSON.parse(new TextDecoder().decode(await app.session.bytes('/api/residuals'))) as Residuals;
+      app.requestUpdate();
+    } catch (error) {
+      app.say(error);
+    }
+  }
+}

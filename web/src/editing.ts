@@ -1,0 +1,84 @@
+import type { App } from './app';
+import type { Combine } from './steps/edit';
+import type { Tool } from './viewer';
+
+const round = (value: number): string => String(Math.round(value * 1000) / 1000);
+
+/** Selections, edits and their previews, as the step Edit asks for them. */
+export class Editing {
+  combine: Combine = 'replace';
+  /** Holes that were chosen, by number, of the mesh of a revision. */
+  private chosen = { revision: -1, holes: new Set<number>() };
+  private previewFocused = -1;
+
+  constructor(private readonly app: App) {}
+
+  setCombine(combine: Combine): void {
+    this.combine = combine;
+    this.app.requestUpdate();
+  }
+  get chosenHoles(): Set<number> {
+    const revision = this.app.project.surface?.mesh_revision ?? -1;
+    if (revision !== this.chosen.revision) this.chosen = { revision, holes: new Set() };
+    return this.chosen.holes;
+  }
+  chooseHole(hole: number, chosen: boolean): void {
+    if (chosen) this.chosenHoles.add(hole);
+    else this.chosenHoles.delete(hole);
+    this.app.requestUpdate();
+  }
+
+  run(operation: string, value = ''): void {
+    void this.app.command('edit', { operation, value });
+  }
+  /** Tries an edit; it is applied when it has been looked at. */
+  preview(operation: string, value = ''): void {
+    void this.app.command('preview', { operation, value });
+  }
+  applyPreview(): void {
+    const preview = this.app.project.surface?.preview;
+    if (!preview) return;
+    if (this.app.viewer.tool === 'align') this.app.setTool('orbit');
+    this.run(preview.operation, preview.value);
+  }
+  /** Brings the marks of the chosen holes into the picture, and the focus to a new preview. */
+  follow(): void {
+    const { app } = this;
+    const surface = app.session.state?.project?.surface;
+    const chosen = app.step === 'edit' && surface ? this.chosenHoles : new Set<number>();
+    app.viewer.markHoles((surface?.holes ?? []).filter((hole) => chosen.has(hole.number)));
+    this.focusPreview();
+  }
+  /** Puts the focus on what applies a new preview, so that Enter does; the button that asked for it was disabled. */
+  private focusPreview(): void {
+    const revision = this.app.session.state?.project?.surface?.preview?.revision ?? -1;
+    const apply = this.app.querySelector<HTMLButtonElement>('#apply:not([disabled])');
+    if (revision === this.previewFocused || !apply) return;
+    this.previewFocused = revision;
+    if (!document.activeElement?.matches('input, select, textarea')) apply.focus({ preventScroll: true });
+  }
+
+  async selectBy(operation: string, value: string): Promise<void> {
+    if (await this.prepareCombination()) this.run(operation, value);
+  }
+  async selectPart(triangle: number): Promise<void> {
+    if (await this.prepareCombination()) await this.app.command('select-component-of', { triangle });
+  }
+  private async prepareCombination(): Promise<boolean> {
+    if (this.combine === 'replace' || !this.app.project.surface?.selected) return true;
+    return this.app.command('edit', { operation: this.combine, value: '' });
+  }
+
+  /** Points of the surface that a tool was used at. */
+  async picked(tool: Tool, points: [number, number, number][]): Promise<void> {
+    // The tool stays: faces that cannot be aligned are chosen anew.
+    if (tool === 'align') return this.preview('align', points.flat().map(round).join(','));
+    const [at] = points;
+    const holes = this.app.project.surface?.holes ?? [];
+    if (!at || holes.length === 0) return;
+    const far = ([x, y, z]: readonly number[]) => Math.hypot((x as number) - at[0], (y as number) - at[1], (z as number) - at[2]);
+    const nearest = holes.reduce((best, hole) => (far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best));
+    this.chooseHole(nearest.number, true);
+    await this.selectBy('select-loop', String(nearest.number));
+  }
+}

@@ -1,0 +1,52 @@
+import type { App } from './app';
+import { type ExportChoice, exportArguments } from './steps/export';
+
+/** What the step Export writes and how large it will be. */
+export class Exporting {
+  choice: ExportChoice = { format: 'dxf', variant: 'faces', encoding: 'binary', limit: '200000' };
+  /** Size of the file that would be written; null while it is not known. */
+  estimate: { triangles: number; bytes: number } | null = null;
+  private estimated = '';
+
+  constructor(private readonly app: App) {}
+
+  choose(change: Partial<ExportChoice>): void {
+    this.choice = { ...this.choice, ...change };
+    this.app.requestUpdate();
+  }
+  /** Asks how large the file would be, when what decides it has changed. */
+  async follow(): Promise<void> {
+    const { app } = this;
+    const surface = app.session.state?.project?.surface;
+    if (app.step !== 'export' || !surface || app.session.watches || surface.triangles === 0) return;
+    const wanted = exportArguments(this.choice);
+    const key = JSON.stringify([app.project.name, surface.mesh_revision, wanted]);
+    if (key === this.estimated) return;
+    this.estimated = key;
+    this.estimate = null;
+    try {
+      const estimate = await app.session.command<{ triangles: number; bytes: number }>('estimate-export', wanted);
+      if (key === this.estimated) this.estimate = estimate;
+    } catch {
+      // Without it, the file can still be written, and that says what is wrong.
+    }
+    app.requestUpdate();
+  }
+
+  async download(name: string): Promise<void> {
+    try {
+      await this.app.session.download(name);
+    } catch (error) {
+      this.app.say(error);
+    }
+  }
+  async pictureFile(): Promise<void> {
+    const blob = await this.app.viewer.snapshot();
+    if (!blob) return;
+    const anchor = document.createElement('a');
+    anchor.href = URL.createObjectURL(blob);
+    anchor.download = `${this.app.project.name}.png`;
+    anchor.click();
+    setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
+  }
+}

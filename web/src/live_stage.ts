@@ -1,0 +1,45 @@
+import type { App } from './app';
+import { LiveView } from './live_view';
+import type { LiveLayer } from './steps/live';
+
+/** The live preview on the stage: its layer, and what the server is asked to send. */
+export class LiveStage {
+  layer: LiveLayer = 'camera';
+  readonly view = new LiveView();
+
+  constructor(private readonly app: App) {}
+
+  setLayer(layer: LiveLayer): void {
+    this.layer = layer;
+    this.follow();
+    this.app.requestUpdate();
+  }
+  setMarks(marks: boolean): void {
+    this.view.setMarks(marks);
+    this.app.requestUpdate();
+  }
+  /** Asks for what is looked at, and for nothing else. */
+  follow(): void {
+    const { app } = this;
+    const project = app.session.state?.project;
+    if (app.step === 'live' && project?.live) app.session.show(this.layer);
+    else if (app.step === 'rig' && project?.calibration?.active) app.session.show('camera');
+    else app.session.show('none');
+  }
+  draw(picture: ArrayBuffer): void {
+    if (this.view.draw(picture) && this.view.positions) this.app.viewer.setCloud(-1, this.view.positions.slice());
+    this.app.requestUpdate();
+  }
+  /** The preview begins with the step Live, and ends when another one is opened. */
+  stepped(before: string, step: string): void {
+    const { app } = this;
+    const project = app.session.state?.project ?? null;
+    if (step === 'live' && project?.can_scan && !project.live && !app.busy && !app.session.watches) void app.command('start-live');
+    const live = app.session.state ? app.job('live') : undefined;
+    if (before === 'live' && step !== 'live' && live && !app.session.watches) {
+      void app.command('stop-job', { job: live.number });
+      this.view.clear();
+    }
+    this.follow();
+  }
+}

@@ -1,0 +1,35 @@
+import type { App } from './app';
+import { presentSetup } from './steps/scan_setups';
+
+/** The setups of the part: which one the step Scan shows, and turning the part over. */
+export class Setups {
+  private chosen: number | null = null;
+  /** Whether the page guides through turning the part over. */
+  turning = false;
+
+  constructor(private readonly app: App) {}
+
+  forget(): void {
+    this.chosen = null;
+    this.turning = false;
+  }
+  /** The setup whose stations the step Scan shows. */
+  get shown(): number {
+    return Math.min(this.chosen ?? Infinity, presentSetup(this.app.session.state?.project?.stations ?? []));
+  }
+  show(setup: number | null): void {
+    this.chosen = setup;
+    this.app.chooseClouds();
+    this.app.requestUpdate();
+  }
+  turn(turning: boolean): void {
+    this.turning = turning;
+    this.app.requestUpdate();
+  }
+  async scanNext(): Promise<void> {
+    const setup = presentSetup(this.app.project.stations) + 1;
+    if (!(await this.app.command('start-scan', { setup }))) return;
+    this.turn(false);
+    this.show(null);
+  }
+}
