@@ -11,7 +11,7 @@
 #include "frangia/calibrate/find_charuco.h"
 #include "frangia/calibrate/measure_sharpness.h"
 #include "frangia/core/angles.h"
-#include "frangia/pipeline/internal/measure_pose_faults.h"
+#include "frangia/pipeline/internal/calibrate_measure_faults.h"
 
 namespace frangia {
 namespace {
@@ -169,7 +169,7 @@ PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
     if (board.kind == BoardKind::Checkerboard) pose.counted = count_corners(image);
     return pose;
   }
-  measure_pose_faults(stacks, image, board, pose);
+  calibrate_measure_faults(stacks, image, board, pose);
   for (const FringeDirection direction : {FringeDirection::Vertical, FringeDirection::Horizontal})
     add_projector_pixels(stacks, direction, known, options, run, pose.view.points);
   return pose;

@@ -1,4 +1,4 @@
-#include "frangia/pipeline/internal/measure_pose_faults.h"
+#include "frangia/pipeline/internal/calibrate_measure_faults.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "frangia/calibrate/board_image.h"
-#include "frangia/calibrate/find_charuco.h"
 #include "frangia/calibrate/find_circles.h"
 #include "frangia/calibrate/measure_fringe_misfit.h"
 #include "frangia/calibrate/measure_sharpness.h"
@@ -61,10 +60,10 @@ double circle_motion_px(const Image<float>& counts,
 
 }  // namespace
 
-void measure_pose_faults(std::span<const FrameStack> stacks,
-                         const Image<float>& image,
-                         const Board& board,
-                         PoseCapture& pose) {
+void calibrate_measure_faults(std::span<const FrameStack> stacks,
+                              const Image<float>& image,
+                              const Board& board,
+                              PoseCapture& pose) {
   const std::vector<BoardPoint>& points = pose.view.points;
   const int reach_px = corner_reach_px(board, points);
   if (board.kind != BoardKind::Circles) pose.blur_px = measure_blur_px(image, points, reach_px);
