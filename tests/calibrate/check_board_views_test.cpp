@@ -71,6 +71,17 @@ TEST(CheckBoardViews, NamesTheCornersThatTheImagesShow) {
   EXPECT_NE(message.find("set corners = [9, 6]"), std::string::npos) << message;
 }
 
+TEST(CheckBoardViews, NamesALargerBoardOfWhichThePartWasFound) {
+  std::vector<PoseCapture> poses = captures(8);
+  for (std::size_t i = 3; i < poses.size(); ++i) {
+    poses[i].view.points.clear();
+    if (i < 5) poses[i].counted = {{kBoard.columns + 1, kBoard.rows}};
+  }
+  const std::string message =
+      testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+  EXPECT_NE(message.find("2 views show a checkerboard of"), std::string::npos) << message;
+}
+
 TEST(CheckBoardViews, TakesASmallGridBesideTheBoardForNoise) {
   std::vector<PoseCapture> poses = captures(8);
   for (std::size_t i = 2; i < poses.size(); ++i) {

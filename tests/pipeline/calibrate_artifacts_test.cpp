@@ -98,6 +98,9 @@ TEST_F(CalibrateArtifacts, FindsAnAngularRigFromScreenPlateAndBallBar) {
   EXPECT_NEAR(std::get<AngularModel>(found.rig.projector.model).pitch_scale, 1.0, 2e-3);
   EXPECT_LT(degrees_apart(found.rig.projector.rotation.row(2), rig.projector.rotation.row(2)), 0.1);
   EXPECT_LT(degrees_apart(found.rig.turntable->axis, rig.turntable->axis), 0.05);
+  EXPECT_GT(found.rig.turntable->axis_sigma_rad, 0.0);
+  EXPECT_GT(found.rig.turntable->point_sigma_mm, 0.0);
+  EXPECT_GT(found.rig.turntable->angle_sigma_rad, 0.0);
   EXPECT_LT(degrees_apart(found.rig.laser_sheet->normal, rig.laser_sheet->normal), 0.1);
   ASSERT_TRUE(found.rig.calibration);
   EXPECT_EQ(found.rig.calibration->board, "screen, plate, ball-bar");

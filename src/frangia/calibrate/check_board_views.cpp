@@ -2,7 +2,9 @@
 #include "frangia/calibrate/check_board_views.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/QR>
@@ -24,42 +26,75 @@ std::string views(std::size_t count) {
   return fmt::format("{} {}", count, count == 1 ? "view" : "views");
 }
 
-/// Fails when most of the views in which corners can be counted, at least two and more than show
-/// the expected board, show a checkerboard of one other size. Noise may look like a small one.
-void check_counts(std::span<const PoseCapture> poses, const Board& board) {
-  std::map<std::array<int, 2>, std::size_t> seen;
-  std::size_t counted = 0;
-  std::size_t expected = 0;
-  for (const PoseCapture& pose : poses) {
-    if (!pose.view.points.empty()) ++expected;
-    if (!pose.counted) continue;
-    ++seen[*pose.counted];
-    ++counted;
-  }
-  const auto most = std::max_element(
-      seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most == seen.end() || most->second < 2 || most->second <= expected ||
-      2 * most->second <= counted)
-    return;
-  const auto [longer, shorter] = most->first;
-  // Where the expected board is seen at all, a smaller one is a part of it or noise.
-  const bool smaller = longer <= std::max(board.columns, board.rows) &&
-                       shorter <= std::min(board.columns, board.rows);
-  if (expected > 0 && smaller) return;
-  if (longer == std::max(board.columns, board.rows) &&
-      shorter == std::min(board.columns, board.rows))
-    return;
+/// Numbers of inner corners along the longer and the shorter side of a checkerboard.
+using CornerCounts = std::array<int, 2>;
+
+CornerCounts stated_counts(const Board& board) {
+  return {std::max(board.columns, board.rows), std::min(board.columns, board.rows)};
+}
+
+[[noreturn]] void fail_counts(const Board& board, const CornerCounts& seen, std::size_t count) {
   fail(
       fmt::format("board.corners in scan.toml is [{}, {}], but {} {} a checkerboard of {} x {} "
                   "inner corners; set corners = [{}, {}]",
                   board.columns,
                   board.rows,
-                  views(most->second),
-                  most->second == 1 ? "shows" : "show",
-                  longer,
-                  shorter,
-                  longer,
-                  shorter));
+                  views(count),
+                  count == 1 ? "shows" : "show",
+                  seen[0],
+                  seen[1],
+                  seen[0],
+                  seen[1]));
+}
+
+std::size_t count_found(std::span<const PoseCapture> poses) {
+  return static_cast<std::size_t>(std::count_if(
+      poses.begin(), poses.end(), [](const auto& pose) { return !pose.view.points.empty(); }));
+}
+
+/// The number of corners that most views show of those that `wanted` accepts, and the number of
+/// views; 0 if there is none.
+template <typename Wanted>
+std::pair<CornerCounts, std::size_t> most_seen(std::span<const PoseCapture> poses,
+                                               const Wanted& wanted) {
+  std::map<CornerCounts, std::size_t> seen;
+  for (const PoseCapture& pose : poses)
+    if (pose.counted && wanted(*pose.counted)) ++seen[*pose.counted];
+  const auto most = std::max_element(
+      seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == seen.end()) return {};
+  return {most->first, most->second};
+}
+
+/// Fails when views show a larger checkerboard than the expected one, which may be found as a part
+/// of it elsewhere: two views suffice if they are not far fewer than those. Where there is no
+/// larger one, none is seen.
+void check_larger_counts(std::span<const PoseCapture> poses, const Board& board) {
+  const CornerCounts stated = stated_counts(board);
+  const auto is_larger = [&](const CornerCounts& seen) {
+    return seen != stated && seen[0] >= stated[0] && seen[1] >= stated[1];
+  };
+  const auto all = static_cast<std::size_t>(
+      std::count_if(poses.begin(), poses.end(), [&](const PoseCapture& pose) {
+        return pose.counted && is_larger(*pose.counted);
+      }));
+  if (all < 2 || 2 * all <= count_found(poses)) return;
+  const auto [counts, count] = most_seen(poses, is_larger);
+  fail_counts(board, counts, count);
+}
+
+/// Fails when most of the views in which corners can be counted, at least two and more than show
+/// the expected board, show a checkerboard of one other size. Noise may look like a small one.
+void check_counts(std::span<const PoseCapture> poses, const Board& board) {
+  const CornerCounts stated = stated_counts(board);
+  const auto counted = static_cast<std::size_t>(std::count_if(
+      poses.begin(), poses.end(), [](const auto& pose) { return pose.counted.has_value(); }));
+  const std::size_t expected = count_found(poses);
+  const auto [counts, count] = most_seen(poses, [](const CornerCounts&) { return true; });
+  if (count < 2 || count <= expected || 2 * count <= counted || counts == stated) return;
+  // Where the expected board is seen at all, a smaller one is a part of it or noise.
+  if (expected > 0 && counts[0] <= stated[0] && counts[1] <= stated[1]) return;
+  fail_counts(board, counts, count);
 }
 
 /// Fails when only mirrored images show the markers of the board.
@@ -191,6 +226,7 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
     seen.push_back(pose);
     found.push_back(pose.view);
   }
+  check_larger_counts(poses, board);
   if (found.size() < options.min_views) {
     const auto unseen =
         names_of(poses, [](const PoseCapture& pose) { return pose.view.points.empty(); });

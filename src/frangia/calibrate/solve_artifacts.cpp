@@ -238,6 +238,9 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
   }
   out.angle_sigma_rad = fit.noise.angle_rad;
   set_covariance(fit.inverse, out);
+  out.rig.turntable->point_sigma_mm = out.point_sigma_mm;
+  out.rig.turntable->axis_sigma_rad = out.axis_sigma_rad;
+  out.rig.turntable->angle_sigma_rad = out.angle_sigma_rad;
   return out;
 }
 

@@ -81,7 +81,10 @@ void check_start(const Rig& rig) {
 /// Scales all lengths of a rig but those of the camera.
 Rig scaled(Rig rig, double scale) {
   rig.projector.position_mm *= scale;
-  if (rig.turntable) rig.turntable->point_mm *= scale;
+  if (rig.turntable) {
+    rig.turntable->point_mm *= scale;
+    rig.turntable->point_sigma_mm *= scale;
+  }
   if (rig.laser_sheet) rig.laser_sheet->offset_mm *= scale;
   return rig;
 }
