@@ -82,6 +82,17 @@ TEST(CheckBoardViews, NamesALargerBoardOfWhichThePartWasFound) {
   EXPECT_NE(message.find("2 views show a checkerboard of"), std::string::npos) << message;
 }
 
+TEST(CheckBoardViews, NamesASmallerBoardThatWasOnceTakenForTheStatedOne) {
+  std::vector<PoseCapture> poses = captures(8);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    poses[i].view.points.clear();
+    if (i < 7) poses[i].counted = {{kBoard.columns - 1, kBoard.rows}};
+  }
+  const std::string message =
+      testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+  EXPECT_NE(message.find("6 views show a checkerboard of"), std::string::npos) << message;
+}
+
 TEST(CheckBoardViews, TakesASmallGridBesideTheBoardForNoise) {
   std::vector<PoseCapture> poses = captures(8);
   for (std::size_t i = 2; i < poses.size(); ++i) {

@@ -92,8 +92,9 @@ void check_counts(std::span<const PoseCapture> poses, const Board& board) {
   const std::size_t expected = count_found(poses);
   const auto [counts, count] = most_seen(poses, [](const CornerCounts&) { return true; });
   if (count < 2 || count <= expected || 2 * count <= counted || counts == stated) return;
-  // Where the expected board is seen at all, a smaller one is a part of it or noise.
-  if (expected > 0 && counts[0] <= stated[0] && counts[1] <= stated[1]) return;
+  // Where the expected board is seen at all, a much smaller one is a part of it or noise.
+  const bool is_much_smaller = 2 * counts[0] * counts[1] < stated[0] * stated[1];
+  if (expected > 0 && is_much_smaller) return;
   fail_counts(board, counts, count);
 }
 
