@@ -54,7 +54,8 @@ std::vector<WrappedPhase> jump_maps(const PhaseOf& finest, const PhaseOf& shift)
     map.status = Image<PixelStatus>(kDiskWidth, kDiskHeight, PixelStatus::Measured);
     for (int y = 0; y < kDiskHeight; ++y) {
       for (int x = 0; x < kDiskWidth; ++x) {
-        const auto pixel = static_cast<std::uint64_t>(y * kDiskWidth + x);
+        const int index = y * kDiskWidth + x;
+        const auto pixel = static_cast<std::uint64_t>(index);
         const double noise =
             kDiskNoise_rad * normal_from(hash(static_cast<std::uint64_t>(count), pixel));
         const double own = count == 8.0 ? shift(x, y) : 0.0;
@@ -95,7 +96,7 @@ int wrong_orders(const AbsolutePhase& phase, const PhaseOf& finest) {
   return wrong;
 }
 
-double no_disk_shift(int, int) {
+double no_disk_shift(int /*x*/, int /*y*/) {
   return 0.0;
 }
 

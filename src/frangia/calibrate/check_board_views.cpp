@@ -199,18 +199,61 @@ void check_range(std::span<const PoseCapture> poses, const CameraModel& projecto
                   projector.height_px));
 }
 
+/// Fails because the board is found in too few views, and says why it is not in the others.
+[[noreturn]] void fail_too_few(std::span<const PoseCapture> poses,
+                               std::size_t found,
+                               const Board& board,
+                               const PoseCheckOptions& options) {
+  const auto unseen =
+      names_of(poses, [](const PoseCapture& pose) { return pose.view.points.empty(); });
+  if (!unseen.empty()) {
+    check_markers(poses);
+    check_counts(poses, board);
+  }
+  check_light(poses, options);
+  if (unseen.empty()) {
+    fail(fmt::format("the scan has {}; capture at least {} poses, each tilted another way",
+                     views(found),
+                     options.min_views));
+  }
+  fail(
+      fmt::format("the board is found in {} of {}, and {} are needed; it is not found in {}: "
+                  "show all of it, flat, sharp and lit",
+                  found,
+                  views(poses.size()),
+                  options.min_views,
+                  list_of(unseen)));
+}
+
 /// Largest angle between the normals of two poses.
 double largest_tilt_rad(std::span<const BoardView> found, const Board& board, const Rig& known) {
   const RigParameters start = start_values(board, found, known);
   std::vector<Eigen::Vector3d> normals;
   for (const RigParameters::Pose& pose : start.camera_from_board)
-    normals.push_back(isometry_of(pose).linear().col(2));
+    normals.emplace_back(isometry_of(pose).linear().col(2));
   double largest = 0.0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
       largest = std::max(largest, std::acos(std::min(1.0, normals[i].dot(normals[k]))));
   }
   return largest;
+}
+
+/// Fails when all poses are nearly parallel.
+void check_tilt(const std::vector<PoseCapture>& seen,
+                const Board& board,
+                const Rig& known,
+                const PoseCheckOptions& options) {
+  std::vector<BoardView> found;
+  found.reserve(seen.size());
+  for (const PoseCapture& pose : seen)
+    found.push_back(pose.view);
+  const double tilt_rad = largest_tilt_rad(found, board, known);
+  if (deg_from_rad(tilt_rad) >= options.min_tilt_deg) return;
+  fail(
+      fmt::format("all poses of the board are parallel within {:.1f} degrees, which leaves the "
+                  "focal lengths open; tilt the board by 20 to 40 degrees, each time another way",
+                  deg_from_rad(tilt_rad)));
 }
 
 }  // namespace
@@ -221,34 +264,10 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
                              const PoseCheckOptions& options) {
   const auto& projector = std::get<PinholeModel>(known.projector.model);
   std::vector<PoseCapture> seen;
-  std::vector<BoardView> found;
-  for (const PoseCapture& pose : poses) {
-    if (pose.view.points.empty()) continue;
-    seen.push_back(pose);
-    found.push_back(pose.view);
-  }
+  for (const PoseCapture& pose : poses)
+    if (!pose.view.points.empty()) seen.push_back(pose);
   check_larger_counts(poses, board);
-  if (found.size() < options.min_views) {
-    const auto unseen =
-        names_of(poses, [](const PoseCapture& pose) { return pose.view.points.empty(); });
-    if (!unseen.empty()) {
-      check_markers(poses);
-      check_counts(poses, board);
-    }
-    check_light(poses, options);
-    if (unseen.empty()) {
-      fail(fmt::format("the scan has {}; capture at least {} poses, each tilted another way",
-                       views(found.size()),
-                       options.min_views));
-    }
-    fail(
-        fmt::format("the board is found in {} of {}, and {} are needed; it is not found in {}: "
-                    "show all of it, flat, sharp and lit",
-                    found.size(),
-                    views(poses.size()),
-                    options.min_views,
-                    list_of(unseen)));
-  }
+  if (seen.size() < options.min_views) fail_too_few(poses, seen.size(), board, options);
   PoseChecks checks;
   const auto unfocused = blurred_unseen(poses, options);
   if (!unfocused.empty()) {
@@ -304,16 +323,7 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
                         "swapped, missing or out of step, or shifts_deg or period_px are wrong",
                         list_of(uneven)));
   warn_of_quality(seen, options, checks);
-  found.clear();
-  for (const PoseCapture& pose : seen)
-    found.push_back(pose.view);
-  const double tilt_rad = largest_tilt_rad(found, board, known);
-  if (deg_from_rad(tilt_rad) < options.min_tilt_deg) {
-    fail(
-        fmt::format("all poses of the board are parallel within {:.1f} degrees, which leaves the "
-                    "focal lengths open; tilt the board by 20 to 40 degrees, each time another way",
-                    deg_from_rad(tilt_rad)));
-  }
+  check_tilt(seen, board, known, options);
   return checks;
 }
 

@@ -40,6 +40,7 @@ std::optional<std::vector<Eigen::Vector2d>> find_circles(const Image<float>& cou
                                          cv::SimpleBlobDetector::create(blobs));
   if (!found) return std::nullopt;
   std::vector<Eigen::Vector2d> near;
+  near.reserve(centers.size());
   for (const cv::Point2f& center : centers)
     near.emplace_back(center.x, center.y);
   return find_circles_near(counts, board, near);
@@ -49,6 +50,7 @@ std::vector<Eigen::Vector2d> find_circles_near(const Image<float>& counts,
                                                const Board& board,
                                                std::span<const Eigen::Vector2d> centers_px) {
   std::vector<cv::Point2f> centers;
+  centers.reserve(centers_px.size());
   for (const Eigen::Vector2d& center : centers_px)
     centers.emplace_back(static_cast<float>(center.x()), static_cast<float>(center.y()));
   std::vector<Eigen::Vector2d> out;

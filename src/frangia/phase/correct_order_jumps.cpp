@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "frangia/core/angles.h"
@@ -45,7 +46,8 @@ std::vector<Jump> find_jumps(const Image<float>& phase, const JumpOptions& optio
       if (std::isnan(before) || std::isnan(behind)) return;
       const auto fringes = static_cast<int>(std::lround((to - from) / kTwoPi));
       if (!is_smooth(before, to - from - kTwoPi * fringes, behind, options)) return;
-      const auto index = static_cast<std::uint32_t>(y * width + x);
+      const int at = y * width + x;
+      const auto index = static_cast<std::uint32_t>(at);
       const auto stride = static_cast<std::uint32_t>(dy * width + dx);
       rows[static_cast<std::size_t>(y)].push_back({index, index + stride, stride, fringes});
     };
@@ -95,10 +97,9 @@ std::vector<Cause> causes_of(const std::vector<Jump>& jumps,
       wrong_order +=
           std::pow(wrap_rad(difference - ratio * (fine - kTwoPi * jumps[i].fringes)), 2) / variance;
     }
-    if (!(std::isfinite(wrong_order) && std::isfinite(step)))
-      causes.push_back(Cause::Unknown);
-    else
-      causes.push_back(wrong_order < step ? Cause::WrongOrder : Cause::Step);
+    const Cause likelier = wrong_order < step ? Cause::WrongOrder : Cause::Step;
+    const bool known = std::isfinite(wrong_order) && std::isfinite(step);
+    causes.push_back(known ? likelier : Cause::Unknown);
   }
   return causes;
 }
@@ -129,10 +130,11 @@ JumplessRegions find_regions(const Image<float>& phase) {
       const int y = index / width;
       const auto visit = [&](int u, int v) {
         if (u < 0 || v < 0 || u >= width || v >= height) return;
-        std::int32_t& label = out.label[static_cast<std::size_t>(v * width + u)];
+        const int other = v * width + u;
+        std::int32_t& label = out.label[static_cast<std::size_t>(other)];
         if (label >= 0 || !(std::abs(phase(u, v) - phase(x, y)) <= kPiF)) return;
         label = region;
-        open.push_back(static_cast<std::uint32_t>(v * width + u));
+        open.push_back(static_cast<std::uint32_t>(other));
       };
       visit(x - 1, y);
       visit(x + 1, y);
@@ -172,7 +174,10 @@ FringeForest join_over_jumps(const std::vector<Jump>& jumps,
     std::int32_t larger;
     std::int32_t smaller;
     int fringes;  ///< to add to the smaller one
-    auto operator<=>(const Key&) const = default;
+    bool operator<(const Key& other) const {
+      return std::tie(larger, smaller, fringes) <
+             std::tie(other.larger, other.smaller, other.fringes);
+    }
   };
   std::map<Key, OrderBorder> borders;
   for (std::size_t i = 0; i < jumps.size(); ++i) {
@@ -194,9 +199,10 @@ FringeForest join_over_jumps(const std::vector<Jump>& jumps,
     return a.second.wrong_order > b.second.wrong_order;
   });
   FringeForest forest(regions.size.size());
-  for (const auto& [key, border] : safe)
+  for (const auto& [key, border] : safe) {
     forest.join(
         static_cast<std::size_t>(key.larger), static_cast<std::size_t>(key.smaller), key.fringes);
+  }
   return forest;
 }
 

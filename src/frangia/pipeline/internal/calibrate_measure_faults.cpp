@@ -46,6 +46,7 @@ double circle_motion_px(const Image<float>& counts,
                         const Board& board,
                         const std::vector<BoardPoint>& points) {
   std::vector<Eigen::Vector2d> centers;
+  centers.reserve(points.size());
   for (const BoardPoint& point : points)
     centers.push_back(point.camera_px);
   const std::vector<Eigen::Vector2d> now = find_circles_near(counts, board, centers);
