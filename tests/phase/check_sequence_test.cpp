@@ -151,6 +151,17 @@ TEST(CheckSequence, NamesAStartThatIsNoMultipleOfAQuarterTurn) {
   EXPECT_NEAR(std::stod(found.fits.front().what.substr(11)), 130.0, 2.0) << describe(found);
 }
 
+TEST(CheckSequence, NamesTheStartThatKeepsTheSurfaceWholeOfThoseThatFitAlike) {
+  const auto declared = whole_counts({53.0, 58.0, 64.0});
+  auto shown = declared;
+  for (double& shift : shown[0].shifts_rad)
+    shift += rad_from_deg(37.0);
+  const SequenceCheck found = checked(shown, declared);
+  ASSERT_EQ(found.fits.size(), 1U) << describe(found);
+  EXPECT_EQ(found.fits.front().patterns, std::vector<std::string>{"p0"});
+  EXPECT_NEAR(std::stod(found.fits.front().what.substr(11)), 37.0, 1.0) << describe(found);
+}
+
 TEST(CheckSequence, NamesReversedShifts) {
   const auto declared = whole_counts({1.0, 8.0, 64.0}, 5);
   for (std::size_t turned = 0; turned < 3; ++turned) {

@@ -57,22 +57,45 @@ void add_shown_period(const SequenceSample& sample,
   trials.push_back(std::move(exact));
 }
 
-/// The start of one map that fits best, to a degree.
-SequenceTrial free_start(const SequenceSample& sample, std::size_t map) {
-  double best_deg = 0.0;
-  double least = std::numeric_limits<double>::max();
+/// The starts of one map that fit best, to a degree. Starts may fit alike, as those half a fringe
+/// apart where the fringes of that map come in pairs in every relation of the phases.
+std::vector<SequenceTrial> free_starts(const SequenceSample& sample, std::size_t map) {
+  constexpr std::size_t kRefined = 6;       // minima
+  constexpr double kAlike = 1.1;            // misfit over the least one
+  using Start = std::pair<double, double>;  // misfit, degrees
   const auto look = [&](double from_deg, double to_deg, double step_deg) {
-    for (double start = from_deg; start <= to_deg; start += step_deg) {
-      const double found = sample.misfit(start_trial(sample.patterns(), map, rad_from_deg(start)));
-      if (found >= least) continue;
-      least = found;
-      best_deg = start;
+    std::vector<Start> found;
+    for (int i = 0; from_deg + i * step_deg <= to_deg; ++i) {
+      const double start_deg = from_deg + i * step_deg;
+      if (std::remainder(start_deg, 360.0) == 0.0) continue;  // as declared
+      const SequenceTrial trial = start_trial(sample.patterns(), map, rad_from_deg(start_deg));
+      found.emplace_back(sample.misfit(trial), start_deg);
     }
+    return found;
   };
-  look(10.0, 350.0, 10.0);
-  look(best_deg - 8.0, best_deg + 8.0, 2.0);
-  look(best_deg - 1.0, best_deg + 1.0, 1.0);
-  return start_trial(sample.patterns(), map, rad_from_deg(best_deg));
+  const std::vector<Start> coarse = look(10.0, 350.0, 10.0);
+  std::vector<Start> minima;
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const bool falls = i == 0 || coarse[i].first <= coarse[i - 1].first;
+    const bool rises = i + 1 == coarse.size() || coarse[i].first <= coarse[i + 1].first;
+    if (falls && rises) minima.push_back(coarse[i]);
+  }
+  std::stable_sort(minima.begin(), minima.end());
+  minima.resize(std::min(kRefined, minima.size()));
+  for (Start& minimum : minima) {
+    for (const double step_deg : {2.0, 1.0}) {
+      const double reach_deg = 4.0 * step_deg;
+      const auto near = look(minimum.second - reach_deg, minimum.second + reach_deg, step_deg);
+      minimum = *std::min_element(near.begin(), near.end());
+    }
+  }
+  std::stable_sort(minima.begin(), minima.end());
+  std::vector<SequenceTrial> out;
+  for (const auto& [misfit, start_deg] : minima) {
+    if (misfit <= kAlike * minima.front().first)
+      out.push_back(start_trial(sample.patterns(), map, rad_from_deg(start_deg)));
+  }
+  return out;
 }
 
 }  // namespace
@@ -131,9 +154,10 @@ std::vector<RankedTrial> with_free_starts(const SequenceSample& sample,
   const double best = found.empty() ? std::numeric_limits<double>::max() : found.front().misfit_rad;
   if (best <= kNoise * sample.expected_misfit()) return found;
   for (std::size_t map = 0; map < sample.patterns().size(); ++map) {
-    SequenceTrial trial = free_start(sample, map);
-    const double misfit = sample.misfit(trial);
-    if (misfit < kBetter * best) found.push_back({std::move(trial), misfit});
+    for (SequenceTrial& trial : free_starts(sample, map)) {
+      const double misfit = sample.misfit(trial);
+      if (misfit < kBetter * best) found.push_back({std::move(trial), misfit});
+    }
   }
   return found;
 }
