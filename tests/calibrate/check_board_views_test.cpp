@@ -157,6 +157,18 @@ TEST(CheckBoardViews, LeavesOutThePoseThatMoved) {
             std::string::npos);
 }
 
+TEST(CheckBoardViews, TakesFramesThatDoNotFitInABlurredPoseForBlur) {
+  std::vector<PoseCapture> poses = captures(8);
+  poses[3].misfit = 1.4;
+  poses[3].misfit_in = "rows-fine";
+  poses[3].blur_px = 4.0;
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_EQ(checks.left_out, std::vector<std::string>{"pose 3"});
+  ASSERT_EQ(checks.warnings.size(), 1U);
+  EXPECT_NE(checks.warnings[0].find("out of focus or moving in pose 3"), std::string::npos)
+      << checks.warnings[0];
+}
+
 TEST(CheckBoardViews, LeavesOutThePosesWhosePatternsAreExchanged) {
   std::vector<PoseCapture> poses = captures(8);
   for (const std::size_t i : {2UL, 5UL}) {

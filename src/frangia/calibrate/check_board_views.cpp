@@ -293,6 +293,11 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
     return pose.brightness < options.dim && !is_lit(pose, options);
   });
   leave_out(dark, describe_dark(dark, options));
+  // Coarse blur lets the fringes about the corners look like those of other frames.
+  const auto blurred = names_of(seen, [&](const PoseCapture& pose) {
+    return pose.misfit > options.wrong_frames && is_blurred(pose, options);
+  });
+  leave_out(blurred, describe_blurred(seen, blurred));
   const auto swapped =
       names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
   // Most poses: not a slip of one capture, and the phases of the others say nothing either.

@@ -225,6 +225,13 @@ OrderJumpResult correct_order_jumps(const CoarsePhases& coarse,
   if (static_cast<std::size_t>(wrong) < options.min_pairs) return out;
   const JumplessRegions regions = find_regions(phase.phase_rad);
   FringeForest forest = join_over_jumps(jumps, causes, regions, options);
+  std::size_t measured = 0;
+  std::size_t changed = 0;
+  for (std::size_t region = 0; region < regions.size.size(); ++region) {
+    measured += regions.size[region];
+    if (forest.root(region).fringes != 0) changed += regions.size[region];
+  }
+  if (static_cast<double>(changed) > options.max_share * static_cast<double>(measured)) return out;
   for (std::size_t i = 0; i < regions.label.size(); ++i) {
     if (regions.label[i] < 0) continue;
     const auto region = static_cast<std::size_t>(regions.label[i]);

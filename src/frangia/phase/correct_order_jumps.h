@@ -28,6 +28,9 @@ struct OrderJumpOptions {
   /// A region of more than this share of the size of its neighbour is discarded instead of
   /// corrected, because either may be wrong.
   double max_size = 0.5;
+  /// Largest share of the measured pixels whose order may be wrong. Where there are more, something
+  /// else is wrong, such as the order of the frames, and nothing is changed.
+  double max_share = 0.1;
 };
 
 /// Numbers of pixels whose fringe order was wrong.

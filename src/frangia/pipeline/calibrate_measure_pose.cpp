@@ -36,7 +36,8 @@ void add_projector_pixels(std::span<const FrameStack> stacks,
                           std::vector<BoardPoint>& points) {
   DecodeOptions decode = options.decode;
   decode.keep_maps = false;
-  decode.fill.max_px = 0;  // a point is fitted to measured pixels only
+  decode.order_jumps.max_share = 0.0;  // a board is flat: jumps show frames that do not fit
+  decode.fill.max_px = 0;              // a point is fitted to measured pixels only
   // The rays serve the decoding of scans without absolute phase only.
   const DecodedView decoded = decode_view(stacks_of(stacks, direction), known, {}, decode, run);
   const double px_per_rad = decoded.phase.pattern.period_px / kTwoPi;

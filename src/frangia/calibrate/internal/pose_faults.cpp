@@ -54,6 +54,16 @@ std::string describe_swapped(std::span<const PoseCapture> poses,
       list_of(names));
 }
 
+std::string describe_blurred(std::span<const PoseCapture> poses,
+                             const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  return fmt::format(
+      "the board is out of focus or moving in {}: its edges are blurred by {:.1f} px; close the "
+      "aperture or place the board nearer to the focus",
+      list_of(names),
+      pose_named(poses, names.front()).blur_px);
+}
+
 std::string describe_exchanged(std::span<const PoseCapture> poses,
                                const std::vector<std::string>& names) {
   if (names.empty()) return {};
@@ -131,13 +141,7 @@ void warn_of_quality(std::span<const PoseCapture> poses,
   }
   const auto blurred =
       names_of(poses, [&](const PoseCapture& pose) { return is_blurred(pose, options); });
-  if (!blurred.empty()) {
-    checks.warnings.push_back(fmt::format(
-        "the board is out of focus or moving in {}: its edges are blurred by {:.1f} px; "
-        "close the aperture or place the board nearer to the focus",
-        list_of(blurred),
-        pose_named(poses, blurred.front()).blur_px));
-  }
+  if (!blurred.empty()) checks.warnings.push_back(describe_blurred(poses, blurred));
 }
 
 }  // namespace frangia

@@ -28,6 +28,8 @@ template <typename Condition>
                                                const PoseCheckOptions& options);
 [[nodiscard]] std::string describe_swapped(std::span<const PoseCapture> poses,
                                            const std::vector<std::string>& names);
+[[nodiscard]] std::string describe_blurred(std::span<const PoseCapture> poses,
+                                           const std::vector<std::string>& names);
 [[nodiscard]] std::string describe_exchanged(std::span<const PoseCapture> poses,
                                              const std::vector<std::string>& names);
 [[nodiscard]] std::string describe_moved(std::span<const PoseCapture> poses,
