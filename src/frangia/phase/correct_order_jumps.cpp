@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/phase/internal/fringe_forest.h"
+#include "frangia/phase/internal/jumpless_regions.h"
 
 namespace frangia {
 namespace {
@@ -104,61 +104,6 @@ std::vector<Cause> causes_of(const std::vector<Jump>& jumps,
   return causes;
 }
 
-/// Regions within which the absolute phase has no jump, from the largest.
-struct JumplessRegions {
-  std::vector<std::int32_t> label;  ///< one for each pixel; -1 where there is no phase
-  std::vector<std::size_t> size;    ///< pixels of each region
-};
-
-JumplessRegions find_regions(const Image<float>& phase) {
-  const int width = phase.width();
-  const int height = phase.height();
-  JumplessRegions out;
-  out.label.assign(phase.pixels().size(), -1);
-  std::vector<std::uint32_t> open;
-  for (std::size_t seed = 0; seed < out.label.size(); ++seed) {
-    if (out.label[seed] >= 0 || std::isnan(phase.pixels()[seed])) continue;
-    const auto region = static_cast<std::int32_t>(out.size.size());
-    out.size.push_back(0);
-    out.label[seed] = region;
-    open.push_back(static_cast<std::uint32_t>(seed));
-    while (!open.empty()) {
-      const auto index = static_cast<int>(open.back());
-      open.pop_back();
-      ++out.size.back();
-      const int x = index % width;
-      const int y = index / width;
-      const auto visit = [&](int u, int v) {
-        if (u < 0 || v < 0 || u >= width || v >= height) return;
-        const int other = v * width + u;
-        std::int32_t& label = out.label[static_cast<std::size_t>(other)];
-        if (label >= 0 || !(std::abs(phase(u, v) - phase(x, y)) <= kPiF)) return;
-        label = region;
-        open.push_back(static_cast<std::uint32_t>(other));
-      };
-      visit(x - 1, y);
-      visit(x + 1, y);
-      visit(x, y - 1);
-      visit(x, y + 1);
-    }
-  }
-  std::vector<std::int32_t> order(out.size.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return out.size[static_cast<std::size_t>(a)] > out.size[static_cast<std::size_t>(b)];
-  });
-  std::vector<std::int32_t> rank(order.size());
-  std::vector<std::size_t> sorted(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    rank[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
-    sorted[i] = out.size[static_cast<std::size_t>(order[i])];
-  }
-  for (std::int32_t& label : out.label)
-    if (label >= 0) label = rank[static_cast<std::size_t>(label)];
-  out.size = std::move(sorted);
-  return out;
-}
-
 /// A border of two regions at which the order jumps: pairs of pixels by cause.
 struct OrderBorder {
   std::size_t wrong_order = 0;
@@ -223,7 +168,7 @@ OrderJumpResult correct_order_jumps(const CoarsePhases& coarse,
   const std::vector<Cause> causes = causes_of(jumps, phase, coarse);
   const auto wrong = std::count(causes.begin(), causes.end(), Cause::WrongOrder);
   if (static_cast<std::size_t>(wrong) < options.min_pairs) return out;
-  const JumplessRegions regions = find_regions(phase.phase_rad);
+  const JumplessRegions regions = find_jumpless_regions(phase.phase_rad);
   FringeForest forest = join_over_jumps(jumps, causes, regions, options);
   std::size_t measured = 0;
   std::size_t changed = 0;
