@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/write_rig.h"
 
