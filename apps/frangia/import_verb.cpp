@@ -55,9 +55,10 @@ ImportOptions options_of(const ImportArguments& arguments) {
   if (!arguments.raw.empty()) options.files.raw = parse_raw_format(arguments.raw);
   if (!arguments.color.empty()) options.color = parse_color_choice(arguments.color);
   options.float_white = arguments.white_level;
-  if (arguments.white_level > 0.0)
+  if (arguments.white_level > 0.0) {
     options.white_level =
         static_cast<int>(std::clamp(std::round(arguments.white_level), 1.0, 65535.0));
+  }
   return options;
 }
 

@@ -82,10 +82,11 @@ std::vector<FringeWaveform> mean_waveforms(const ResponseFrames& frames) {
   for (const auto& [name, fits] : frames.waveforms) {
     FringeWaveform mean = fits.front().waveform;
     for (std::size_t view = 1; view < fits.size(); ++view) {
-      for (std::size_t i = 0; i < mean.harmonics.size(); ++i)
+      for (std::size_t i = 0; i < mean.harmonics.size(); ++i) {
         mean.harmonics[i] += i < fits[view].waveform.harmonics.size()
                                  ? fits[view].waveform.harmonics[i]
                                  : mean.harmonics[i] / static_cast<double>(view);
+      }
     }
     double largest = 0.0;
     for (auto& harmonic : mean.harmonics) {

@@ -112,9 +112,10 @@ void print_link(const std::string& link,
     print_json({{"url", link}, {"projects", projects.string()}});
   } else {
     print_text("the app is at {}\n", link);
-    if (!terminal.quiet)
+    if (!terminal.quiet) {
       print_text("The link opens one browser. Projects are in {}. Stop with Ctrl-C.\n",
                  projects.string());
+    }
   }
   flush_output();
 }

@@ -190,10 +190,11 @@ HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string
     return begin_session(request.body);
   }
   const std::string& given = request.authorization;
-  if (!given.starts_with(kBearer) || !keys_.is_valid(given.substr(kBearer.size())))
+  if (!given.starts_with(kBearer) || !keys_.is_valid(given.substr(kBearer.size()))) {
     return failure(kUnauthorized,
                    "no valid key was sent; open the app with a new link from `frangia serve "
                    "--new-link`");
+  }
   return request.method == "GET" ? get(path)
                                  : post(path, request.body, given.substr(kBearer.size()));
 }

@@ -18,9 +18,10 @@ void append_capture(const CaptureSettings& settings, std::vector<std::string>& w
   };
   append("--shifts", settings.shifts, usual.shifts);
   append("--exposure", settings.camera.exposure_ms, usual.camera.exposure_ms);
-  if (!settings.exposures_ms.empty())
+  if (!settings.exposures_ms.empty()) {
     words.insert(words.end(),
                  {"--exposures", fmt::format("{:g}", fmt::join(settings.exposures_ms, ","))});
+  }
   append("--gain", settings.camera.gain_db, usual.camera.gain_db);
   append("--black-level", settings.camera.black_level_counts, usual.camera.black_level_counts);
 }
@@ -62,9 +63,10 @@ CommandLines command_lines(const ProjectProgress& project) {
   if (project.scan_complete) {
     lines["reconstruct"] = {
         "frangia", "reconstruct", folder.scan.string(), "-o", folder.surface().string()};
-    if (project.capture.algorithm != "auto")
+    if (project.capture.algorithm != "auto") {
       lines["reconstruct"].insert(lines["reconstruct"].end(),
                                   {"--algorithm", project.capture.algorithm});
+    }
   }
   if (project.has_surface) {
     std::vector<std::string> edit = {"frangia", "edit", folder.surface().string()};

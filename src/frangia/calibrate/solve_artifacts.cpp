@@ -221,9 +221,10 @@ ArtifactSolution solve_artifacts(std::span<const ArtifactCapture> captures,
     out.diameters_mm.emplace_back();
     for (std::size_t s = 0; s < captures[c].surfaces.size(); ++s) {
       out.surfaces.back().push_back(artifact_surface(problem, c, s, fit.parameters));
-      if (const auto* balls = std::get_if<Balls>(&captures[c].artifact))
+      if (const auto* balls = std::get_if<Balls>(&captures[c].artifact)) {
         out.diameters_mm.back().push_back(balls->diameter_mm *
                                           (1.0 + fit.parameters.surfaces[c][s][3]));
+      }
     }
   }
   const ArtifactResiduals residuals = artifact_residuals(problem, fit.parameters);

@@ -37,10 +37,11 @@ void for_each_pixel(const TableProblem& problem,
     const Eigen::Vector3d place =
         rig_from_board * problem.places[static_cast<std::size_t>(point.index)];
     visit(point.camera_px, problem.rig.camera.model.project(place), false);
-    if (point.projector_px.allFinite())
+    if (point.projector_px.allFinite()) {
       visit(point.projector_px,
             problem.projector.project(problem.rig.projector.from_rig(place)),
             true);
+    }
   }
 }
 
@@ -233,9 +234,10 @@ TurntableSolution solve_turntable(const Board& board,
                      ++summary.points;
                    });
   }
-  for (ResidualSummary* summary : {&out.camera_residuals, &out.projector_residuals})
+  for (ResidualSummary* summary : {&out.camera_residuals, &out.projector_residuals}) {
     if (summary->points > 0)
       summary->rms_px = std::sqrt(summary->rms_px / static_cast<double>(summary->points));
+  }
   const Eigen::MatrixXd jacobian = table_jacobian(problem, model, residuals);
   const double variance =
       residuals.squaredNorm() / static_cast<double>(residuals.size() - kTableParameters);

@@ -24,9 +24,10 @@ CameraModel imported_model_of(const ForeignLens& lens,
                               const char* device,
                               const Run& run) {
   const auto size = given_size ? given_size : lens.size_px;
-  if (!size)
+  if (!size) {
     fail_import(
         fmt::format("the calibration states no image size of the {0}; set `{0}_size`", device));
+  }
   const Eigen::Matrix3d& matrix = *lens.matrix;
   const bool is_pinhole = matrix.allFinite() && matrix(0, 0) > 0.0 && matrix(1, 1) > 0.0 &&
                           matrix(1, 0) == 0.0 && matrix.row(2) == Eigen::RowVector3d(0, 0, 1);
@@ -128,9 +129,10 @@ void set_second_camera(const ForeignCalibration& calibration,
   posed.rotation = pose.rotation;
   rig.more_cameras = {posed};
   if (options.base) return;
-  if (!options.projector_size_px)
+  if (!options.projector_size_px) {
     fail_import(
         "a projector that labels the points of two cameras needs a size; set `projector_size`");
+  }
   PinholeModel model;
   model.width_px = (*options.projector_size_px)[0];
   model.height_px = (*options.projector_size_px)[1];

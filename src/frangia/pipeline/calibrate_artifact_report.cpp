@@ -154,9 +154,10 @@ void add_table(const ArtifactCalibration& result, std::string& html) {
                         fmt::join(table.diameters_mm[c], " mm and "),
                         balls->diameter_mm);
   }
-  if (table.line_rms_mm > 0.0)
+  if (table.line_rms_mm > 0.0) {
     html +=
         fmt::format("<p>The laser line is {:.4f} mm RMS off its sheet.</p>\n", table.line_rms_mm);
+  }
   html += "<div class=\"row\">\n";
   for (std::size_t c = 0; c < result.captures.size(); ++c)
     html += distance_figure(result, c);

@@ -110,9 +110,10 @@ BoardPicture picture_of(const Image<float>& image) {
   for (int y = 0; y < picture.pixels.height(); ++y) {
     for (int x = 0; x < picture.pixels.width(); ++x) {
       float sum = 0.0F;
-      for (int v = 0; v < step; ++v)
+      for (int v = 0; v < step; ++v) {
         for (int u = 0; u < step; ++u)
           sum += std::max(0.0F, image(x * step + u, y * step + v));
+      }
       constexpr float kGamma = 0.6F;  // of a display, so that the dark squares are visible
       const float level = std::pow(sum / static_cast<float>(step * step) / brightest, kGamma);
       picture.pixels(x, y) = static_cast<std::uint8_t>(std::lround(255.0F * level));

@@ -23,6 +23,7 @@
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
+#include "frangia/pipeline/internal/split_setups.h"
 #include "frangia/pipeline/internal/tie_cameras.h"
 #include "frangia/pipeline/internal/turntable_part.h"
 #include "frangia/pipeline/refine_scan_rig.h"

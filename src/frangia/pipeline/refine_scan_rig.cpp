@@ -12,9 +12,9 @@
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/pipeline/internal/calibrate_check_kinds.h"
 #include "frangia/pipeline/internal/measure_views.h"
-#include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
+#include "frangia/pipeline/internal/split_setups.h"
 
 namespace frangia {
 namespace {
@@ -111,9 +111,10 @@ RigRefinement refine_scan_rig(const Scan& scan, const ReconstructOptions& option
     release_cached_pixels();
   }
   std::vector<Station> stations;
-  for (const ScanView& view : scan.views)
+  for (const ScanView& view : scan.views) {
     stations.push_back(
         {view.angle_rad, view.folder.string(), static_cast<std::size_t>(view.setup)});
+  }
   std::vector<RigSurfaces> surfaces;
   for (const MeasuredSurface& surface : measured)
     surfaces.push_back({surface.views, surface.pattern, surface.stations});

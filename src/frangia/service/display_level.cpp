@@ -19,18 +19,20 @@ static_assert(sizeof(Mesh::Triangle) == kCorners * sizeof(std::uint32_t));
 /// Numbers the vertices that the triangles use, in the order of the mesh.
 std::vector<std::uint32_t> renumber(std::vector<Mesh::Triangle>& triangles, std::size_t count) {
   std::vector<std::uint32_t> number(count, kUnused);
-  for (const auto& triangle : triangles)
+  for (const auto& triangle : triangles) {
     for (const std::uint32_t vertex : triangle)
       number[vertex] = 0;
+  }
   std::vector<std::uint32_t> used;
   for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
     if (number[vertex] == kUnused) continue;
     number[vertex] = static_cast<std::uint32_t>(used.size());
     used.push_back(vertex);
   }
-  for (auto& triangle : triangles)
+  for (auto& triangle : triangles) {
     for (std::uint32_t& vertex : triangle)
       vertex = number[vertex];
+  }
   return used;
 }
 

@@ -57,17 +57,19 @@ void check_setting(const DeviceSettings& device,
   }
   if (key == "true_rig" && text != true_rig_beside("rig.toml").string())
     device.fail(key, "names a file of this computer, which the app does not open for a browser");
-  if ((key == "port" || key == "path") && !is_device_node(text))
+  if ((key == "port" || key == "path") && !is_device_node(text)) {
     device.fail(key,
                 "must be a serial port or a video device, such as /dev/ttyUSB0 or /dev/video0");
+  }
 }
 
 }  // namespace
 
 void check_given_devices(std::span<const DeviceSettings> devices) {
-  for (const DeviceSettings& device : devices)
+  for (const DeviceSettings& device : devices) {
     for (const auto& [key, value] : device.values())
       check_setting(device, key, value);
+  }
 }
 
 void write_given_rig(const ProjectFolder& project, const GivenRig& given) {

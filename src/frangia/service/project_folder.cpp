@@ -121,9 +121,10 @@ ProjectFolder ProjectLibrary::create(const std::string& name) const {
   const auto folder = root_ / name;
   std::error_code error;
   if (!std::filesystem::create_directory(folder, error)) {
-    if (error)
+    if (error) {
       throw Error(ErrorKind::File,
                   fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+    }
     throw Error(ErrorKind::Input,
                 fmt::format("there is a project {} already; write another name", name));
   }

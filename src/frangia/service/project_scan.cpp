@@ -81,9 +81,10 @@ Scan plan_of(const ProjectFolder& project,
   plan.name = project.name;
   plan.rig = read_rig(project.rig(), run);
   plan.patterns = patterns_of(settings, plan.rig);
-  for (std::size_t i = 0; i < stations.size(); ++i)
+  for (std::size_t i = 0; i < stations.size(); ++i) {
     plan.views.push_back(
         {rad_from_deg(stations[i].angle_deg), fmt::format("views/{:03}", i), stations[i].setup});
+  }
   return plan;
 }
 

@@ -164,9 +164,10 @@ void CaptureSession::finish() {
       });
   if (none && report_.skipped.empty())
     throw Error(ErrorKind::Input, "no view was captured; the same command begins again");
-  if (none)
+  if (none) {
     throw Error(ErrorKind::Device,
                 "no view could be captured; " + report_.skipped.front().sentence());
+  }
   finish_folder(captured_);
 }
 

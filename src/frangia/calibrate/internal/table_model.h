@@ -35,9 +35,10 @@ struct TableModel {
     out.point_mm += sides * step.segment<2>(2);
     const Eigen::Vector3d turn = step.segment<3>(4);
     const double angle = turn.norm();
-    if (angle > 0.0)
+    if (angle > 0.0) {
       out.rig_from_board.linear() =
           Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * rig_from_board.linear();
+    }
     out.rig_from_board.translation() += step.tail<3>();
     return out;
   }

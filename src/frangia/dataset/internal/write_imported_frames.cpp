@@ -116,9 +116,10 @@ std::vector<WrittenFrame> write_imported_frames(const ImportPlan& plan,
                                                 const fs::path& folder,
                                                 const Run& run) {
   constexpr std::size_t kBatch = 8;  // between reports of progress
-  for (std::size_t view = 0; view < plan.views; ++view)
+  for (std::size_t view = 0; view < plan.views; ++view) {
     for (std::size_t camera = 0; camera < plan.cameras.size(); ++camera)
       make_folder(folder / folder_of(plan, view, camera));
+  }
   std::vector<WrittenFrame> written(plan.frames.size());
   for (std::size_t begin = 0; begin < plan.frames.size(); begin += kBatch) {
     run.report(static_cast<double>(begin) / static_cast<double>(plan.frames.size()));

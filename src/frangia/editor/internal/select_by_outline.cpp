@@ -126,9 +126,10 @@ class DepthMap {
     const float nearest = triangle.nearest * (1.0F - kRoundingOfDepth);
     const Eigen::Array2i first = cell(triangle.box.min() - margin_);
     const Eigen::Array2i last = cell(triangle.box.max() + margin_);
-    for (int y = first.y(); y <= last.y(); ++y)
+    for (int y = first.y(); y <= last.y(); ++y) {
       for (int x = first.x(); x <= last.x(); ++x)
         if (nearest <= farthest_.at(index({x, y}))) return true;
+    }
     return false;
   }
 

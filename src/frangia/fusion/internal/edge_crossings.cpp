@@ -96,9 +96,10 @@ std::unique_ptr<BlockCrossings> find_in_block(const DistanceField& field,
         found->block->inside[i] = pattern_at(corners, x, y, z, max_step_mm);
         found->vertices += cell_loops()[found->block->inside[i]].count;
       }
-      if ((edges >> x & 1U) != 0)
+      if ((edges >> x & 1U) != 0) {
         add_crossings(
             *found, corners, coords * kBlockEdge + Eigen::Vector3i(x, y, z), edge_mm, max_step_mm);
+      }
     }
   }
   const bool empty = found->points_mm.empty() && found->vertices == 0;

@@ -63,9 +63,10 @@ class Patches {
     const auto is_reached = [&](std::uint32_t v) { return v < count || reached[v - count] != 0; };
     at_boundary_.assign(triangles_.size(), 0);
     for (int ring = 0; ring < kRings; ++ring) {
-      for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t t = 0; t < triangles_.size(); ++t) {
         at_boundary_[t] =
             std::any_of(triangles_[t].begin(), triangles_[t].end(), is_reached) ? 1 : 0;
+      }
       for (std::size_t t = 0; t < triangles_.size(); ++t) {
         for (const std::uint32_t vertex : triangles_[t])
           if (at_boundary_[t] != 0 && vertex >= count) reached[vertex - count] = 1;

@@ -1,7 +1,5 @@
 #include "frangia/pipeline/internal/register_setups.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -107,9 +105,10 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
     return with_fits(std::move(*given));
   const JoinedGroups joined = join_by_shape(groups, views, {.spacing_mm = spacing_mm}, run);
   SetupPoses setup_poses{joined.reference, {}, joined.ambiguous, {}};
-  for (const auto& pose : joined.reference_from_group)
+  for (const auto& pose : joined.reference_from_group) {
     setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
                                                     : std::nullopt);
+  }
   return with_fits(std::move(setup_poses));
 }
 
@@ -159,43 +158,6 @@ void set_poses(MeasuredSetup& joined,
 }
 
 }  // namespace
-
-std::vector<MeasuredSetup> split_setups(MeasuredViews all, const std::vector<int>& numbers) {
-  std::map<int, std::vector<std::size_t>> views;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    views[numbers[i]].push_back(i);
-  std::vector<MeasuredSetup> setups;
-  if (views.size() < 2) {
-    setups.push_back({numbers.empty() ? 0 : numbers.front(), std::move(all), {}, {}});
-    return setups;
-  }
-  for (const auto& [number, which] : views) {
-    MeasuredSetup setup{number, {}, {}, {}};
-    setup.measured.coarsest = all.coarsest;
-    setup.measured.unwrapped_spatially = all.unwrapped_spatially;
-    for (std::size_t i = 0; i < which.size(); ++i) {
-      const View view = all.views.load(which[i]);
-      const auto depth = view.range.depth_mm.pixels();
-      setup.measured.points += static_cast<std::size_t>(
-          std::count_if(depth.begin(), depth.end(), [](float z) { return !std::isnan(z); }));
-      setup.measured.views.add(view);
-      setup.measured.more.resize(all.more.size());
-      for (std::size_t camera = 0; camera < all.more.size(); ++camera) {
-        const View other = all.more[camera].load(which[i]);
-        const auto seen = other.range.depth_mm.pixels();
-        setup.measured.points += static_cast<std::size_t>(
-            std::count_if(seen.begin(), seen.end(), [](float z) { return !std::isnan(z); }));
-        setup.measured.more[camera].add(other);
-      }
-      setup.measured.stations.push_back(all.stations[which[i]]);
-      for (UnresolvedViewRegion& part : all.unresolved) {
-        if (part.view == which[i]) setup.measured.unresolved.push_back({i, std::move(part.region)});
-      }
-    }
-    setups.push_back(std::move(setup));
-  }
-  return setups;
-}
 
 MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
                               const Rig& rig,

@@ -1,33 +1,16 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/pipeline/internal/measure_views.h"
-#include "frangia/pipeline/setup_join.h"
+#include "frangia/pipeline/internal/split_setups.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
-
-/// The views of one clamping of the part, registered among themselves.
-struct MeasuredSetup {
-  int number = 0;  ///< in scan.toml
-  MeasuredViews measured;
-  std::optional<RegistrationReport> registration;
-  std::vector<SetupJoin> joins;  ///< of all setups, when several were joined to this one
-};
-
-/// Splits the views of a scan by their setups, ordered by number. Properties of the whole scan are
-/// copied to each setup.
-///
-/// @shape    `numbers`: one a view
-[[nodiscard]] std::vector<MeasuredSetup> split_setups(MeasuredViews all,
-                                                      const std::vector<int>& numbers);
 
 struct RegisterSetupsOptions {
   std::map<int, Eigen::Isometry3d> part_poses;  ///< approximate, of setups where it is known;

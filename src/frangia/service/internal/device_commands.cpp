@@ -96,9 +96,10 @@ void Service::Implementation::run_device_test(const ProjectFolder& folder, const
     tests = test_devices(folder.rig(), rig, options_.capture.drivers(), watched.watcher(), run);
   }
   change([&](OpenProject& now) {
-    for (const DeviceTest& test : tests)
+    for (const DeviceTest& test : tests) {
       for (ProjectDevice& device : now.devices)
         if (device.test.table == test.table) device.test = test;
+    }
   });
   for (const DeviceTest& test : tests) {
     if (!test.fault.empty())

@@ -100,10 +100,12 @@ void Service::Implementation::reload_rig(const ProjectFolder& folder) {
     now.rig = fresh.rig;
     now.start = fresh.start;
     now.rig_fault = fresh.rig_fault;
-    for (ProjectDevice& device : fresh.devices)
-      for (const ProjectDevice& known : now.devices)
+    for (ProjectDevice& device : fresh.devices) {
+      for (const ProjectDevice& known : now.devices) {
         if (known.test.table == device.test.table && known.settings == device.settings)
           device.test = known.test;
+      }
+    }
     now.devices = fresh.devices;
     now.exports = exports_of(folder);
     now.can_scan = fresh.can_scan;

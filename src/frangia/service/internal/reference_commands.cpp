@@ -73,11 +73,12 @@ nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& 
   for (const std::string& format : reference_formats())
     std::filesystem::remove(project.reference(format), error);
   std::filesystem::rename(project.reference_part(), project.reference(wanted.format), error);
-  if (error)
+  if (error) {
     throw Error(
         ErrorKind::File,
         fmt::format(
             "{}: cannot be renamed: {}", project.reference_part().string(), error.message()));
+  }
   AtomicFile file(project.reference_name());
   const nlohmann::json json{{"name", wanted.name}, {"format", wanted.format}};
   file.stream() << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';

@@ -49,19 +49,22 @@ RigJson json_of_rig(const Rig& rig) {
     json["field_deg"] = {deg_from_rad(angular.field_min_rad), deg_from_rad(angular.field_max_rad)};
   }
   json["laser_sheet"] = nullptr;
-  if (rig.laser_sheet)
+  if (rig.laser_sheet) {
     json["laser_sheet"] = {{"normal", list_of(rig.laser_sheet->normal)},
                            {"offset_mm", rig.laser_sheet->offset_mm}};
+  }
   json["turntable"] = nullptr;
-  if (rig.turntable)
+  if (rig.turntable) {
     json["turntable"] = {{"object_from_rig", list_of(rig.rig_from_object(0.0).inverse())},
                          {"distance_mm", rig.turntable->point_mm.norm()}};
+  }
   json["calibration"] = nullptr;
-  if (rig.calibration)
+  if (rig.calibration) {
     json["calibration"] = {{"date", rig.calibration->date},
                            {"poses", rig.calibration->poses},
                            {"point_sigma_mm", rig.calibration->point_sigma_mm},
                            {"distance_mm", rig.calibration->distance_mm}};
+  }
   return json;
 }
 
@@ -117,7 +120,7 @@ RigJson json_of_wizard(const WizardState& state) {
     json["poses"].push_back({{"points", pose.points}, {"expected", pose.expected}});
   const WizardVerdict& verdict = state.verdict;
   json["verdict"] = nullptr;
-  if (!verdict.grade.empty())
+  if (!verdict.grade.empty()) {
     json["verdict"] = {{"grade", verdict.grade},
                        {"point_sigma_mm", verdict.point_sigma_mm},
                        {"spread_mm", verdict.spread_mm},
@@ -126,6 +129,7 @@ RigJson json_of_wizard(const WizardState& state) {
                        {"camera_rms_px", verdict.camera_rms_px},
                        {"projector_rms_px", verdict.projector_rms_px},
                        {"poses", verdict.poses}};
+  }
   return json;
 }
 

@@ -101,9 +101,10 @@ std::string state_json(const ServiceView& view) {
   Json json{{"version", view.version}};
   json["parts"] = part_names();
   json["algorithms"] = Json::array();
-  for (const PublishedAlgorithm& algorithm : published_algorithms())
+  for (const PublishedAlgorithm& algorithm : published_algorithms()) {
     json["algorithms"].push_back(
         {{"name", algorithm.name}, {"frames", describe_frames(algorithm)}});
+  }
   json["examples"] = Json::array();
   for (const ExampleRig& example : example_rigs())
     json["examples"].push_back({{"name", example.name}, {"description", description_of(example)}});
